@@ -1,0 +1,68 @@
+// The bounding volume hierarchy over a scene's triangles, and the two ways to build it on the CPU.
+#pragma once
+
+#include "host/scene/scene.h"
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace hyalite {
+
+/// An axis-aligned box in world space; the default one is empty and neutral under `extend`.
+struct Box {
+    glm::vec3 lower{std::numeric_limits<float>::infinity()};
+    glm::vec3 upper{-std::numeric_limits<float>::infinity()};
+
+    void extend(const glm::vec3 &point) {
+        lower = glm::min(lower, point);
+        upper = glm::max(upper, point);
+    }
+    void extend(const Box &other) {
+        lower = glm::min(lower, other.lower);
+        upper = glm::max(upper, other.upper);
+    }
+    [[nodiscard]] bool isEmpty() const { return lower.x > upper.x; }
+    [[nodiscard]] bool contains(const Box &other) const {
+        return glm::min(lower, other.lower) == lower && glm::max(upper, other.upper) == upper;
+    }
+    /// Half of the surface area, in double as boxes may be large; 0 when empty.
+    [[nodiscard]] double halfArea() const;
+};
+
+/// What a builder needs to know of a triangle.
+struct BuildTriangle {
+    Box box;
+    glm::vec3 centroid{0.0f};
+    std::uint32_t inputIndex = 0; ///< among the triangles of all meshes, in order
+};
+
+struct BvhNode {
+    Box box;
+    std::uint32_t first =
+        0; ///< leaf: position of its first triangle in Bvh::order; inner: index of the left child
+    std::uint32_t count =
+        0; ///< leaf: number of triangles; inner: 0, and the right child follows the left one
+
+    [[nodiscard]] bool isLeaf() const { return count > 0; }
+};
+
+struct Bvh {
+    std::vector<BvhNode> nodes; ///< the root first; empty without triangles. Children come after their parent
+    std::vector<std::uint32_t> order; ///< input indices of the triangles, leaf by leaf
+    int depth = 0;                    ///< levels of inner nodes on the longest way down: 0 for a single leaf
+};
+
+/// The triangles of all meshes in input order. Throws Error{LimitExceeded} beyond 2^31 - 65 triangles.
+[[nodiscard]] std::vector<BuildTriangle> buildTriangles(const Scene &scene);
+
+/// Builds the tree of the given kind; `None` gives one leaf. No tree is deeper than layout::maxTreeDepth - 1.
+/// A leaf holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
+[[nodiscard]] Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize);
+
+} // namespace hyalite

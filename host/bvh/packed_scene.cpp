@@ -1,0 +1,165 @@
+#include "host/bvh/packed_scene.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace hyalite {
+
+namespace {
+
+layout::FrameRecord packFrame(const Scene &scene) {
+    const Camera &camera = scene.camera;
+    const glm::dvec3 forward = glm::normalize(camera.direction);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const glm::dvec3 up = glm::cross(right, forward);
+    const double focalLength =
+        camera.width / (2.0 * std::tan(glm::radians(camera.horizontalFovDegrees) / 2.0));
+    layout::FrameRecord frame{};
+    frame.eye = glm::vec3(camera.position);
+    frame.imageWidth = static_cast<std::uint32_t>(camera.width);
+    frame.imageHeight = static_cast<std::uint32_t>(camera.height);
+    // In units of the focal length, so that directions stay near unit length at every resolution.
+    frame.pixelRight = glm::vec3(right / focalLength);
+    frame.pixelUp = glm::vec3(up / focalLength);
+    frame.imagePlane = glm::vec3(forward);
+    frame.seed = scene.settings.seed;
+    frame.lightCount = static_cast<std::uint32_t>(scene.lights.size());
+    frame.background = scene.background;
+    frame.shadowThroughGlass = scene.shadowThroughGlass;
+    return frame;
+}
+
+layout::MaterialRecord packMaterial(const Material &material) {
+    layout::MaterialRecord record{};
+    record.albedo = material.albedo;
+    record.kind = static_cast<std::uint32_t>(material.kind);
+    record.segmentTint = material.segmentTint;
+    record.refractiveIndex = material.refractiveIndex;
+    record.isTwoSided = material.twoSided ? 1u : 0u;
+    return record;
+}
+
+void packTriangles(const Scene &scene, const Bvh &bvh, PackedScene &packed) {
+    std::vector<std::uint32_t> positionInTree(bvh.order.size());
+    for (std::size_t i = 0; i < bvh.order.size(); ++i)
+        positionInTree[bvh.order[i]] = static_cast<std::uint32_t>(i);
+    packed.triangles.resize(bvh.order.size());
+    packed.normals.resize(bvh.order.size());
+    std::uint32_t inputIndex = 0;
+    for (const TriangleMesh &mesh : scene.meshes) {
+        const bool isTransmissive = scene.materials[mesh.materialIndex].kind == MaterialKind::Dielectric;
+        for (const MeshTriangle &corner : mesh.triangles) {
+            const std::uint32_t position = positionInTree[inputIndex];
+            layout::TriangleRecord &triangle = packed.triangles[position];
+            triangle.v0 = mesh.positions[corner.positions.x];
+            triangle.v1 = mesh.positions[corner.positions.y];
+            triangle.v2 = mesh.positions[corner.positions.z];
+            triangle.primitiveId = layout::firstTriangleId + inputIndex;
+            triangle.materialIndex = mesh.materialIndex;
+            triangle.flags = isTransmissive ? layout::triangleIsTransmissive : 0u;
+            layout::NormalRecord &normals = packed.normals[position];
+            const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
+            normals.n0 = hasNormals ? mesh.normals[corner.normals.x] : glm::vec3(0.0f);
+            normals.n1 = hasNormals ? mesh.normals[corner.normals.y] : glm::vec3(0.0f);
+            normals.n2 = hasNormals ? mesh.normals[corner.normals.z] : glm::vec3(0.0f);
+            ++inputIndex;
+        }
+    }
+    for (const BvhNode &node : bvh.nodes)
+        if (node.isLeaf())
+            packed.triangles[node.first + node.count - 1].flags |= layout::triangleEndsLeaf;
+}
+
+/// Inner nodes in the order of their creation, which is depth first: a node's left child follows it closely.
+void packNodes(const Bvh &bvh, PackedScene &packed) {
+    const auto emptyPair = [] {
+        layout::NodePair pair{};
+        pair.left = layout::noNode;
+        pair.right = layout::noNode;
+        return pair;
+    };
+    if (bvh.nodes.empty() || bvh.nodes.front().isLeaf()) {
+        layout::NodePair root = emptyPair();
+        if (!bvh.nodes.empty()) {
+            root.leftLower = bvh.nodes.front().box.lower;
+            root.leftUpper = bvh.nodes.front().box.upper;
+            root.left = layout::leafFlag | 0u;
+        }
+        packed.nodes.push_back(root);
+        return;
+    }
+    std::vector<std::uint32_t> reference(bvh.nodes.size());
+    std::uint32_t innerCount = 0;
+    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
+        reference[i] = bvh.nodes[i].isLeaf() ? layout::leafFlag | bvh.nodes[i].first : innerCount++;
+    packed.nodes.reserve(innerCount);
+    for (const BvhNode &node : bvh.nodes) {
+        if (node.isLeaf())
+            continue;
+        layout::NodePair pair{};
+        const BvhNode &left = bvh.nodes[node.first];
+        const BvhNode &right = bvh.nodes[node.first + 1];
+        pair.leftLower = left.box.lower;
+        pair.leftUpper = left.box.upper;
+        pair.left = reference[node.first];
+        pair.rightLower = right.box.lower;
+        pair.rightUpper = right.box.upper;
+        pair.right = reference[node.first + 1];
+        packed.nodes.push_back(pair);
+    }
+}
+
+} // namespace
+
+std::size_t PackedScene::sizeBytes() const {
+    return sizeof(frame) + spheres.size() * sizeof(spheres[0]) + lights.size() * sizeof(lights[0]) +
+           materials.size() * sizeof(materials[0]) + nodes.size() * sizeof(nodes[0]) +
+           triangles.size() * sizeof(triangles[0]) + normals.size() * sizeof(normals[0]);
+}
+
+PackedScene packScene(const Scene &scene, const Bvh &bvh) {
+    assert(bvh.order.size() == triangleCount(scene));
+    PackedScene packed;
+    packed.frame = packFrame(scene);
+    packed.treeDepth = bvh.depth;
+    packed.hasTriangles = !bvh.order.empty();
+
+    const auto useMaterial = [&](std::uint32_t index) {
+        const MaterialKind kind = scene.materials[index].kind;
+        packed.hasSpecular = packed.hasSpecular || kind != MaterialKind::Diffuse;
+        packed.hasDielectric = packed.hasDielectric || kind == MaterialKind::Dielectric;
+    };
+    for (const Sphere &sphere : scene.spheres) {
+        useMaterial(sphere.materialIndex);
+        layout::SphereRecord record{};
+        record.centre = glm::vec3(sphere.centre);
+        record.radius = static_cast<float>(sphere.radius);
+        record.materialIndex = sphere.materialIndex;
+        record.normalSign = sphere.inwardNormal ? -1.0f : 1.0f;
+        packed.spheres.push_back(record);
+    }
+    for (const TriangleMesh &mesh : scene.meshes)
+        useMaterial(mesh.materialIndex);
+    for (const PointLight &light : scene.lights) {
+        layout::LightRecord record{};
+        record.position = glm::vec3(light.position);
+        record.intensity = glm::vec3(light.power / (4.0 * std::numbers::pi));
+        packed.lights.push_back(record);
+    }
+    for (const Material &material : scene.materials)
+        packed.materials.push_back(packMaterial(material));
+    packTriangles(scene, bvh, packed);
+    packNodes(bvh, packed);
+    if (packed.hasTriangles) {
+        packed.frame.boundsLower = bvh.nodes.front().box.lower;
+        packed.frame.boundsUpper = bvh.nodes.front().box.upper;
+    }
+    packed.frame.triangleCount = static_cast<std::uint32_t>(packed.triangles.size());
+    return packed;
+}
+
+} // namespace hyalite

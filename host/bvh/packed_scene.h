@@ -1,0 +1,32 @@
+// The scene as both renderers read it: exactly the bytes of shaders/layout.h.
+#pragma once
+
+#include "host/bvh/bvh.h"
+#include "host/scene/scene.h"
+#include "shaders/layout.h"
+
+namespace hyalite {
+
+struct PackedScene {
+    layout::FrameRecord frame{};
+    std::vector<layout::SphereRecord> spheres;
+    std::vector<layout::LightRecord> lights;
+    std::vector<layout::MaterialRecord> materials;
+    std::vector<layout::NodePair> nodes;           ///< never empty
+    std::vector<layout::TriangleRecord> triangles; ///< leaf by leaf
+    std::vector<layout::NormalRecord> normals;     ///< one for each triangle record
+    int treeDepth = 0;
+
+    // Features that some kernels can leave out.
+    bool hasTriangles = false;
+    bool hasSpecular = false;
+    bool hasDielectric = false;
+
+    /// Of all arrays together: what a device has to hold of the scene.
+    [[nodiscard]] std::size_t sizeBytes() const;
+};
+
+/// `scene` is valid, and `bvh` was built from its triangles.
+[[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh);
+
+} // namespace hyalite

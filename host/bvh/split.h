@@ -1,0 +1,28 @@
+// How a builder divides a range of triangles: the only thing in which builders differ.
+#pragma once
+
+#include "host/bvh/bvh.h"
+
+namespace hyalite {
+
+/// Reorders `range` (at least two triangles) and returns how many go to the left child: in [1, size - 1], or 0 to make
+/// the range a leaf. `box` encloses the range.
+using SplitFunction = std::size_t (*)(std::span<BuildTriangle> range, const Box &box, std::size_t leafSize);
+
+/// The longest axis of the box is cut at its midpoint and triangles go by their centroids, until `leafSize` or fewer
+/// remain. Where the midpoint separates nothing, the median is used.
+[[nodiscard]] std::size_t splitAtMidpoint(std::span<BuildTriangle> range, const Box &box,
+                                          std::size_t leafSize);
+
+/// The best of 16 bins on each axis by the surface area heuristic. Wald, "On fast Construction of SAH-based Bounding
+/// Volume Hierarchies", 2007.
+[[nodiscard]] std::size_t splitBySah(std::span<BuildTriangle> range, const Box &box, std::size_t leafSize);
+
+/// Halves the range by the centroids' order on the longest axis of `box`; ties go by input index.
+[[nodiscard]] std::size_t splitAtMedian(std::span<BuildTriangle> range, const Box &box);
+
+/// Costs of the surface area heuristic, relative to each other: visiting an inner node and testing a triangle.
+inline constexpr double nodeCost = 1.0;
+inline constexpr double triangleCost = 1.0;
+
+} // namespace hyalite

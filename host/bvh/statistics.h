@@ -1,0 +1,30 @@
+// What a tree is like, and whether it is one.
+#pragma once
+
+#include "host/bvh/bvh.h"
+
+#include <array>
+#include <string>
+
+namespace hyalite {
+
+struct BvhStatistics {
+    std::size_t triangleCount = 0;
+    std::size_t innerCount = 0;
+    std::size_t leafCount = 0;
+    int depth = 0;
+    std::size_t largestLeaf = 0;
+    double meanLeaf = 0.0; ///< triangles
+    double sahCost =
+        0.0; ///< expected node visits + triangle tests of a random line that meets the root's box
+    /// Leaves with up to 1, 2, 4, 8, 16, 32, 64 and more triangles.
+    std::array<std::size_t, 8> leafHistogram{};
+};
+
+[[nodiscard]] BvhStatistics measureBvh(const Bvh &bvh);
+
+/// Checks that every triangle is in exactly one leaf, every box encloses what is below it, and the depth is right.
+/// Returns the first violation in words, or an empty string.
+[[nodiscard]] std::string findBvhFault(const Bvh &bvh, const std::vector<BuildTriangle> &triangles);
+
+} // namespace hyalite

@@ -1,0 +1,20 @@
+// The commands of the program: each adds itself to the command line and runs when it is named there.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace hyalite {
+
+/// What commands share with main().
+struct CommandContext {
+    std::string commandLine; ///< as typed, for reports
+    int exitCode = 0;        ///< what main() returns if nothing is thrown
+};
+
+void addRenderCommand(CLI::App &app, CommandContext &context);
+void addDevicesCommand(CLI::App &app, CommandContext &context);
+void addInspectCommand(CLI::App &app, CommandContext &context);
+
+} // namespace hyalite

@@ -1,0 +1,140 @@
+#include "host/bvh/statistics.h"
+#include "host/cli/commands.h"
+#include "host/cli/scene_options.h"
+#include "host/error.h"
+#include "host/reference/camera.h"
+#include "host/reference/closest_hit.h"
+#include "host/scene/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+namespace hyalite {
+
+namespace {
+
+struct InspectOptions {
+    SceneOptions scene;
+    int rayCount = 0;
+};
+
+using Clock = std::chrono::steady_clock;
+
+void printMeshes(const PreparedScene &prepared) {
+    const Scene &scene = prepared.loaded.scene;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const TriangleMesh &mesh = scene.meshes[i];
+        const MeshReport &report = prepared.loaded.meshReports[i];
+        fmt::print("mesh         {}: {} triangles, {} vertices, {} normals\n", mesh.name,
+                   mesh.triangles.size(), mesh.positions.size(), mesh.normals.size());
+        fmt::print("  faces      {}, {} of them polygons of more than three corners\n", report.faceCount,
+                   report.polygonCount);
+        fmt::print("  dropped    {} degenerate triangles, {} statements that are not geometry\n",
+                   report.degenerateTriangleCount, report.unusedStatementCount);
+        fmt::print("  repaired   {} triangles without usable normals get the geometric one\n",
+                   report.lostNormalCount);
+    }
+}
+
+void printTree(const PreparedScene &prepared) {
+    const RenderSettings &settings = prepared.loaded.scene.settings;
+    const BvhStatistics statistics = measureBvh(prepared.bvh);
+    fmt::print("tree         {}, leaf size {}\n", nameOf(settings.tree), settings.leafSize);
+    fmt::print("  nodes      {} inner, {} leaves, depth {}\n", statistics.innerCount, statistics.leafCount,
+               statistics.depth);
+    fmt::print("  leaves     mean {:.2f}, largest {} triangles\n", statistics.meanLeaf,
+               statistics.largestLeaf);
+    std::string histogram;
+    for (std::size_t i = 0; i < statistics.leafHistogram.size(); ++i) {
+        const bool isLast = i + 1 == statistics.leafHistogram.size();
+        if (statistics.leafHistogram[i] > 0)
+            histogram += fmt::format("  {}{}: {}", isLast ? ">" : "<=", 1u << (isLast ? i - 1 : i),
+                                     statistics.leafHistogram[i]);
+    }
+    fmt::print("  histogram{}\n", histogram.empty() ? "  no leaves" : histogram);
+    fmt::print("  SAH cost   {:.2f}\n", statistics.sahCost);
+    fmt::print("  memory     {} bytes of nodes, {} of triangles, {} of normals, {} of the scene in all\n",
+               prepared.packed.nodes.size() * sizeof(layout::NodePair),
+               prepared.packed.triangles.size() * sizeof(layout::TriangleRecord),
+               prepared.packed.normals.size() * sizeof(layout::NormalRecord), prepared.packed.sizeBytes());
+    fmt::print("  time       {:.3f} s to load, {:.3f} s to build and pack\n", prepared.loadSeconds,
+               prepared.buildSeconds);
+}
+
+/// Traces primary rays spread over the image, and returns the hits and the seconds it took.
+std::vector<reference::Hit<float>> traceRays(const PackedScene &scene, int count, double &seconds) {
+    std::vector<reference::Hit<float>> hits;
+    hits.reserve(static_cast<std::size_t>(count));
+    const Clock::time_point start = Clock::now();
+    for (int i = 0; i < count; ++i) {
+        const std::uint32_t index = static_cast<std::uint32_t>(i);
+        // The golden ratio's low-discrepancy sequence spreads any number of rays evenly.
+        const std::uint64_t pixelCount = std::uint64_t{scene.frame.imageWidth} * scene.frame.imageHeight;
+        const std::uint64_t position = (std::uint64_t{index * 2654435769u} * pixelCount) >> 32;
+        const glm::uvec2 pixel(static_cast<std::uint32_t>(position % scene.frame.imageWidth),
+                               static_cast<std::uint32_t>(position / scene.frame.imageWidth));
+        const reference::Ray<float> ray{scene.frame.eye,
+                                        reference::primaryDirection(scene.frame, pixel, glm::vec2(0.5f))};
+        hits.push_back(reference::closestHit(scene, ray));
+    }
+    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return hits;
+}
+
+/// The tree against all triangles one by one, with the same rays on one thread of the reference renderer.
+bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
+    const Scene &scene = prepared.loaded.scene;
+    const PackedScene brute = packScene(scene, buildBvh(TreeKind::None, buildTriangles(scene), 1));
+    double treeSeconds = 0.0;
+    double bruteSeconds = 0.0;
+    const auto treeHits = traceRays(prepared.packed, rayCount, treeSeconds);
+    const auto bruteHits = traceRays(brute, rayCount, bruteSeconds);
+    const auto isSame = [](const reference::Hit<float> &a, const reference::Hit<float> &b) {
+        return a.primitive == b.primitive && a.distance == b.distance && a.u == b.u && a.v == b.v;
+    };
+    std::size_t differenceCount = 0;
+    for (std::size_t i = 0; i < treeHits.size(); ++i)
+        differenceCount += isSame(treeHits[i], bruteHits[i]) ? 0u : 1u;
+    const double rays = rayCount;
+    fmt::print("rays         {} primary rays on one thread of the reference renderer\n", rayCount);
+    fmt::print("  tree       {:.3f} us a ray\n", treeSeconds / rays * 1e6);
+    fmt::print("  brute      {:.3f} us a ray: the tree is {:.0f} times faster\n", bruteSeconds / rays * 1e6,
+               bruteSeconds / treeSeconds);
+    fmt::print("  hits       {} of {} differ\n", differenceCount, rayCount);
+    return differenceCount == 0;
+}
+
+ExitCode runInspect(const InspectOptions &options) {
+    const PreparedScene prepared = prepareScene(options.scene);
+    const Scene &scene = prepared.loaded.scene;
+    fmt::print("scene        {}\n", prepared.loaded.file.string());
+    fmt::print("contents     {} triangles in {} meshes, {} spheres, {} lights, {} materials\n",
+               triangleCount(scene), scene.meshes.size(), scene.spheres.size(), scene.lights.size(),
+               scene.materials.size());
+    printMeshes(prepared);
+    printTree(prepared);
+    const std::string fault = findBvhFault(prepared.bvh, buildTriangles(scene));
+    fmt::print("  check      {}\n",
+               fault.empty() ? "every triangle in one leaf, every box encloses its subtree" : fault);
+    const bool isSame = options.rayCount == 0 || compareWithBruteForce(prepared, options.rayCount);
+    return fault.empty() && isSame ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
+} // namespace
+
+void addInspectCommand(CLI::App &app, CommandContext &context) {
+    CLI::App *command = app.add_subcommand("inspect", "print what a scene or mesh is made of, and its tree");
+    const auto options = std::make_shared<InspectOptions>();
+    addSceneOptions(*command, options->scene);
+    command
+        ->add_option(
+            "--rays", options->rayCount,
+            "trace so many primary rays through the tree and by brute force, and compare hits and times")
+        ->check(CLI::Range(1, 1'000'000));
+    command->callback([options, &context] { context.exitCode = static_cast<int>(runInspect(*options)); });
+}
+
+} // namespace hyalite

@@ -1,0 +1,54 @@
+// What all commands that take a SCENE have in common: the argument, and options that override the scene file.
+#pragma once
+
+#include "host/bvh/bvh.h"
+#include "host/bvh/packed_scene.h"
+#include "host/image/film.h"
+#include "host/scene/scene_json.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// Command line beats scene file beats defaults: only what was given is set.
+struct SceneOptions {
+    std::string scene;
+    std::optional<int> width;
+    std::optional<int> height;
+    std::optional<int> samplesPerPixel;
+    std::optional<int> maxDepth;
+    std::optional<TreeKind> tree;
+    std::optional<int> leafSize;
+    std::optional<SamplerKind> sampler;
+    std::optional<std::uint32_t> seed;
+    std::optional<double> exposureStops;
+    std::optional<double> fovDegrees;
+    std::vector<double> cameraPosition;
+    std::vector<double> lookAt;
+    std::vector<double> up;
+    std::vector<double> background;
+    std::vector<int> crop;
+};
+
+/// Adds the SCENE argument and the options. `options` must outlive `command`.
+void addSceneOptions(CLI::App &command, SceneOptions &options);
+
+/// A scene made ready for both renderers.
+struct PreparedScene {
+    LoadedScene loaded;
+    Bvh bvh;
+    PackedScene packed;
+    Crop crop;
+    double loadSeconds = 0.0;
+    double buildSeconds = 0.0;
+};
+
+/// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for a crop outside of the
+/// image.
+[[nodiscard]] PreparedScene prepareScene(const SceneOptions &options);
+
+} // namespace hyalite

@@ -1,0 +1,47 @@
+// Buffers in device memory, filled and read by the host.
+#pragma once
+
+#include "host/gpu/device.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace hyalite::gpu {
+
+enum class BufferUse {
+    Uniform,  ///< small constants
+    Storage,  ///< the bulk: in device memory, which the host may not see
+    Counters, ///< storage that the host reads and writes between dispatches: in host memory
+    Staging,  ///< a stop-over of transfers, in host memory
+};
+
+/// A buffer with memory of its own. Where the host cannot see the memory, transfers go through a staging buffer.
+class Buffer {
+  public:
+    /// `name` is for messages. Buffers of 0 bytes get 16, as a binding needs some memory. The contents are
+    /// undefined. Throws Error{LimitExceeded} where a limit of the device or its memory does not suffice.
+    Buffer(Device &device, std::string name, BufferUse use, std::size_t sizeBytes);
+
+    [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
+    [[nodiscard]] BufferUse use() const { return use_; }
+    [[nodiscard]] std::size_t sizeBytes() const { return sizeBytes_; }
+
+    /// Copies to the beginning of the buffer. All work on the device is finished, and so is the copy on return.
+    void upload(std::span<const std::byte> bytes);
+    /// Copies from the beginning of the buffer. All work on the device is finished.
+    void download(std::span<std::byte> bytes) const;
+    /// Sets all bytes to 0, by the device.
+    void clear();
+
+  private:
+    Device *device_;
+    std::string name_;
+    BufferUse use_;
+    std::size_t sizeBytes_;
+    MemoryHandle memory_; ///< before the buffer, to outlive it
+    BufferHandle buffer_;
+    std::byte *mapped_ = nullptr; ///< null where the host cannot see the memory
+};
+
+} // namespace hyalite::gpu

@@ -1,0 +1,93 @@
+#include "host/gpu/device.h"
+
+#include "host/error.h"
+#include "host/gpu/check.h"
+#include "host/gpu/physical_device.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace hyalite::gpu {
+
+Device::Device(const DeviceInfo &info, Transfers transfers)
+    : info_(info), isStagingPreferred_(transfers == Transfers::Staged || info.type == DeviceType::Discrete) {
+    const std::vector<VkPhysicalDevice> devices = instance_.physicalDevices();
+    if (info.index < 0 || static_cast<std::size_t>(info.index) >= devices.size())
+        throw Error(ExitCode::NoDevice, fmt::format("device {} is gone", info.name));
+    physical_ = devices[static_cast<std::size_t>(info.index)];
+
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+
+    const std::uint32_t family = findComputeQueueFamily(physical_);
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    create.queueCreateInfoCount = 1;
+    create.pQueueCreateInfos = &queue;
+    VkDevice device = VK_NULL_HANDLE;
+    check(vkCreateDevice(physical_, &create, nullptr, &device),
+          fmt::format("vkCreateDevice for {}", info.name));
+    device_ = DeviceHandle(NoParent{}, device);
+    vkGetDeviceQueue(device, family, 0, &queue_);
+
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = family;
+    VkCommandPool commandPool = VK_NULL_HANDLE;
+    check(vkCreateCommandPool(device, &pool, nullptr, &commandPool), "vkCreateCommandPool");
+    commandPool_ = CommandPoolHandle(device, commandPool);
+
+    VkCommandBufferAllocateInfo allocate{};
+    allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocate.commandPool = commandPool;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    check(vkAllocateCommandBuffers(device, &allocate, &commandBuffer_), "vkAllocateCommandBuffers");
+
+    VkFenceCreateInfo fenceInfo{};
+    fenceInfo.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkFence fence = VK_NULL_HANDLE;
+    check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "vkCreateFence");
+    fence_ = FenceHandle(device, fence);
+}
+
+std::uint32_t Device::findMemoryType(std::uint32_t typeBits, VkMemoryPropertyFlags flags) const {
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+        if ((typeBits >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags)
+            return i;
+    return VK_MAX_MEMORY_TYPES;
+}
+
+bool Device::isMappable(std::uint32_t memoryType) const {
+    return (memory_.memoryTypes[memoryType].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
+}
+
+void Device::submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record) {
+    VkCommandBufferBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commandBuffer_, &begin), "vkBeginCommandBuffer for " + action);
+    record(commandBuffer_);
+    check(vkEndCommandBuffer(commandBuffer_), "vkEndCommandBuffer for " + action);
+
+    const VkFence fence = fence_.get();
+    check(vkResetFences(device_.get(), 1, &fence), "vkResetFences for " + action);
+    VkSubmitInfo submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commandBuffer_;
+    check(vkQueueSubmit(queue_, 1, &submit, fence), "vkQueueSubmit for " + action);
+    constexpr std::chrono::nanoseconds longest = std::chrono::minutes(1);
+    check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, static_cast<std::uint64_t>(longest.count())),
+          "waiting a minute for " + action);
+    instance_.throwOnValidationMessage();
+}
+
+} // namespace hyalite::gpu

@@ -1,0 +1,54 @@
+// A move-only owner of one Vulkan object.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace hyalite::gpu {
+
+struct NoParent {};
+
+/// Destroys `object` with `destroy(parent, object, nullptr)`, or `destroy(object, nullptr)` for objects that have no
+/// parent (instances and devices). The parent must outlive the handle.
+template <class Object, auto destroy, class Parent = VkDevice> class Handle {
+  public:
+    Handle() = default;
+    Handle(Parent parent, Object object) : parent_(parent), object_(object) {}
+    Handle(Handle &&other) noexcept
+        : parent_(other.parent_), object_(std::exchange(other.object_, Object(VK_NULL_HANDLE))) {}
+    Handle &operator=(Handle &&other) noexcept {
+        std::swap(parent_, other.parent_);
+        std::swap(object_, other.object_);
+        return *this;
+    }
+    ~Handle() {
+        if (object_ == VK_NULL_HANDLE)
+            return;
+        if constexpr (std::is_same_v<Parent, NoParent>)
+            destroy(object_, nullptr);
+        else
+            destroy(parent_, object_, nullptr);
+    }
+
+    [[nodiscard]] Object get() const { return object_; }
+
+  private:
+    Parent parent_{};
+    Object object_ = VK_NULL_HANDLE;
+};
+
+using InstanceHandle = Handle<VkInstance, vkDestroyInstance, NoParent>;
+using DeviceHandle = Handle<VkDevice, vkDestroyDevice, NoParent>;
+using BufferHandle = Handle<VkBuffer, vkDestroyBuffer>;
+using MemoryHandle = Handle<VkDeviceMemory, vkFreeMemory>;
+using ShaderModuleHandle = Handle<VkShaderModule, vkDestroyShaderModule>;
+using SetLayoutHandle = Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
+using PipelineLayoutHandle = Handle<VkPipelineLayout, vkDestroyPipelineLayout>;
+using PipelineHandle = Handle<VkPipeline, vkDestroyPipeline>;
+using DescriptorPoolHandle = Handle<VkDescriptorPool, vkDestroyDescriptorPool>;
+using CommandPoolHandle = Handle<VkCommandPool, vkDestroyCommandPool>;
+using FenceHandle = Handle<VkFence, vkDestroyFence>;
+
+} // namespace hyalite::gpu

@@ -1,0 +1,140 @@
+#include "host/gpu/kernel.h"
+
+#include "host/gpu/check.h"
+
+#include <cassert>
+#include <vector>
+
+namespace hyalite::gpu {
+
+namespace {
+
+VkDescriptorType descriptorType(const Buffer &buffer) {
+    return buffer.use() == BufferUse::Uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                              : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+} // namespace
+
+Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
+               const SpecializationConstants &constants, std::span<const Buffer *const> buffers)
+    : device_(device), name_(std::move(name)) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    std::uint32_t uniformCount = 0;
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        VkDescriptorSetLayoutBinding binding{};
+        binding.binding = static_cast<std::uint32_t>(i);
+        binding.descriptorType = descriptorType(*buffers[i]);
+        binding.descriptorCount = 1;
+        binding.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+        bindings.push_back(binding);
+        uniformCount += binding.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ? 1u : 0u;
+    }
+    VkDescriptorSetLayoutCreateInfo setInfo{};
+    setInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    setInfo.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    setInfo.pBindings = bindings.data();
+    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device.get(), &setInfo, nullptr, &setLayout),
+          "vkCreateDescriptorSetLayout for " + name_);
+    setLayout_ = SetLayoutHandle(device.get(), setLayout);
+
+    const VkPushConstantRange pushRange{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(layout::DispatchConstants)};
+    VkPipelineLayoutCreateInfo layoutInfo{};
+    layoutInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    layoutInfo.setLayoutCount = 1;
+    layoutInfo.pSetLayouts = &setLayout;
+    layoutInfo.pushConstantRangeCount = 1;
+    layoutInfo.pPushConstantRanges = &pushRange;
+    VkPipelineLayout pipelineLayout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device.get(), &layoutInfo, nullptr, &pipelineLayout),
+          "vkCreatePipelineLayout for " + name_);
+    pipelineLayout_ = PipelineLayoutHandle(device.get(), pipelineLayout);
+
+    VkShaderModuleCreateInfo moduleInfo{};
+    moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    moduleInfo.codeSize = spirv.size_bytes();
+    moduleInfo.pCode = spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device.get(), &moduleInfo, nullptr, &module),
+          "vkCreateShaderModule for " + name_);
+    const ShaderModuleHandle moduleOwner(device.get(), module);
+
+    std::array<VkSpecializationMapEntry, layout::constantCount> entries{};
+    for (std::uint32_t id = 0; id < layout::constantCount; ++id)
+        entries[id] = {id, id * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t)};
+    VkSpecializationInfo specialization{};
+    specialization.mapEntryCount = layout::constantCount;
+    specialization.pMapEntries = entries.data();
+    specialization.dataSize = sizeof(constants);
+    specialization.pData = constants.data();
+    VkComputePipelineCreateInfo pipelineInfo{};
+    pipelineInfo.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    pipelineInfo.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    pipelineInfo.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    pipelineInfo.stage.module = module;
+    pipelineInfo.stage.pName = "main";
+    pipelineInfo.stage.pSpecializationInfo = &specialization;
+    pipelineInfo.layout = pipelineLayout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(vkCreateComputePipelines(device.get(), VK_NULL_HANDLE, 1, &pipelineInfo, nullptr, &pipeline),
+          "vkCreateComputePipelines for " + name_);
+    pipeline_ = PipelineHandle(device.get(), pipeline);
+
+    const std::uint32_t storageCount = static_cast<std::uint32_t>(buffers.size()) - uniformCount;
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, uniformCount},
+        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storageCount}};
+    assert(uniformCount > 0 && storageCount > 0);
+    VkDescriptorPoolCreateInfo poolInfo{};
+    poolInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    poolInfo.maxSets = 1;
+    poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    poolInfo.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device.get(), &poolInfo, nullptr, &pool),
+          "vkCreateDescriptorPool for " + name_);
+    descriptorPool_ = DescriptorPoolHandle(device.get(), pool);
+    VkDescriptorSetAllocateInfo allocate{};
+    allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    allocate.descriptorPool = pool;
+    allocate.descriptorSetCount = 1;
+    allocate.pSetLayouts = &setLayout;
+    check(vkAllocateDescriptorSets(device.get(), &allocate, &descriptorSet_),
+          "vkAllocateDescriptorSets for " + name_);
+
+    std::vector<VkDescriptorBufferInfo> infos(buffers.size());
+    std::vector<VkWriteDescriptorSet> writes(buffers.size());
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        infos[i] = {buffers[i]->get(), 0, VK_WHOLE_SIZE};
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = descriptorSet_;
+        writes[i].dstBinding = static_cast<std::uint32_t>(i);
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = descriptorType(*buffers[i]);
+        writes[i].pBufferInfo = &infos[i];
+    }
+    vkUpdateDescriptorSets(device.get(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+                           nullptr);
+}
+
+void Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount) {
+    device_.submit("kernel " + name_, [&](VkCommandBuffer commands) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelineLayout_.get(), 0, 1,
+                                &descriptorSet_, 0, nullptr);
+        vkCmdPushConstants(commands, pipelineLayout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+                           &constants);
+        vkCmdDispatch(commands, workgroupCount, 1, 1);
+        VkMemoryBarrier barrier{};
+        barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+        barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+        barrier.dstAccessMask =
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                             &barrier, 0, nullptr, 0, nullptr);
+    });
+}
+
+} // namespace hyalite::gpu

@@ -1,0 +1,35 @@
+// A compute kernel: embedded SPIR-V, specialised, with its bindings.
+#pragma once
+
+#include "host/gpu/buffer.h"
+#include "shaders/layout.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace hyalite::gpu {
+
+/// Values of all specialization constants, by their ids in layout.h; bools are 0 or 1.
+using SpecializationConstants = std::array<std::uint32_t, layout::constantCount>;
+
+class Kernel {
+  public:
+    /// `buffers` are bound in the order of their binding numbers. Throws as `check` does.
+    Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
+           const SpecializationConstants &constants, std::span<const Buffer *const> buffers);
+
+    /// Runs the kernel with these push constants, waits, and makes what it wrote visible to the host.
+    void run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);
+
+  private:
+    Device &device_;
+    std::string name_;
+    SetLayoutHandle setLayout_;
+    PipelineLayoutHandle pipelineLayout_;
+    PipelineHandle pipeline_;
+    DescriptorPoolHandle descriptorPool_;
+    VkDescriptorSet descriptorSet_ = VK_NULL_HANDLE; ///< freed with its pool
+};
+
+} // namespace hyalite::gpu

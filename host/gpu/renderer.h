@@ -1,0 +1,54 @@
+// The renderer on a Vulkan device.
+#pragma once
+
+#include "host/bvh/packed_scene.h"
+#include "host/gpu/devices.h"
+#include "host/image/film.h"
+#include "host/report/ray_counts.h"
+
+#include <functional>
+#include <memory>
+
+namespace hyalite::gpu {
+
+/// How work is cut into dispatches. The image does not depend on any of it.
+struct Batching {
+    int tileWidth = 0;          ///< pixels, a multiple of 8; 0: by the device
+    int tileHeight = 0;         ///< pixels, a multiple of 8; 0: by the device
+    std::uint32_t steps = 0;    ///< loop iterations of a path slot in one dispatch; 0: by the device
+    int slotsPerInvocation = 0; ///< path slots of one invocation, 1 or 2; 0: by the device
+    bool isStaged = false;      ///< transfer everything through staging buffers
+};
+
+struct Timing {
+    double uploadSeconds = 0.0;   ///< scene data to the device
+    double pipelineSeconds = 0.0; ///< kernels built; drivers may go on compiling at the first dispatch
+    double renderSeconds = 0.0;   ///< from the first dispatch to the last
+    std::uint64_t dispatchCount = 0;
+};
+
+struct Result {
+    Film film;
+    RayCounts rays;
+    Timing timing;
+};
+
+/// Renders scenes on one device, opened once.
+class Renderer {
+  public:
+    explicit Renderer(const DeviceInfo &device, const Batching &batching = {});
+    ~Renderer();
+    Renderer(Renderer &&) noexcept;
+    Renderer &operator=(Renderer &&) noexcept;
+
+    /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
+    /// dispatch. Throws Error{LimitExceeded} where the scene is too large for the device, Error{DeviceLost}.
+    [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
+                                const std::function<void(double)> &onProgress = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace hyalite::gpu

@@ -1,0 +1,45 @@
+// Picture files: which formats there are, and reading and writing them.
+#pragma once
+
+#include "host/image/image.h"
+#include "host/report/atomic_file.h"
+
+#include <cstdint>
+#include <filesystem>
+
+namespace hyalite {
+
+enum class ImageFormat {
+    Png, ///< 8-bit RGB, tone-mapped: for eyes
+    Pfm, ///< float32 RGB, linear, as rendered: for programs
+};
+
+/// What the numbers of an image mean.
+enum class Encoding {
+    Display, ///< as a screen takes them, in [0, 1]
+    Linear,  ///< proportional to light, any float
+};
+
+struct LoadedImage {
+    Image image; ///< the numbers as the file has them: display-encoded ones are not made linear
+    Encoding encoding = Encoding::Linear;
+};
+
+/// Images larger than this are refused before memory is asked for.
+inline constexpr int imageSideMax = 32768;
+inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
+
+/// By the name's extension, .png or .pfm in upper or lower case. Throws Error{Usage} for any other.
+[[nodiscard]] ImageFormat imageFormatOf(const std::filesystem::path &path);
+
+/// Writes the image, which is not empty; the caller commits the file. `exposureStops` brightens a PNG by
+/// 2^exposureStops; a PFM holds the linear values and ignores it. Throws Error{OutputNotWritten}, or
+/// Error{LimitExceeded} where a PNG has more than imagePixelCountMax pixels.
+void writeImage(AtomicFile &file, ImageFormat format, const Image &image, double exposureStops);
+
+/// Reads a PNG or PFM file, told apart by their first bytes. Grey becomes three equal channels; alpha is dropped and
+/// the colours stay as stored (PNG does not multiply them by alpha). Throws Error{BadInput}, naming the file and what
+/// was found, where it is not a regular file, too large, cut short, followed by other bytes, or damaged.
+[[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
+
+} // namespace hyalite

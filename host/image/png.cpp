@@ -1,0 +1,138 @@
+#include "host/image/png.h"
+
+#include "host/error.h"
+#include "host/image/image_file.h"
+#include "host/image/png_chunks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <exception>
+#include <memory>
+#include <vector>
+
+// stb is written in C's manner; its warnings are its own.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb/stb_image.h>
+#define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace hyalite {
+
+namespace {
+
+/// What the C callback needs; an exception must not pass through stb's frames, which would leak.
+struct WriteContext {
+    AtomicFile &file;
+    std::exception_ptr failure;
+};
+
+void writeBytes(void *context, void *data, int sizeBytes) {
+    auto &target = *static_cast<WriteContext *>(context);
+    try {
+        target.file.write(
+            std::span(static_cast<const std::byte *>(data), static_cast<std::size_t>(sizeBytes)));
+    } catch (...) {
+        target.failure = std::current_exception();
+    }
+}
+
+struct StbFree {
+    void operator()(void *pixels) const { stbi_image_free(pixels); }
+};
+
+/// stb_image grows its buffer for as long as the stream goes on, and takes a stream that is too long. So
+/// the stream is first unpacked into a buffer of just the size that the header asks for.
+void requireWholeStream(const InputFile &file, const PngChunks &chunks) {
+    std::vector<char> rows(static_cast<std::size_t>(chunks.rowDataBytes));
+    const auto stream = chunks.compressed();
+    const int unpackedBytes = stbi_zlib_decode_buffer(rows.data(), static_cast<int>(rows.size()),
+                                                      reinterpret_cast<const char *>(stream.data()),
+                                                      static_cast<int>(stream.size()));
+    if (unpackedBytes < 0) {
+        throw file.bad(fmt::format("its compressed pixels are damaged, or more than {} x {}", chunks.width,
+                                   chunks.height));
+    }
+    if (static_cast<std::uint64_t>(unpackedBytes) != chunks.rowDataBytes) {
+        throw file.bad(fmt::format("{} x {} pixels take {} bytes, but it has {}", chunks.width, chunks.height,
+                                   chunks.rowDataBytes, unpackedBytes));
+    }
+}
+
+template <typename Level>
+Image decode(const InputFile &file, const PngChunks &chunks,
+             Level *(*load)(const stbi_uc *, int, int *, int *, int *, int), float levelMax) {
+    int width = 0;
+    int height = 0;
+    int channelCountInFile = 0;
+    const std::unique_ptr<Level, StbFree> levels(
+        load(reinterpret_cast<const stbi_uc *>(chunks.minimal.data()),
+             static_cast<int>(chunks.minimal.size()), &width, &height, &channelCountInFile, 3));
+    if (!levels || width != chunks.width || height != chunks.height) {
+        const char *reason = stbi_failure_reason();
+        throw file.bad(
+            fmt::format("its pixels cannot be decoded: {}", reason != nullptr ? reason : "unknown"));
+    }
+    Image image(width, height);
+    const Level *next = levels.get();
+    for (glm::vec3 &pixel : image.pixels()) {
+        pixel = glm::vec3(next[0], next[1], next[2]) / levelMax;
+        next += 3;
+    }
+    return image;
+}
+
+} // namespace
+
+bool isPng(std::span<const std::byte> head) {
+    constexpr std::array<unsigned char, 8> signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    return head.size() >= signature.size() &&
+           std::equal(signature.begin(), signature.end(), head.begin(),
+                      [](unsigned char a, std::byte b) { return std::byte{a} == b; });
+}
+
+void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb) {
+    assert(width > 0 && height > 0);
+    const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    assert(rgb.size() == pixelCount * 3);
+    if (pixelCount > imagePixelCountMax) { // stb counts bytes with int
+        throw Error(
+            ExitCode::LimitExceeded,
+            fmt::format("'{}': a PNG of {} x {} pixels is more than {}; write a .pfm, or a smaller image",
+                        file.path().string(), width, height, imagePixelCountMax));
+    }
+    WriteContext context{file, nullptr};
+    const int written = stbi_write_png_to_func(writeBytes, &context, width, height, 3, rgb.data(), width * 3);
+    if (context.failure) {
+        std::rethrow_exception(context.failure);
+    }
+    if (written == 0) {
+        throw Error(ExitCode::LimitExceeded, fmt::format("'{}': no memory to pack a PNG of {} x {} pixels",
+                                                         file.path().string(), width, height));
+    }
+}
+
+Image readPng(const InputFile &file) {
+    const PngChunks chunks = readPngChunks(file);
+    requireWholeStream(file, chunks);
+
+    return chunks.bitDepth == 16 ? decode(file, chunks, stbi_load_16_from_memory, 65535.0f)
+                                 : decode(file, chunks, stbi_load_from_memory, 255.0f);
+}
+
+} // namespace hyalite

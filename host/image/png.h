@@ -1,0 +1,26 @@
+// PNG files, through stb_image and stb_image_write.
+#pragma once
+
+#include "host/image/image.h"
+#include "host/image/input_file.h"
+#include "host/report/atomic_file.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hyalite {
+
+/// Whether the first bytes of a file are those of a PNG.
+[[nodiscard]] bool isPng(std::span<const std::byte> head);
+
+/// Writes 8-bit RGB: three bytes a pixel, row by row from the top left. Throws Error{LimitExceeded} where the image
+/// has more than imagePixelCountMax pixels, or memory is short, and Error{OutputNotWritten}.
+void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb);
+
+/// Reads every kind of PNG (1 to 16 bits, grey, RGB, palette, interlaced) as display-encoded values in [0, 1]: level /
+/// 255, or / 65535 for 16 bits. Alpha is dropped and the colours stay as stored; colour profiles and gamma chunks are
+/// ignored. Throws Error{BadInput} for damaged files, which includes a wrong checksum and bytes after the end.
+[[nodiscard]] Image readPng(const InputFile &file);
+
+} // namespace hyalite

@@ -1,0 +1,35 @@
+// The structure of a PNG file (ISO/IEC 15948): its header and its chunks, checked before stb_image sees a byte.
+//
+// stb_image reads on from damaged checksums, missing ends and trailing bytes, and unpacks whatever the compressed
+// data grows to. Here everything is checked, memory is bounded by what the header says, and only the chunks that
+// make the picture are handed on.
+#pragma once
+
+#include "host/image/input_file.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyalite {
+
+struct PngChunks {
+    int width = 0;
+    int height = 0;
+    int bitDepth = 0;               ///< 1, 2, 4, 8 or 16 a channel (or palette index)
+    std::uint64_t rowDataBytes = 0; ///< what the compressed data unpacks to: the rows with their filter bytes
+    std::vector<std::byte> minimal; ///< a PNG file of IHDR, PLTE (padded to 256 entries), one IDAT and IEND
+    std::size_t compressedOffset = 0;
+    std::size_t compressedBytes = 0;
+
+    /// The zlib stream of the pixels, a part of `minimal`.
+    [[nodiscard]] std::span<const std::byte> compressed() const {
+        return std::span(minimal).subspan(compressedOffset, compressedBytes);
+    }
+};
+
+/// Throws Error{BadInput}.
+[[nodiscard]] PngChunks readPngChunks(const InputFile &file);
+
+} // namespace hyalite

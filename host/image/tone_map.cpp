@@ -1,0 +1,75 @@
+#include "host/image/tone_map.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace hyalite {
+
+namespace {
+
+/// 2^x from + - * alone: std::exp2 may differ in the last bit from one C library to the next.
+double exp2Portable(double x) {
+    constexpr double ln2 = 0.693147180559945309417;
+    constexpr int termCount = 20; // |r| <= ln2 / 2, and r^20 / 20! < 2^-90
+    const double whole = std::round(x);
+    const double r = (x - whole) * ln2;
+    double sum = 1.0; // Horner's form of the sum of r^k / k!
+    for (int k = termCount; k >= 1; --k) {
+        sum = 1.0 + r * sum / k;
+    }
+    return std::ldexp(sum, static_cast<int>(whole));
+}
+
+float roundUpToFloat(double x) {
+    const float nearest = static_cast<float>(x);
+    return static_cast<double>(nearest) >= x
+               ? nearest
+               : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+} // namespace
+
+// A library's pow() is good to an ulp or so and differs between libraries. None of the 255 thresholds lies so close to
+// a float that this error, a billionth of the step between floats, could move it to the next one. So the table
+// is the same everywhere, and so is a level found by comparing with it; pow() for each pixel would not be.
+const std::array<float, 255> &toneMapThresholds() {
+    static const std::array<float, 255> thresholds = [] {
+        std::array<float, 255> table{};
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            table[i] = roundUpToFloat(std::pow((static_cast<double>(i) + 0.5) / 255.0, 2.2));
+        }
+        return table;
+    }();
+    return thresholds;
+}
+
+std::uint8_t encodeLevel(float linear) {
+    if (!(linear > 0.0f)) { // NaN too
+        return 0;
+    }
+    const std::array<float, 255> &thresholds = toneMapThresholds();
+    return static_cast<std::uint8_t>(std::upper_bound(thresholds.begin(), thresholds.end(), linear) -
+                                     thresholds.begin());
+}
+
+std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops) {
+    assert(std::isfinite(exposureStops));
+    // 2^300 takes the smallest positive float to white and 2^-300 the largest to black: the rest changes nothing.
+    const double scale = exp2Portable(std::clamp(exposureStops, -300.0, 300.0));
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(image.pixels().size() * 3);
+    for (const glm::vec3 &pixel : image.pixels()) {
+        for (int channel = 0; channel < 3; ++channel) {
+            // 1 is white already; the bound keeps the product within the range of float.
+            const double exposed = static_cast<double>(pixel[channel]) * scale;
+            bytes.push_back(encodeLevel(exposed >= 1.0  ? 1.0f
+                                        : exposed > 0.0 ? static_cast<float>(exposed)
+                                                        : 0.0f));
+        }
+    }
+    return bytes;
+}
+
+} // namespace hyalite

@@ -1,0 +1,127 @@
+// Nearest and any hits, in the plainest way: this is what the kernels are checked against.
+//
+// The nearest hit is defined without a tree: the smallest distance, and of equal ones the smallest primitive id.
+#pragma once
+
+#include "host/bvh/packed_scene.h"
+#include "host/reference/sphere.h"
+#include "host/reference/triangle.h"
+
+#include <array>
+#include <cassert>
+
+namespace hyalite::reference {
+
+template <class Real> struct Ray {
+    Vec3<Real> origin;
+    Vec3<Real> direction;                         ///< unit length
+    std::uint32_t excluded = layout::noPrimitive; ///< the primitive that the ray starts on
+};
+
+template <class Real> struct Hit {
+    Real distance = std::numeric_limits<Real>::max();
+    std::uint32_t primitive = layout::noPrimitive; ///< its id
+    std::uint32_t record = 0;                      ///< its index among the sphere or the triangle records
+    Real u = 0;                                    ///< weights of a triangle's first and second vertex
+    Real v = 0;
+};
+
+/// Calls visit(record, hit) for every triangle that the ray meets in a subtree whose box it enters at or before
+/// `reach` (read anew at each node). `visit` returns false to stop.
+template <class Real, class Visitor>
+void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &reach, Visitor &&visit) {
+    if (!scene.hasTriangles)
+        return;
+    const BoxRay<Real> boxRay = makeBoxRay(ray.origin, ray.direction, Vec3<Real>(scene.frame.boundsLower),
+                                           Vec3<Real>(scene.frame.boundsUpper));
+    const TriangleRay<Real> triangleRay = makeTriangleRay(ray.origin, ray.direction);
+    std::array<std::uint32_t, layout::maxTreeDepth + 1> waiting;
+    std::size_t waitingCount = 0;
+    waiting[waitingCount++] = 0;
+    while (waitingCount > 0) {
+        const std::uint32_t subtree = waiting[--waitingCount];
+        if ((subtree & layout::leafFlag) == 0) {
+            const layout::NodePair &node = scene.nodes[subtree];
+            const Interval<Real> left =
+                boxInterval(boxRay, Vec3<Real>(node.leftLower), Vec3<Real>(node.leftUpper));
+            const Interval<Real> right =
+                boxInterval(boxRay, Vec3<Real>(node.rightLower), Vec3<Real>(node.rightUpper));
+            const bool isLeftHit = node.left != layout::noNode && left.enter <= glm::min(left.leave, reach);
+            const bool isRightHit =
+                node.right != layout::noNode && right.enter <= glm::min(right.leave, reach);
+            const bool isRightNearer = right.enter < left.enter;
+            assert(waitingCount + 2 <= waiting.size());
+            if (isRightHit && !isRightNearer)
+                waiting[waitingCount++] = node.right;
+            if (isLeftHit)
+                waiting[waitingCount++] = node.left;
+            if (isRightHit && isRightNearer)
+                waiting[waitingCount++] = node.right;
+            continue;
+        }
+        for (std::uint32_t record = subtree & ~layout::leafFlag;; ++record) {
+            const layout::TriangleRecord &triangle = scene.triangles[record];
+            const TriangleHit<Real> hit = intersectTriangle(triangleRay, boxRay, Vec3<Real>(triangle.v0),
+                                                            Vec3<Real>(triangle.v1), Vec3<Real>(triangle.v2));
+            if (hit.distance > 0 && triangle.primitiveId != ray.excluded && !visit(record, hit))
+                return;
+            if ((triangle.flags & layout::triangleEndsLeaf) != 0)
+                break;
+        }
+    }
+}
+
+template <class Real> [[nodiscard]] Hit<Real> closestHit(const PackedScene &scene, const Ray<Real> &ray) {
+    Hit<Real> nearest;
+    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
+        const layout::SphereRecord &sphere = scene.spheres[i];
+        const Real distance = intersectSphere(ray.origin, ray.direction, Vec3<Real>(sphere.centre),
+                                              static_cast<Real>(sphere.radius), ray.excluded == i);
+        if (distance > 0 && distance < nearest.distance)
+            nearest = {distance, i, i};
+    }
+    visitTriangles(scene, ray, nearest.distance, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
+        const std::uint32_t id = scene.triangles[record].primitiveId;
+        if (hit.distance < nearest.distance || (hit.distance == nearest.distance && id < nearest.primitive))
+            nearest = {hit.distance, id, record, hit.u, hit.v};
+        return true;
+    });
+    return nearest;
+}
+
+/// What light meets on its way.
+struct Shadow {
+    bool isBlocked = false; ///< by something opaque
+    bool isDimmed = false;  ///< by glass; unspecified when blocked
+};
+
+/// What lies between the ray's origin and `length` along it.
+template <class Real>
+[[nodiscard]] Shadow castShadowRay(const PackedScene &scene, const Ray<Real> &ray, const Real &length) {
+    Shadow shadow;
+    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
+        const layout::SphereRecord &sphere = scene.spheres[i];
+        const Real distance = intersectSphere(ray.origin, ray.direction, Vec3<Real>(sphere.centre),
+                                              static_cast<Real>(sphere.radius), ray.excluded == i);
+        if (!(distance > 0 && distance < length))
+            continue;
+        if (scene.materials[sphere.materialIndex].kind == layout::materialDielectric)
+            shadow.isDimmed = true;
+        else
+            shadow.isBlocked = true;
+    }
+    if (shadow.isBlocked)
+        return shadow;
+    visitTriangles(scene, ray, length, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
+        if (!(hit.distance < length))
+            return true;
+        if ((scene.triangles[record].flags & layout::triangleIsTransmissive) != 0)
+            shadow.isDimmed = true;
+        else
+            shadow.isBlocked = true;
+        return !shadow.isBlocked;
+    });
+    return shadow;
+}
+
+} // namespace hyalite::reference

@@ -1,0 +1,72 @@
+#include "host/reference/renderer.h"
+
+#include "host/reference/whitted.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace hyalite::reference {
+
+namespace {
+
+template <class Real>
+layout::FilmPixel renderPixel(WhittedIntegrator<Real> &integrator, const glm::uvec2 &pixel,
+                              std::uint32_t sampleCount) {
+    Vec3<Real> sum(Real(0));
+    Vec3<Real> sumOfSquares(Real(0));
+    for (std::uint32_t sample = 0; sample < sampleCount; ++sample) {
+        const Vec3<Real> radiance = integrator.sampleRadiance(pixel, sample);
+        sum = sum + radiance;
+        sumOfSquares = sumOfSquares + radiance * radiance;
+    }
+    return {glm::vec3(sum), sampleCount, glm::vec3(sumOfSquares), 0.0f};
+}
+
+template <class Real>
+Result renderAs(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
+                const Options &options) {
+    Result result{Film(crop), {}};
+    // Short runs of pixels: some pixels cost a hundred times more than others.
+    constexpr std::int64_t runLength = 32;
+    const std::int64_t pixelCount = static_cast<std::int64_t>(result.film.pixels.size());
+    const std::int64_t runCount = (pixelCount + runLength - 1) / runLength;
+    const int threadCount = options.threadCount > 0 ? options.threadCount : omp_get_max_threads();
+    std::int64_t finishedRuns = 0;
+#pragma omp parallel num_threads(threadCount)
+    {
+        WhittedIntegrator<Real> integrator(scene, static_cast<std::uint32_t>(settings.sampler),
+                                           static_cast<std::uint32_t>(settings.maxDepth));
+#pragma omp for schedule(dynamic)
+        for (std::int64_t run = 0; run < runCount; ++run) {
+            const std::int64_t end = std::min((run + 1) * runLength, pixelCount);
+            for (std::int64_t i = run * runLength; i < end; ++i) {
+                const glm::uvec2 pixel(static_cast<std::uint32_t>(crop.x0 + i % crop.width()),
+                                       static_cast<std::uint32_t>(crop.y0 + i / crop.width()));
+                result.film.pixels[static_cast<std::size_t>(i)] =
+                    renderPixel(integrator, pixel, static_cast<std::uint32_t>(settings.samplesPerPixel));
+            }
+#pragma omp critical(hyaliteReferenceProgress)
+            {
+                ++finishedRuns;
+                if (options.onProgress)
+                    options.onProgress(static_cast<double>(finishedRuns) / static_cast<double>(runCount));
+            }
+        }
+#pragma omp critical(hyaliteReferenceCounts)
+        result.rays += integrator.counts();
+    }
+    return result;
+}
+
+} // namespace
+
+Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
+              const Options &options) {
+    if (options.precision == Precision::Float64)
+        return renderAs<double>(scene, settings, crop, options);
+    return renderAs<float>(scene, settings, crop, options);
+}
+
+} // namespace hyalite::reference

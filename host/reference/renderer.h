@@ -1,0 +1,31 @@
+// The reference renderer on the CPU: the twin of the kernels, and the same text in double precision as an oracle.
+#pragma once
+
+#include "host/bvh/packed_scene.h"
+#include "host/image/film.h"
+#include "host/report/ray_counts.h"
+
+#include <functional>
+
+namespace hyalite::reference {
+
+enum class Precision { Float32, Float64 };
+
+struct Options {
+    Precision precision =
+        Precision::Float32; ///< Float64 results are rounded to float when they reach the film
+    int threadCount = 0;    ///< 0: as many as OpenMP likes
+    /// Called now and then, never by two threads at once, with the finished share of the work in [0, 1].
+    std::function<void(double)> onProgress;
+};
+
+struct Result {
+    Film film;
+    RayCounts rays;
+};
+
+/// Renders `crop` of the scene's image. The result does not depend on the number of threads.
+[[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
+                            const Options &options = {});
+
+} // namespace hyalite::reference

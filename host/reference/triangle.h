@@ -1,0 +1,83 @@
+// Watertight ray-triangle intersection. Twin: shaders/triangle.glsl, which explains why it is watertight.
+#pragma once
+
+#include "host/reference/box.h"
+
+namespace hyalite::reference {
+
+template <class Real> struct TriangleRay {
+    Vec3<Real> origin;
+    int axis;         ///< the largest component of the direction: 0, 1, 2
+    Vec3<Real> shear; ///< direction[x]/direction[z], direction[y]/direction[z], 1/direction[z], with z = axis
+};
+
+template <class Real> struct TriangleHit {
+    Real distance; ///< not positive: no hit
+    Real u;        ///< weights of the first and the second vertex
+    Real v;
+};
+
+/// Rotates components so that the given axis becomes z.
+template <class Real> [[nodiscard]] Vec3<Real> axisToZ(const Vec3<Real> &v, int axis) {
+    if (axis == 0)
+        return {v.y, v.z, v.x};
+    return axis == 1 ? Vec3<Real>(v.z, v.x, v.y) : v;
+}
+
+template <class Real>
+[[nodiscard]] TriangleRay<Real> makeTriangleRay(const Vec3<Real> &origin, const Vec3<Real> &direction) {
+    const Vec3<Real> size = glm::abs(direction);
+    const int axis = size.z >= size.x && size.z >= size.y ? 2 : (size.y >= size.x ? 1 : 0);
+    const Vec3<Real> along = axisToZ(direction, axis);
+    const Real inverse = Real(1) / along.z;
+    return {origin, axis, {along.x * inverse, along.y * inverse, inverse}};
+}
+
+/// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
+template <class Real>
+[[nodiscard]] TriangleHit<Real> intersectTriangle(const TriangleRay<Real> &ray, const BoxRay<Real> &boxRay,
+                                                  const Vec3<Real> &v0, const Vec3<Real> &v1,
+                                                  const Vec3<Real> &v2) {
+    const Vec3<Real> a = axisToZ(v0 - ray.origin, ray.axis);
+    const Vec3<Real> b = axisToZ(v1 - ray.origin, ray.axis);
+    const Vec3<Real> c = axisToZ(v2 - ray.origin, ray.axis);
+    const Vec2<Real> shear(ray.shear);
+    const Vec2<Real> p = Vec2<Real>(a) - shear * a.z;
+    const Vec2<Real> q = Vec2<Real>(b) - shear * b.z;
+    const Vec2<Real> r = Vec2<Real>(c) - shear * c.z;
+    const Real e0 = r.x * q.y - r.y * q.x;
+    const Real e1 = p.x * r.y - p.y * r.x;
+    const Real e2 = q.x * p.y - q.y * p.x;
+    const bool isInside = glm::min(glm::min(e0, e1), e2) >= 0 || glm::max(glm::max(e0, e1), e2) <= 0;
+    const Real determinant = e0 + e1 + e2;
+    const Real inverse = Real(1) / determinant;
+    const Real u = e0 * inverse;
+    const Real v = e1 * inverse;
+    const Real w = e2 * inverse;
+    const Real depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
+    const Interval<Real> interval =
+        boxInterval(boxRay, glm::min(glm::min(v0, v1), v2), glm::max(glm::max(v0, v1), v2));
+    const Real distance = glm::min(glm::max(depth, interval.enter), interval.leave);
+    const bool isHit = isInside && determinant != 0 && interval.enter <= interval.leave;
+    return {isHit ? distance : Real(0), u, v};
+}
+
+/// The point with weights u, v, 1-u-v on a triangle.
+template <class Real>
+[[nodiscard]] Vec3<Real> trianglePoint(const Vec3<Real> &v0, const Vec3<Real> &v1, const Vec3<Real> &v2,
+                                       Real u, Real v) {
+    const Real w = Real(1) - u - v;
+    return v0 * u + v1 * v + v2 * w;
+}
+
+/// A bound on the rounding error of trianglePoint, for each coordinate: Pharr, Jakob and Humphreys, "Physically Based
+/// Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7).
+template <class Real>
+[[nodiscard]] Vec3<Real> trianglePointError(const Vec3<Real> &v0, const Vec3<Real> &v1, const Vec3<Real> &v2,
+                                            Real u, Real v) {
+    const Real w = Real(1) - u - v;
+    const Vec3<Real> size = glm::abs(v0 * u) + glm::abs(v1 * v) + glm::abs(v2 * w);
+    return size * (Real(8) * roundingUnit<Real>);
+}
+
+} // namespace hyalite::reference

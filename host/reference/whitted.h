@@ -1,0 +1,152 @@
+// The report's integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
+// deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
+// Twin: shaders/whitted.glsl. Here a path is followed ray by ray; the order of all sums is the same.
+#pragma once
+
+#include "host/reference/camera.h"
+#include "host/reference/closest_hit.h"
+#include "host/reference/dielectric.h"
+#include "host/reference/random.h"
+#include "host/reference/surface.h"
+#include "host/report/ray_counts.h"
+
+#include <vector>
+
+namespace hyalite::reference {
+
+/// Follows camera samples through the scene. One instance a thread: it keeps the rays that wait and the counts.
+template <class Real> class WhittedIntegrator {
+  public:
+    WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind, std::uint32_t maxDepth)
+        : scene_(scene), samplerKind_(samplerKind), maxDepth_(maxDepth) {}
+
+    /// Radiance of one sample of a pixel of the whole image.
+    [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex) {
+        const Vec2<Real> offset = samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed);
+        ++counts_.primary;
+        radiance_ = Vec3<Real>(Real(0));
+        pending_.push_back({{Vec3<Real>(scene_.frame.eye), primaryDirection(scene_.frame, pixel, offset)},
+                            Vec3<Real>(Real(1)),
+                            1,
+                            layout::noMaterial});
+        while (!pending_.empty()) {
+            const Segment segment = pending_.back();
+            pending_.pop_back();
+            followSegment(segment);
+        }
+        return radiance_;
+    }
+
+    [[nodiscard]] const RayCounts &counts() const { return counts_; }
+
+  private:
+    static constexpr Real inversePi = Real(0.31830988618379067);
+
+    struct Segment {
+        Ray<Real> ray;
+        Vec3<Real> throughput;
+        std::uint32_t depth;  ///< 1 for a primary ray
+        std::uint32_t medium; ///< material of the glass around the segment, or noMaterial
+    };
+
+    void followSegment(Segment segment) {
+        const Hit<Real> hit = closestHit(scene_, segment.ray);
+        if (hit.primitive == layout::noPrimitive) {
+            if (segment.medium != layout::noMaterial)
+                segment.throughput *= Vec3<Real>(scene_.materials[segment.medium].segmentTint);
+            radiance_ = radiance_ + segment.throughput * Vec3<Real>(scene_.frame.background);
+            return;
+        }
+        Surface<Real> surface;
+        std::uint32_t materialIndex;
+        if (hit.primitive >= layout::firstTriangleId) {
+            const layout::TriangleRecord &triangle = scene_.triangles[hit.record];
+            surface = triangleSurface(triangle, scene_.normals[hit.record], hit.u, hit.v);
+            materialIndex = triangle.materialIndex;
+        } else {
+            const layout::SphereRecord &sphere = scene_.spheres[hit.record];
+            surface = sphereSurface(segment.ray.origin, segment.ray.direction, hit.distance, sphere);
+            materialIndex = sphere.materialIndex;
+        }
+        const layout::MaterialRecord &material = scene_.materials[materialIndex];
+        const bool isEntering = dotProduct(segment.ray.direction, surface.normal) < 0;
+        const bool isGlass = material.kind == layout::materialDielectric;
+        const std::uint32_t medium = isGlass && !isEntering ? materialIndex : segment.medium;
+        if (medium != layout::noMaterial)
+            segment.throughput *= Vec3<Real>(scene_.materials[medium].segmentTint);
+
+        if (material.kind == layout::materialDiffuse)
+            shadeDiffuse(segment, surface, material, hit.primitive);
+        else if (segment.depth < maxDepth_ && isGlass)
+            splitAtGlass(segment, surface, material.refractiveIndex, materialIndex, isEntering,
+                         hit.primitive);
+        else if (segment.depth < maxDepth_)
+            reflect(segment, surface, segment.throughput, segment.medium, hit.primitive);
+    }
+
+    void shadeDiffuse(const Segment &segment, Surface<Real> surface, const layout::MaterialRecord &material,
+                      std::uint32_t primitive) {
+        if (material.isTwoSided != 0 && dotProduct(segment.ray.direction, surface.geometricNormal) > 0) {
+            surface.normal = -surface.normal;
+            surface.geometricNormal = -surface.geometricNormal;
+        }
+        const Vec3<Real> weight = segment.throughput * (Vec3<Real>(material.albedo) * inversePi);
+        for (const layout::LightRecord &light : scene_.lights) {
+            const Vec3<Real> toLight = Vec3<Real>(light.position) - surface.position;
+            const Real distance = vectorLength(toLight);
+            const Vec3<Real> direction = toLight * (Real(1) / distance);
+            const bool isLit = dotProduct(surface.normal, direction) > 0 &&
+                               dotProduct(surface.geometricNormal, direction) > 0;
+            if (!isLit)
+                continue;
+            ++counts_.shadow;
+            const Ray<Real> ray{spawnPoint(surface, direction), direction, primitive};
+            const Shadow shadow = castShadowRay(scene_, ray, distance);
+            if (shadow.isBlocked)
+                continue;
+            const Real squaredDistance = distance * distance;
+            const Real cosine = dotProduct(surface.normal, direction);
+            const Vec3<Real> irradiance = Vec3<Real>(light.intensity) * (cosine / squaredDistance);
+            Vec3<Real> reflected = weight * irradiance;
+            if (shadow.isDimmed)
+                reflected *= static_cast<Real>(scene_.frame.shadowThroughGlass);
+            radiance_ = radiance_ + reflected;
+        }
+    }
+
+    void reflect(const Segment &segment, const Surface<Real> &surface, const Vec3<Real> &throughput,
+                 std::uint32_t medium, std::uint32_t primitive) {
+        const Vec3<Real> direction = mirrorDirection(segment.ray.direction, surface.normal);
+        ++counts_.reflection;
+        pending_.push_back(
+            {{spawnPoint(surface, direction), direction, primitive}, throughput, segment.depth + 1, medium});
+    }
+
+    void splitAtGlass(const Segment &segment, const Surface<Real> &surface, float refractiveIndex,
+                      std::uint32_t materialIndex, bool isEntering, std::uint32_t primitive) {
+        const Vec3<Real> facing = isEntering ? surface.normal : -surface.normal;
+        const Refraction<Real> refraction =
+            refractRay(segment.ray.direction, facing, static_cast<Real>(refractiveIndex), isEntering);
+        const std::uint32_t mediumOfReflection = isEntering ? segment.medium : materialIndex;
+        if (refraction.isTotal) {
+            reflect(segment, surface, segment.throughput, mediumOfReflection, primitive);
+            return;
+        }
+        // The refracted ray is followed first.
+        reflect(segment, surface, segment.throughput * refraction.reflectance, mediumOfReflection, primitive);
+        ++counts_.refraction;
+        pending_.push_back({{spawnPoint(surface, refraction.direction), refraction.direction, primitive},
+                            segment.throughput * (Real(1) - refraction.reflectance),
+                            segment.depth + 1,
+                            isEntering ? materialIndex : layout::noMaterial});
+    }
+
+    const PackedScene &scene_;
+    const std::uint32_t samplerKind_;
+    const std::uint32_t maxDepth_;
+    std::vector<Segment> pending_;
+    Vec3<Real> radiance_{Real(0)};
+    RayCounts counts_;
+};
+
+} // namespace hyalite::reference

@@ -1,0 +1,209 @@
+#include "host/report/atomic_file.h"
+
+#include "host/error.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cerrno>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace hyalite {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path &path, const std::string &reason) {
+    throw Error(ExitCode::OutputNotWritten, fmt::format("cannot write '{}': {}", path.string(), reason));
+}
+
+std::string remedyFor(int errorNumber) {
+    switch (errorNumber) {
+    case ENOENT:
+        return "create the folder first, or name one that exists";
+    case ENOTDIR:
+        return "a part of the path is a file, not a folder; name another path";
+    case EACCES:
+    case EPERM:
+        return "make the folder writable, or name another one";
+    case EROFS:
+        return "the file system is read-only; name another folder";
+    case ENOSPC:
+    case EDQUOT:
+        return "free some space, or name a folder on another disk";
+    case EFBIG:
+        return "raise the limit on file sizes (ulimit -f), or write less";
+    case ENAMETOOLONG:
+        return "choose a shorter name";
+    case EMFILE:
+    case ENFILE:
+        return "close other files, or raise the limit (ulimit -n)";
+    default:
+        return "check the disk, or name another folder";
+    }
+}
+
+[[noreturn]] void refuseWithErrno(const fs::path &path, std::string_view step, int errorNumber) {
+    refuse(path, fmt::format("{}: {}; {}", step, std::generic_category().message(errorNumber),
+                             remedyFor(errorNumber)));
+}
+
+/// Follows symbolic links by hand: canonical() fails on a dangling link, through which open() would create a file.
+fs::path followLinks(const fs::path &givenPath) {
+    constexpr int linkCountMax = 40; // as Linux does
+    std::error_code error;
+    fs::path path = fs::absolute(givenPath, error);
+    for (int linkCount = 0; !error && fs::is_symlink(fs::symlink_status(path, error)); ++linkCount) {
+        if (linkCount == linkCountMax) {
+            refuse(givenPath, "its symbolic links lead in a circle; remove them, or name another file");
+        }
+        path = path.parent_path() / fs::read_symlink(path, error); // an absolute target replaces the parent
+    }
+    // What else is wrong with the path (a missing folder, a file as parent) is found when the file is created.
+    return path;
+}
+
+void requireReplaceable(const fs::path &givenPath, const fs::path &targetPath) {
+    if (!targetPath.has_filename()) {
+        refuse(givenPath, "this names no file; add a file name");
+    }
+    struct stat status {};
+    if (stat(targetPath.c_str(), &status) != 0) {
+        return;
+    }
+    if (S_ISDIR(status.st_mode)) {
+        refuse(givenPath, "it is a folder; name a file in it");
+    }
+    if (!S_ISREG(status.st_mode)) {
+        refuse(givenPath,
+               "it is not a regular file but a device, pipe or socket, and results replace files as a "
+               "whole; name a regular file");
+    }
+    // rename() would replace a write-protected file; whoever protected it meant it to stay.
+    if (faccessat(AT_FDCWD, targetPath.c_str(), W_OK, AT_EACCESS) != 0) {
+        refuse(givenPath, "it exists and is write-protected; remove it, or name another file");
+    }
+}
+
+std::string temporaryName(const std::string &targetName, std::random_device &random) {
+    // A target name of up to 255 bytes is legal, so only a part of it fits beside the suffix.
+    constexpr std::size_t prefixBytesMax = 200;
+    const std::uint64_t number = (std::uint64_t{random()} << 32) | random();
+    return fmt::format(".{}.{:016x}.tmp", targetName.substr(0, prefixBytesMax), number);
+}
+
+/// fsync, with "this file system cannot" taken as done. Returns errno, or 0.
+int synchronize(int descriptor) {
+    while (fsync(descriptor) != 0) {
+        if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) {
+            return 0;
+        }
+        if (errno != EINTR) {
+            return errno;
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(const fs::path &target) : givenPath_(target) {
+    if (target.empty()) {
+        refuse(target, "the name is empty; name a file");
+    }
+    targetPath_ = followLinks(target);
+    requireReplaceable(givenPath_, targetPath_);
+
+    std::random_device random;
+    constexpr int attemptCount = 16; // each fails only if a 64-bit random number was used before
+    int errorNumber = EEXIST;
+    for (int attempt = 0; attempt < attemptCount && (errorNumber == EEXIST || errorNumber == EINTR);
+         ++attempt) {
+        temporaryPath_ = targetPath_.parent_path() / temporaryName(targetPath_.filename().string(), random);
+        descriptor_ = open(temporaryPath_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ >= 0) {
+            return;
+        }
+        errorNumber = errno;
+    }
+    refuseWithErrno(givenPath_,
+                    fmt::format("no file can be created in '{}'", targetPath_.parent_path().string()),
+                    errorNumber);
+}
+
+AtomicFile::AtomicFile(AtomicFile &&other) noexcept
+    : givenPath_(std::move(other.givenPath_)), targetPath_(std::move(other.targetPath_)),
+      temporaryPath_(std::move(other.temporaryPath_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+AtomicFile &AtomicFile::operator=(AtomicFile &&other) noexcept {
+    if (this != &other) {
+        discard();
+        givenPath_ = std::move(other.givenPath_);
+        targetPath_ = std::move(other.targetPath_);
+        temporaryPath_ = std::move(other.temporaryPath_);
+        descriptor_ = std::exchange(other.descriptor_, -1);
+    }
+    return *this;
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::discard() noexcept {
+    if (descriptor_ >= 0) {
+        close(descriptor_);
+        unlink(temporaryPath_.c_str());
+        descriptor_ = -1;
+    }
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+    assert(descriptor_ >= 0);
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+        if (count >= 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(count));
+        } else if (errno != EINTR) {
+            refuseWithErrno(givenPath_, fmt::format("writing {} bytes", bytes.size()), errno);
+        }
+    }
+}
+
+void AtomicFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+
+void AtomicFile::commit() {
+    assert(descriptor_ >= 0);
+    if (const int errorNumber = synchronize(descriptor_); errorNumber != 0) {
+        refuseWithErrno(givenPath_, "storing the bytes", errorNumber);
+    }
+    if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) { // network file systems report late
+        const int errorNumber = errno;
+        unlink(temporaryPath_.c_str());
+        refuseWithErrno(givenPath_, "closing the file", errorNumber);
+    }
+    if (rename(temporaryPath_.c_str(), targetPath_.c_str()) != 0) {
+        const int errorNumber = errno;
+        unlink(temporaryPath_.c_str());
+        refuseWithErrno(givenPath_, "renaming the finished file", errorNumber);
+    }
+    // The file is in place; this only makes the new name outlast a power failure. A folder that may be written but
+    // not read cannot be opened for it, which is no reason to call the output missing.
+    const int folder = open(targetPath_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0) {
+        const int errorNumber = synchronize(folder);
+        close(folder);
+        if (errorNumber != 0) {
+            refuseWithErrno(givenPath_, "storing the folder's entry", errorNumber);
+        }
+    }
+}
+
+} // namespace hyalite

@@ -1,0 +1,34 @@
+// What a render did and how long it took, as JSON.
+#pragma once
+
+#include "host/report/ray_counts.h"
+#include "host/scene/scene.h"
+
+#include <string>
+
+namespace hyalite {
+
+struct RenderReport {
+    std::string commandLine;
+    std::string scene; ///< path of the file
+    std::string output;
+    std::string deviceName;
+    std::string deviceDriver;
+    int width = 0; ///< of the output, pixels
+    int height = 0;
+    RenderSettings settings;
+    std::size_t triangleCount = 0;
+    RayCounts rays;
+    std::uint64_t dispatchCount = 0;
+    double loadSeconds = 0.0;
+    double buildSeconds = 0.0;
+    double uploadSeconds = 0.0;
+    double pipelineSeconds = 0.0;
+    double renderSeconds = 0.0;
+    double writeSeconds = 0.0;
+    double totalSeconds = 0.0;
+};
+
+[[nodiscard]] std::string formatReport(const RenderReport &report);
+
+} // namespace hyalite

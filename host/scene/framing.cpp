@@ -1,0 +1,123 @@
+#include "host/scene/framing.h"
+
+#include "host/error.h"
+#include "host/scene/limits.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace hyalite {
+namespace {
+
+constexpr double frameFovDegrees = 40.0;
+constexpr double margin = 0.08; ///< part of half the image that stays free at each edge
+constexpr float neutralAlbedo = 0.8f;
+constexpr float backgroundGrey = 0.05f;
+constexpr double lightDistance = 10.0; ///< in half diagonals: near and far side are lit much alike
+constexpr double keyRadiance = 0.7;
+constexpr double fillRadiance = 0.2;
+
+glm::dvec3 centreOf(const Bounds &bounds) { return 0.5 * bounds.low + 0.5 * bounds.high; }
+
+double halfDiagonal(const Bounds &bounds) { return 0.5 * glm::length(bounds.high - bounds.low); }
+
+/// The unit vector `azimuth` from +z towards +x and `elevation` above the horizon.
+glm::dvec3 towards(double azimuthDegrees, double elevationDegrees) {
+    const double azimuth = glm::radians(azimuthDegrees);
+    const double elevation = glm::radians(elevationDegrees);
+    return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+            std::cos(elevation) * std::cos(azimuth)};
+}
+
+/// A light that gives a neutral surface facing it at the box's centre the radiance wanted:
+/// radiance = power / (4 pi d^2) * albedo / pi.
+PointLight lightFrom(const glm::dvec3 &direction, double radiance, const Bounds &bounds) {
+    const double distance = lightDistance * halfDiagonal(bounds);
+    const double power =
+        radiance * 4.0 * std::numbers::pi * std::numbers::pi * distance * distance / double{neutralAlbedo};
+    return {centreOf(bounds) + distance * direction, glm::dvec3(power)};
+}
+
+} // namespace
+
+Bounds triangleBounds(const TriangleMesh &mesh) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Bounds bounds{glm::dvec3(infinity), glm::dvec3(-infinity)};
+    for (const MeshTriangle &triangle : mesh.triangles)
+        for (glm::length_t corner = 0; corner < 3; ++corner) {
+            const glm::dvec3 position(mesh.positions[triangle.positions[corner]]);
+            bounds.low = glm::min(bounds.low, position);
+            bounds.high = glm::max(bounds.high, position);
+        }
+    if (mesh.triangles.empty())
+        throw Error(ExitCode::BadInput, fmt::format("{}: has no triangle to look at", mesh.name));
+    const double extent = 2.0 * halfDiagonal(bounds);
+    if (!limits::framedExtent.contains(extent))
+        throw Error(ExitCode::BadInput,
+                    fmt::format("{}: the mesh is {:g} across, and a camera is placed for meshes {}; write a "
+                                "scene file that scales it",
+                                mesh.name, extent, limits::framedExtent.text()));
+    return bounds;
+}
+
+Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees) {
+    assert(width >= 1 && height >= 1 && limits::horizontalFovDegrees.contains(horizontalFovDegrees));
+    const glm::dvec3 backwards = towards(35.0, 20.0); // from the box to the camera
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), backwards));
+    const glm::dvec3 up = glm::cross(backwards, right);
+    const double tangentX = (1.0 - margin) * std::tan(glm::radians(0.5 * horizontalFovDegrees));
+    const double tangentY = tangentX * height / width;
+
+    // A corner p from the centre is seen within the margin if |p.right| <= tangentX * (distance - p.backwards),
+    // and so for up. The camera also keeps clear of the box, which matters for wide fields of view.
+    const glm::dvec3 centre = centreOf(bounds);
+    double distance = 1.5 * halfDiagonal(bounds);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p = glm::dvec3((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
+                                        (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
+                                        (corner & 4) != 0 ? bounds.high.z : bounds.low.z) -
+                             centre;
+        const double depth = glm::dot(p, backwards);
+        distance = std::max({distance, depth + std::abs(glm::dot(p, right)) / tangentX,
+                             depth + std::abs(glm::dot(p, up)) / tangentY});
+    }
+
+    Camera camera;
+    camera.position = centre + distance * backwards;
+    camera.direction = -backwards;
+    camera.up = {0.0, 1.0, 0.0};
+    camera.horizontalFovDegrees = horizontalFovDegrees;
+    camera.width = width;
+    camera.height = height;
+    return camera;
+}
+
+Scene frameMesh(TriangleMesh mesh) {
+    const Bounds bounds = triangleBounds(mesh);
+    Material neutral;
+    neutral.name = "neutral";
+    neutral.albedo = glm::vec3(neutralAlbedo);
+    neutral.twoSided = true;
+
+    Scene scene;
+    scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
+    // The fill light stands by the camera, so that its shadows fall where the camera does not see them.
+    scene.lights = {lightFrom(towards(-35.0, 45.0), keyRadiance, bounds),
+                    lightFrom(towards(40.0, 22.0), fillRadiance, bounds)};
+    scene.background = glm::vec3(backgroundGrey);
+    scene.materials = {neutral};
+    mesh.materialIndex = 0;
+    scene.meshes.push_back(std::move(mesh));
+    return scene;
+}
+
+} // namespace hyalite

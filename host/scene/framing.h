@@ -1,0 +1,34 @@
+// A scene around a bare mesh: a camera that sees all of it, and two lights.
+#pragma once
+
+#include "host/scene/scene.h"
+
+namespace hyalite {
+
+/// The box of all corners of all triangles. Throws Error{BadInput} where a mesh names none, or where the box is
+/// too small or too large to be framed (limits.h: framedExtent).
+struct Bounds {
+    glm::dvec3 low;
+    glm::dvec3 high;
+};
+[[nodiscard]] Bounds triangleBounds(const TriangleMesh &mesh);
+
+/// The camera in front of the box, to the right and slightly above, as near as it may come: the projected box
+/// leaves a small margin at each edge of an image of width x height pixels (>= 1), whatever the aspect. The
+/// field of view is in (0, 180).
+///
+///            +y
+///             |   . camera, 20 degrees up, 35 degrees from +z towards +x
+///             |  /
+///             | /
+///             +------ +x
+///            /
+///          +z
+[[nodiscard]] Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees);
+
+/// A scene of the mesh alone: two-sided, of albedo 0.8, before dark grey, seen by frameCamera at the default
+/// size and 40 degrees. A key light from the upper left and a weaker fill light from near the camera: what
+/// faces one of them has a radiance near 0.7 or 0.2, whatever the size of the mesh.
+[[nodiscard]] Scene frameMesh(TriangleMesh mesh);
+
+} // namespace hyalite

@@ -1,0 +1,24 @@
+// A JSON file as a checked document: regular, not too large, not too deep, and without a key given twice.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace hyalite {
+
+/// Parses a regular file of at most 64 MiB, nested at most 32 deep. Throws Error{BadInput}: a syntax error
+/// says "FILE:LINE:COLUMN: ...", a key given twice says "FILE: /path/to/the/key: ...".
+[[nodiscard]] nlohmann::json readJsonFile(const std::filesystem::path &file);
+
+/// Throws Error{BadInput} "FILE: /path/to/the/key: message".
+[[noreturn]] void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path,
+                         std::string_view message);
+
+/// Text from a file, fit for a terminal: no control characters, and cut where it is long.
+[[nodiscard]] std::string printable(std::string text, std::size_t maxBytes = 100);
+
+} // namespace hyalite

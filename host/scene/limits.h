@@ -1,0 +1,68 @@
+// What a scene may hold: the ranges and counts that the loader and the validation share.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <concepts>
+#include <cstddef>
+#include <string>
+
+namespace hyalite {
+
+/// A range of numbers. NaN lies in none.
+struct Interval {
+    double low;
+    double high;
+    bool lowIncluded = true;
+    bool highIncluded = true;
+
+    /// The ends are first rounded to T: what was read in range as a double stays in range as a float.
+    template <std::floating_point T> [[nodiscard]] constexpr bool contains(T value) const {
+        const T lowest = static_cast<T>(low);
+        const T highest = static_cast<T>(high);
+        return (lowIncluded ? value >= lowest : value > lowest) &&
+               (highIncluded ? value <= highest : value < highest);
+    }
+
+    /// In words: "from 0 to 1", "more than 0, less than 180".
+    [[nodiscard]] std::string text() const {
+        if (lowIncluded && highIncluded)
+            return fmt::format("from {:.10g} to {:.10g}", low, high);
+        return fmt::format("{} {:.10g}, {} {:.10g}", lowIncluded ? "at least" : "more than", low,
+                           highIncluded ? "at most" : "less than", high);
+    }
+};
+
+namespace limits {
+
+inline constexpr Interval coordinate{-1e15, 1e15};
+inline constexpr Interval directionLength{1e-100, 1e16}; ///< its square is neither 0 nor infinite
+inline constexpr double leastSineToUp = 1e-6;            ///< of the angle from the view direction to up
+inline constexpr Interval horizontalFovDegrees{0.0, 180.0, false, false};
+inline constexpr Interval imageSize{1, 32768}; ///< pixels, width and height alike
+
+inline constexpr Interval power{0.0, 1e30};    ///< per channel
+inline constexpr Interval radiance{0.0, 1e30}; ///< of the background, per channel
+inline constexpr Interval fraction{0.0, 1.0};  ///< albedo, tint, light through glass
+inline constexpr Interval refractiveIndex{1.0, 10.0};
+inline constexpr Interval radius{0.0, 1e15, false};
+
+inline constexpr Interval meshScale{-1e15, 1e15}; ///< and not 0
+inline constexpr Interval rotateDegrees{-3600.0, 3600.0};
+inline constexpr double normalLengthTolerance = 1e-3; ///< of a mesh normal's length around 1
+inline constexpr Interval framedExtent{1e-12, 1e12};  ///< box diagonal of a mesh that can be framed
+
+inline constexpr Interval samplesPerPixel{1, 65536};
+inline constexpr Interval maxDepth{1, 32};
+inline constexpr Interval leafSize{1, 64};
+inline constexpr Interval seed{0, 4294967295.0};
+inline constexpr Interval exposureStops{-100.0, 100.0};
+
+inline constexpr std::size_t lightCount = 16;
+inline constexpr std::size_t sphereCount = 64; ///< each ray tests all of them
+inline constexpr std::size_t materialCount = 65536;
+inline constexpr std::size_t meshCount = 4096;
+inline constexpr std::size_t triangleCount = std::size_t{1} << 30; ///< of all meshes together
+
+} // namespace limits
+} // namespace hyalite

@@ -1,0 +1,34 @@
+// The words for settings, as scene files, command lines and reports use them: the one place.
+#pragma once
+
+#include "host/scene/scene.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace hyalite {
+
+template <class Value> using Name = std::pair<std::string_view, Value>;
+
+inline constexpr std::array<Name<Integrator>, 1> integratorNames{{{"whitted", Integrator::Whitted}}};
+inline constexpr std::array<Name<TreeKind>, 3> treeNames{
+    {{"midpoint", TreeKind::Midpoint}, {"sah", TreeKind::Sah}, {"none", TreeKind::None}}};
+inline constexpr std::array<Name<SamplerKind>, 2> samplerNames{
+    {{"sobol", SamplerKind::Sobol}, {"centre", SamplerKind::Centre}}};
+
+template <class Value, std::size_t count>
+[[nodiscard]] constexpr std::string_view nameIn(const std::array<Name<Value>, count> &names, Value wanted) {
+    for (const auto &[name, value] : names)
+        if (value == wanted)
+            return name;
+    return {};
+}
+
+[[nodiscard]] constexpr std::string_view nameOf(Integrator integrator) {
+    return nameIn(integratorNames, integrator);
+}
+[[nodiscard]] constexpr std::string_view nameOf(TreeKind tree) { return nameIn(treeNames, tree); }
+[[nodiscard]] constexpr std::string_view nameOf(SamplerKind sampler) { return nameIn(samplerNames, sampler); }
+
+} // namespace hyalite

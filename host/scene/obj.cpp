@@ -1,0 +1,88 @@
+#include "host/scene/obj.h"
+
+#include "host/scene/obj_lines.h"
+#include "host/scene/obj_mesh.h"
+#include "host/scene/obj_statement.h"
+
+// Compiled in here, in double: the library that distributions build rounds each number to float before the
+// transform, and converts what is out of range. Rotations and large offsets would show that.
+#define TINYOBJLOADER_IMPLEMENTATION
+#ifndef TINYOBJLOADER_USE_DOUBLE
+#define TINYOBJLOADER_USE_DOUBLE
+#endif
+#include <tiny_obj_loader.h>
+
+#include <istream>
+#include <streambuf>
+
+namespace hyalite {
+
+namespace {
+
+// Stands between the file and tinyobjloader, which knows no line numbers and trusts what it reads: hands on
+// one checked statement at a time, so that in a callback the current line is the statement's.
+class CheckedObjSource : public std::streambuf {
+  public:
+    CheckedObjSource(ObjLines &objLines, MeshReport &meshReport) : lines(objLines), report(meshReport) {}
+
+  protected:
+    int_type underflow() override {
+        while (const std::optional<std::span<char>> line = lines.next()) {
+            const CheckedStatement statement = checkStatement(*line, lines);
+            if (statement.kind == ObjStatement::Geometry) {
+                char *const begin = statement.text.data();
+                setg(begin, begin, begin + statement.text.size());
+                return traits_type::to_int_type(*begin);
+            }
+            report.unusedStatementCount += statement.kind == ObjStatement::Unused;
+        }
+        return traits_type::eof();
+    }
+
+  private:
+    ObjLines &lines;
+    MeshReport &report;
+};
+
+struct CallbackData {
+    const ObjLines &lines;
+    ObjMeshBuilder &builder;
+};
+
+CallbackData &callbackData(void *userData) { return *static_cast<CallbackData *>(userData); }
+
+tinyobj::callback_t makeCallbacks() {
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = [](void *userData, double x, double y, double z, double) {
+        const CallbackData &data = callbackData(userData);
+        data.builder.addPosition({x, y, z}, data.lines.lineNumber());
+    };
+    callbacks.normal_cb = [](void *userData, double x, double y, double z) {
+        callbackData(userData).builder.addNormal({x, y, z});
+    };
+    callbacks.index_cb = [](void *userData, tinyobj::index_t *indices, int count) {
+        const CallbackData &data = callbackData(userData);
+        data.builder.addFace(data.lines.lineNumber());
+        for (int i = 0; i < count; ++i)
+            data.builder.addCorner({indices[i].vertex_index, indices[i].normal_index});
+    };
+    return callbacks;
+}
+
+} // namespace
+
+ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform) {
+    ObjLines lines(file);
+    ObjMeshBuilder builder(lines.fileName(), transform);
+    MeshReport skipped;
+    CheckedObjSource source(lines, skipped);
+    std::istream stream(&source);
+    stream.exceptions(std::ios::badbit); // so that an Error of the source passes through the stream
+    CallbackData data{lines, builder};
+    tinyobj::LoadObjWithCallback(stream, makeCallbacks(), &data);
+    ObjMesh loaded = builder.finish();
+    loaded.report.unusedStatementCount = skipped.unusedStatementCount;
+    return loaded;
+}
+
+} // namespace hyalite

@@ -1,0 +1,72 @@
+// Collects the vertices, normals and faces of an OBJ file and makes them one triangle mesh in world space.
+#pragma once
+
+#include "host/scene/obj.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// A corner of a face as the file has it: from 1, or from -1 backwards; a normal of 0 is none.
+struct ObjCorner {
+    std::int32_t position;
+    std::int32_t normal;
+};
+
+/// Fed in the order of the file, at most 2^32 - 1 of each thing. Faces are kept as corners until the end,
+/// because OBJ files may name vertices before they define them; 8 bytes a corner and 8 a face.
+class ObjMeshBuilder {
+  public:
+    ObjMeshBuilder(std::string file, const MeshTransform &transform);
+
+    /// Takes a `v` of line `line`. Throws Error{BadInput} where it is no finite float, or further than 1e15
+    /// from a coordinate plane after the transform.
+    void addPosition(const glm::dvec3 &positionObject, std::size_t line);
+
+    /// Takes a `vn`; one that is zero or not finite is kept as lost.
+    void addNormal(const glm::dvec3 &normalObject);
+
+    /// Begins a face, whose corners follow.
+    void addFace(std::size_t line);
+
+    /// Throws Error{BadInput} where a relative index leads before the first vertex or normal.
+    void addCorner(const ObjCorner &corner);
+
+    /// Cuts the faces into triangles and gives all away. Throws Error{BadInput} for indices past the end of
+    /// the file's vertices or normals, and when no triangle is left.
+    [[nodiscard]] ObjMesh finish();
+
+  private:
+    struct Corner {
+        std::uint32_t position;
+        std::uint32_t normal; ///< or MeshTriangle::noNormal
+    };
+
+    struct Face {
+        std::uint32_t line;
+        std::uint32_t cornerBegin;
+    };
+
+    struct FaceNormals {
+        bool all, any; ///< of its corners have a normal
+    };
+
+    [[nodiscard]] std::uint32_t resolve(std::int32_t index, std::size_t count, const char *what) const;
+    [[nodiscard]] FaceNormals checkIndices(std::span<const Corner> face, std::size_t line) const;
+    void addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals);
+
+    glm::dmat3 rotation;
+    double scale;
+    glm::dvec3 translate;
+    std::vector<Corner> corners;
+    std::vector<Face> faces;
+    ObjMesh result;
+};
+
+} // namespace hyalite

@@ -1,0 +1,106 @@
+// The scene as plain data: world space, linear RGB, nothing of files or devices.
+//
+// World space is right-handed with +y up. Positions and lengths share one arbitrary unit. Loaders fill a
+// Scene, `validateScene` (validate.h) checks it once, and everything downstream may rely on what it promises.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// A pinhole camera. Pixel (0,0) is top left and its centre is (0.5, 0.5).
+struct Camera {
+    glm::dvec3 position{0.0, 0.0, 55.0};
+    glm::dvec3 direction{0.0, 0.0, -1.0}; ///< of view; any length but zero
+    glm::dvec3 up{0.0, 1.0, 0.0};         ///< not parallel to `direction`; any length but zero
+    double horizontalFovDegrees = 60.0;   ///< in (0, 180)
+    int width = 512;                      ///< pixels
+    int height = 512;                     ///< pixels
+};
+
+/// An isotropic point light. Its radiant intensity is power / (4 pi) in each channel.
+struct PointLight {
+    glm::dvec3 position{0.0};
+    glm::dvec3 power{0.0}; ///< per colour channel, >= 0
+};
+
+enum class MaterialKind : std::uint32_t { Diffuse = 0, Mirror = 1, Dielectric = 2 };
+
+struct Material {
+    std::string name;
+    MaterialKind kind = MaterialKind::Diffuse;
+    glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]
+    bool twoSided = false;        ///< Diffuse: turn the normal towards the viewer before shading
+    float refractiveIndex = 1.5f; ///< Dielectric: relative to the surroundings, in [1, 10]
+    glm::vec3 segmentTint{
+        1.0f}; ///< Dielectric: factor on all that a segment inside returns, whatever its length
+};
+
+struct Sphere {
+    glm::dvec3 centre{0.0};
+    double radius = 1.0; ///< > 0
+    std::uint32_t materialIndex = 0;
+    bool inwardNormal = false; ///< the normal points to the centre: outside is where a glass shell's glass is
+};
+
+/// Corner indices into TriangleMesh::positions and ::normals; counter-clockwise seen from outside.
+struct MeshTriangle {
+    glm::uvec3 positions{0};
+    glm::uvec3 normals{
+        noNormal}; ///< all three set, or all three `noNormal`: then the geometric normal is used
+
+    static constexpr std::uint32_t noNormal = std::numeric_limits<std::uint32_t>::max();
+};
+
+struct TriangleMesh {
+    std::string name; ///< for messages: the file it came from
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals; ///< unit length
+    std::vector<MeshTriangle> triangles;
+    std::uint32_t materialIndex = 0;
+};
+
+enum class Integrator { Whitted };
+enum class TreeKind { None, Midpoint, Sah };
+enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
+
+/// What a render does with the scene; the command line may override each of them.
+struct RenderSettings {
+    Integrator integrator = Integrator::Whitted;
+    int samplesPerPixel = 16; ///< in [1, 65536]
+    int maxDepth = 7;         ///< segments of a path, the primary ray being the first; in [1, 32]
+    TreeKind tree = TreeKind::Midpoint;
+    int leafSize = 8; ///< most triangles in a leaf, where they can be separated; in [1, 64]
+    SamplerKind sampler = SamplerKind::Sobol;
+    std::uint32_t seed = 0;
+    double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
+};
+
+struct Scene {
+    Camera camera;
+    std::vector<PointLight> lights;
+    glm::vec3 background{0.0f}; ///< radiance of rays that leave the scene
+    float shadowThroughGlass =
+        1.0f; ///< factor on light that reaches a point through dielectrics alone; in [0, 1]
+    std::vector<Material> materials;
+    std::vector<Sphere> spheres;
+    std::vector<TriangleMesh> meshes;
+    RenderSettings settings;
+};
+
+/// Triangles of all meshes together.
+[[nodiscard]] inline std::size_t triangleCount(const Scene &scene) {
+    std::size_t count = 0;
+    for (const TriangleMesh &mesh : scene.meshes)
+        count += mesh.triangles.size();
+    return count;
+}
+
+} // namespace hyalite

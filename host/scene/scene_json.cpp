@@ -1,0 +1,184 @@
+#include "host/scene/scene_json.h"
+
+#include "host/scene/json_document.h"
+#include "host/scene/json_reader.h"
+#include "host/scene/limits.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace hyalite {
+namespace {
+
+using namespace std::string_view_literals;
+
+enum class LightKind { Point };
+
+constexpr std::pair<std::string_view, LightKind> lightKinds[] = {{"point", LightKind::Point}};
+constexpr std::pair<std::string_view, MaterialKind> materialKinds[] = {
+    {"diffuse", MaterialKind::Diffuse},
+    {"mirror", MaterialKind::Mirror},
+    {"dielectric", MaterialKind::Dielectric},
+};
+constexpr std::pair<std::string_view, Integrator> integrators[] = {{"whitted", Integrator::Whitted}};
+constexpr std::pair<std::string_view, TreeKind> treeKinds[] = {
+    {"midpoint", TreeKind::Midpoint},
+    {"sah", TreeKind::Sah},
+    {"none", TreeKind::None},
+};
+constexpr std::pair<std::string_view, SamplerKind> samplerKinds[] = {
+    {"centre", SamplerKind::Centre},
+    {"sobol", SamplerKind::Sobol},
+};
+
+glm::dvec3 readDirection(const JsonObject &object, std::string_view key, const glm::dvec3 &fallback) {
+    const glm::dvec3 direction = object.vector(key, limits::coordinate, fallback);
+    if (!limits::directionLength.contains(glm::length(direction)))
+        object.at(key).fail(fmt::format("found length {}; allowed: a length {}", glm::length(direction),
+                                        limits::directionLength.text()));
+    return direction;
+}
+
+Camera readCamera(const JsonObject &object) {
+    Camera camera;
+    camera.position = object.vector("position", limits::coordinate, camera.position);
+    camera.direction = readDirection(object, "direction", camera.direction);
+    camera.up = readDirection(object, "up", camera.up);
+    camera.horizontalFovDegrees =
+        object.number("horizontalFov", limits::horizontalFovDegrees, camera.horizontalFovDegrees);
+    camera.width = object.integer("width", limits::imageSize, camera.width);
+    camera.height = object.integer("height", limits::imageSize, camera.height);
+    if (const std::optional<JsonNode> target = object.find("target")) {
+        if (object.find("direction"))
+            target->fail("found beside \"direction\"; allowed: one of the two");
+        camera.direction = target->vector(limits::coordinate) - camera.position;
+        if (!limits::directionLength.contains(glm::length(camera.direction)))
+            target->fail("is the camera's own position; allowed: any other point");
+    }
+    return camera;
+}
+
+PointLight readLight(const JsonObject &object) {
+    static_cast<void>(object.choice("type", lightKinds));
+    return {object.vector("position", limits::coordinate), object.colour("power", limits::power)};
+}
+
+Material readMaterial(const std::string &name, const JsonObject &object) {
+    Material material;
+    material.name = name;
+    material.kind = object.choice("type", materialKinds);
+    switch (material.kind) {
+    case MaterialKind::Diffuse:
+        object.allowOnly(scene_keys::diffuse);
+        material.albedo = glm::vec3(object.colour("albedo", limits::fraction, glm::dvec3(material.albedo)));
+        material.twoSided = object.boolean("twoSided", material.twoSided);
+        break;
+    case MaterialKind::Mirror:
+        object.allowOnly(scene_keys::mirror);
+        break;
+    case MaterialKind::Dielectric:
+        object.allowOnly(scene_keys::dielectric);
+        material.refractiveIndex =
+            static_cast<float>(object.number("index", limits::refractiveIndex, material.refractiveIndex));
+        material.segmentTint =
+            glm::vec3(object.colour("segmentTint", limits::fraction, glm::dvec3(material.segmentTint)));
+        break;
+    }
+    return material;
+}
+
+/// The index of the material that the object's key "material" names.
+std::uint32_t readMaterialIndex(const JsonObject &object, const std::vector<Material> &materials) {
+    const JsonNode node = object.at("material");
+    const std::string name = node.text();
+    const auto found = std::find_if(materials.begin(), materials.end(),
+                                    [&](const Material &material) { return material.name == name; });
+    if (found == materials.end()) {
+        std::vector<std::string_view> names;
+        for (const Material &material : materials)
+            names.push_back(material.name);
+        node.refuse(names.empty() ? "a name in /materials, which defines none"
+                                  : "a name in /materials: " + quotedList(names) + suggestion(name, names));
+    }
+    return static_cast<std::uint32_t>(found - materials.begin());
+}
+
+Sphere readSphere(const JsonObject &object, const std::vector<Material> &materials) {
+    Sphere sphere;
+    sphere.centre = object.vector("centre", limits::coordinate);
+    sphere.radius = object.number("radius", limits::radius);
+    sphere.materialIndex = readMaterialIndex(object, materials);
+    sphere.inwardNormal = object.boolean("inwardNormal", sphere.inwardNormal);
+    return sphere;
+}
+
+ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials,
+                 const std::filesystem::path &folder) {
+    MeshTransform transform;
+    transform.scale = object.number("scale", limits::meshScale, transform.scale);
+    if (transform.scale == 0.0)
+        object.at("scale").refuse("a number that is not 0");
+    transform.rotateDegrees = object.vector("rotateDegrees", limits::rotateDegrees, transform.rotateDegrees);
+    transform.translate = object.vector("translate", limits::coordinate, transform.translate);
+    const std::uint32_t materialIndex = readMaterialIndex(object, materials);
+
+    const std::filesystem::path file = folder / object.text("file");
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+        object.at("file").refuse(fmt::format("an OBJ file; there is none at {}", file.string()));
+    ObjMesh mesh = loadObj(file, transform);
+    mesh.mesh.materialIndex = materialIndex;
+    return mesh;
+}
+
+RenderSettings readSettings(const JsonObject &object) {
+    RenderSettings settings;
+    settings.integrator = object.choice("integrator", integrators, settings.integrator);
+    settings.samplesPerPixel = object.integer("spp", limits::samplesPerPixel, settings.samplesPerPixel);
+    settings.maxDepth = object.integer("maxDepth", limits::maxDepth, settings.maxDepth);
+    settings.tree = object.choice("bvh", treeKinds, settings.tree);
+    settings.leafSize = object.integer("leafSize", limits::leafSize, settings.leafSize);
+    settings.sampler = object.choice("sampler", samplerKinds, settings.sampler);
+    settings.seed = object.integer("seed", limits::seed, settings.seed);
+    settings.exposureStops = object.number("exposure", limits::exposureStops, settings.exposureStops);
+    return settings;
+}
+
+} // namespace
+
+LoadedScene loadSceneFile(const std::filesystem::path &file) {
+    const nlohmann::json document = readJsonFile(file);
+    const std::string fileName = file.string();
+    const JsonObject top({&document, &fileName}, scene_keys::top);
+    for (const std::string_view ignored : {"$schema"sv, "description"sv})
+        static_cast<void>(top.text(ignored, ""));
+
+    LoadedScene loaded;
+    loaded.file = file;
+    Scene &scene = loaded.scene;
+    scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
+    if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera))
+        scene.camera = readCamera(*camera);
+    for (const JsonNode &light : top.elements("lights", limits::lightCount))
+        scene.lights.push_back(readLight({light, scene_keys::light}));
+    if (const std::optional<JsonNode> materials = top.find("materials"))
+        for (const auto &[name, material] : JsonObject(*materials).members(limits::materialCount))
+            scene.materials.push_back(readMaterial(name, JsonObject(material)));
+    for (const JsonNode &sphere : top.elements("spheres", limits::sphereCount))
+        scene.spheres.push_back(readSphere({sphere, scene_keys::sphere}, scene.materials));
+    if (const std::optional<JsonObject> settings = top.object("settings", scene_keys::settings)) {
+        scene.settings = readSettings(*settings);
+        scene.shadowThroughGlass = static_cast<float>(
+            settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
+    }
+    for (const JsonNode &node : top.elements("meshes", limits::meshCount)) {
+        ObjMesh mesh = readMesh({node, scene_keys::mesh}, scene.materials, file.parent_path());
+        scene.meshes.push_back(std::move(mesh.mesh));
+        loaded.meshReports.push_back(mesh.report);
+    }
+    return loaded;
+}
+
+} // namespace hyalite

@@ -1,0 +1,101 @@
+// The scene file: JSON in, Scene out. assets/hyalite-scene.schema.json says the same to editors.
+//
+//   {
+//     "$schema", "description"  texts, ignored
+//     "background"   colour, default black: radiance of rays that leave the scene
+//     "camera": {
+//       "position"       point, default [0, 0, 55]
+//       "target"         point to look at, or
+//       "direction"      vector of view, default [0, 0, -1]
+//       "up"             vector, default [0, 1, 0]; not parallel to the view
+//       "horizontalFov"  degrees in (0, 180), default 60
+//       "width", "height"  pixels from 1 to 32768, default 512
+//     },
+//     "lights": [ {           at most 16
+//       "type"           "point"
+//       "position"       point
+//       "power"          colour; the radiant intensity is power / (4 pi)
+//     } ],
+//     "materials": { NAME: one of
+//       { "type": "diffuse", "albedo": colour in [0, 1], default 0.5;
+//                            "twoSided": true turns the normal to the viewer, default false }
+//       { "type": "mirror" }
+//       { "type": "dielectric", "index": from 1 to 10, default 1.5;
+//                               "segmentTint": colour in [0, 1], default 1: a factor on all that a segment
+//                                              inside returns, whatever its length }
+//     },
+//     "spheres": [ {          at most 64
+//       "centre"         point
+//       "radius"         more than 0
+//       "material"       NAME
+//       "inwardNormal"   true: the normal points to the centre, default false
+//     } ],
+//     "meshes": [ {
+//       "file"           OBJ, relative to the scene file
+//       "material"       NAME
+//       "scale"          not 0, default 1; then
+//       "rotateDegrees"  about x, y and z in that order, default [0, 0, 0]; then
+//       "translate"      vector, default [0, 0, 0]
+//     } ],
+//     "settings": {
+//       "integrator"     "whitted"
+//       "spp"            samples a pixel, from 1 to 65536, default 16
+//       "maxDepth"       segments of a path, from 1 to 32, default 7
+//       "bvh"            "midpoint" (default), "sah" or "none"
+//       "leafSize"       triangles, from 1 to 64, default 8
+//       "sampler"        "sobol" (default) or "centre"
+//       "seed"           from 0 to 4294967295, default 0
+//       "exposure"       stops from -100 to 100, default 0
+//       "shadowThroughGlass"  factor on light that comes through glass alone, in [0, 1], default 1
+//     }
+//   }
+//
+// Points and vectors are [x, y, z]; a colour is linear [r, g, b], or one number for grey. A key without a
+// default is required where its object is given; every object of the top level may be left out.
+#pragma once
+
+#include "host/scene/obj.h"
+#include "host/scene/scene.h"
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace hyalite {
+
+struct LoadedScene {
+    Scene scene;
+    std::filesystem::path file;
+    std::vector<MeshReport> meshReports; ///< one for each of scene.meshes
+    bool autoFramed = false; ///< a bare mesh: where the image size is overridden, call frameCamera again
+};
+
+/// Reads a scene file and the meshes that it names. Values are in range and names are defined; what concerns
+/// several values at once (is up parallel to the view?) is left to validateScene. Throws Error{BadInput}
+/// naming the file, the key as a JSON path such as /spheres/3/radius (a syntax error: line and column), what
+/// was found and what is allowed.
+[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file);
+
+/// The keys of each object of a scene file.
+namespace scene_keys {
+
+inline constexpr auto top =
+    std::to_array<std::string_view>({"$schema", "description", "camera", "background", "lights", "materials",
+                                     "spheres", "meshes", "settings"});
+inline constexpr auto camera = std::to_array<std::string_view>(
+    {"position", "target", "direction", "up", "horizontalFov", "width", "height"});
+inline constexpr auto light = std::to_array<std::string_view>({"type", "position", "power"});
+inline constexpr auto diffuse = std::to_array<std::string_view>({"type", "albedo", "twoSided"});
+inline constexpr auto mirror = std::to_array<std::string_view>({"type"});
+inline constexpr auto dielectric = std::to_array<std::string_view>({"type", "index", "segmentTint"});
+inline constexpr auto sphere =
+    std::to_array<std::string_view>({"centre", "radius", "material", "inwardNormal"});
+inline constexpr auto mesh =
+    std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material"});
+inline constexpr auto settings =
+    std::to_array<std::string_view>({"integrator", "spp", "maxDepth", "bvh", "leafSize", "sampler", "seed",
+                                     "exposure", "shadowThroughGlass"});
+
+} // namespace scene_keys
+} // namespace hyalite

@@ -1,0 +1,66 @@
+// Splits polygons in space into triangles: ear clipping in the plane that the polygon faces most.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyalite {
+
+/// Triangulates one polygon after the other; keeps its working memory between them (about 75 bytes a corner).
+///
+/// Ear clipping after G. H. Meisters, "Polygons Have Ears", American Mathematical Monthly 82 (1975), with the
+/// list of reflex corners of D. Eberly, "Triangulation by Ear Clipping" (2002). O(n r) for n corners of which
+/// r are reflex. The plane's normal is the sum of I. E. Sutherland, R. F. Sproull and R. A. Schumacker's
+/// "Newell" terms (A Characterization of Ten Hidden-Surface Algorithms, ACM Computing Surveys 6 (1974)).
+class Triangulator {
+  public:
+    /// Splits a polygon of n >= 3 corners into exactly n - 2 triangles of corner numbers in [0, n), each wound
+    /// as the polygon is. A quad that is convex is split between its corners 0 and 2.
+    ///
+    /// A simple polygon, convex or concave, in any plane, with collinear corners, is covered once, and no
+    /// triangle has zero area unless all corners are collinear. Polygons that touch themselves (holes on a
+    /// bridge) are covered once too. Self-crossing, folded or non-finite ones give n - 2 triangles of no
+    /// promised shape. The span is valid until the next call. Throws nothing but std::bad_alloc.
+    [[nodiscard]] std::span<const glm::uvec3> triangulate(std::span<const glm::vec3> corners);
+
+  private:
+    /// What may be clipped. A simple polygon always has an ear of the first kind; each further kind is tried,
+    /// once and for good, when no corner of the kind before is left.
+    enum class Ear {
+        Strict,   ///< convex, and its closed triangle holds no other reflex corner
+        Touching, ///< convex, and no reflex corner lies inside the triangle or on the tip
+        Convex,   ///< convex, whatever lies inside
+        Any,      ///< every corner
+    };
+
+    struct ReflexCorner {
+        glm::dvec2 point;
+        std::uint32_t corner;
+    };
+
+    void project(std::span<const glm::vec3> corners);
+    void linkCorners();
+    void clipEars(Ear kind);
+    void clip(std::uint32_t corner);
+    void queueForNextRound(std::uint32_t corner);
+    void updateReflex(std::uint32_t corner);
+    void forgetReflex(std::uint32_t corner);
+    [[nodiscard]] double turn(std::uint32_t corner) const;
+    [[nodiscard]] bool isEar(std::uint32_t corner, Ear kind) const;
+
+    std::vector<glm::dvec2> points; ///< corners in the plane, counter-clockwise
+    std::vector<std::uint32_t> previous, next;
+    std::vector<std::uint32_t> reflexSlot; ///< corner -> place in `reflex`, or notReflex
+    std::vector<ReflexCorner> reflex;      ///< corners left that are not strictly convex, in no order
+    std::vector<std::uint8_t> state;       ///< of each corner: bits of CornerState
+    std::vector<std::uint32_t> thisRound, nextRound;
+    std::vector<glm::uvec3> triangles;
+    std::size_t remaining = 0;
+};
+
+} // namespace hyalite

@@ -1,0 +1,158 @@
+#include "host/scene/validate.h"
+
+#include "host/error.h"
+#include "host/scene/limits.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+
+namespace hyalite {
+namespace {
+
+/// One object of the scene and the words for it, which are put together only for a message.
+class Checked {
+  public:
+    Checked(const std::string &sourceName, std::string_view kind, std::size_t index,
+            std::string_view name = {})
+        : sourceName_(sourceName), kind_(kind), name_(name), index_(index) {}
+    Checked(const std::string &sourceName, std::string_view kind)
+        : sourceName_(sourceName), kind_(kind), isOnlyOne_(true) {}
+
+    [[noreturn]] void refuse(std::string_view property, std::string_view found,
+                             std::string_view allowed) const {
+        std::string object(kind_);
+        if (!isOnlyOne_)
+            object += fmt::format(" {}", index_);
+        if (!name_.empty())
+            object += fmt::format(" ({})", name_);
+        throw Error(ExitCode::BadInput, fmt::format("{}: {}: {}: found {}; allowed: {}", sourceName_, object,
+                                                    property, found, allowed));
+    }
+
+    template <class T> void within(const Interval &allowed, T value, std::string_view property) const {
+        using Real = std::conditional_t<std::is_integral_v<T>, double, T>;
+        if (!allowed.contains(static_cast<Real>(value)))
+            refuse(property, fmt::format("{}", value), "a number " + allowed.text());
+    }
+
+    template <class T>
+    void within(const Interval &allowed, const glm::vec<3, T> &value, std::string_view property) const {
+        if (!isWithin(allowed, value))
+            refuse(property, fmt::format("({}, {}, {})", value.x, value.y, value.z),
+                   "numbers " + allowed.text());
+    }
+
+    template <class T> static bool isWithin(const Interval &allowed, const glm::vec<3, T> &value) {
+        return allowed.contains(value.x) && allowed.contains(value.y) && allowed.contains(value.z);
+    }
+
+    void atMost(std::size_t allowed, std::size_t count, std::string_view property) const {
+        if (count > allowed)
+            refuse(property, fmt::format("{}", count), fmt::format("at most {}", allowed));
+    }
+
+    void indexBelow(std::size_t count, std::size_t index, std::string_view property) const {
+        if (index >= count)
+            refuse(property, fmt::format("index {}", index), fmt::format("less than {}", count));
+    }
+
+  private:
+    const std::string &sourceName_;
+    std::string_view kind_;
+    std::string_view name_{};
+    std::size_t index_ = 0;
+    bool isOnlyOne_ = false;
+};
+
+void checkDirection(const Checked &checked, const glm::dvec3 &direction, std::string_view property) {
+    checked.within(limits::coordinate, direction, property);
+    checked.within(limits::directionLength, glm::length(direction), fmt::format("length of {}", property));
+}
+
+void checkCamera(const Camera &camera, const Checked &checked) {
+    checked.within(limits::coordinate, camera.position, "position");
+    checkDirection(checked, camera.direction, "direction");
+    checkDirection(checked, camera.up, "up");
+    const double sineToUp =
+        glm::length(glm::cross(glm::normalize(camera.direction), glm::normalize(camera.up)));
+    if (!(sineToUp >= limits::leastSineToUp))
+        checked.refuse("up", "the view direction's own axis", "any other axis");
+    checked.within(limits::horizontalFovDegrees, camera.horizontalFovDegrees, "horizontal field of view");
+    checked.within(limits::imageSize, camera.width, "width");
+    checked.within(limits::imageSize, camera.height, "height");
+}
+
+void checkMaterial(const Material &material, const Checked &checked) {
+    checked.within(limits::fraction, material.albedo, "albedo");
+    checked.within(limits::refractiveIndex, material.refractiveIndex, "index");
+    checked.within(limits::fraction, material.segmentTint, "segmentTint");
+}
+
+void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checked &checked) {
+    checked.indexBelow(materialCount, mesh.materialIndex, "material");
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        if (!Checked::isWithin(limits::coordinate, mesh.positions[i]))
+            checked.within(limits::coordinate, mesh.positions[i], fmt::format("vertex {}", i));
+
+    const Interval unitLength{1.0 - limits::normalLengthTolerance, 1.0 + limits::normalLengthTolerance};
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+        if (const float length = glm::length(mesh.normals[i]); !unitLength.contains(length))
+            checked.within(unitLength, length, fmt::format("length of normal {}", i));
+
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const MeshTriangle &triangle = mesh.triangles[i];
+        const bool isFlat = triangle.normals == glm::uvec3(MeshTriangle::noNormal);
+        for (glm::length_t corner = 0; corner < 3; ++corner) {
+            if (triangle.positions[corner] >= mesh.positions.size())
+                checked.indexBelow(mesh.positions.size(), triangle.positions[corner],
+                                   fmt::format("vertex of triangle {}", i));
+            if (!isFlat && triangle.normals[corner] >= mesh.normals.size())
+                checked.indexBelow(mesh.normals.size(), triangle.normals[corner],
+                                   fmt::format("normal of triangle {}", i));
+        }
+    }
+}
+
+void checkSettings(const RenderSettings &settings, const Checked &checked) {
+    checked.within(limits::samplesPerPixel, settings.samplesPerPixel, "spp");
+    checked.within(limits::maxDepth, settings.maxDepth, "maxDepth");
+    checked.within(limits::leafSize, settings.leafSize, "leafSize");
+    checked.within(limits::exposureStops, settings.exposureStops, "exposure");
+}
+
+} // namespace
+
+void validateScene(const Scene &scene, const std::string &sourceName) {
+    const Checked whole(sourceName, "scene");
+    whole.atMost(limits::lightCount, scene.lights.size(), "lights");
+    whole.atMost(limits::materialCount, scene.materials.size(), "materials");
+    whole.atMost(limits::sphereCount, scene.spheres.size(), "spheres");
+    whole.atMost(limits::meshCount, scene.meshes.size(), "meshes");
+    whole.atMost(limits::triangleCount, triangleCount(scene), "triangles");
+    whole.within(limits::radiance, scene.background, "background");
+    whole.within(limits::fraction, scene.shadowThroughGlass, "shadowThroughGlass");
+
+    checkCamera(scene.camera, {sourceName, "camera"});
+    checkSettings(scene.settings, {sourceName, "settings"});
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const Checked checked(sourceName, "light", i);
+        checked.within(limits::coordinate, scene.lights[i].position, "position");
+        checked.within(limits::power, scene.lights[i].power, "power");
+    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        checkMaterial(scene.materials[i], {sourceName, "material", i, scene.materials[i].name});
+    for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
+        const Checked checked(sourceName, "sphere", i);
+        checked.within(limits::coordinate, scene.spheres[i].centre, "centre");
+        checked.within(limits::radius, scene.spheres[i].radius, "radius");
+        checked.indexBelow(scene.materials.size(), scene.spheres[i].materialIndex, "material");
+    }
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        checkMesh(scene.meshes[i], scene.materials.size(), {sourceName, "mesh", i, scene.meshes[i].name});
+}
+
+} // namespace hyalite

@@ -1,0 +1,6 @@
+// The program's version: the one place, set by the build.
+#pragma once
+
+#ifndef HYALITE_VERSION
+#error "HYALITE_VERSION comes from project(VERSION) in CMakeLists.txt"
+#endif

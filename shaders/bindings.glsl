@@ -1,0 +1,24 @@
+// What a kernel is given: buffers, push constants and specialization constants, as layout.h describes them.
+
+layout(set = 0, binding = bindingFrame, std140) uniform FrameBuffer { FrameRecord frame; };
+layout(set = 0, binding = bindingSpheres, std140) uniform SphereBuffer { SphereRecord spheres[maxSphereCount]; };
+layout(set = 0, binding = bindingLights, std140) uniform LightBuffer { LightRecord lights[maxLightCount]; };
+layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuffer { MaterialRecord materials[]; };
+layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { NodePair nodes[]; };
+layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
+layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
+layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
+layout(set = 0, binding = bindingProgress, std430) buffer ProgressBuffer { DispatchProgress progress; };
+layout(set = 0, binding = bindingPaths, std430) buffer PathBuffer { PathRecord pathRecords[]; };
+layout(set = 0, binding = bindingPending, std430) buffer PendingBuffer { PendingRay pendingRays[]; };
+layout(set = 0, binding = bindingStacks, std430) buffer StackBuffer { uint stackEntries[]; };
+
+layout(push_constant) uniform DispatchBlock { DispatchConstants dispatch; };
+
+layout(constant_id = constantSphereCount) const uint sphereCount = 0u;
+layout(constant_id = constantHasTriangles) const bool hasTriangles = true;
+layout(constant_id = constantHasSpecular) const bool hasSpecular = true;
+layout(constant_id = constantHasDielectric) const bool hasDielectric = true;
+layout(constant_id = constantSampler) const uint samplerKind = samplerSobol;
+layout(constant_id = constantMaxDepth) const uint maxDepth = 7u;
+layout(constant_id = constantStackSize) const uint stackSize = maxTreeDepth;

@@ -1,0 +1,27 @@
+// Reflection and refraction at smooth glass. Twin: host/reference/dielectric.h.
+
+struct Refraction {
+    vec3 direction;    // of the transmitted ray, unit length; meaningless when total
+    float reflectance; // share of the light that is reflected, in [0, 1]
+    bool isTotal;      // nothing is transmitted
+};
+
+// `direction` meets a surface whose unit normal `facing` lies on the side that it comes from. `index` is that of the
+// glass relative to its surroundings; `isEntering`: the ray comes from the surroundings.
+//
+// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, with the cosine on the optically thinner
+// side, so that the reflectance rises to 1 at the critical angle.
+Refraction refractRay(vec3 direction, vec3 facing, float index, bool isEntering) {
+    precise float eta = isEntering ? 1.0 / index : index;
+    precise float cosIncident = -dotProduct(direction, facing);
+    precise float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
+    precise float cosTransmitted = sqrt(max(radicand, 0.0));
+    precise float along = eta * cosIncident - cosTransmitted;
+    precise vec3 transmitted = direction * eta + facing * along;
+    precise float ratio = (1.0 - index) / (1.0 + index);
+    precise float normalReflectance = ratio * ratio;
+    precise float k = 1.0 - (isEntering ? cosIncident : cosTransmitted);
+    precise float k2 = k * k;
+    precise float reflectance = normalReflectance + (1.0 - normalReflectance) * (k2 * k2 * k);
+    return Refraction(unitVector(transmitted), reflectance, radicand < 0.0);
+}

@@ -1,0 +1,263 @@
+// The one contract of host and shaders: every byte that both sides read or write is described here.
+//
+// Compiled as C++ (with GLM) and as GLSL. All structs are made of 16-byte rows (vec3 + scalar, or four scalars), so
+// that C++, std140 and std430 agree without padding rules. No bool, no matrix.
+#ifndef HYALITE_LAYOUT_H
+#define HYALITE_LAYOUT_H
+
+#ifdef __cplusplus
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace hyalite::layout {
+using glm::vec3;
+using uint = std::uint32_t;
+#endif
+
+// ---- Limits
+
+const uint maxSphereCount = 64u; // spheres are tested one after the other, from a uniform buffer
+const uint maxLightCount = 16u;
+const uint maxPathDepth = 32u;
+const uint maxTreeDepth = 64u; // subtrees that can wait for one ray: the builders keep every tree below it
+
+// ---- Primitives
+// A primitive's id orders all primitives of a scene: spheres first, then triangles, each by their index in the
+// input. Where two hits have the same distance, the smaller id is the nearest one.
+
+const uint noPrimitive = 0xFFFFFFFFu;
+const uint firstTriangleId = maxSphereCount; // id of the triangle with input index 0
+
+struct SphereRecord {
+    vec3 centre; // world space
+    float radius;
+    uint materialIndex;
+    float normalSign; // +1: outward, -1: towards the centre
+    uint pad0;
+    uint pad1;
+};
+
+struct TriangleRecord {
+    vec3 v0; // world space; counter-clockwise seen from outside
+    uint primitiveId;
+    vec3 v1;
+    uint materialIndex;
+    vec3 v2;
+    uint flags;
+};
+
+const uint triangleIsTransmissive = 1u; // of a dielectric: light passes, dimmed
+const uint triangleEndsLeaf = 2u;       // the last triangle of its leaf
+
+// Shading normals of the triangle with the same index; zero vectors stand for "use the geometric normal".
+struct NormalRecord {
+    vec3 n0;
+    float pad0;
+    vec3 n1;
+    float pad1;
+    vec3 n2;
+    float pad2;
+};
+
+// ---- The tree
+// An inner node holds the boxes of both of its children, so that one fetch decides about two subtrees. A child is
+// an inner node (its index in the node array), or a leaf (leafFlag | index of its first triangle; the triangle that
+// ends the leaf says so itself), or nothing (noNode). Node 0 is the root; every scene has one.
+
+const uint leafFlag = 0x80000000u;
+const uint noNode = 0xFFFFFFFFu;
+
+struct NodePair {
+    vec3 leftLower;
+    uint left;
+    vec3 leftUpper;
+    uint pad0;
+    vec3 rightLower;
+    uint right;
+    vec3 rightUpper;
+    uint pad1;
+};
+
+// ---- Materials and lights
+
+const uint materialDiffuse = 0u;
+const uint materialMirror = 1u;
+const uint materialDielectric = 2u;
+const uint noMaterial = 0xFFFFFFFFu;
+
+struct MaterialRecord {
+    vec3 albedo;
+    uint kind;
+    vec3 segmentTint; // factor on all that a segment inside this dielectric returns
+    float refractiveIndex;
+    uint isTwoSided;
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+
+struct LightRecord {
+    vec3 position;
+    float pad0;
+    vec3 intensity; // radiant intensity: power / (4 pi)
+    float pad1;
+};
+
+// ---- What is the same for a whole render
+
+const uint samplerCentre = 0u;
+const uint samplerSobol = 1u;
+
+struct FrameRecord {
+    vec3 eye;
+    uint imageWidth; // of the whole image, in pixels
+    // The primary ray through the image position (x, y), in pixels with y down, has the direction
+    //     pixelRight * (x - imageWidth/2) + pixelUp * (imageHeight/2 - y) + imagePlane
+    vec3 pixelRight;
+    uint imageHeight;
+    vec3 pixelUp;
+    uint seed;
+    vec3 imagePlane;
+    uint lightCount;
+    vec3 background; // radiance
+    float shadowThroughGlass;
+    vec3 boundsLower; // of all triangles
+    uint triangleCount;
+    vec3 boundsUpper;
+    uint pad0;
+};
+
+// ---- What changes with each dispatch
+// A dispatch works on one tile of the film, one path slot a pixel. `stepBudget` bounds the loop iterations of a
+// slot; what is not finished by then waits in the path buffer for a dispatch with `isResumed` set.
+
+struct DispatchConstants {
+    uint cropX; // pixel of the whole image where the film begins
+    uint cropY;
+    uint filmWidth; // pixels
+    uint filmHeight;
+    uint tileX; // pixel of the film where the tile begins
+    uint tileY;
+    uint tileWidth; // pixels, a multiple of 8; the film may end inside the tile
+    uint tileHeight;
+    uint sampleBegin; // samples [sampleBegin, sampleEnd) are added to the film
+    uint sampleEnd;
+    uint stepBudget;
+    uint isResumed; // 0: start the tile's samples, 1: go on with what waits
+};
+
+// ---- Results
+
+struct FilmPixel {
+    vec3 sum; // of the samples' radiance
+    uint sampleCount;
+    vec3 sumOfSquares;
+    float pad0;
+};
+
+// Counters of one dispatch, added up over all of its slots.
+struct DispatchProgress {
+    uint unfinishedSlots;
+    uint stackOverflows; // subtrees that found no room to wait: 0 in any valid tree
+    uint pad0;
+    uint pad1;
+    uint primaryRays;
+    uint shadowRays;
+    uint reflectionRays;
+    uint refractionRays;
+};
+
+// ---- A path slot, as it waits between two dispatches
+
+const uint stageNextRay = 0u;   // take the next pending ray, or begin the next sample
+const uint stageNewRay = 1u;    // a ray is ready to be traced
+const uint stageClosest = 2u;   // looking for its nearest hit
+const uint stageNextLight = 3u; // on a diffuse surface: aim at the next light
+const uint stageShadow = 4u;    // looking for anything between the surface and the light
+const uint stageDone = 5u;      // all samples of the pixel are in the film
+
+struct PathRecord {
+    vec3 rayOrigin;
+    uint stage;
+    vec3 rayDirection;
+    float rayLength; // nearest hit so far, or the distance to the light
+    vec3 throughput;
+    uint rayExcluded; // the primitive that the ray starts on
+    float hitU;       // weights of v0 and v1 at the nearest hit so far
+    float hitV;
+    uint hitPrimitive; // its id
+    uint hitRecord;    // its index among the sphere or the triangle records
+    vec3 surfacePosition;
+    uint surfacePrimitive;
+    vec3 surfaceNormal;
+    uint lightIndex;
+    vec3 surfaceGeometricNormal;
+    uint rayDepth;      // segment number of the current ray: 1 for a primary ray
+    vec3 surfaceWeight; // throughput * albedo / pi
+    uint rayMedium;     // material of the glass around the ray, or noMaterial
+    vec3 surfaceError;  // bound on the rounding error of surfacePosition
+    uint sampleIndex;
+    vec3 sampleRadiance;
+    uint pendingCount;   // rays that wait in the pending buffer
+    uint cursorNode;     // the inner node to visit next, or noNode
+    uint cursorTriangle; // the leaf's triangle to test next, or noNode
+    uint stackSize;      // subtrees that wait in the stack buffer
+    uint isLightDimmed;  // 1: the shadow ray has passed glass
+};
+
+// A ray that a dielectric has split off, to be traced later: at most one for each level of depth.
+struct PendingRay {
+    vec3 origin;
+    uint excluded;
+    vec3 direction;
+    uint depth;
+    vec3 throughput;
+    uint medium;
+};
+
+// ---- Bindings, all in set 0. The first three are uniform buffers, the others storage buffers.
+
+const uint bindingFrame = 0u;
+const uint bindingSpheres = 1u; // maxSphereCount records
+const uint bindingLights = 2u;  // maxLightCount records
+const uint bindingMaterials = 3u;
+const uint bindingNodes = 4u;
+const uint bindingTriangles = 5u;
+const uint bindingNormals = 6u;
+const uint bindingFilm = 7u;
+const uint bindingProgress = 8u;
+const uint bindingPaths = 9u;
+const uint bindingPending = 10u; // maxDepth rays a slot
+const uint bindingStacks = 11u;  // stackSize references a slot
+const uint bindingCount = 12u;
+
+// ---- Specialization constants: what a scene does not use costs nothing
+
+const uint constantWorkgroupSize = 0u;
+const uint constantSphereCount = 1u;
+const uint constantHasTriangles = 2u;
+const uint constantHasSpecular = 3u; // mirrors or dielectrics
+const uint constantHasDielectric = 4u;
+const uint constantSampler = 5u;
+const uint constantMaxDepth = 6u;
+const uint constantStackSize = 7u;
+const uint constantCount = 8u;
+
+#ifdef __cplusplus
+static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);
+static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) == 44);
+static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
+static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
+static_assert(sizeof(MaterialRecord) == 48 && offsetof(MaterialRecord, isTwoSided) == 32);
+static_assert(sizeof(LightRecord) == 32 && offsetof(LightRecord, intensity) == 16);
+static_assert(sizeof(FrameRecord) == 112 && offsetof(FrameRecord, boundsUpper) == 96);
+static_assert(sizeof(DispatchConstants) == 48, "push constants: at most 128 bytes everywhere");
+static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
+static_assert(sizeof(DispatchProgress) == 32);
+static_assert(sizeof(PathRecord) == 176 && offsetof(PathRecord, cursorNode) == 160);
+static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
+} // namespace hyalite::layout
+#endif
+#endif

@@ -1,0 +1,40 @@
+// Points on surfaces and the rays that leave them. Twin: host/reference/surface.h.
+
+struct Surface {
+    vec3 position;
+    vec3 error;           // bound on the rounding error of the position
+    vec3 normal;          // for shading, unit length
+    vec3 geometricNormal; // of the real surface, unit length, on the side of `normal`
+};
+
+Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord sphere) {
+    precise vec3 position = origin + direction * distance;
+    precise vec3 outward = position - sphere.centre;
+    precise vec3 normal = unitVector(outward) * sphere.normalSign;
+    return Surface(position, vec3(0.0), normal, normal);
+}
+
+Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, float v) {
+    precise vec3 edge1 = triangle.v1 - triangle.v0;
+    precise vec3 edge2 = triangle.v2 - triangle.v0;
+    vec3 area = crossProduct(edge1, edge2);
+    vec3 geometric = dotProduct(area, area) > 0.0 ? unitVector(area) : vec3(0.0); // no area: no light
+    vec3 blended = trianglePoint(normals.n0, normals.n1, normals.n2, u, v);
+    vec3 normal = dotProduct(blended, blended) > 0.0 ? unitVector(blended) : geometric;
+    Surface surface;
+    surface.position = trianglePoint(triangle.v0, triangle.v1, triangle.v2, u, v);
+    surface.error = trianglePointError(triangle.v0, triangle.v1, triangle.v2, u, v);
+    surface.normal = normal;
+    surface.geometricNormal = dotProduct(geometric, normal) < 0.0 ? -geometric : geometric;
+    return surface;
+}
+
+// Where a ray leaves the surface in `direction`: moved along the geometric normal by twice the error bound, to the
+// side that the ray goes to (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
+// Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
+vec3 spawnPoint(vec3 position, vec3 error, vec3 geometricNormal, vec3 direction) {
+    precise float distance = 2.0 * dotProduct(abs(geometricNormal), error);
+    precise float side = dotProduct(direction, geometricNormal) < 0.0 ? -distance : distance;
+    precise vec3 origin = position + geometricNormal * side;
+    return origin;
+}

@@ -1,0 +1,109 @@
+// The portable traversal: an explicit stack over the node pairs, in storage buffers.
+//
+// Works on the global path slots, all of them at once, because on a CPU two independent rays hide each other's
+// latency. A step visits at most one inner node and tests at most one triangle for each slot. It can stop after any
+// step: the cursor, the nearest hit and the stack all outlive the dispatch.
+
+bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
+
+void pushSubtree(uint slot, uint subtree) {
+    uint size = path[slot].stackSize;
+    if (size < stackSize) {
+        stackEntries[size * slotCount() + slotIndex[slot]] = subtree;
+        path[slot].stackSize = size + 1u;
+    } else {
+        stackOverflowCount += 1u;
+    }
+}
+
+uint popSubtree(uint slot) {
+    uint size = path[slot].stackSize;
+    if (size == 0u)
+        return noNode;
+    path[slot].stackSize = size - 1u;
+    return stackEntries[(size - 1u) * slotCount() + slotIndex[slot]];
+}
+
+void enterSubtree(uint slot, uint subtree) {
+    bool isLeaf = subtree != noNode && (subtree & leafFlag) != 0u;
+    path[slot].cursorNode = isLeaf ? noNode : subtree;
+    path[slot].cursorTriangle = isLeaf ? subtree & ~leafFlag : noNode;
+}
+
+void stopTraversal(uint slot) {
+    path[slot].cursorNode = noNode;
+    path[slot].cursorTriangle = noNode;
+    path[slot].stackSize = 0u;
+}
+
+void visitNode(uint slot, BoxRay ray) {
+    NodePair node = nodes[path[slot].cursorNode];
+    vec2 left = boxInterval(ray, node.leftLower, node.leftUpper);
+    vec2 right = boxInterval(ray, node.rightLower, node.rightUpper);
+    bool isLeftHit = node.left != noNode && left.x <= min(left.y, path[slot].rayLength);
+    bool isRightHit = node.right != noNode && right.x <= min(right.y, path[slot].rayLength);
+    bool isRightNearer = isRightHit && (!isLeftHit || right.x < left.x);
+    uint nearer = isRightNearer ? node.right : node.left;
+    if (isLeftHit && isRightHit)
+        pushSubtree(slot, isRightNearer ? node.left : node.right);
+    if (!isLeftHit && !isRightHit)
+        nearer = popSubtree(slot);
+    enterSubtree(slot, nearer);
+}
+
+void visitTriangle(uint slot, TriangleRay ray, BoxRay boxRay, const bool isShadow) {
+    uint record = path[slot].cursorTriangle;
+    TriangleRecord triangle = triangles[record];
+    TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
+    uint id = triangle.primitiveId;
+    bool isHit = hit.distance > 0.0 && id != path[slot].rayExcluded;
+    bool isLast = (triangle.flags & triangleEndsLeaf) != 0u;
+    uint next = record + 1u;
+    if (isLast)
+        next = popSubtree(slot);
+    enterSubtree(slot, isLast ? next : next | leafFlag);
+    if (isShadow) {
+        bool isBetween = isHit && hit.distance < path[slot].rayLength;
+        bool isTransmissive = (triangle.flags & triangleIsTransmissive) != 0u;
+        if (isBetween && isTransmissive)
+            path[slot].isLightDimmed = 1u;
+        if (isBetween && !isTransmissive) {
+            path[slot].hitPrimitive = id;
+            stopTraversal(slot);
+        }
+    } else {
+        bool isNearer = hit.distance < path[slot].rayLength ||
+                        (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive);
+        if (isHit && isNearer) {
+            path[slot].rayLength = hit.distance;
+            path[slot].hitU = hit.u;
+            path[slot].hitV = hit.v;
+            path[slot].hitPrimitive = id;
+            path[slot].hitRecord = record;
+        }
+    }
+}
+
+// Carries on with the rays of all slots at `stage`, until all are through the tree or the step budget is spent.
+// isShadow: any opaque hit will do, glass only dims; otherwise the nearest hit is wanted.
+void traverse(uint stage, const bool isShadow) {
+    BoxRay boxRay[RAYS];
+    TriangleRay triangleRay[RAYS];
+    bool isRunning = false;
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+        boxRay[slot] = makeBoxRay(path[slot].rayOrigin, path[slot].rayDirection, frame.boundsLower, frame.boundsUpper);
+        triangleRay[slot] = makeTriangleRay(path[slot].rayOrigin, path[slot].rayDirection);
+        isRunning = isRunning || (path[slot].stage == stage && isTraversing(slot));
+    }
+    while (isRunning && stepsTaken < dispatch.stepBudget) {
+        isRunning = false;
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+            if (path[slot].stage == stage && path[slot].cursorNode != noNode)
+                visitNode(slot, boxRay[slot]);
+            if (path[slot].stage == stage && path[slot].cursorTriangle != noNode)
+                visitTriangle(slot, triangleRay[slot], boxRay[slot], isShadow);
+            isRunning = isRunning || (path[slot].stage == stage && isTraversing(slot));
+        }
+        stepsTaken += 1u;
+    }
+}

@@ -1,0 +1,74 @@
+// Watertight ray-triangle intersection. Twin: host/reference/triangle.h.
+//
+// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013. The vertices are sheared to where
+// the ray is the z axis, so a vertex has one image for all triangles that share it. An edge function
+// fl(fl(a b) - fl(c d)) never has the wrong sign, as rounding is monotone: it is right or 0, and 0 counts as inside.
+// Hence no ray passes between triangles that share an edge or a vertex. Unlike the paper we need no second precision
+// where an edge function is 0: the hit is confined to the triangle's own box, which also keeps needles from being
+// hit where they are not.
+
+struct TriangleRay {
+    vec3 origin;
+    uint axis;  // the largest component of the direction: 0, 1, 2
+    vec3 shear; // direction[x]/direction[z], direction[y]/direction[z], 1/direction[z], with z = axis
+};
+
+struct TriangleHit {
+    float distance; // not positive: no hit
+    float u;        // weights of the first and the second vertex
+    float v;
+};
+
+// Rotates components so that the given axis becomes z.
+vec3 axisToZ(vec3 v, uint axis) { return axis == 0u ? v.yzx : (axis == 1u ? v.zxy : v); }
+
+TriangleRay makeTriangleRay(vec3 origin, vec3 direction) {
+    vec3 size = abs(direction);
+    TriangleRay ray;
+    ray.origin = origin;
+    ray.axis = size.z >= size.x && size.z >= size.y ? 2u : (size.y >= size.x ? 1u : 0u);
+    vec3 along = axisToZ(direction, ray.axis);
+    precise float inverse = 1.0 / along.z;
+    precise vec2 shear = along.xy * inverse;
+    ray.shear = vec3(shear, inverse);
+    return ray;
+}
+
+TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, vec3 v2) {
+    precise vec3 a = axisToZ(v0 - ray.origin, ray.axis);
+    precise vec3 b = axisToZ(v1 - ray.origin, ray.axis);
+    precise vec3 c = axisToZ(v2 - ray.origin, ray.axis);
+    precise vec2 p = a.xy - ray.shear.xy * a.z;
+    precise vec2 q = b.xy - ray.shear.xy * b.z;
+    precise vec2 r = c.xy - ray.shear.xy * c.z;
+    precise float e0 = r.x * q.y - r.y * q.x;
+    precise float e1 = p.x * r.y - p.y * r.x;
+    precise float e2 = q.x * p.y - q.y * p.x;
+    bool isInside = min(min(e0, e1), e2) >= 0.0 || max(max(e0, e1), e2) <= 0.0;
+    precise float determinant = e0 + e1 + e2;
+    precise float inverse = 1.0 / determinant;
+    precise float u = e0 * inverse;
+    precise float v = e1 * inverse;
+    precise float w = e2 * inverse;
+    precise float depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
+    vec2 interval = boxInterval(boxRay, min(min(v0, v1), v2), max(max(v0, v1), v2));
+    float distance = min(max(depth, interval.x), interval.y);
+    bool isHit = isInside && determinant != 0.0 && interval.x <= interval.y;
+    return TriangleHit(isHit ? distance : 0.0, u, v);
+}
+
+// The point with weights u, v, 1-u-v on a triangle.
+vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
+    precise float w = 1.0 - u - v;
+    precise vec3 point = v0 * u + v1 * v + v2 * w;
+    return point;
+}
+
+// A bound on the rounding error of trianglePoint, for each coordinate: Pharr, Jakob and Humphreys, "Physically Based
+// Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7).
+vec3 trianglePointError(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
+    precise float w = 1.0 - u - v;
+    precise vec3 size = abs(v0 * u) + abs(v1 * v) + abs(v2 * w);
+    precise vec3 bound = size * (8.0 / 16777216.0);
+    return bound;
+}

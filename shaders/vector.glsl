@@ -1,0 +1,40 @@
+// Vector arithmetic with a fixed order of operations. Twin: host/reference/vector.h.
+//
+// The built-in dot, cross, normalize and reflect may be evaluated in any order, so they are ours. `precise` forbids
+// contraction to fused operations, but only inside the function where it stands: every intermediate value that
+// reaches a picture is `precise` in its own function.
+
+float dotProduct(vec3 a, vec3 b) {
+    precise float sum = a.x * b.x + a.y * b.y + a.z * b.z;
+    return sum;
+}
+
+vec3 crossProduct(vec3 a, vec3 b) {
+    precise float x = a.y * b.z - a.z * b.y;
+    precise float y = a.z * b.x - a.x * b.z;
+    precise float z = a.x * b.y - a.y * b.x;
+    return vec3(x, y, z);
+}
+
+float vectorLength(vec3 v) {
+    precise float squared = dotProduct(v, v);
+    return sqrt(squared);
+}
+
+// `v` is not zero.
+vec3 unitVector(vec3 v) {
+    precise float scale = 1.0 / vectorLength(v);
+    precise vec3 unit = v * scale;
+    return unit;
+}
+
+// The mirror image of direction `d` at a surface with unit normal `n`, whichever side `n` is on.
+vec3 mirrorDirection(vec3 d, vec3 n) {
+    precise float twice = 2.0 * dotProduct(d, n);
+    precise vec3 mirrored = d - n * twice;
+    return mirrored;
+}
+
+float largestComponent(vec3 v) { return max(max(v.x, v.y), v.z); }
+
+float smallestComponent(vec3 v) { return min(min(v.x, v.y), v.z); }

@@ -1,0 +1,31 @@
+// Entry kernel: the Whitted integrator over the stack traversal, RAYS path slots an invocation.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+
+#include "layout.h"
+
+layout(local_size_x_id = 0) in;
+
+#include "bindings.glsl"
+#include "vector.glsl"
+#include "random.glsl"
+#include "camera.glsl"
+#include "box.glsl"
+#include "triangle.glsl"
+#include "sphere.glsl"
+#include "dielectric.glsl"
+#include "surface.glsl"
+#include "path_slots.glsl"
+#include "traverse_stack.glsl"
+#include "whitted.glsl"
+
+void main() {
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        loadSlot(slot);
+    while (isUnfinished() && stepsTaken < dispatch.stepBudget)
+        advancePaths();
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        storeSlot(slot);
+    addProgress();
+}

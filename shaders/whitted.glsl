@@ -1,0 +1,252 @@
+// The report's integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
+// deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
+// Twin: host/reference/whitted.h, where the same happens ray by ray.
+//
+// A path slot works through the samples of one pixel and, for each, through the tree of rays that glass makes of it.
+// Stages follow each other so that all slots of a subgroup that are about the same work do it together; each stage
+// does nothing for slots that are elsewhere.
+
+const float inversePi = 0.31830988618379067;
+
+void startRay(uint slot, vec3 origin, vec3 direction, uint excluded, uint depth, uint medium) {
+    path[slot].rayOrigin = origin;
+    path[slot].rayDirection = direction;
+    path[slot].rayExcluded = excluded;
+    path[slot].rayDepth = depth;
+    path[slot].rayMedium = medium;
+    path[slot].stage = stageNewRay;
+}
+
+void addSampleToFilm(uint slot) {
+    precise vec3 sum = film[slot].sum + path[slot].sampleRadiance;
+    precise vec3 square = path[slot].sampleRadiance * path[slot].sampleRadiance;
+    precise vec3 sumOfSquares = film[slot].sumOfSquares + square;
+    film[slot].sum = sum;
+    film[slot].sumOfSquares = sumOfSquares;
+    film[slot].sampleCount += 1u;
+}
+
+// Stage: take the ray that waits, or else finish the sample and begin the next one.
+void chooseNextRay(uint slot) {
+    if (hasDielectric && path[slot].pendingCount > 0u) {
+        path[slot].pendingCount -= 1u;
+        PendingRay ray = pendingRays[path[slot].pendingCount * slotCount() + slotIndex[slot]];
+        path[slot].throughput = ray.throughput;
+        startRay(slot, ray.origin, ray.direction, ray.excluded, ray.depth, ray.medium);
+        return;
+    }
+    if (path[slot].rayDepth != 0u) {
+        addSampleToFilm(slot);
+        path[slot].sampleIndex += 1u;
+    }
+    path[slot].sampleRadiance = vec3(0.0);
+    path[slot].throughput = vec3(1.0);
+    if (path[slot].sampleIndex < dispatch.sampleEnd) {
+        uvec2 pixel = imagePixel[slot];
+        vec3 direction = primaryDirection(pixel, samplePixel(pixel, path[slot].sampleIndex, frame.seed));
+        startRay(slot, frame.eye, direction, noPrimitive, 1u, noMaterial);
+        rayCounts.x += 1u;
+    } else {
+        path[slot].rayDepth = 0u;
+        path[slot].stage = stageDone;
+    }
+}
+
+// Stage: meet the spheres and stand at the root of the tree.
+void beginClosest(uint slot) {
+    path[slot].rayLength = unbounded;
+    path[slot].hitPrimitive = noPrimitive;
+    for (uint i = 0u; i < sphereCount; ++i) {
+        float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, spheres[i].centre,
+                                         spheres[i].radius, path[slot].rayExcluded == i);
+        if (distance > 0.0 && distance < path[slot].rayLength) {
+            path[slot].rayLength = distance;
+            path[slot].hitPrimitive = i;
+        }
+    }
+    path[slot].hitRecord = path[slot].hitPrimitive;
+    enterSubtree(slot, hasTriangles ? 0u : noNode);
+    path[slot].stage = stageClosest;
+}
+
+void reflectRay(uint slot, Surface surface, uint medium) {
+    vec3 direction = mirrorDirection(path[slot].rayDirection, surface.normal);
+    vec3 origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, direction);
+    startRay(slot, origin, direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u, medium);
+    rayCounts.z += 1u;
+}
+
+void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint materialIndex, bool isEntering) {
+    vec3 direction = path[slot].rayDirection;
+    vec3 facing = isEntering ? surface.normal : -surface.normal;
+    Refraction refraction = refractRay(direction, facing, material.refractiveIndex, isEntering);
+    uint mediumOfReflection = isEntering ? path[slot].rayMedium : materialIndex;
+    if (refraction.isTotal) {
+        reflectRay(slot, surface, mediumOfReflection);
+        return;
+    }
+    // The reflected ray waits, the refracted one goes on.
+    PendingRay reflected;
+    reflected.direction = mirrorDirection(direction, surface.normal);
+    reflected.origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, reflected.direction);
+    reflected.excluded = path[slot].hitPrimitive;
+    reflected.depth = path[slot].rayDepth + 1u;
+    reflected.medium = mediumOfReflection;
+    precise vec3 reflectedThroughput = path[slot].throughput * refraction.reflectance;
+    reflected.throughput = reflectedThroughput;
+    pendingRays[path[slot].pendingCount * slotCount() + slotIndex[slot]] = reflected;
+    path[slot].pendingCount += 1u;
+    rayCounts.z += 1u;
+
+    precise float transmittance = 1.0 - refraction.reflectance;
+    precise vec3 throughput = path[slot].throughput * transmittance;
+    path[slot].throughput = throughput;
+    vec3 origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, refraction.direction);
+    startRay(slot, origin, refraction.direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u,
+             isEntering ? materialIndex : noMaterial);
+    rayCounts.w += 1u;
+}
+
+void leaveScene(uint slot) {
+    vec3 throughput = path[slot].throughput;
+    if (hasDielectric && path[slot].rayMedium != noMaterial)
+        throughput *= materials[path[slot].rayMedium].segmentTint;
+    precise vec3 radiance = path[slot].sampleRadiance + throughput * frame.background;
+    path[slot].sampleRadiance = radiance;
+    path[slot].stage = stageNextRay;
+}
+
+// Stage: the nearest hit is known.
+void shadeHit(uint slot) {
+    if (path[slot].hitPrimitive == noPrimitive) {
+        leaveScene(slot);
+        return;
+    }
+    Surface surface;
+    uint materialIndex;
+    if (hasTriangles && path[slot].hitPrimitive >= firstTriangleId) {
+        TriangleRecord triangle = triangles[path[slot].hitRecord];
+        surface = triangleSurface(triangle, normals[path[slot].hitRecord], path[slot].hitU, path[slot].hitV);
+        materialIndex = triangle.materialIndex;
+    } else {
+        SphereRecord sphere = spheres[path[slot].hitRecord];
+        surface = sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
+        materialIndex = sphere.materialIndex;
+    }
+    MaterialRecord material = materials[materialIndex];
+    vec3 direction = path[slot].rayDirection;
+    bool isEntering = dotProduct(direction, surface.normal) < 0.0;
+    bool isGlass = hasDielectric && material.kind == materialDielectric;
+    if (hasDielectric) {
+        uint medium = isGlass && !isEntering ? materialIndex : path[slot].rayMedium;
+        if (medium != noMaterial)
+            path[slot].throughput *= materials[medium].segmentTint;
+    }
+    path[slot].stage = stageNextRay;
+    if (!hasSpecular || material.kind == materialDiffuse) {
+        if (material.isTwoSided != 0u && dotProduct(direction, surface.geometricNormal) > 0.0) {
+            surface.normal = -surface.normal;
+            surface.geometricNormal = -surface.geometricNormal;
+        }
+        path[slot].surfacePosition = surface.position;
+        path[slot].surfaceError = surface.error;
+        path[slot].surfaceNormal = surface.normal;
+        path[slot].surfaceGeometricNormal = surface.geometricNormal;
+        path[slot].surfacePrimitive = path[slot].hitPrimitive;
+        precise vec3 weight = path[slot].throughput * (material.albedo * inversePi);
+        path[slot].surfaceWeight = weight;
+        path[slot].lightIndex = 0u;
+        path[slot].stage = stageNextLight;
+    } else if (path[slot].rayDepth < maxDepth) {
+        if (isGlass)
+            splitAtGlass(slot, surface, material, materialIndex, isEntering);
+        else
+            reflectRay(slot, surface, path[slot].rayMedium);
+    }
+}
+
+// Stage: send a shadow ray from the surface to the next light, if it lies on the lit side.
+void aimAtLight(uint slot) {
+    if (path[slot].lightIndex == frame.lightCount) {
+        path[slot].stage = stageNextRay;
+        return;
+    }
+    precise vec3 toLight = lights[path[slot].lightIndex].position - path[slot].surfacePosition;
+    float distance = vectorLength(toLight);
+    precise float inverse = 1.0 / distance;
+    precise vec3 direction = toLight * inverse;
+    bool isLit = dotProduct(path[slot].surfaceNormal, direction) > 0.0 &&
+                 dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0;
+    if (!isLit) {
+        path[slot].lightIndex += 1u;
+        return;
+    }
+    rayCounts.y += 1u;
+    path[slot].rayOrigin = spawnPoint(path[slot].surfacePosition, path[slot].surfaceError,
+                                      path[slot].surfaceGeometricNormal, direction);
+    path[slot].rayDirection = direction;
+    path[slot].rayLength = distance;
+    path[slot].rayExcluded = path[slot].surfacePrimitive;
+    path[slot].hitPrimitive = noPrimitive;
+    path[slot].isLightDimmed = 0u;
+    for (uint i = 0u; i < sphereCount; ++i) {
+        float meeting = intersectSphere(path[slot].rayOrigin, direction, spheres[i].centre, spheres[i].radius,
+                                        path[slot].rayExcluded == i);
+        if (meeting > 0.0 && meeting < distance) {
+            if (hasDielectric && materials[spheres[i].materialIndex].kind == materialDielectric)
+                path[slot].isLightDimmed = 1u;
+            else
+                path[slot].hitPrimitive = i;
+        }
+    }
+    enterSubtree(slot, hasTriangles && path[slot].hitPrimitive == noPrimitive ? 0u : noNode);
+    path[slot].stage = stageShadow;
+}
+
+// Stage: the shadow ray has arrived, or was stopped.
+void addLight(uint slot) {
+    if (path[slot].hitPrimitive == noPrimitive) {
+        precise float squaredDistance = path[slot].rayLength * path[slot].rayLength;
+        precise float cosine = dotProduct(path[slot].surfaceNormal, path[slot].rayDirection);
+        precise float falloff = cosine / squaredDistance;
+        precise vec3 irradiance = lights[path[slot].lightIndex].intensity * falloff;
+        precise vec3 light = path[slot].surfaceWeight * irradiance;
+        if (hasDielectric && path[slot].isLightDimmed != 0u)
+            light *= frame.shadowThroughGlass;
+        precise vec3 radiance = path[slot].sampleRadiance + light;
+        path[slot].sampleRadiance = radiance;
+    }
+    path[slot].lightIndex += 1u;
+    path[slot].stage = path[slot].lightIndex < frame.lightCount ? stageNextLight : stageNextRay;
+}
+
+bool isUnfinished() {
+    bool any = false;
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        any = any || path[slot].stage != stageDone;
+    return any;
+}
+
+// One pass over all stages.
+void advancePaths() {
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        if (path[slot].stage == stageNextRay)
+            chooseNextRay(slot);
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        if (path[slot].stage == stageNewRay)
+            beginClosest(slot);
+    if (hasTriangles)
+        traverse(stageClosest, false);
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        if (path[slot].stage == stageClosest && !isTraversing(slot))
+            shadeHit(slot);
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        if (path[slot].stage == stageNextLight)
+            aimAtLight(slot);
+    if (hasTriangles)
+        traverse(stageShadow, true);
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        if (path[slot].stage == stageShadow && !isTraversing(slot))
+            addLight(slot);
+    stepsTaken += 1u + 2u * sphereCount;
+}

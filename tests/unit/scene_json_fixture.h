@@ -1,0 +1,81 @@
+// A folder of its own for each test of the scene file, and a scene that uses the whole grammar.
+#pragma once
+
+#include "host/error.h"
+#include "host/scene/scene_json.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace hyalite {
+
+/// Writes scene files and loads them; a mesh of one triangle, triangle.obj, lies beside them.
+class SceneFolder : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::filesystem::create_directories(folder);
+        static_cast<void>(write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    [[nodiscard]] std::filesystem::path write(const std::string &name, const std::string &text) const {
+        std::ofstream(folder / name, std::ios::binary) << text;
+        return folder / name;
+    }
+
+    [[nodiscard]] Scene load(const std::string &text) const {
+        return loadSceneFile(write("scene.json", text)).scene;
+    }
+
+    /// The message with which a file is refused, less its own name; empty where it is loaded.
+    [[nodiscard]] static std::string refusalOf(const std::filesystem::path &file) {
+        try {
+            static_cast<void>(loadSceneFile(file));
+        } catch (const Error &error) {
+            EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+            const std::string message = error.what();
+            EXPECT_TRUE(message.starts_with(file.string() + ":")) << message;
+            return message.substr(std::min(message.size(), file.string().size() + 1));
+        }
+        return {};
+    }
+    [[nodiscard]] std::string refusal(const std::string &text) const {
+        return refusalOf(write("scene.json", text));
+    }
+
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / fmt::format("hyalite-scene-json-{}", getpid());
+};
+
+/// A scene in which each object of the grammar stands once, with all of its keys (but `direction`, which
+/// excludes `target`).
+inline nlohmann::json completeScene() {
+    return nlohmann::json::parse(R"({
+        "$schema": "hyalite-scene.schema.json",
+        "description": "all that there is",
+        "camera": {"position": [1, 2, 3], "target": [1, 2, -4], "up": [0, 2, 0], "horizontalFov": 45.5,
+                   "width": 333, "height": 217},
+        "background": [0.1, 0.2, 0.3],
+        "lights": [{"type": "point", "position": [-10, 20, 40], "power": [1, 2, 3]}],
+        "materials": {
+            "paper": {"type": "diffuse", "albedo": [0.25, 0.5, 1], "twoSided": true},
+            "chrome": {"type": "mirror"},
+            "ice": {"type": "dielectric", "index": 1.31, "segmentTint": 0.75}
+        },
+        "spheres": [{"centre": [4, 5, 6], "radius": 7, "material": "ice", "inwardNormal": true}],
+        "meshes": [{"file": "triangle.obj", "scale": 2, "rotateDegrees": [0, 0, 90],
+                    "translate": [0, 0, -5], "material": "paper"}],
+        "settings": {"integrator": "whitted", "spp": 32, "maxDepth": 12, "bvh": "sah", "leafSize": 4,
+                     "sampler": "centre", "seed": 4294967295, "exposure": -1.5, "shadowThroughGlass": 0.5}
+    })");
+}
+
+} // namespace hyalite

@@ -1,0 +1,230 @@
+// The scene file: what it says is what is loaded, and what it may not say is refused with its place.
+#include "host/scene/validate.h"
+#include "tests/unit/scene_json_fixture.h"
+
+#include <sys/stat.h>
+
+#include <ostream>
+#include <vector>
+
+namespace hyalite {
+namespace {
+
+using nlohmann::json;
+
+using SceneJson = SceneFolder;
+
+// ---- What a file says is what is loaded
+
+TEST_F(SceneJson, EveryValueReachesTheScene) {
+    const Scene scene = load(completeScene().dump());
+    EXPECT_EQ(scene.camera.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.camera.direction, glm::dvec3(0, 0, -7));
+    EXPECT_EQ(scene.camera.up, glm::dvec3(0, 2, 0));
+    EXPECT_EQ(scene.camera.horizontalFovDegrees, 45.5);
+    EXPECT_EQ(scene.camera.width, 333);
+    EXPECT_EQ(scene.camera.height, 217);
+    EXPECT_EQ(scene.background, glm::vec3(0.1f, 0.2f, 0.3f));
+
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].position, glm::dvec3(-10, 20, 40));
+    EXPECT_EQ(scene.lights[0].power, glm::dvec3(1, 2, 3));
+
+    ASSERT_EQ(scene.materials.size(), 3u);
+    ASSERT_EQ(scene.spheres.size(), 1u);
+    EXPECT_EQ(scene.spheres[0].centre, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(scene.spheres[0].radius, 7.0);
+    EXPECT_TRUE(scene.spheres[0].inwardNormal);
+    const Material &ice = scene.materials.at(scene.spheres[0].materialIndex);
+    EXPECT_EQ(ice.name, "ice");
+    EXPECT_EQ(ice.kind, MaterialKind::Dielectric);
+    EXPECT_EQ(ice.refractiveIndex, 1.31f);
+    EXPECT_EQ(ice.segmentTint, glm::vec3(0.75f));
+
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.meshes[0].triangles.size(), 1u);
+    const Material &paper = scene.materials.at(scene.meshes[0].materialIndex);
+    EXPECT_EQ(paper.name, "paper");
+    EXPECT_EQ(paper.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(paper.albedo, glm::vec3(0.25f, 0.5f, 1.0f));
+    EXPECT_TRUE(paper.twoSided);
+    // The corner (1, 0, 0): scaled to (2, 0, 0), turned about z to (0, 2, 0), moved to (0, 2, -5).
+    const glm::vec3 corner = scene.meshes[0].positions.at(scene.meshes[0].triangles[0].positions[1]);
+    EXPECT_NEAR(corner.x, 0.0, 1e-6);
+    EXPECT_NEAR(corner.y, 2.0, 1e-6);
+    EXPECT_NEAR(corner.z, -5.0, 1e-6);
+
+    EXPECT_EQ(scene.settings.samplesPerPixel, 32);
+    EXPECT_EQ(scene.settings.maxDepth, 12);
+    EXPECT_EQ(scene.settings.tree, TreeKind::Sah);
+    EXPECT_EQ(scene.settings.leafSize, 4);
+    EXPECT_EQ(scene.settings.sampler, SamplerKind::Centre);
+    EXPECT_EQ(scene.settings.seed, 4294967295u);
+    EXPECT_EQ(scene.settings.exposureStops, -1.5);
+    EXPECT_EQ(scene.shadowThroughGlass, 0.5f);
+    EXPECT_NO_THROW(validateScene(scene, "complete"));
+}
+
+TEST_F(SceneJson, AnEmptyObjectIsAnEmptyBlackScene) {
+    const LoadedScene loaded = loadSceneFile(write("scene.json", "{}"));
+    EXPECT_TRUE(loaded.scene.spheres.empty() && loaded.scene.meshes.empty() && loaded.scene.lights.empty());
+    EXPECT_EQ(loaded.scene.background, glm::vec3(0.0f));
+    EXPECT_TRUE(loaded.meshReports.empty());
+    EXPECT_FALSE(loaded.autoFramed);
+    EXPECT_EQ(loaded.file, folder / "scene.json");
+    EXPECT_NO_THROW(validateScene(loaded.scene, "empty"));
+}
+
+TEST_F(SceneJson, ANumberForAColourIsGrey) {
+    EXPECT_EQ(load(R"({"background": 0.5})").background, glm::vec3(0.5f));
+    const Scene scene = load(R"({"lights": [{"type": "point", "position": [0, 0, 0], "power": 1e5}]})");
+    EXPECT_EQ(scene.lights.at(0).power, glm::dvec3(1e5));
+}
+
+TEST_F(SceneJson, AWholeNumberMayBeWrittenAsAFloat) {
+    EXPECT_EQ(load(R"({"camera": {"width": 6.4e1}})").camera.width, 64);
+}
+
+TEST_F(SceneJson, MeshesAreFoundFromTheFolderOfTheSceneFile) {
+    std::filesystem::create_directories(folder / "below");
+    const std::filesystem::path file = write(
+        "below/scene.json",
+        R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "../triangle.obj", "material": "m"}]})");
+    const LoadedScene loaded = loadSceneFile(file);
+    EXPECT_EQ(triangleCount(loaded.scene), 1u);
+    EXPECT_EQ(loaded.meshReports.size(), 1u);
+}
+
+// ---- What a file may not say is refused, with its place
+
+struct Refusal {
+    const char *text;
+    const char *place; ///< right after the file's name
+    const char *reason;
+};
+
+void PrintTo(const Refusal &refusal, std::ostream *stream) { *stream << refusal.text; }
+
+class SceneJsonRefusal : public SceneFolder, public testing::WithParamInterface<Refusal> {};
+
+TEST_P(SceneJsonRefusal, NamesPlaceAndReason) {
+    const std::string message = refusal(GetParam().text);
+    EXPECT_TRUE(message.starts_with(GetParam().place)) << message;
+    EXPECT_NE(message.find(GetParam().reason), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, SceneJsonRefusal,
+    testing::Values(
+        // syntax: line and column
+        Refusal{"", "1:1: ", "unexpected end of input"}, //
+        Refusal{"{\n  \"spheres\": [,]\n}", "2:15: ", "unexpected ','"},
+        Refusal{"{\"background\": NaN}", "1:16: ", "invalid literal"},
+        Refusal{"{\"background\": 1e999}", "1:20: ", "number overflow"},
+        Refusal{"{} {}", "1:4: ", "unexpected '{'"}, //
+        Refusal{"{\"\xFF\": 1}", "1:3: ", "ill-formed UTF-8"},
+        // keys
+        Refusal{"[]", " the top level: ", "found an array of 0; allowed: an object"},
+        Refusal{R"({"sphere": []})", " /sphere: ", "did you mean \"spheres\"?"},
+        Refusal{R"({"camera": {"positon": 1}})", " /camera/positon: ", "did you mean \"position\"?"},
+        Refusal{R"({"spheres": [{"center": 1}]})", " /spheres/0/center: ", "did you mean \"centre\"?"},
+        Refusal{R"({"settings": {"SPP": 1}})", " /settings/SPP: ", "did you mean \"spp\"?"},
+        Refusal{R"({"materials": {"m": {"type": "mirror", "albedo": 1}}})",
+                " /materials/m/albedo: ", "unknown key; allowed: \"type\""},
+        Refusal{R"({"materials": {"a/b": {"type": "mirror", "x": 1}}})", " /materials/a~1b/x: ", "unknown"},
+        Refusal{R"({"materials": {"\u001b[31m": {"type": 1}}})", " /materials/?[31m/type: ", "found 1"},
+        Refusal{R"({"camera": {"width": 1, "width": 2}})", " /camera/width: ", "given twice"},
+        Refusal{R"({"lights": [{}, [{"a": 1, "b": {}, "a": 2}]]})", " /lights/1/0/a: ", "given twice"},
+        Refusal{R"({"spheres": [{"centre": [0, 0, 0], "material": "m"}]})",
+                " /spheres/0/radius: ", "missing"},
+        Refusal{R"({"materials": {"m": {}}})", " /materials/m/type: ", "missing"},
+        // types
+        Refusal{R"({"$schema": 1})", " /$schema: ", "allowed: a text"},
+        Refusal{R"({"camera": []})", " /camera: ", "allowed: an object"},
+        Refusal{R"({"camera": {"position": [1, 2]}})", " /camera/position: ", "found an array of 2"},
+        Refusal{R"({"camera": {"position": [1, "2", 3]}})", " /camera/position/1: ", "found \"2\""},
+        Refusal{R"({"camera": {"width": 1.5}})", " /camera/width: ", "a whole number from 1 to 32768"},
+        Refusal{R"({"camera": {"width": true}})", " /camera/width: ", "found true"},
+        Refusal{R"({"background": "black"})", " /background: ", "[red, green, blue] or one number"},
+        Refusal{R"({"background": null})", " /background: ", "found null"},
+        Refusal{R"({"spheres": {}})", " /spheres: ", "found an object; allowed: an array"},
+        Refusal{R"({"spheres": [7]})", " /spheres/0: ", "allowed: an object"},
+        Refusal{R"({"materials": {"m": {"type": "diffuse", "twoSided": 1}}})",
+                " /materials/m/twoSided: ", "true or false"},
+        Refusal{R"({"materials": {"m": {"type": "miror"}}})",
+                " /materials/m/type: ", "did you mean \"mirror\"?"},
+        Refusal{R"({"settings": {"bvh": "kd"}})", " /settings/bvh: ", "\"midpoint\", \"sah\", \"none\""},
+        // ranges
+        Refusal{R"({"camera": {"horizontalFov": 180}})",
+                " /camera/horizontalFov: ", "found 180; allowed: a number more than 0, less than 180"},
+        Refusal{R"({"camera": {"height": 0}})", " /camera/height: ", "found 0"},
+        Refusal{R"({"camera": {"position": [0, 2e15, 0]}})", " /camera/position/1: ", "1e+15"},
+        Refusal{R"({"camera": {"direction": [0, 0, 0]}})", " /camera/direction: ", "length"},
+        Refusal{R"({"camera": {"up": [0, 0, 1e-300]}})", " /camera/up: ", "length"},
+        Refusal{R"({"camera": {"target": [0, 0, 55]}})", " /camera/target: ", "own position"},
+        Refusal{R"({"camera": {"target": [0, 0, 0], "direction": [0, 0, -1]}})",
+                " /camera/target: ", "one of the two"},
+        Refusal{R"({"background": [0, 0, -1]})", " /background/2: ", "found -1"},
+        Refusal{R"({"materials": {"m": {"type": "diffuse", "albedo": 1.5}}})",
+                " /materials/m/albedo: ", "from 0 to 1"},
+        Refusal{R"({"materials": {"m": {"type": "dielectric", "index": 0.5}}})",
+                " /materials/m/index: ", "from 1 to 10"},
+        Refusal{R"({"spheres": [{"centre": [0, 0, 0], "radius": 0, "material": "m"}]})",
+                " /spheres/0/radius: ", "found 0; allowed: a number more than 0"},
+        Refusal{R"({"settings": {"seed": 4294967296}})", " /settings/seed: ", "from 0 to 4294967295"},
+        Refusal{R"({"settings": {"shadowThroughGlass": 2}})", " /settings/shadowThroughGlass: ", "found 2"},
+        Refusal{R"({"meshes": [{"file": "triangle.obj", "scale": 0, "material": "m"}]})",
+                " /meshes/0/scale: ", "not 0"},
+        // names
+        Refusal{R"({"spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "m"}]})",
+                " /spheres/0/material: ", "defines none"},
+        Refusal{R"({"materials": {"glass": {"type": "mirror"}},
+                    "spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "glas"}]})",
+                " /spheres/0/material: ", "did you mean \"glass\"?"},
+        Refusal{
+            R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "no.obj", "material": "m"}]})",
+            " /meshes/0/file: ", "no.obj"},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "meshes": [{"file": "triangle.obj\u0000x", "material": "m"}]})",
+                " /meshes/0/file: ", "NUL"}));
+
+TEST_F(SceneJson, MoreThan64SpheresAreRefusedWithTheNumber) {
+    json scene = completeScene();
+    scene["spheres"] = json(std::vector<json>(64, scene["spheres"][0]));
+    EXPECT_EQ(refusal(scene.dump()), "");
+    scene["spheres"].push_back(scene["spheres"][0]);
+    EXPECT_EQ(refusal(scene.dump()),
+              " /spheres: found an array of 65; allowed: an array of at most 64 objects");
+}
+
+TEST_F(SceneJson, NestingIsBounded) {
+    const auto nested = [](std::size_t arrayCount) {
+        return "{\"a\": " + std::string(arrayCount, '[') + std::string(arrayCount, ']') + "}";
+    };
+    EXPECT_NE(refusal(nested(31)).find("unknown key"), std::string::npos);
+    EXPECT_NE(refusal(nested(32)).find("nested deeper than 32 levels"), std::string::npos);
+    EXPECT_NE(refusal(std::string(10'000'000, '[')).find("nested deeper"), std::string::npos);
+}
+
+TEST_F(SceneJson, ALongValueIsCutInTheMessage) {
+    const std::string message = refusal("{\"background\": \"" + std::string(100'000, 'x') + "\"}");
+    EXPECT_LT(message.size(), 300u);
+    EXPECT_LT(refusal("{\"" + std::string(100'000, 'x') + "\": 1}").size(), 500u);
+    EXPECT_LT(refusal("{\"" + std::string(100'000, 'x')).size(), 500u);
+}
+
+TEST_F(SceneJson, OnlyRegularFilesOfAModestSizeAreRead) {
+    EXPECT_EQ(refusalOf(folder / "missing.json"), " No such file or directory");
+    EXPECT_EQ(refusalOf(folder), " is not a regular file");
+
+    const std::filesystem::path pipe = folder / "pipe.json";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_EQ(refusalOf(pipe), " is not a regular file");
+
+    const std::filesystem::path large = write("large.json", "{}");
+    std::filesystem::resize_file(large, (64u << 20) + 1); // sparse
+    EXPECT_NE(refusalOf(large).find("64 MiB"), std::string::npos);
+}
+
+} // namespace
+} // namespace hyalite
