@@ -39,6 +39,7 @@ int run(int argumentCount, char **arguments) {
     addRenderCommand(app, context);
     addDevicesCommand(app, context);
     addInspectCommand(app, context);
+    addDiffCommand(app, context);
     try {
         app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError &error) {

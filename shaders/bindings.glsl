@@ -20,5 +20,4 @@ layout(constant_id = constantHasTriangles) const bool hasTriangles = true;
 layout(constant_id = constantHasSpecular) const bool hasSpecular = true;
 layout(constant_id = constantHasDielectric) const bool hasDielectric = true;
 layout(constant_id = constantSampler) const uint samplerKind = samplerSobol;
-layout(constant_id = constantMaxDepth) const uint maxDepth = 7u;
 layout(constant_id = constantStackSize) const uint stackSize = maxTreeDepth;

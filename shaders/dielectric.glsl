@@ -3,6 +3,7 @@
 struct Refraction {
     vec3 direction;    // of the transmitted ray, unit length; meaningless when total
     float reflectance; // share of the light that is reflected, in [0, 1]
+    float transmittance; // the rest
     bool isTotal;      // nothing is transmitted
 };
 
@@ -23,5 +24,6 @@ Refraction refractRay(vec3 direction, vec3 facing, float index, bool isEntering)
     precise float k = 1.0 - (isEntering ? cosIncident : cosTransmitted);
     precise float k2 = k * k;
     precise float reflectance = normalReflectance + (1.0 - normalReflectance) * (k2 * k2 * k);
-    return Refraction(unitVector(transmitted), reflectance, radicand < 0.0);
+    precise float transmittance = 1.0 - reflectance;
+    return Refraction(unitVector(transmitted), reflectance, transmittance, radicand < 0.0);
 }

@@ -126,7 +126,7 @@ struct FrameRecord {
     vec3 boundsLower; // of all triangles
     uint triangleCount;
     vec3 boundsUpper;
-    uint pad0;
+    uint maxDepth; // segments of a path, the primary ray included
 };
 
 // ---- What changes with each dispatch
@@ -241,9 +241,8 @@ const uint constantHasTriangles = 2u;
 const uint constantHasSpecular = 3u; // mirrors or dielectrics
 const uint constantHasDielectric = 4u;
 const uint constantSampler = 5u;
-const uint constantMaxDepth = 6u;
-const uint constantStackSize = 7u;
-const uint constantCount = 8u;
+const uint constantStackSize = 6u;
+const uint constantCount = 7u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);

@@ -1,8 +1,25 @@
 // Vector arithmetic with a fixed order of operations. Twin: host/reference/vector.h.
 //
 // The built-in dot, cross, normalize and reflect may be evaluated in any order, so they are ours. `precise` forbids
-// contraction to fused operations, but only inside the function where it stands: every intermediate value that
-// reaches a picture is `precise` in its own function.
+// contraction to fused operations, but only inside the function where it stands: every sum that reaches a picture is
+// `precise` in its own function, and that keeps products from being fused into it. Only parameters and locals are ever
+// `precise`: glslang 12 follows the word through assignments of global structs and may never come back.
+
+vec3 add(vec3 a, vec3 b) {
+    precise vec3 sum = a + b;
+    return sum;
+}
+
+vec3 subtract(vec3 a, vec3 b) {
+    precise vec3 difference = a - b;
+    return difference;
+}
+
+vec3 addProduct(vec3 a, vec3 b, vec3 c) {
+    precise vec3 product = b * c;
+    precise vec3 sum = a + product;
+    return sum;
+}
 
 float dotProduct(vec3 a, vec3 b) {
     precise float sum = a.x * b.x + a.y * b.y + a.z * b.z;

@@ -18,11 +18,9 @@ void startRay(uint slot, vec3 origin, vec3 direction, uint excluded, uint depth,
 }
 
 void addSampleToFilm(uint slot) {
-    precise vec3 sum = film[slot].sum + path[slot].sampleRadiance;
-    precise vec3 square = path[slot].sampleRadiance * path[slot].sampleRadiance;
-    precise vec3 sumOfSquares = film[slot].sumOfSquares + square;
-    film[slot].sum = sum;
-    film[slot].sumOfSquares = sumOfSquares;
+    vec3 radiance = path[slot].sampleRadiance;
+    film[slot].sum = add(film[slot].sum, radiance);
+    film[slot].sumOfSquares = addProduct(film[slot].sumOfSquares, radiance, radiance);
     film[slot].sampleCount += 1u;
 }
 
@@ -92,15 +90,12 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
     reflected.excluded = path[slot].hitPrimitive;
     reflected.depth = path[slot].rayDepth + 1u;
     reflected.medium = mediumOfReflection;
-    precise vec3 reflectedThroughput = path[slot].throughput * refraction.reflectance;
-    reflected.throughput = reflectedThroughput;
+    reflected.throughput = path[slot].throughput * refraction.reflectance;
     pendingRays[path[slot].pendingCount * slotCount() + slotIndex[slot]] = reflected;
     path[slot].pendingCount += 1u;
     rayCounts.z += 1u;
 
-    precise float transmittance = 1.0 - refraction.reflectance;
-    precise vec3 throughput = path[slot].throughput * transmittance;
-    path[slot].throughput = throughput;
+    path[slot].throughput = path[slot].throughput * refraction.transmittance;
     vec3 origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, refraction.direction);
     startRay(slot, origin, refraction.direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u,
              isEntering ? materialIndex : noMaterial);
@@ -111,8 +106,7 @@ void leaveScene(uint slot) {
     vec3 throughput = path[slot].throughput;
     if (hasDielectric && path[slot].rayMedium != noMaterial)
         throughput *= materials[path[slot].rayMedium].segmentTint;
-    precise vec3 radiance = path[slot].sampleRadiance + throughput * frame.background;
-    path[slot].sampleRadiance = radiance;
+    path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, frame.background);
     path[slot].stage = stageNextRay;
 }
 
@@ -153,11 +147,10 @@ void shadeHit(uint slot) {
         path[slot].surfaceNormal = surface.normal;
         path[slot].surfaceGeometricNormal = surface.geometricNormal;
         path[slot].surfacePrimitive = path[slot].hitPrimitive;
-        precise vec3 weight = path[slot].throughput * (material.albedo * inversePi);
-        path[slot].surfaceWeight = weight;
+        path[slot].surfaceWeight = path[slot].throughput * (material.albedo * inversePi);
         path[slot].lightIndex = 0u;
         path[slot].stage = stageNextLight;
-    } else if (path[slot].rayDepth < maxDepth) {
+    } else if (path[slot].rayDepth < frame.maxDepth) {
         if (isGlass)
             splitAtGlass(slot, surface, material, materialIndex, isEntering);
         else
@@ -171,10 +164,9 @@ void aimAtLight(uint slot) {
         path[slot].stage = stageNextRay;
         return;
     }
-    precise vec3 toLight = lights[path[slot].lightIndex].position - path[slot].surfacePosition;
+    vec3 toLight = subtract(lights[path[slot].lightIndex].position, path[slot].surfacePosition);
     float distance = vectorLength(toLight);
-    precise float inverse = 1.0 / distance;
-    precise vec3 direction = toLight * inverse;
+    vec3 direction = toLight * (1.0 / distance);
     bool isLit = dotProduct(path[slot].surfaceNormal, direction) > 0.0 &&
                  dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0;
     if (!isLit) {
@@ -206,15 +198,13 @@ void aimAtLight(uint slot) {
 // Stage: the shadow ray has arrived, or was stopped.
 void addLight(uint slot) {
     if (path[slot].hitPrimitive == noPrimitive) {
-        precise float squaredDistance = path[slot].rayLength * path[slot].rayLength;
-        precise float cosine = dotProduct(path[slot].surfaceNormal, path[slot].rayDirection);
-        precise float falloff = cosine / squaredDistance;
-        precise vec3 irradiance = lights[path[slot].lightIndex].intensity * falloff;
-        precise vec3 light = path[slot].surfaceWeight * irradiance;
+        float squaredDistance = path[slot].rayLength * path[slot].rayLength;
+        float cosine = dotProduct(path[slot].surfaceNormal, path[slot].rayDirection);
+        vec3 irradiance = lights[path[slot].lightIndex].intensity * (cosine / squaredDistance);
+        vec3 light = path[slot].surfaceWeight * irradiance;
         if (hasDielectric && path[slot].isLightDimmed != 0u)
             light *= frame.shadowThroughGlass;
-        precise vec3 radiance = path[slot].sampleRadiance + light;
-        path[slot].sampleRadiance = radiance;
+        path[slot].sampleRadiance = add(path[slot].sampleRadiance, light);
     }
     path[slot].lightIndex += 1u;
     path[slot].stage = path[slot].lightIndex < frame.lightCount ? stageNextLight : stageNextRay;

@@ -27,6 +27,7 @@ layout::FrameRecord packFrame(const Scene &scene) {
     frame.pixelUp = glm::vec3(up / focalLength);
     frame.imagePlane = glm::vec3(forward);
     frame.seed = scene.settings.seed;
+    frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);
     frame.lightCount = static_cast<std::uint32_t>(scene.lights.size());
     frame.background = scene.background;
     frame.shadowThroughGlass = scene.shadowThroughGlass;

@@ -15,6 +15,7 @@ struct CommandContext {
 
 void addRenderCommand(CLI::App &app, CommandContext &context);
 void addDevicesCommand(CLI::App &app, CommandContext &context);
+void addDiffCommand(CLI::App &app, CommandContext &context);
 void addInspectCommand(CLI::App &app, CommandContext &context);
 
 } // namespace hyalite

@@ -104,14 +104,13 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
     // At least one subtree waits for every level but the last; kernels of a few sizes are enough.
     const std::uint32_t stackSize =
         std::bit_ceil(std::clamp(static_cast<std::uint32_t>(scene.treeDepth), 8u, layout::maxTreeDepth));
-    const std::uint32_t maxDepth = static_cast<std::uint32_t>(settings.maxDepth);
     Buffer film(device, "the film", BufferUse::Storage,
                 result.film.pixels.size() * sizeof(layout::FilmPixel));
     film.clear();
     Buffer progress(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     const Buffer paths(device, "the path slots", BufferUse::Storage, slotCount * sizeof(layout::PathRecord));
     const Buffer pending(device, "the pending rays", BufferUse::Storage,
-                         scene.hasDielectric ? slotCount * maxDepth * sizeof(layout::PendingRay) : 0);
+                         scene.hasDielectric ? slotCount * scene.frame.maxDepth * sizeof(layout::PendingRay) : 0);
     const Buffer stacks(device, "the traversal stacks", BufferUse::Storage,
                         scene.hasTriangles ? slotCount * stackSize * sizeof(std::uint32_t) : 0);
     result.timing.uploadSeconds = secondsSince(start);
@@ -124,7 +123,6 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
     constants[layout::constantHasSpecular] = scene.hasSpecular;
     constants[layout::constantHasDielectric] = scene.hasDielectric;
     constants[layout::constantSampler] = static_cast<std::uint32_t>(settings.sampler);
-    constants[layout::constantMaxDepth] = maxDepth;
     constants[layout::constantStackSize] = stackSize;
     const std::array<const Buffer *, layout::bindingCount> buffers{
         &frame,   &spheres, &lights,   &materials, &nodes,   &triangles,

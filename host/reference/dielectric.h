@@ -8,6 +8,7 @@ namespace hyalite::reference {
 template <class Real> struct Refraction {
     Vec3<Real> direction; ///< of the transmitted ray, unit length; meaningless when total
     Real reflectance;     ///< share of the light that is reflected, in [0, 1]
+    Real transmittance;   ///< the rest
     bool isTotal;         ///< nothing is transmitted
 };
 
@@ -30,7 +31,7 @@ template <class Real>
     const Real k = Real(1) - (isEntering ? cosIncident : cosTransmitted);
     const Real k2 = k * k;
     const Real reflectance = normalReflectance + (Real(1) - normalReflectance) * (k2 * k2 * k);
-    return {unitVector(transmitted), reflectance, radicand < 0};
+    return {unitVector(transmitted), reflectance, Real(1) - reflectance, radicand < 0};
 }
 
 } // namespace hyalite::reference

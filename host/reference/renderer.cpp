@@ -36,8 +36,7 @@ Result renderAs(const PackedScene &scene, const RenderSettings &settings, const 
     std::int64_t finishedRuns = 0;
 #pragma omp parallel num_threads(threadCount)
     {
-        WhittedIntegrator<Real> integrator(scene, static_cast<std::uint32_t>(settings.sampler),
-                                           static_cast<std::uint32_t>(settings.maxDepth));
+        WhittedIntegrator<Real> integrator(scene, static_cast<std::uint32_t>(settings.sampler));
 #pragma omp for schedule(dynamic)
         for (std::int64_t run = 0; run < runCount; ++run) {
             const std::int64_t end = std::min((run + 1) * runLength, pixelCount);

@@ -17,8 +17,8 @@ namespace hyalite::reference {
 /// Follows camera samples through the scene. One instance a thread: it keeps the rays that wait and the counts.
 template <class Real> class WhittedIntegrator {
   public:
-    WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind, std::uint32_t maxDepth)
-        : scene_(scene), samplerKind_(samplerKind), maxDepth_(maxDepth) {}
+    WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind)
+        : scene_(scene), samplerKind_(samplerKind) {}
 
     /// Radiance of one sample of a pixel of the whole image.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex) {
@@ -77,10 +77,10 @@ template <class Real> class WhittedIntegrator {
 
         if (material.kind == layout::materialDiffuse)
             shadeDiffuse(segment, surface, material, hit.primitive);
-        else if (segment.depth < maxDepth_ && isGlass)
+        else if (segment.depth < scene_.frame.maxDepth && isGlass)
             splitAtGlass(segment, surface, material.refractiveIndex, materialIndex, isEntering,
                          hit.primitive);
-        else if (segment.depth < maxDepth_)
+        else if (segment.depth < scene_.frame.maxDepth)
             reflect(segment, surface, segment.throughput, segment.medium, hit.primitive);
     }
 
@@ -136,14 +136,13 @@ template <class Real> class WhittedIntegrator {
         reflect(segment, surface, segment.throughput * refraction.reflectance, mediumOfReflection, primitive);
         ++counts_.refraction;
         pending_.push_back({{spawnPoint(surface, refraction.direction), refraction.direction, primitive},
-                            segment.throughput * (Real(1) - refraction.reflectance),
+                            segment.throughput * refraction.transmittance,
                             segment.depth + 1,
                             isEntering ? materialIndex : layout::noMaterial});
     }
 
     const PackedScene &scene_;
     const std::uint32_t samplerKind_;
-    const std::uint32_t maxDepth_;
     std::vector<Segment> pending_;
     Vec3<Real> radiance_{Real(0)};
     RayCounts counts_;

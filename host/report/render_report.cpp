@@ -16,7 +16,7 @@ std::string formatReport(const RenderReport &report) {
     json["device"] = {{"name", report.deviceName}, {"driver", report.deviceDriver}};
     json["image"] = {{"width", report.width}, {"height", report.height}};
     const RenderSettings &settings = report.settings;
-    json["settings"] = {{"integrator", "whitted"},       {"spp", settings.samplesPerPixel},
+    json["settings"] = {{"integrator", nameOf(settings.integrator)},       {"spp", settings.samplesPerPixel},
                         {"maxDepth", settings.maxDepth}, {"bvh", nameOf(settings.tree)},
                         {"leafSize", settings.leafSize}, {"sampler", nameOf(settings.sampler)},
                         {"seed", settings.seed},         {"exposure", settings.exposureStops}};

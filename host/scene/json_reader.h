@@ -5,6 +5,7 @@
 
 #include "host/scene/limits.h"
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
@@ -86,7 +87,8 @@ class JsonObject {
     }
     /// One of a few names, each given with what it stands for.
     template <class T, std::size_t count>
-    [[nodiscard]] T choice(std::string_view key, const std::pair<std::string_view, T> (&choices)[count],
+    [[nodiscard]] T choice(std::string_view key,
+                           const std::array<std::pair<std::string_view, T>, count> &choices,
                            std::optional<std::type_identity_t<T>> fallback = {}) const {
         return read(key, fallback, [&](const JsonNode &node) {
             std::vector<std::string_view> names;

@@ -1,6 +1,8 @@
 // What a scene may hold: the ranges and counts that the loader and the validation share.
 #pragma once
 
+#include "shaders/layout.h"
+
 #include <fmt/format.h>
 
 #include <concepts>
@@ -53,13 +55,13 @@ inline constexpr double normalLengthTolerance = 1e-3; ///< of a mesh normal's le
 inline constexpr Interval framedExtent{1e-12, 1e12};  ///< box diagonal of a mesh that can be framed
 
 inline constexpr Interval samplesPerPixel{1, 65536};
-inline constexpr Interval maxDepth{1, 32};
+inline constexpr Interval maxDepth{1, layout::maxPathDepth};
 inline constexpr Interval leafSize{1, 64};
 inline constexpr Interval seed{0, 4294967295.0};
 inline constexpr Interval exposureStops{-100.0, 100.0};
 
-inline constexpr std::size_t lightCount = 16;
-inline constexpr std::size_t sphereCount = 64; ///< each ray tests all of them
+inline constexpr std::size_t lightCount = layout::maxLightCount;
+inline constexpr std::size_t sphereCount = layout::maxSphereCount; ///< each ray tests all of them
 inline constexpr std::size_t materialCount = 65536;
 inline constexpr std::size_t meshCount = 4096;
 inline constexpr std::size_t triangleCount = std::size_t{1} << 30; ///< of all meshes together

@@ -3,6 +3,7 @@
 #include "host/scene/json_document.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/limits.h"
+#include "host/scene/names.h"
 
 #include <glm/geometric.hpp>
 
@@ -16,22 +17,7 @@ using namespace std::string_view_literals;
 
 enum class LightKind { Point };
 
-constexpr std::pair<std::string_view, LightKind> lightKinds[] = {{"point", LightKind::Point}};
-constexpr std::pair<std::string_view, MaterialKind> materialKinds[] = {
-    {"diffuse", MaterialKind::Diffuse},
-    {"mirror", MaterialKind::Mirror},
-    {"dielectric", MaterialKind::Dielectric},
-};
-constexpr std::pair<std::string_view, Integrator> integrators[] = {{"whitted", Integrator::Whitted}};
-constexpr std::pair<std::string_view, TreeKind> treeKinds[] = {
-    {"midpoint", TreeKind::Midpoint},
-    {"sah", TreeKind::Sah},
-    {"none", TreeKind::None},
-};
-constexpr std::pair<std::string_view, SamplerKind> samplerKinds[] = {
-    {"centre", SamplerKind::Centre},
-    {"sobol", SamplerKind::Sobol},
-};
+constexpr std::array<Name<LightKind>, 1> lightKinds{{{"point", LightKind::Point}}};
 
 glm::dvec3 readDirection(const JsonObject &object, std::string_view key, const glm::dvec3 &fallback) {
     const glm::dvec3 direction = object.vector(key, limits::coordinate, fallback);
@@ -68,7 +54,7 @@ PointLight readLight(const JsonObject &object) {
 Material readMaterial(const std::string &name, const JsonObject &object) {
     Material material;
     material.name = name;
-    material.kind = object.choice("type", materialKinds);
+    material.kind = object.choice("type", materialNames);
     switch (material.kind) {
     case MaterialKind::Diffuse:
         object.allowOnly(scene_keys::diffuse);
@@ -135,12 +121,12 @@ ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &material
 
 RenderSettings readSettings(const JsonObject &object) {
     RenderSettings settings;
-    settings.integrator = object.choice("integrator", integrators, settings.integrator);
+    settings.integrator = object.choice("integrator", integratorNames, settings.integrator);
     settings.samplesPerPixel = object.integer("spp", limits::samplesPerPixel, settings.samplesPerPixel);
     settings.maxDepth = object.integer("maxDepth", limits::maxDepth, settings.maxDepth);
-    settings.tree = object.choice("bvh", treeKinds, settings.tree);
+    settings.tree = object.choice("bvh", treeNames, settings.tree);
     settings.leafSize = object.integer("leafSize", limits::leafSize, settings.leafSize);
-    settings.sampler = object.choice("sampler", samplerKinds, settings.sampler);
+    settings.sampler = object.choice("sampler", samplerNames, settings.sampler);
     settings.seed = object.integer("seed", limits::seed, settings.seed);
     settings.exposureStops = object.number("exposure", limits::exposureStops, settings.exposureStops);
     return settings;

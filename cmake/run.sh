@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# Installs what is missing (Debian 12 and newer, Ubuntu 24.04 and newer), builds, and runs what follows:
+#
+#   cmake/run.sh showcase        renders spheres.png and cat.png into this folder
+#   cmake/run.sh test            builds and runs all tests
+#   cmake/run.sh build           builds only
+#   cmake/run.sh ARGUMENT...     hyalite ARGUMENT..., for instance: render cat -o cat.png
+#
+# Where all packages are there already it needs neither root nor network. The build is in build/release.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/release
+needed=(g++ make cmake libvulkan-dev mesa-vulkan-drivers glslang-tools libglm-dev libtinyobjloader-dev libstb-dev
+        libcli11-dev nlohmann-json3-dev libfmt-dev)
+needed_for_tests=(libgtest-dev vulkan-validationlayers)
+
+usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
+
+is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+install_missing() {
+    local missing=() package
+    if ! command -v dpkg-query >/dev/null; then
+        echo "run.sh: not a Debian system: it is up to you to install the equivalents of: $*" >&2
+        return
+    fi
+    for package in "$@"; do
+        is_installed "$package" || missing+=("$package")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    echo "run.sh: installing ${missing[*]}" >&2
+    local as_root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "run.sh: neither root nor sudo: ask for these packages to be installed" >&2
+            exit 1
+        fi
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" apt-get update -qq >&2
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+}
+
+# $1: ON or OFF, whether tests are built. The build's output is shown only if it fails.
+build_all() {
+    local log
+    log=$(mktemp)
+    if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$1" &&
+           cmake --build "$build" --parallel "$(nproc)"; } >"$log" 2>&1; then
+        cat "$log" >&2
+        rm -f "$log"
+        echo "run.sh: the build failed" >&2
+        exit 1
+    fi
+    rm -f "$log"
+}
+
+# Whatever was chosen before stays: a build with tests is not made one without by the next render.
+tests_as_before() { grep -qs '^HYALITE_TESTS:BOOL=ON' "$build/CMakeCache.txt" && echo ON || echo OFF; }
+
+if [ $# -eq 0 ]; then
+    usage
+    exit 2
+fi
+install_missing "${needed[@]}"
+case $1 in
+showcase)
+    build_all "$(tests_as_before)"
+    "$build/bin/hyalite" render spheres -o spheres.png
+    "$build/bin/hyalite" render cat -o cat.png
+    ;;
+test)
+    install_missing "${needed_for_tests[@]}"
+    build_all ON
+    ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
+    ;;
+build)
+    build_all "$(tests_as_before)"
+    ;;
+*)
+    build_all "$(tests_as_before)"
+    exec "$build/bin/hyalite" "$@"
+    ;;
+esac

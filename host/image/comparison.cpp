@@ -1,0 +1,51 @@
+#include "host/image/comparison.h"
+
+#include "host/image/ssim.h"
+
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+Image equalOutsideOf(const Mask &mask, const Image &reference, const Image &test) {
+    Image patched = test;
+    for (std::size_t i = 0; i < patched.pixels().size(); ++i) {
+        if (!isCompared(mask, i))
+            patched.pixels()[i] = reference.pixels()[i];
+    }
+    return patched;
+}
+
+ErrorMap flipOf(const Image &reference, const Image &test, ImageComparison &comparison) {
+    // Most comparisons are of images that are meant to be equal, and FLIP is the slowest part of them.
+    if (comparison.pixels.identical())
+        return {reference.width(), reference.height(), std::vector<float>(reference.pixels().size(), 0.0f)};
+    if (comparison.encoding == Encoding::Display)
+        return flipDisplay(reference, test);
+    return flipLinear(reference, test, *comparison.flipExposures);
+}
+
+} // namespace
+
+ImageComparison compareImages(const Image &reference, const Image &test, Encoding encoding,
+                              double outlierThreshold, const Mask &mask) {
+    ImageComparison comparison;
+    comparison.encoding = encoding;
+    comparison.pixels = comparePixels(reference, test, outlierThreshold, mask);
+    comparison.ssim = meanSsim(reference, test, mask);
+    if (encoding == Encoding::Linear)
+        comparison.flipExposures = flipExposures(reference);
+
+    comparison.flipMap = mask.empty() ? flipOf(reference, test, comparison)
+                                      : flipOf(reference, equalOutsideOf(mask, reference, test), comparison);
+    comparison.flip = summarizeFlip(comparison.flipMap, mask);
+    // A difference has an effect on its neighbours too; the map is of what is compared.
+    for (std::size_t i = 0; i < comparison.flipMap.errors.size(); ++i) {
+        if (!isCompared(mask, i))
+            comparison.flipMap.errors[i] = 0.0f;
+    }
+    return comparison;
+}
+
+} // namespace hyalite

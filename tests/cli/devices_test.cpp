@@ -1,0 +1,71 @@
+// The devices command: a table for people and JSON for programs, which say the same.
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+using DevicesCommand = CommandLine;
+
+TEST_F(DevicesCommand, JsonDescribesEachDevice) {
+    const Outcome outcome = run("devices --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_EQ(outcome.errors, "");
+    const nlohmann::json devices = nlohmann::json::parse(outcome.output);
+    ASSERT_TRUE(devices.is_array());
+    ASSERT_GE(devices.size(), 1u);
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        const nlohmann::json &device = devices[i];
+        EXPECT_EQ(device.at("index"), i);
+        for (const char *key : {"name", "type", "driver"})
+            EXPECT_NE(device.at(key).get<std::string>(), "") << key;
+        EXPECT_TRUE(std::regex_match(device.at("apiVersion").get<std::string>(),
+                                     std::regex("[0-9]+\\.[0-9]+\\.[0-9]+")));
+        EXPECT_EQ(device.contains("rejection"), !device.at("isUsable").get<bool>());
+        for (const char *key : {"hasTimestamps", "canRoundToNearestEven", "canPreserveSignedZeroInfNan"})
+            EXPECT_TRUE(device.at(key).is_boolean()) << key;
+        if (!device.at("isUsable"))
+            continue;
+        // What Vulkan 1.1 guarantees.
+        EXPECT_GE(device.at("maxStorageBufferBytes"), 1 << 27);
+        EXPECT_GE(device.at("maxStorageBuffersPerStage"), 4);
+        EXPECT_GE(device.at("maxWorkgroupInvocations"), 128);
+        EXPECT_GE(device.at("maxWorkgroupCount"), 65535);
+        EXPECT_GE(device.at("subgroupSize"), 1);
+        EXPECT_GT(device.at("deviceMemoryBytes"), 0);
+    }
+}
+
+TEST_F(DevicesCommand, ThereIsAUsableSoftwareDevice) { EXPECT_NO_THROW(static_cast<void>(softwareDevice())); }
+
+TEST_F(DevicesCommand, TheTableSaysTheSame) {
+    const Outcome outcome = run("devices");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_EQ(outcome.errors, "");
+    for (const nlohmann::json &device : listDevices()) {
+        const std::string title = std::to_string(device.at("index").get<int>()) + "  " +
+                                  device.at("name").get<std::string>() + "\n";
+        EXPECT_TRUE(contains(outcome.output, title)) << title << outcome;
+        for (const char *key : {"type", "driver", "apiVersion"})
+            EXPECT_TRUE(contains(outcome.output, device.at(key))) << key << '\n' << outcome;
+        if (device.contains("rejection"))
+            EXPECT_TRUE(contains(outcome.output, device.at("rejection"))) << outcome;
+    }
+}
+
+TEST_F(DevicesCommand, TheReferenceRendererIsListedLast) {
+    const Outcome outcome = run("devices");
+    EXPECT_TRUE(std::regex_search(outcome.output, std::regex("\ncpu  [^\n]*reference[^\n]*\n$"))) << outcome;
+}
+
+TEST_F(DevicesCommand, WhatIsNotExpectedIsAUsageError) {
+    expectFailure("devices all", 2, {"all"});
+    expectFailure("devices --xml", 2, {"--xml"});
+}
+
+} // namespace
+} // namespace hyalite::testing

@@ -1,0 +1,116 @@
+// The inspect command: what a scene or mesh is made of, and whether its tree finds what brute force finds.
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+class InspectCommand : public CommandLine {
+  protected:
+    void SetUp() override {
+        CommandLine::SetUp();
+        store("sheet.obj", wavySheetObj(12));
+        store("sheet.json", wavySheetScene());
+    }
+
+    /// Expects success and silence on standard error. Returns what was printed.
+    [[nodiscard]] std::string inspect(const std::string &line) const {
+        const Outcome outcome = run("inspect " + line);
+        EXPECT_EQ(outcome.exitCode, 0) << line << '\n' << outcome;
+        EXPECT_EQ(outcome.errors, "") << line;
+        return outcome.output;
+    }
+};
+
+/// The first number after the pattern, a regular expression.
+long numberAfter(const std::string &text, const std::string &pattern) {
+    std::smatch match;
+    if (!std::regex_search(text, match, std::regex(pattern + "\\s*([0-9]+)"))) {
+        ADD_FAILURE() << "no number after \"" << pattern << "\" in:\n" << text;
+        return -1;
+    }
+    return std::stol(match[1]);
+}
+
+TEST_F(InspectCommand, ASceneIsCounted) {
+    const std::string text = inspect("sheet.json");
+    for (const char *part :
+         {"sheet.json", "288 triangles", "2 spheres", "3 materials", "sheet.obj", "midpoint"})
+        EXPECT_TRUE(contains(text, part)) << part << '\n' << text;
+    EXPECT_EQ(entries(), (std::set<std::string>{"sheet.json", "sheet.obj"})) << "inspect writes no file";
+}
+
+TEST_F(InspectCommand, ShippedScenesAreFoundByName) {
+    EXPECT_TRUE(contains(inspect("spheres"), "10 spheres"));
+    EXPECT_TRUE(contains(inspect("spheres-nested"), "13 spheres"));
+    EXPECT_GE(numberAfter(inspect("cat"), "contents"), 144'000);
+}
+
+TEST_F(InspectCommand, ATreeIsMeasured) {
+    const std::string text = inspect("sheet.obj --bvh sah --leaf-size 3");
+    const long inner = numberAfter(text, "nodes");
+    std::smatch leaves;
+    ASSERT_TRUE(std::regex_search(text, leaves, std::regex("([0-9]+) leaves"))) << text;
+    EXPECT_EQ(std::stol(leaves[1]), inner + 1) << "a binary tree";
+    EXPECT_LE(numberAfter(text, "largest"), 3);
+    EXPECT_GE(numberAfter(text, "depth"), 7) << "288 triangles in leaves of 3 need 7 levels at least";
+    for (const char *part : {"sah", "leaf size 3", "SAH cost", "bytes", " s to load", " s to build"})
+        EXPECT_TRUE(contains(text, part)) << part << '\n' << text;
+}
+
+TEST_F(InspectCommand, BothBuildersObeyTheLeafSize) {
+    for (const char *tree : {"midpoint", "sah"})
+        for (const int leafSize : {1, 8, 64})
+            EXPECT_LE(numberAfter(inspect("sheet.obj --bvh " + std::string(tree) + " --leaf-size " +
+                                          std::to_string(leafSize)),
+                                  "largest"),
+                      leafSize)
+                << tree;
+}
+
+TEST_F(InspectCommand, AMeshIsCountedWithWhatWasRepairedAndDropped) {
+    store("odd.obj", "mtllib missing.mtl\no thing\n"
+                     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n"
+                     "vn 0 0 0\n"
+                     "g a\nusemtl m\n"
+                     "f 1 2 3 4\n"           // a polygon: two triangles
+                     "f 1 2 5\n"             // no area
+                     "f -5//1 -4//1 -3//1\n" // a normal that has no direction
+    );
+    const std::string text = inspect("odd.obj");
+    EXPECT_TRUE(contains(text, "3 triangles")) << text;
+    EXPECT_EQ(numberAfter(text, "faces"), 3) << text;
+    EXPECT_TRUE(contains(text, "1 of them polygons")) << text;
+    EXPECT_EQ(numberAfter(text, "dropped"), 1) << text;
+    EXPECT_EQ(numberAfter(text, "repaired"), 1) << text;
+}
+
+TEST_F(InspectCommand, RaysFindTheSameByTreeAndByBruteForce) {
+    for (const char *line : {"sheet.json --rays 500", "sheet.obj --rays 500 --bvh sah --leaf-size 1",
+                             "sheet.obj --rays 1 --bvh none"}) {
+        const std::string text = inspect(line);
+        EXPECT_TRUE(std::regex_search(text, std::regex("0 of [0-9]+ differ"))) << text;
+        EXPECT_TRUE(contains(text, "us a ray")) << text;
+    }
+}
+
+TEST_F(InspectCommand, OnTheCatTheTreeIsOverAHundredTimesFaster) {
+    EXPECT_GT(numberAfter(inspect("cat --rays 200"), "the tree is"), 100);
+}
+
+TEST_F(InspectCommand, WhatCannotBeReadIsBadInput) {
+    store("bad.obj", "v 0 0 0\nf 1 2 3\n");
+    expectFailure("inspect bad.obj", 3, {"bad.obj:2", "2"});
+    expectFailure("inspect nonesuch.json", 3, {"nonesuch.json"});
+    expectFailure("inspect nonesuch", 3, {"nonesuch", "spheres"});
+    expectFailure("inspect", 2, {"SCENE"});
+    expectFailure("inspect sheet.obj --rays 0", 2, {"--rays", "1", "1000000"});
+    expectFailure("inspect sheet.obj --leaf-size 0", 3, {"1", "64"});
+}
+
+} // namespace
+} // namespace hyalite::testing

@@ -1,0 +1,57 @@
+// The program as a user runs it: a command line goes in; exit code, standard output and standard error come out.
+//
+// No shell is involved: words are split here, and what a shell would add (pipes, variables, patterns) is refused.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyalite::testing {
+
+/// Where a stream of the program leads.
+enum class Stream {
+    Captured,
+    Closed,
+    FullDevice, ///< /dev/full: every write fails as on a full disk
+    Terminal,   ///< captured, through a pseudo terminal of 80 columns
+};
+
+/// What surrounds a run of the program.
+struct Surroundings {
+    std::filesystem::path folder; ///< the working directory
+    /// Added to this process' environment; without a value: removed from it.
+    std::map<std::string, std::optional<std::string>> environment;
+    Stream output = Stream::Captured;
+    Stream errors = Stream::Captured;
+    double timeoutSeconds = 60.0; ///< after which the program is killed and the test fails
+    std::string signalAfter;      ///< if set: `signal` is sent once, when standard error contains this
+    int signal = 0;               ///< sent once and not before the program has said something
+    std::size_t fileSizeLimitBytes =
+        0; ///< if not 0: larger files fail with EFBIG, standing in for a full disk
+};
+
+struct Outcome {
+    int exitCode = -1; ///< 128 + N if signal N ended the program, as a shell reports it
+    std::string output;
+    std::string errors;
+    double seconds = 0.0;
+};
+
+/// All of it, for the message of a failing test.
+std::ostream &operator<<(std::ostream &stream, const Outcome &outcome);
+
+/// Runs HYALITE_PROGRAM and waits for it. A run that exceeds the timeout adds a test failure. Throws
+/// std::runtime_error where no program can be started.
+[[nodiscard]] Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings &surroundings);
+
+/// The words of a command line by the rules of sh: spaces separate; '...', "..." and \ quote; # begins a comment.
+/// Throws std::runtime_error at what only a shell can do: | & ; < > ( ) $ ` * ? [ outside of quotes, ~ at the
+/// beginning of a word, $ and ` between double quotes, or a quote without an end.
+[[nodiscard]] std::vector<std::string> splitWords(std::string_view line);
+
+} // namespace hyalite::testing

@@ -1,0 +1,132 @@
+// --device and --threads: which device renders, and that the image does not depend on it.
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+using RenderDevice = CommandLine;
+
+const std::string small = " --width 16 --height 12 --spp 4";
+
+Surroundings withoutDriver() {
+    Surroundings surroundings;
+    surroundings.environment["VK_DRIVER_FILES"] = "/nonexistent/driver.json";
+    surroundings.environment["VK_ICD_FILENAMES"] = "/nonexistent/driver.json";
+    return surroundings;
+}
+
+/// Of the device that `auto` means, by what the render says.
+nlohmann::json findDevice(const std::string &name) {
+    for (const nlohmann::json &device : listDevices())
+        if (device.at("name") == name)
+            return device;
+    return {};
+}
+
+TEST_F(RenderDevice, EveryWayToNameADeviceGivesTheBytesOfTheCpu) {
+    store("sheet.obj", wavySheetObj(12));
+    store("sheet.json", wavySheetScene());
+    const nlohmann::json device = listDevices().at(std::stoul(softwareDevice()));
+    std::string part = device.at("name").get<std::string>().substr(0, 6);
+    std::string otherCase = part;
+    for (char &letter : otherCase)
+        letter = static_cast<char>(std::isupper(static_cast<unsigned char>(letter))
+                                       ? std::tolower(static_cast<unsigned char>(letter))
+                                       : std::toupper(static_cast<unsigned char>(letter)));
+    for (const char *scene : {"spheres", "sheet.json"}) {
+        const std::string wanted = renderPfm(scene + small + " --device cpu");
+        ASSERT_FALSE(wanted.empty());
+        for (const std::string &name : {softwareDevice(), part, otherCase})
+            EXPECT_EQ(renderPfm(scene + small + " --device '" + name + "'"), wanted) << scene << ", " << name;
+    }
+}
+
+TEST_F(RenderDevice, AutoIsTheDefaultAndMatchesTheCpu) {
+    const nlohmann::json report = renderReport("spheres" + small);
+    const std::string byDefault = load("reported.pfm");
+    EXPECT_EQ(renderPfm("spheres --device auto" + small), byDefault);
+    const nlohmann::json device = findDevice(report.at("device").at("name"));
+    ASSERT_TRUE(device.is_object()) << report;
+    if (device.at("canRoundToNearestEven") && device.at("canPreserveSignedZeroInfNan"))
+        EXPECT_EQ(renderPfm("spheres --device cpu" + small), byDefault) << device;
+}
+
+TEST_F(RenderDevice, AutoPrefersHardware) {
+    bool hasHardware = false;
+    for (const nlohmann::json &device : listDevices())
+        hasHardware |= device.at("isUsable") && !contains(device.at("type"), "software");
+    const Outcome outcome = run("render spheres -o a.png" + small);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_EQ(contains(outcome.errors, "software"), !hasHardware) << outcome;
+}
+
+TEST_F(RenderDevice, TheDeviceIsNamedOnceOnStandardError) {
+    const std::string index = softwareDevice();
+    const std::string name = listDevices().at(std::stoul(index)).at("name");
+    const Outcome outcome = run("render spheres -o a.png --device " + index + small);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, name)) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "software")) << outcome;
+    EXPECT_EQ(outcome.errors.find("software"), outcome.errors.rfind("software")) << outcome;
+    EXPECT_FALSE(contains(outcome.output, name)) << outcome;
+}
+
+TEST_F(RenderDevice, TheReferenceRendererIsNamedToo) {
+    const Outcome outcome = run("render spheres -o a.png --device cpu" + small);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "cpu")) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "reference")) << outcome;
+}
+
+TEST_F(RenderDevice, AnUnknownDeviceIsAnsweredWithTheList) {
+    std::vector<std::string> names{"cpu"};
+    for (const nlohmann::json &device : listDevices())
+        names.push_back(device.at("name"));
+    for (const char *wanted : {"nonesuch", "99", "-1", "''", "99999999999999999999"})
+        expectFailure("render spheres -o a.png --device " + std::string(wanted) + small, 4, names);
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(RenderDevice, WithoutADriverItSaysWhatToInstall) {
+    for (const char *line :
+         {"render spheres -o a.png", "render spheres -o a.png --device 0", "devices", "devices --json"}) {
+        const Outcome outcome = runIn(withoutDriver(), line);
+        EXPECT_EQ(outcome.exitCode, 4) << line << '\n' << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "install")) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "mesa-vulkan-drivers")) << outcome;
+        EXPECT_EQ(outcome.output, "") << line;
+    }
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(RenderDevice, WithoutADriverTheReferenceRendererStillRenders) {
+    const Outcome outcome = runIn(withoutDriver(), "render spheres -o a.png --device cpu" + small);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_EQ(entries(), std::set<std::string>{"a.png"});
+    // The remedy that needs no installation.
+    EXPECT_TRUE(contains(runIn(withoutDriver(), "render spheres -o b.png").errors, "--device cpu"));
+}
+
+TEST_F(RenderDevice, TheNumberOfThreadsDoesNotChangeTheImage) {
+    store("sheet.obj", wavySheetObj(12));
+    store("sheet.json", wavySheetScene());
+    const std::string wanted = renderPfm("sheet.json" + small + " --device cpu");
+    for (const std::string &device : {std::string("cpu"), softwareDevice()})
+        for (const char *threads : {"1", "2"})
+            EXPECT_EQ(renderPfm("sheet.json" + small + " --device " + device + " --threads " + threads),
+                      wanted)
+                << device << ", " << threads;
+}
+
+TEST_F(RenderDevice, RepeatedRendersAreEqual) {
+    const std::string line = "spheres --device " + softwareDevice() + small;
+    EXPECT_EQ(renderPfm(line), renderPfm(line));
+}
+
+} // namespace
+} // namespace hyalite::testing

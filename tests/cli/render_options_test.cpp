@@ -1,0 +1,316 @@
+// Each option of render has its effect, and values outside of its range are refused before rendering.
+#include "host/image/image_file.h"
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+class RenderOptions : public CommandLine {
+  protected:
+    void SetUp() override {
+        CommandLine::SetUp();
+        store("sheet.obj", wavySheetObj(12));
+        store("sheet.json", wavySheetScene());
+        store("square.obj", squareObj());
+        store("square.json", squareScene());
+        store("empty.json", "{}");
+    }
+};
+
+const std::string onCpu = " --device cpu";
+const std::string small = " --width 16 --height 12 --spp 1 --device cpu";
+
+TEST_F(RenderOptions, SppIsTheNumberOfPrimaryRaysInAPixel) {
+    for (const char *spp : {"1", "5", "64"}) {
+        const nlohmann::json report =
+            renderReport("spheres --width 16 --height 12 --device cpu --spp " + std::string(spp));
+        EXPECT_EQ(report.at("settings").at("spp"), std::stoi(spp));
+        EXPECT_EQ(report.at("rays").at("primary"), 16 * 12 * std::stoi(spp));
+    }
+}
+
+TEST_F(RenderOptions, ManySamplesAreRenderedAlikeOnDeviceAndCpu) {
+    const std::string line = "sheet.json --width 5 --height 4 --spp 1024";
+    EXPECT_EQ(renderPfm(line + onCpu), renderPfm(line + " --device " + softwareDevice()));
+}
+
+TEST_F(RenderOptions, TheSeedChangesSobolAndNotCentre) {
+    EXPECT_NE(renderPfm("spheres --sampler sobol --seed 1" + small),
+              renderPfm("spheres --sampler sobol --seed 2" + small));
+    EXPECT_EQ(renderPfm("spheres --sampler centre --seed 1" + small),
+              renderPfm("spheres --sampler centre --seed 2" + small));
+    EXPECT_EQ(renderPfm("spheres --seed 4294967295" + small), renderPfm("spheres --seed 4294967295" + small));
+}
+
+TEST_F(RenderOptions, CentreRepeatsOneSample) {
+    const std::string line = "spheres --sampler centre --width 16 --height 12 --device cpu --spp ";
+    EXPECT_EQ(renderPfm(line + "1"), renderPfm(line + "2"));
+}
+
+TEST_F(RenderOptions, SobolIsTheDefaultAndSmoothsEdges) {
+    store("plain.json", squareScene().replace(squareScene().find(", \"sampler\": \"centre\""), 21, ""));
+    EXPECT_EQ(renderPfm("plain.json"), renderPfm("plain.json --sampler sobol"));
+    // Pixels between black and the square's own grey are those that its edge crosses.
+    const auto greyCount = [&](const std::string &sampler) {
+        const Image image = renderImage("plain.json --width 31 --height 23 --spp 64 --sampler " + sampler);
+        const float full = image.at(15, 11).x;
+        int count = 0;
+        for (const glm::vec3 &pixel : image.pixels())
+            count += pixel.x > 0.02f * full && pixel.x < 0.9f * full ? 1 : 0;
+        return count;
+    };
+    EXPECT_EQ(greyCount("centre"), 0);
+    EXPECT_GT(greyCount("sobol"), 10);
+}
+
+TEST_F(RenderOptions, MaxDepthCountsSegments) {
+    const std::string line = "spheres --width 32 --height 24 --spp 1 --device cpu --max-depth ";
+    const nlohmann::json one = renderReport(line + "1");
+    EXPECT_EQ(one.at("rays").at("reflection"), 0);
+    EXPECT_EQ(one.at("rays").at("refraction"), 0);
+    const std::string oneBytes = load("reported.pfm");
+    const nlohmann::json two = renderReport(line + "2");
+    EXPECT_GT(two.at("rays").at("reflection"), 0);
+    EXPECT_NE(load("reported.pfm"), oneBytes);
+    EXPECT_GT(renderReport(line + "12").at("rays").at("total"), two.at("rays").at("total"));
+}
+
+TEST_F(RenderOptions, EveryDepthIsRenderedAlikeOnDeviceAndCpu) {
+    const std::string device = " --device " + softwareDevice();
+    for (const char *depth : {"1", "2", "3", "8", "12", "32"}) {
+        const std::string line = "spheres-nested --width 24 --height 18 --spp 1 --max-depth ";
+        EXPECT_EQ(renderPfm(line + depth + onCpu), renderPfm(line + depth + device)) << depth;
+    }
+}
+
+TEST_F(RenderOptions, TheTreeDoesNotChangeTheImage) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const std::string line = "sheet.json --device " + device;
+        const std::string wanted = renderPfm(line + " --bvh none");
+        ASSERT_FALSE(wanted.empty());
+        for (const char *tree : {"midpoint", "sah"})
+            for (const char *leafSize : {"1", "8", "64"})
+                EXPECT_EQ(renderPfm(line + " --bvh " + tree + " --leaf-size " + leafSize), wanted)
+                    << device << ", " << tree << ", " << leafSize;
+    }
+}
+
+TEST_F(RenderOptions, TreeLeafSizeSamplerAndSeedAreInTheReport) {
+    const nlohmann::json settings =
+        renderReport("sheet.json --bvh sah --leaf-size 3 --sampler centre --seed 7 --exposure -1.5" + small)
+            .at("settings");
+    EXPECT_EQ(settings.at("bvh"), "sah");
+    EXPECT_EQ(settings.at("leafSize"), 3);
+    EXPECT_EQ(settings.at("sampler"), "centre");
+    EXPECT_EQ(settings.at("seed"), 7);
+    EXPECT_EQ(settings.at("exposure"), -1.5);
+}
+
+TEST_F(RenderOptions, FovIsHorizontal) {
+    // From 10 away, a square of side 2 covers 1 / (10 tan(fov/2)) of the width.
+    for (const double fov : {20.0, 60.0, 120.0}) {
+        const Image image =
+            renderImage("square.json --width 101 --height 75 --device cpu --fov " + std::to_string(fov));
+        const double side = 101.0 / (10.0 * std::tan(fov * 3.14159265358979 / 360.0));
+        EXPECT_NEAR(std::sqrt(litPixelCount(image)), side, 1.0) << fov;
+    }
+}
+
+TEST_F(RenderOptions, CameraPositionKeepsTheDirection) {
+    const int near = litPixelCount(renderImage("square.json --camera-position 0,0,8" + onCpu));
+    const int far = litPixelCount(renderImage("square.json --camera-position 0,0,20" + onCpu));
+    EXPECT_GT(near, 4 * far);
+    EXPECT_GT(far, 0);
+    // Moved aside by more than it sees, and still looking along -z.
+    EXPECT_EQ(litPixelCount(renderImage("square.json --camera-position 9,0,10" + onCpu)), 0);
+}
+
+TEST_F(RenderOptions, LookAtTurnsTheCamera) {
+    EXPECT_EQ(litPixelCount(renderImage("square.json --look-at 0,0,20" + onCpu)), 0);
+    const Image image = renderImage("square.json --camera-position -9,3,8 --look-at 0,0,0" + onCpu);
+    EXPECT_NE(image.at(16, 12), glm::vec3(0.0f));
+    EXPECT_EQ(renderPfm("square.json --look-at 0,0,-7" + onCpu), renderPfm("square.json" + onCpu));
+}
+
+TEST_F(RenderOptions, UpsideDownIsTheImageTurned) {
+    const Image image = renderImage("sheet.json --sampler centre" + onCpu);
+    const Image turned = renderImage("sheet.json --sampler centre --up 0,-1,0" + onCpu);
+    ASSERT_EQ(turned.width(), 16);
+    int differenceCount = 0;
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const glm::vec3 difference = image.at(x, y) - turned.at(15 - x, 11 - y);
+            differenceCount += glm::dot(difference, difference) > 1e-4f ? 1 : 0;
+        }
+    EXPECT_LE(differenceCount, 2); // of 192: rays are rounded otherwise, at an edge that may show
+}
+
+TEST_F(RenderOptions, VectorsMayBeWrittenWithCommasOrSpaces) {
+    const std::string wanted = renderPfm("square.json --camera-position -1,2,8" + onCpu);
+    EXPECT_EQ(renderPfm("square.json --camera-position=-1,2,8" + onCpu), wanted);
+    EXPECT_EQ(renderPfm("square.json --camera-position -1 2 8" + onCpu), wanted);
+    EXPECT_EQ(renderPfm("square.json --camera-position '-1, 2, 8'" + onCpu), wanted);
+    EXPECT_EQ(renderPfm("square.json --camera-position -1.0,2e0,.8e1" + onCpu), wanted);
+}
+
+TEST_F(RenderOptions, BackgroundIsWhatRaysSeeThatMeetNothing) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const Image image =
+            renderImage("empty.json --width 5 --height 4 --background .25,0.5,3 --device " + device);
+        ASSERT_EQ(image.pixels().size(), 20u);
+        for (const glm::vec3 &pixel : image.pixels())
+            EXPECT_EQ(pixel, glm::vec3(0.25f, 0.5f, 3.0f)) << device;
+    }
+}
+
+TEST_F(RenderOptions, ExposureBrightensAPngAndNotAPfm) {
+    EXPECT_EQ(renderPfm("spheres --exposure 3" + small), renderPfm("spheres" + small));
+    const auto grey = [&](const std::string &exposure) {
+        const std::string line = "render empty.json -o a.png --background .125,.125,.125 --exposure ";
+        EXPECT_EQ(run(line + exposure + small).exitCode, 0);
+        return std::lround(255.0f * readImage(folder / "a.png").image.at(0, 0).x);
+    };
+    EXPECT_EQ(grey("0"), std::lround(255.0 * std::pow(0.125, 1.0 / 2.2)));
+    EXPECT_EQ(grey("1"), std::lround(255.0 * std::pow(0.25, 1.0 / 2.2)));
+    EXPECT_EQ(grey("-1.5"), std::lround(255.0 * std::pow(0.125 * std::exp2(-1.5), 1.0 / 2.2)));
+    EXPECT_EQ(grey("3"), 255);
+    EXPECT_EQ(grey("100"), 255);
+    EXPECT_EQ(grey("-100"), 0);
+}
+
+TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
+    store("own.json", R"({"camera": {"width": 9, "height": 7, "horizontalFov": 20},
+                          "settings": {"spp": 3, "maxDepth": 4, "bvh": "sah", "leafSize": 2, "seed": 5,
+                                       "sampler": "centre", "exposure": 2}})");
+    const nlohmann::json own = renderReport("own.json --device cpu");
+    EXPECT_EQ(own.at("image"), (nlohmann::json{{"width", 9}, {"height", 7}}));
+    const nlohmann::json wanted{
+        {"integrator", "whitted"}, {"spp", 3},  {"maxDepth", 4},       {"bvh", "sah"},
+        {"leafSize", 2},           {"seed", 5}, {"sampler", "centre"}, {"exposure", 2.0}};
+    EXPECT_EQ(own.at("settings"), wanted);
+    const nlohmann::json overridden = renderReport("own.json --width 4 --spp 2" + onCpu);
+    EXPECT_EQ(overridden.at("image"), (nlohmann::json{{"width", 4}, {"height", 7}}));
+    EXPECT_EQ(overridden.at("settings").at("spp"), 2);
+    EXPECT_EQ(overridden.at("settings").at("maxDepth"), 4);
+}
+
+TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
+    const nlohmann::json report = renderReport("empty.json --crop 0,1,0,1" + onCpu);
+    const nlohmann::json wanted{{"integrator", "whitted"}, {"spp", 16},      {"maxDepth", 7},
+                                {"bvh", "midpoint"},       {"leafSize", 8},  {"seed", 0},
+                                {"sampler", "sobol"},      {"exposure", 0.0}};
+    EXPECT_EQ(report.at("settings"), wanted);
+    expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});
+}
+
+struct OutOfRange {
+    const char *option;
+    const char *value;
+    std::vector<std::string> range;
+};
+
+TEST_F(RenderOptions, ValuesOutOfRangeAreRefusedWithTheRange) {
+    const std::vector<OutOfRange> cases{
+        {"--width", "0", {"1", "32768"}},
+        {"--width", "-5", {"1", "32768"}},
+        {"--width", "32769", {"1", "32768"}},
+        {"--height", "0", {"1", "32768"}},
+        {"--spp", "0", {"1", "65536"}},
+        {"--spp", "65537", {"1", "65536"}},
+        {"--spp", "99999999999", {"1", "65536"}},
+        {"--max-depth", "0", {"1", "32"}},
+        {"--max-depth", "33", {"1", "32"}},
+        {"--leaf-size", "0", {"1", "64"}},
+        {"--leaf-size", "65", {"1", "64"}},
+        {"--seed", "-1", {"0", "4294967295"}},
+        {"--seed", "4294967296", {"0", "4294967295"}},
+        {"--fov", "0", {"0", "180"}},
+        {"--fov", "180", {"0", "180"}},
+        {"--fov", "nan", {"0", "180"}},
+        {"--fov", "inf", {"0", "180"}},
+        {"--exposure", "-101", {"-100", "100"}},
+        {"--exposure", "1e9", {"-100", "100"}},
+        {"--threads", "0", {"1", "1024"}},
+        {"--threads", "1025", {"1", "1024"}},
+        {"--background", "-1,0,0", {"0"}},
+        {"--background", "0,nan,0", {"0"}},
+        {"--camera-position", "1e300,0,0", {"1e+15"}},
+        {"--up", "0,0,0", {}},
+        {"--up", "0,0,1", {}},
+        {"--look-at", "0,0,55", {}},
+        {"--look-at", "nan,0,0", {}},
+    };
+    const std::set<std::string> before = entries();
+    for (const OutOfRange &wrong : cases) {
+        const std::string line = std::string("render spheres -o a.png ") + wrong.option + " " + wrong.value;
+        const Outcome outcome = run(line);
+        EXPECT_TRUE(outcome.exitCode == 2 || outcome.exitCode == 3) << line << '\n' << outcome;
+        EXPECT_EQ(outcome.output, "") << line;
+        EXPECT_FALSE(contains(outcome.errors, "device:")) << outcome;
+        for (const std::string &bound : wrong.range)
+            EXPECT_TRUE(contains(outcome.errors, bound)) << line << ": no bound " << bound << '\n' << outcome;
+    }
+    EXPECT_EQ(entries(), before);
+}
+
+TEST_F(RenderOptions, RefusalsUseTheNameThatWasTyped) {
+    for (const char *wrong : {"--width 0", "--height 0", "--spp 0", "--max-depth 0", "--leaf-size 0",
+                              "--fov 0", "--exposure 101", "--threads 0", "--background -1,0,0", "--up 0,0,0",
+                              "--look-at 0,0,55", "--camera-position 1e300,0,0"}) {
+        const std::string option = std::string(wrong).substr(0, std::string(wrong).find(' '));
+        const Outcome outcome = run(std::string("render spheres -o a.png ") + wrong);
+        EXPECT_TRUE(contains(outcome.errors, option)) << wrong << '\n' << outcome.errors;
+    }
+}
+
+TEST_F(RenderOptions, WhatIsNoNumberIsAUsageError) {
+    for (const char *wrong : {"--width abc",
+                              "--width 1.5",
+                              "--width ''",
+                              "--height 3px",
+                              "--spp ten",
+                              "--max-depth 1e1",
+                              "--leaf-size x",
+                              "--seed x",
+                              "--fov wide",
+                              "--fov ''",
+                              "--exposure +",
+                              "--threads two",
+                              "--camera-position a,b,c",
+                              "--look-at 1,2",
+                              "--look-at 1",
+                              "--up 1,2,3,4",
+                              "--background 1",
+                              "--background red",
+                              "--crop 1,2,3",
+                              "--crop a,b,c,d",
+                              "--crop 0,1.5,0,2"}) {
+        const std::string option = std::string(wrong).substr(0, std::string(wrong).find(' '));
+        expectFailure(std::string("render spheres -o a.png ") + wrong, 2,
+                      // A fourth number may be reported as such.
+                      option == "--up" ? std::vector<std::string>{} : std::vector<std::string>{option});
+    }
+}
+
+TEST_F(RenderOptions, AnUnknownWordIsAnsweredWithTheWordsThereAre) {
+    expectFailure("render spheres -o a.png --sampler fine", 2, {"--sampler", "fine", "centre", "sobol"});
+    expectFailure("render spheres -o a.png --bvh fast", 2, {"--bvh", "fast", "midpoint", "sah", "none"});
+    // The numbers of an enumeration are nobody's business.
+    for (const char *line : {"--sampler fine", "--bvh fast"})
+        EXPECT_FALSE(contains(run(std::string("render spheres -o a.png ") + line).errors, "->")) << line;
+    for (const char *line : {"--sampler 1", "--bvh 2", "--bvh 0", "--sampler SOBOL", "--sampler ''"})
+        expectFailure("render spheres -o a.png " + std::string(line) + small, 2);
+}
+
+TEST_F(RenderOptions, AnOptionWithoutItsValueIsAUsageError) {
+    for (const char *option : {"--width", "--spp", "--bvh", "--crop", "--up", "--device", "--report", "-o"})
+        EXPECT_EQ(run(std::string("render spheres ") + option).exitCode, 2) << option;
+}
+
+} // namespace
+} // namespace hyalite::testing

@@ -1,0 +1,244 @@
+// The files that a render writes: their formats and sizes, and that they appear whole or not at all.
+#include "host/image/image_file.h"
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+using RenderOutput = CommandLine;
+
+const std::string small = " --width 16 --height 12 --spp 1 --device cpu";
+/// Hours of work: whoever begins with it is found out by the clock.
+const std::string endless = " --width 2048 --height 2048 --spp 65536 --device cpu";
+constexpr double promptSeconds = 5.0;
+
+TEST_F(RenderOutput, APngIsEncodedForTheScreen) {
+    ASSERT_EQ(run("render spheres -o a.png --width 17 --height 11 --spp 1").exitCode, 0);
+    const LoadedImage loaded = readImage(folder / "a.png");
+    EXPECT_EQ(loaded.encoding, Encoding::Display);
+    EXPECT_EQ(loaded.image.width(), 17);
+    EXPECT_EQ(loaded.image.height(), 11);
+}
+
+TEST_F(RenderOutput, APfmIsLinear) {
+    ASSERT_EQ(run("render spheres -o a.pfm --width 17 --height 11 --spp 1").exitCode, 0);
+    const LoadedImage loaded = readImage(folder / "a.pfm");
+    EXPECT_EQ(loaded.encoding, Encoding::Linear);
+    EXPECT_EQ(loaded.image.width(), 17);
+    EXPECT_EQ(loaded.image.height(), 11);
+    EXPECT_EQ(load("a.pfm").substr(0, 3), "PF\n");
+}
+
+TEST_F(RenderOutput, ThePngIsThePfmWithGamma) {
+    ASSERT_EQ(run("render spheres -o a.png" + small).exitCode, 0);
+    const Image linear = renderImage("spheres" + small);
+    const Image display = readImage(folder / "a.png").image;
+    ASSERT_EQ(linear.pixels().size(), display.pixels().size());
+    for (std::size_t i = 0; i < linear.pixels().size(); ++i)
+        for (glm::length_t channel = 0; channel < 3; ++channel) {
+            const double wanted =
+                255.0 * std::clamp(std::pow(double{linear.pixels()[i][channel]}, 1.0 / 2.2), 0.0, 1.0);
+            EXPECT_NEAR(255.0 * double{display.pixels()[i][channel]}, wanted, 0.501) << i;
+        }
+}
+
+TEST_F(RenderOutput, TheExtensionMayBeInUpperCase) {
+    EXPECT_EQ(run("render spheres -o A.PNG" + small).exitCode, 0);
+    EXPECT_EQ(run("render spheres -o A.Pfm" + small).exitCode, 0);
+    EXPECT_EQ(entries(), (std::set<std::string>{"A.PNG", "A.Pfm"}));
+}
+
+TEST_F(RenderOutput, EverySizeIsRenderedAlikeOnDeviceAndCpu) {
+    const std::string device = " --device " + softwareDevice();
+    for (const char *size : {"1 --height 1", "1 --height 40", "40 --height 1", "33 --height 21"}) {
+        const std::string line = std::string("spheres --spp 2 --width ") + size;
+        const std::string bytes = renderPfm(line + device);
+        EXPECT_FALSE(bytes.empty());
+        EXPECT_EQ(bytes, renderPfm(line + " --device cpu")) << size;
+    }
+}
+
+TEST_F(RenderOutput, ACropIsThatPartOfTheImage) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const std::string line = "spheres --width 16 --height 12 --spp 2 --device " + device;
+        const Image whole = renderImage(line);
+        const Image part = renderImage(line + " --crop 3,9,2,7");
+        ASSERT_EQ(whole.width(), 16);
+        ASSERT_EQ(part.width(), 6);
+        ASSERT_EQ(part.height(), 5);
+        for (int y = 0; y < part.height(); ++y)
+            for (int x = 0; x < part.width(); ++x)
+                EXPECT_EQ(part.at(x, y), whole.at(x + 3, y + 2)) << device << ": " << x << ", " << y;
+    }
+}
+
+TEST_F(RenderOutput, ACropOfAllIsTheImage) {
+    EXPECT_EQ(renderPfm("spheres" + small), renderPfm("spheres --crop 0,16,0,12" + small));
+}
+
+TEST_F(RenderOutput, ACropThatIsEmptyOrOutsideIsRefused) {
+    for (const char *crop : {"0,0,0,12", "5,4,0,12", "0,17,0,12", "0,16,0,13", "-1,16,0,12", "16,17,0,12"})
+        expectFailure("render spheres -o a.png --crop " + std::string(crop) + small, 2,
+                      {"--crop", crop, "16", "12"});
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(RenderOutput, ASmallCropOfAHugeImageNeedsLittleMemory) {
+    const Image image = renderImage("spheres --width 32768 --height 32768 --spp 1 --crop 0,4,32764,32768");
+    EXPECT_EQ(image.width(), 4);
+    EXPECT_EQ(image.height(), 4);
+}
+
+TEST_F(RenderOutput, AnExistingFileIsReplacedWhole) {
+    store("a.png", std::string(1'000'000, 'x'));
+    ASSERT_EQ(run("render spheres -o a.png" + small).exitCode, 0);
+    EXPECT_EQ(readImage(folder / "a.png").image.width(), 16);
+    EXPECT_EQ(entries(), std::set<std::string>{"a.png"});
+}
+
+TEST_F(RenderOutput, ALinkStaysALink) {
+    store("real.png", "old");
+    fs::create_symlink("real.png", folder / "link.png");
+    ASSERT_EQ(run("render spheres -o link.png" + small).exitCode, 0);
+    EXPECT_TRUE(fs::is_symlink(folder / "link.png"));
+    EXPECT_EQ(readImage(folder / "real.png").image.width(), 16);
+}
+
+TEST_F(RenderOutput, TheOldFileSurvivesARenderThatFails) {
+    store("a.png", "old");
+    store("bad.json", R"({"camera": 3})");
+    expectFailure("render bad.json -o a.png", 3);
+    expectFailure("render spheres -o a.png --device nonesuch", 4);
+    expectFailure("render spheres -o a.png --spp 0", 3);
+    expectFailure("render spheres -o a.png --crop 0,0,0,0", 2);
+    expectFailure("render spheres -o a.png --nonesuch", 2);
+    EXPECT_EQ(load("a.png"), "old");
+    EXPECT_EQ(entries(), (std::set<std::string>{"a.png", "bad.json"}));
+}
+
+TEST_F(RenderOutput, TheOldFileSurvivesAFullDisk) {
+    store("a.pfm", "old");
+    Surroundings full;
+    full.fileSizeLimitBytes = 4096;
+    const Outcome outcome =
+        runIn(full, "render spheres -o a.pfm --width 64 --height 64 --spp 1 --device cpu");
+    EXPECT_EQ(outcome.exitCode, 7) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "a.pfm")) << outcome;
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_EQ(load("a.pfm"), "old");
+    EXPECT_EQ(entries(), std::set<std::string>{"a.pfm"});
+}
+
+TEST_F(RenderOutput, WhatCannotBeWrittenIsRefusedBeforeRendering) {
+    store("file", "text");
+    fs::create_directory(folder / "folder.png");
+    fs::create_symlink("/dev/full", folder / "full.png");
+    fs::create_symlink("loop.png", folder / "loop.png");
+    const std::set<std::string> before = entries();
+    for (const char *output : {"missing/a.png", "folder.png", "file/a.png", "full.png", "loop.png",
+                               "/proc/a.png", "folder.png/"}) {
+        const Outcome outcome = run("render spheres -o " + std::string(output) + endless);
+        // A name that ends in a slash has no extension: either answer is right.
+        EXPECT_TRUE(outcome.exitCode == 7 || (outcome.exitCode == 2 && std::string(output) == "folder.png/"))
+            << outcome;
+        EXPECT_TRUE(contains(outcome.errors, output)) << outcome;
+        EXPECT_LT(outcome.seconds, promptSeconds) << output;
+        EXPECT_FALSE(contains(outcome.errors, "device:")) << outcome;
+    }
+    EXPECT_EQ(entries(), before);
+    EXPECT_EQ(load("file"), "text");
+}
+
+TEST_F(RenderOutput, AnUnknownExtensionIsRefusedBeforeRendering) {
+    for (const char *output : {"a", "a.jpg", ".png", "a.png.txt", "-", "/dev/full"}) {
+        const Outcome outcome = run("render spheres -o " + std::string(output) + endless);
+        EXPECT_EQ(outcome.exitCode, 2) << outcome;
+        for (const char *part : {output, ".png", ".pfm"})
+            EXPECT_TRUE(contains(outcome.errors, part)) << outcome;
+        EXPECT_LT(outcome.seconds, promptSeconds) << output;
+    }
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(RenderOutput, AReportThatCannotBeWrittenIsRefusedBeforeRendering) {
+    fs::create_directory(folder / "folder.json");
+    for (const char *report : {"missing/r.json", "folder.json", "/dev/full"}) {
+        const Outcome outcome = run("render spheres -o a.png --report " + std::string(report) + endless);
+        EXPECT_EQ(outcome.exitCode, 7) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, report)) << outcome;
+        EXPECT_LT(outcome.seconds, promptSeconds) << report;
+    }
+    EXPECT_EQ(entries(), std::set<std::string>{"folder.json"});
+}
+
+TEST_F(RenderOutput, ImageAndReportAreNotTheSameFile) {
+    expectFailure("render spheres -o a.png --report a.png" + small, 2, {"a.png"});
+    expectFailure("render spheres -o a.png --report ./a.png" + small, 2, {"a.png"});
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(RenderOutput, AnInterruptedRenderLeavesNothingBehind) {
+    store("a.png", "old");
+    for (const int signal : {SIGINT, SIGTERM}) {
+        Surroundings interrupted;
+        interrupted.signalAfter = "device:";
+        interrupted.signal = signal;
+        const Outcome outcome = runIn(interrupted, "render spheres -o a.png" + endless);
+        EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome;
+        EXPECT_EQ(outcome.output, "");
+        EXPECT_EQ(load("a.png"), "old");
+        EXPECT_EQ(entries(), std::set<std::string>{"a.png"}) << "after signal " << signal;
+    }
+}
+
+TEST_F(RenderOutput, MessagesNeverEndUpInTheImage) {
+    // The lowest free descriptor is that of a closed stream: the next file that is opened gets it.
+    ASSERT_EQ(run("render spheres -o wanted.png" + small).exitCode, 0);
+    for (const bool isErrors : {false, true}) {
+        Surroundings closed;
+        (isErrors ? closed.errors : closed.output) = Stream::Closed;
+        const Outcome outcome = runIn(closed, "render spheres -o a.png --report r.json" + small);
+        // Either answer is right: done in silence, or refused for want of a place for the messages.
+        if (outcome.exitCode == 0)
+            EXPECT_EQ(load("a.png"), load("wanted.png")) << (isErrors ? "stderr" : "stdout");
+        EXPECT_LT(outcome.exitCode, 128) << outcome;
+    }
+}
+
+TEST_F(RenderOutput, OutputThatIsLostIsAFailure) {
+    Surroundings full;
+    full.output = Stream::FullDevice;
+    EXPECT_EQ(runIn(full, "devices --json").exitCode, 7);
+    EXPECT_EQ(runIn(full, "devices").exitCode, 7);
+    EXPECT_EQ(runIn(full, "inspect spheres").exitCode, 7);
+}
+
+TEST_F(RenderOutput, AFileNameMayHoldAnything) {
+    for (const char *output : {"'a b.png'", "'ü.png'", "'%s{}.png'", "./-x.png", "'a\"b.png'"})
+        EXPECT_EQ(run("render spheres --report r.json -o " + std::string(output) + small).exitCode, 0)
+            << output;
+    EXPECT_EQ(entries(),
+              (std::set<std::string>{"a b.png", "ü.png", "%s{}.png", "-x.png", "a\"b.png", "r.json"}));
+    EXPECT_EQ(nlohmann::json::parse(load("r.json")).at("output"), "a\"b.png");
+}
+
+TEST_F(RenderOutput, AFileNameThatIsNotUnicodeIsReportedToo) {
+    const std::string name = "a\xff.png";
+    const Outcome outcome = run("render spheres --report r.json -o " + name + small);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_EQ(entries(), (std::set<std::string>{name, "r.json"}));
+    EXPECT_TRUE(nlohmann::json::accept(load("r.json")));
+}
+
+} // namespace
+} // namespace hyalite::testing

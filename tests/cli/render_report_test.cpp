@@ -1,0 +1,174 @@
+// What a render says: the JSON report, the closing line, progress, and silence on request.
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <regex>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+class RenderReport : public CommandLine {
+  protected:
+    void SetUp() override {
+        CommandLine::SetUp();
+        store("sheet.obj", wavySheetObj(12));
+        store("sheet.json", wavySheetScene());
+    }
+};
+
+const std::string small = " --width 16 --height 12 --spp 2";
+/// Hours of work, in which to watch the progress.
+const std::string endless = " --width 512 --height 512 --spp 65536";
+
+std::set<std::string> keysOf(const nlohmann::json &object) {
+    std::set<std::string> keys;
+    for (const auto &[key, value] : object.items())
+        keys.insert(key);
+    return keys;
+}
+
+TEST_F(RenderReport, HasAllItsKeys) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const nlohmann::json report = renderReport("sheet.json" + small + " --device " + device);
+        EXPECT_EQ(keysOf(report),
+                  (std::set<std::string>{"program", "commandLine", "scene", "output", "device", "image",
+                                         "settings", "triangles", "rays", "dispatches", "seconds"}));
+        EXPECT_EQ(keysOf(report.at("device")), (std::set<std::string>{"name", "driver"}));
+        EXPECT_EQ(keysOf(report.at("image")), (std::set<std::string>{"width", "height"}));
+        EXPECT_EQ(keysOf(report.at("settings")),
+                  (std::set<std::string>{"integrator", "spp", "maxDepth", "bvh", "leafSize", "sampler",
+                                         "seed", "exposure"}));
+        EXPECT_EQ(keysOf(report.at("rays")),
+                  (std::set<std::string>{"primary", "shadow", "reflection", "refraction", "total"}));
+        EXPECT_EQ(keysOf(report.at("seconds")),
+                  (std::set<std::string>{"load", "build", "upload", "pipeline", "render", "write", "total"}));
+    }
+}
+
+TEST_F(RenderReport, SaysWhatWasAsked) {
+    const nlohmann::json report = renderReport("sheet.json --crop 2,7,1,5" + small);
+    EXPECT_TRUE(contains(report.at("program"), "hyalite "));
+    EXPECT_TRUE(contains(report.at("commandLine"), "render sheet.json --crop 2,7,1,5 --width 16")) << report;
+    EXPECT_TRUE(contains(report.at("scene"), "sheet.json"));
+    EXPECT_EQ(report.at("output"), "reported.pfm");
+    EXPECT_EQ(report.at("image"), (nlohmann::json{{"width", 5}, {"height", 4}}));
+    EXPECT_EQ(report.at("triangles"), 2 * 12 * 12);
+    EXPECT_EQ(report.at("rays").at("primary"), 5 * 4 * 2);
+}
+
+TEST_F(RenderReport, CommandLineCanBePastedBack) {
+    const Outcome outcome = run(
+        "render sheet.json -o 'a b.pfm' --look-at '0, 0, 0' --quiet --device cpu --report \"it's\"" + small);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    const nlohmann::json report = nlohmann::json::parse(load("it's"));
+    const std::vector<std::string> words = splitWords(report.at("commandLine").get<std::string>());
+    EXPECT_EQ(words.at(4), "a b.pfm") << report.at("commandLine");
+    EXPECT_EQ(words.at(6), "0, 0, 0") << report.at("commandLine");
+    EXPECT_EQ(words.at(11), "it's") << report.at("commandLine");
+}
+
+TEST_F(RenderReport, RayCountsAreEqualOnDeviceAndCpu) {
+    const std::string software = softwareDevice();
+    for (const char *scene : {"sheet.json", "spheres", "spheres-nested"}) {
+        const nlohmann::json onCpu = renderReport(scene + small + " --device cpu");
+        const nlohmann::json onDevice = renderReport(scene + small + " --device " + software);
+        EXPECT_EQ(onCpu.at("rays"), onDevice.at("rays")) << scene;
+        const nlohmann::json &rays = onDevice.at("rays");
+        EXPECT_EQ(rays.at("primary"), 16 * 12 * 2);
+        EXPECT_EQ(rays.at("total").get<long>(),
+                  rays.at("primary").get<long>() + rays.at("shadow").get<long>() +
+                      rays.at("reflection").get<long>() + rays.at("refraction").get<long>());
+        EXPECT_EQ(onCpu.at("triangles"), onDevice.at("triangles"));
+        EXPECT_EQ(onCpu.at("settings"), onDevice.at("settings"));
+    }
+}
+
+TEST_F(RenderReport, TimesAddUp) {
+    const nlohmann::json seconds = renderReport("spheres" + small).at("seconds");
+    double sum = 0.0;
+    for (const auto &[key, value] : seconds.items()) {
+        EXPECT_TRUE(value.is_number()) << key;
+        EXPECT_GE(value.get<double>(), 0.0) << key;
+        sum += key == "total" ? 0.0 : value.get<double>();
+    }
+    EXPECT_GT(seconds.at("render").get<double>(), 0.0);
+    EXPECT_LE(sum, seconds.at("total").get<double>() * 1.001);
+}
+
+TEST_F(RenderReport, AnExistingReportIsReplacedWhole) {
+    store("report.json", std::string(100'000, 'x'));
+    EXPECT_EQ(renderReport("spheres --device cpu" + small).at("output"), "reported.pfm");
+}
+
+TEST_F(RenderReport, QuietPrintsErrorsOnly) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const Outcome outcome = run("render spheres -o a.png --quiet --device " + device + small);
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_EQ(outcome.output, "");
+        EXPECT_EQ(outcome.errors, "");
+    }
+    EXPECT_NE(run("render nonesuch -o a.png --quiet").errors, "");
+}
+
+TEST_F(RenderReport, QuietIsSilentOnATerminalToo) {
+    Surroundings terminal;
+    terminal.errors = Stream::Terminal;
+    const Outcome outcome =
+        runIn(terminal, "render spheres -o a.png --quiet --device cpu --width 128 --height 96 --spp 64");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.errors, "");
+}
+
+TEST_F(RenderReport, TheClosingLineSaysSizeSamplesRaysTimeAndSpeed) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const Outcome outcome = run("render spheres -o a.png --device " + device + small);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome;
+        EXPECT_TRUE(std::regex_match(
+            outcome.output, std::regex("a\\.png: 16x12, 2 spp, [0-9.]+ [kM]?[ ]?rays in [0-9.]+ s: [0-9.]+ "
+                                       "Mray/s.*\n")))
+            << outcome;
+    }
+}
+
+TEST_F(RenderReport, TheClosingLineHasTheSizeOfTheCrop) {
+    const Outcome outcome = run("render spheres -o a.png --device cpu --crop 0,5,0,3" + small);
+    EXPECT_TRUE(contains(outcome.output, " 5x3,")) << outcome;
+}
+
+TEST_F(RenderReport, AShortRenderShowsNoProgress) {
+    const Outcome outcome = run("render spheres -o a.png --device cpu" + small);
+    EXPECT_FALSE(contains(outcome.errors, "progress")) << outcome;
+}
+
+TEST_F(RenderReport, ProgressInALogIsLinesOfKeysAndValues) {
+    Surroundings log;
+    log.signalAfter = "left_s=";
+    log.signal = SIGTERM;
+    const Outcome outcome = runIn(log, "render spheres -o a.png --device cpu" + endless);
+    EXPECT_TRUE(std::regex_search(
+        outcome.errors,
+        std::regex("(^|\n)task=render progress=[01]\\.[0-9]+ elapsed_s=[0-9.]+ left_s=[0-9.]+\n")))
+        << outcome;
+    EXPECT_FALSE(contains(outcome.errors, "\r")) << outcome;
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_LT(outcome.seconds, 15.0);
+}
+
+TEST_F(RenderReport, ProgressOnATerminalIsOneLineWithTheTimeLeft) {
+    Surroundings terminal;
+    terminal.errors = Stream::Terminal;
+    const Outcome outcome = runIn(terminal, "render spheres -o a.png --device " + softwareDevice() +
+                                                " --width 128 --height 256 --spp 64");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "\r")) << outcome;
+    EXPECT_TRUE(std::regex_search(outcome.errors, std::regex("[0-9]+ %  [0-9]+ s left"))) << outcome;
+    EXPECT_FALSE(contains(outcome.errors, "task=")) << outcome;
+    // In the end the line is cleared, and what is left is not a ruin of it.
+    EXPECT_GT(outcome.errors.rfind("\033[K"), outcome.errors.rfind("left")) << outcome;
+}
+
+} // namespace
+} // namespace hyalite::testing

@@ -1,0 +1,101 @@
+// --help, --version, and command lines that are wrong.
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace hyalite::testing {
+namespace {
+
+using Usage = CommandLine;
+
+const std::vector<std::string> sceneOptions{"--width", "--height",          "--spp",     "--max-depth",
+                                            "--bvh",   "--leaf-size",       "--sampler", "--seed",
+                                            "--crop",  "--camera-position", "--look-at", "--up",
+                                            "--fov",   "--background",      "--exposure"};
+
+TEST_F(Usage, HelpMentionsEveryOption) {
+    std::map<std::string, std::vector<std::string>> optionsOf{
+        {"render", sceneOptions}, {"inspect", {"--rays"}}, {"devices", {"--json"}}};
+    for (const char *option : {"-o", "--output", "--device", "--threads", "--report", "--quiet"})
+        optionsOf["render"].emplace_back(option);
+    for (const char *option : {"--bvh", "--leaf-size"})
+        optionsOf["inspect"].emplace_back(option);
+    for (const auto &[command, options] : optionsOf) {
+        const Outcome outcome = run(command + " --help");
+        EXPECT_EQ(outcome.exitCode, 0) << outcome;
+        EXPECT_EQ(outcome.errors, "");
+        for (const std::string &option : options)
+            EXPECT_TRUE(contains(outcome.output, option)) << command << ": " << option;
+        EXPECT_EQ(run(command + " -h").output, outcome.output);
+    }
+    for (const char *word : {"auto", "cpu", "midpoint", "sah", "none", "centre", "sobol", ".png", ".pfm"})
+        EXPECT_TRUE(contains(run("render --help").output, word)) << word;
+}
+
+TEST_F(Usage, HelpListsTheCommandsAndTheExitCodes) {
+    const Outcome outcome = run("--help");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.errors, "");
+    for (const char *part : {"render", "devices", "inspect", "--version", "Exit codes"})
+        EXPECT_TRUE(contains(outcome.output, part)) << part;
+}
+
+TEST_F(Usage, HelpFitsATerminalAndShowsNoInnards) {
+    for (const char *command : {"", "render ", "devices ", "inspect "}) {
+        std::istringstream lines(run(command + std::string("--help")).output);
+        for (std::string line; std::getline(lines, line);) {
+            EXPECT_LE(line.size(), 120u) << line;
+            EXPECT_FALSE(contains(line, "->")) << line;
+        }
+    }
+}
+
+TEST_F(Usage, VersionIsOneLine) {
+    const Outcome outcome = run("--version");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_TRUE(std::regex_match(outcome.output, std::regex("hyalite [0-9]+\\.[0-9]+\\.[0-9]+\n")))
+        << outcome;
+    EXPECT_EQ(outcome.errors, "");
+    EXPECT_EQ(run("render --version").output, outcome.output);
+}
+
+TEST_F(Usage, NothingAtAllIsAnsweredWithTheCommands) {
+    expectFailure("", 2, {"render", "devices", "inspect"});
+}
+
+TEST_F(Usage, AnUnknownCommandIsNamed) { expectFailure("rendre spheres -o a.png", 2, {"rendre"}); }
+
+TEST_F(Usage, AnUnknownOptionIsNamed) {
+    expectFailure("render spheres -o a.png --hieght 3", 2, {"--hieght"});
+    expectFailure("render spheres -o a.png -x", 2, {"-x"});
+    expectFailure("--hieght 3", 2);
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(Usage, WhatIsMissingIsNamed) {
+    expectFailure("render", 2);
+    expectFailure("render -o a.png", 2, {"SCENE"});
+    expectFailure("render spheres", 2, {"--output"});
+    expectFailure("render spheres cat -o a.png", 2, {"cat"});
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(Usage, AnOptionGivenTwiceIsNoAccident) {
+    expectFailure("render spheres -o a.png --spp 1 --spp 2", 2, {"--spp"});
+    expectFailure("render spheres -o a.png -o b.png", 2, {"--output"});
+}
+
+TEST_F(Usage, ErrorsSayWhoSpeaks) {
+    for (const char *line : {"", "render", "render spheres", "render spheres -o a.png --spp x",
+                             "render spheres -o a.png --spp 0", "render x -o a.png"})
+        EXPECT_EQ(run(line).errors.substr(0, 9), "hyalite: ") << line;
+}
+
+} // namespace
+} // namespace hyalite::testing

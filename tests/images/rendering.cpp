@@ -1,0 +1,54 @@
+#include "tests/images/rendering.h"
+
+#include "host/scene/load.h"
+#include "host/scene/validate.h"
+
+#include <cassert>
+#include <cstring>
+
+namespace hyalite::testing {
+
+namespace {
+
+Crop wholeImage(const Scene &scene) { return {0, scene.camera.width, 0, scene.camera.height}; }
+
+/// lavapipe: the same everywhere, so that tests mean the same on every machine.
+const gpu::DeviceInfo &softwareDevice() {
+    static const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), "llvmpipe");
+    return device;
+}
+
+} // namespace
+
+Scene shippedScene(const std::string &name, int width, int height, int samplesPerPixel) {
+    Scene scene = loadScene(name).scene;
+    scene.camera.width = width;
+    scene.camera.height = height;
+    scene.settings.samplesPerPixel = samplesPerPixel;
+    return scene;
+}
+
+PackedScene pack(const Scene &scene) {
+    validateScene(scene, "the test");
+    return packScene(scene, buildBvh(scene.settings.tree, buildTriangles(scene), scene.settings.leafSize));
+}
+
+gpu::Result renderOnDevice(const Scene &scene, const gpu::Batching &batching) {
+    return gpu::Renderer(softwareDevice(), batching).render(pack(scene), scene.settings, wholeImage(scene));
+}
+
+reference::Result renderOnCpu(const Scene &scene, reference::Precision precision) {
+    reference::Options options;
+    options.precision = precision;
+    return reference::render(pack(scene), scene.settings, wholeImage(scene), options);
+}
+
+std::size_t differingPixels(const Film &a, const Film &b) {
+    assert(a.pixels.size() == b.pixels.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
+    return count;
+}
+
+} // namespace hyalite::testing

@@ -1,0 +1,29 @@
+// What the image tests share: scenes made ready, both renderers, and comparison to the bit.
+#pragma once
+
+#include "host/bvh/bvh.h"
+#include "host/bvh/packed_scene.h"
+#include "host/gpu/renderer.h"
+#include "host/reference/renderer.h"
+#include "host/scene/scene.h"
+
+#include <string>
+
+namespace hyalite::testing {
+
+/// A shipped scene by its name, at another size and sample count.
+[[nodiscard]] Scene shippedScene(const std::string &name, int width, int height, int samplesPerPixel);
+
+/// Validates, builds the tree that the settings ask for, and packs.
+[[nodiscard]] PackedScene pack(const Scene &scene);
+
+/// Renders all of the image on the software device of the machine, which every test run must have.
+[[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::Batching &batching = {});
+
+[[nodiscard]] reference::Result renderOnCpu(const Scene &scene,
+                                            reference::Precision precision = reference::Precision::Float32);
+
+/// How many film pixels differ in any bit of their sums or in their counts.
+[[nodiscard]] std::size_t differingPixels(const Film &a, const Film &b);
+
+} // namespace hyalite::testing

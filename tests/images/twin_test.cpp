@@ -1,0 +1,125 @@
+// The device's image and the CPU twin's are equal bit for bit, whatever the batching.
+#include "tests/images/rendering.h"
+
+#include <gtest/gtest.h>
+
+namespace hyalite {
+namespace {
+
+using testing::differingPixels;
+using testing::renderOnCpu;
+using testing::renderOnDevice;
+using testing::shippedScene;
+
+void expectTwins(const Scene &scene, const gpu::Batching &batching = {}) {
+    const gpu::Result device = renderOnDevice(scene, batching);
+    const reference::Result cpu = renderOnCpu(scene);
+    EXPECT_EQ(differingPixels(device.film, cpu.film), 0u);
+    EXPECT_EQ(device.rays, cpu.rays);
+}
+
+TEST(Twins, AgreeOnTheShippedScenes) {
+    expectTwins(shippedScene("spheres", 128, 128, 4));
+    expectTwins(shippedScene("spheres-nested", 64, 64, 2));
+    expectTwins(shippedScene("cat", 128, 128, 4));
+}
+
+TEST(Twins, AgreeAtThePixelCentres) {
+    Scene scene = shippedScene("spheres", 96, 64, 3);
+    scene.settings.sampler = SamplerKind::Centre;
+    expectTwins(scene);
+}
+
+TEST(Twins, AgreeAtOddSizes) {
+    for (const auto &[width, height] :
+         {std::pair(1, 1), std::pair(333, 217), std::pair(217, 333), std::pair(1, 200)})
+        expectTwins(shippedScene("spheres", width, height, 1));
+}
+
+TEST(Twins, AgreeAtEveryDepth) {
+    for (int depth = 1; depth <= 12; ++depth) {
+        Scene scene = shippedScene("spheres-nested", 24, 24, 1);
+        scene.settings.maxDepth = depth;
+        expectTwins(scene);
+    }
+}
+
+TEST(Twins, AgreeOnEveryTree) {
+    for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
+        for (const int leafSize : {1, 2, 8, 64}) {
+            Scene scene = shippedScene("cat", 48, 48, 1);
+            scene.settings.tree = tree;
+            scene.settings.leafSize = leafSize;
+            expectTwins(scene);
+        }
+    }
+}
+
+TEST(Twins, AgreeWithManySamples) { expectTwins(shippedScene("spheres", 3, 3, 1024)); }
+
+TEST(Twins, AgreeWithACameraInsideGlass) {
+    Scene scene = shippedScene("spheres", 64, 64, 2);
+    scene.camera.position = {2.0, 1.0, 3.0};
+    expectTwins(scene);
+}
+
+TEST(Twins, AgreeOnAnEmptyScene) {
+    Scene scene;
+    scene.camera.width = 20;
+    scene.camera.height = 10;
+    scene.background = {0.25f, 0.5f, 1.0f};
+    expectTwins(scene);
+    EXPECT_EQ(renderOnDevice(scene).film.toImage().at(7, 3), scene.background);
+}
+
+TEST(Batching, ChangesNoBit) {
+    const Scene scene = shippedScene("spheres", 70, 50, 3);
+    const Film expected = renderOnCpu(scene).film;
+    const auto expectSame = [&](const gpu::Batching &batching) {
+        EXPECT_EQ(differingPixels(renderOnDevice(scene, batching).film, expected), 0u);
+    };
+    expectSame({.tileWidth = 8, .tileHeight = 8});
+    expectSame({.tileWidth = 64, .tileHeight = 16, .slotsPerInvocation = 1});
+    expectSame({.tileWidth = 32, .tileHeight = 64, .slotsPerInvocation = 2});
+    expectSame({.steps = 1, .slotsPerInvocation = 1});
+    expectSame({.steps = 100, .slotsPerInvocation = 2});
+    expectSame({.isStaged = true});
+}
+
+// With a budget of a few steps every ray of the cat stops in the middle of the tree, many times.
+TEST(Batching, ResumesInsideTheTree) {
+    const Scene scene = shippedScene("cat", 24, 24, 2);
+    const Film expected = renderOnCpu(scene).film;
+    for (const int slots : {1, 2}) {
+        const gpu::Result result = renderOnDevice(scene, {.steps = 20, .slotsPerInvocation = slots});
+        EXPECT_EQ(differingPixels(result.film, expected), 0u);
+        EXPECT_GT(result.timing.dispatchCount, 10u);
+    }
+}
+
+// One ray meets more triangles than a subgroup of lavapipe may take loop iterations in a dispatch.
+TEST(Batching, ResumesInsideBruteForce) {
+    Scene scene = shippedScene("cat", 8, 4, 1);
+    const Film expected = renderOnCpu(scene).film;
+    scene.settings.tree = TreeKind::None;
+    const gpu::Result brute = renderOnDevice(scene);
+    EXPECT_EQ(differingPixels(brute.film, expected), 0u);
+    EXPECT_GT(brute.timing.dispatchCount, 20u);
+}
+
+TEST(Crop, IsThatPartOfTheWholeImage) {
+    const Scene scene = shippedScene("spheres", 60, 40, 2);
+    const PackedScene packed = testing::pack(scene);
+    const Image whole = renderOnCpu(scene).film.toImage();
+    const Crop crop{11, 47, 5, 33};
+    gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"));
+    const Image part = renderer.render(packed, scene.settings, crop).film.toImage();
+    ASSERT_EQ(part.width(), 36);
+    ASSERT_EQ(part.height(), 28);
+    for (int y = 0; y < part.height(); ++y)
+        for (int x = 0; x < part.width(); ++x)
+            ASSERT_EQ(part.at(x, y), whole.at(x + crop.x0, y + crop.y0)) << x << ", " << y;
+}
+
+} // namespace
+} // namespace hyalite
