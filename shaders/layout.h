@@ -146,6 +146,12 @@ struct DispatchConstants {
     uint sampleEnd;
     uint stepBudget;
     uint isResumed; // 0: start the tile's samples, 1: go on with what waits
+    // Workgroup g works on block g % (count/interleave) * interleave + g / (count/interleave) of the tile: a driver
+    // that gives each thread one range of workgroups then spreads every part of the image over all threads.
+    uint interleave;
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 // ---- Results
@@ -161,7 +167,7 @@ struct FilmPixel {
 struct DispatchProgress {
     uint unfinishedSlots;
     uint stackOverflows; // subtrees that found no room to wait: 0 in any valid tree
-    uint pad0;
+    uint finishedSamples;
     uint pad1;
     uint primaryRays;
     uint shadowRays;
@@ -252,7 +258,7 @@ static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
 static_assert(sizeof(MaterialRecord) == 48 && offsetof(MaterialRecord, isTwoSided) == 32);
 static_assert(sizeof(LightRecord) == 32 && offsetof(LightRecord, intensity) == 16);
 static_assert(sizeof(FrameRecord) == 112 && offsetof(FrameRecord, boundsUpper) == 96);
-static_assert(sizeof(DispatchConstants) == 48, "push constants: at most 128 bytes everywhere");
+static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
 static_assert(sizeof(DispatchProgress) == 32);
 static_assert(sizeof(PathRecord) == 176 && offsetof(PathRecord, cursorNode) == 160);

@@ -11,6 +11,7 @@ bool isSlotUsed[RAYS]; // a tile may reach beyond the film
 
 uint stepsTaken = 0u;         // loop iterations of this dispatch
 uint stackOverflowCount = 0u;
+uint finishedSampleCount = 0u;
 uvec4 rayCounts = uvec4(0u);   // primary, shadow, reflection, refraction
 
 uint slotCount() { return dispatch.tileWidth * dispatch.tileHeight; }
@@ -26,7 +27,9 @@ uvec2 pixelOfSlot(uint index) {
 }
 
 void loadSlot(uint slot) {
-    uint lanes = gl_GlobalInvocationID.x;
+    uint groupsPerPart = gl_NumWorkGroups.x / dispatch.interleave;
+    uint group = gl_WorkGroupID.x % groupsPerPart * dispatch.interleave + gl_WorkGroupID.x / groupsPerPart;
+    uint lanes = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     slotIndex[slot] = (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u);
     uvec2 filmPixel = uvec2(dispatch.tileX, dispatch.tileY) + pixelOfSlot(slotIndex[slot]);
     imagePixel[slot] = filmPixel + uvec2(dispatch.cropX, dispatch.cropY);
@@ -65,6 +68,8 @@ void addProgress() {
         atomicAdd(progress.unfinishedSlots, unfinished);
     if (stackOverflowCount != 0u)
         atomicAdd(progress.stackOverflows, stackOverflowCount);
+    if (finishedSampleCount != 0u)
+        atomicAdd(progress.finishedSamples, finishedSampleCount);
     atomicAdd(progress.primaryRays, rayCounts.x);
     atomicAdd(progress.shadowRays, rayCounts.y);
     if (hasSpecular)

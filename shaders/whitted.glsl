@@ -22,6 +22,7 @@ void addSampleToFilm(uint slot) {
     film[slot].sum = add(film[slot].sum, radiance);
     film[slot].sumOfSquares = addProduct(film[slot].sumOfSquares, radiance, radiance);
     film[slot].sampleCount += 1u;
+    finishedSampleCount += 1u;
 }
 
 // Stage: take the ray that waits, or else finish the sample and begin the next one.

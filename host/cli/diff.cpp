@@ -1,6 +1,5 @@
 #include "host/cli/commands.h"
 
-#include "host/cli/commands.h"
 #include "host/error.h"
 #include "host/image/comparison_json.h"
 #include "host/image/heat_map.h"

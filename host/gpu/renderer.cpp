@@ -110,7 +110,8 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
     Buffer progress(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     const Buffer paths(device, "the path slots", BufferUse::Storage, slotCount * sizeof(layout::PathRecord));
     const Buffer pending(device, "the pending rays", BufferUse::Storage,
-                         scene.hasDielectric ? slotCount * scene.frame.maxDepth * sizeof(layout::PendingRay) : 0);
+                         scene.hasDielectric ? slotCount * scene.frame.maxDepth * sizeof(layout::PendingRay)
+                                             : 0);
     const Buffer stacks(device, "the traversal stacks", BufferUse::Storage,
                         scene.hasTriangles ? slotCount * stackSize * sizeof(std::uint32_t) : 0);
     result.timing.uploadSeconds = secondsSince(start);
@@ -138,8 +139,11 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
     const int tilesDown = (crop.height() + tileHeight - 1) / tileHeight;
     const std::uint32_t slotsPerGroup =
         workgroupSize * static_cast<std::uint32_t>(batching.slotsPerInvocation);
+    // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
+    const std::uint32_t interleave = device.info().isSoftware() ? 16 : 1;
+    const std::uint32_t slotsPerRound = slotsPerGroup * interleave;
     const std::uint32_t groupCount =
-        (static_cast<std::uint32_t>(slotCount) + slotsPerGroup - 1) / slotsPerGroup;
+        (static_cast<std::uint32_t>(slotCount) + slotsPerRound - 1) / slotsPerRound * interleave;
     layout::DispatchConstants dispatch{};
     dispatch.cropX = static_cast<std::uint32_t>(crop.x0);
     dispatch.cropY = static_cast<std::uint32_t>(crop.y0);
@@ -149,6 +153,9 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
     dispatch.tileHeight = static_cast<std::uint32_t>(tileHeight);
     dispatch.sampleEnd = static_cast<std::uint32_t>(settings.samplesPerPixel);
     dispatch.stepBudget = batching.steps;
+    dispatch.interleave = interleave;
+    const double sampleCount = static_cast<double>(result.film.pixels.size()) * settings.samplesPerPixel;
+    std::uint64_t finishedSamples = 0;
     for (int tile = 0; tile < tilesAcross * tilesDown; ++tile) {
         dispatch.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth);
         dispatch.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight);
@@ -169,9 +176,9 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                 {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays};
             ++result.timing.dispatchCount;
             dispatch.isResumed = 1;
-            const double unfinishedShare = counters.unfinishedSlots / static_cast<double>(slotCount);
+            finishedSamples += counters.finishedSamples;
             if (onProgress)
-                onProgress((tile + 1 - unfinishedShare) / (tilesAcross * tilesDown));
+                onProgress(static_cast<double>(finishedSamples) / sampleCount);
         } while (counters.unfinishedSlots > 0);
     }
     result.timing.renderSeconds = secondsSince(start);

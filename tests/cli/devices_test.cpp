@@ -52,8 +52,9 @@ TEST_F(DevicesCommand, TheTableSaysTheSame) {
         EXPECT_TRUE(contains(outcome.output, title)) << title << outcome;
         for (const char *key : {"type", "driver", "apiVersion"})
             EXPECT_TRUE(contains(outcome.output, device.at(key))) << key << '\n' << outcome;
-        if (device.contains("rejection"))
+        if (device.contains("rejection")) {
             EXPECT_TRUE(contains(outcome.output, device.at("rejection"))) << outcome;
+        }
     }
 }
 

@@ -107,7 +107,7 @@ TEST_F(InspectCommand, WhatCannotBeReadIsBadInput) {
     expectFailure("inspect bad.obj", 3, {"bad.obj:2", "2"});
     expectFailure("inspect nonesuch.json", 3, {"nonesuch.json"});
     expectFailure("inspect nonesuch", 3, {"nonesuch", "spheres"});
-    expectFailure("inspect", 2, {"SCENE"});
+    expectFailure("inspect", 2, {"scene"});
     expectFailure("inspect sheet.obj --rays 0", 2, {"--rays", "1", "1000000"});
     expectFailure("inspect sheet.obj --leaf-size 0", 3, {"1", "64"});
 }

@@ -52,8 +52,9 @@ TEST_F(RenderDevice, AutoIsTheDefaultAndMatchesTheCpu) {
     EXPECT_EQ(renderPfm("spheres --device auto" + small), byDefault);
     const nlohmann::json device = findDevice(report.at("device").at("name"));
     ASSERT_TRUE(device.is_object()) << report;
-    if (device.at("canRoundToNearestEven") && device.at("canPreserveSignedZeroInfNan"))
+    if (device.at("canRoundToNearestEven") && device.at("canPreserveSignedZeroInfNan")) {
         EXPECT_EQ(renderPfm("spheres --device cpu" + small), byDefault) << device;
+    }
 }
 
 TEST_F(RenderDevice, AutoPrefersHardware) {

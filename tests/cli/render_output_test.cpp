@@ -99,6 +99,26 @@ TEST_F(RenderOutput, ASmallCropOfAHugeImageNeedsLittleMemory) {
     EXPECT_EQ(image.height(), 4);
 }
 
+TEST_F(RenderOutput, AnImageThatIsTooLargeForItsFormatIsRefusedBeforeRendering) {
+    const Outcome outcome = run("render spheres -o a.png --width 32768 --height 32768 --device cpu");
+    EXPECT_EQ(outcome.exitCode, 5) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "32768")) << outcome;
+    EXPECT_LT(outcome.seconds, promptSeconds);
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(RenderOutput, AnImageLargerThanADeviceAllowsIsRenderedInPartsOrRefusedWithARemedy) {
+    // Vulkan promises storage buffers of 128 MiB: less than a film of this size.
+    store("empty.json", "{}");
+    const Outcome outcome =
+        run("render empty.json -o a.png --width 2200 --height 2000 --spp 1 --device " + softwareDevice());
+    if (outcome.exitCode != 0) {
+        EXPECT_EQ(outcome.exitCode, 5) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "--crop") || contains(outcome.errors, "--device cpu"))
+            << outcome;
+    }
+}
+
 TEST_F(RenderOutput, AnExistingFileIsReplacedWhole) {
     store("a.png", std::string(1'000'000, 'x'));
     ASSERT_EQ(run("render spheres -o a.png" + small).exitCode, 0);
@@ -209,8 +229,9 @@ TEST_F(RenderOutput, MessagesNeverEndUpInTheImage) {
         (isErrors ? closed.errors : closed.output) = Stream::Closed;
         const Outcome outcome = runIn(closed, "render spheres -o a.png --report r.json" + small);
         // Either answer is right: done in silence, or refused for want of a place for the messages.
-        if (outcome.exitCode == 0)
+        if (outcome.exitCode == 0) {
             EXPECT_EQ(load("a.png"), load("wanted.png")) << (isErrors ? "stderr" : "stdout");
+        }
         EXPECT_LT(outcome.exitCode, 128) << outcome;
     }
 }

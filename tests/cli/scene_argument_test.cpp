@@ -75,7 +75,7 @@ TEST_F(SceneArgument, AnUnknownNameIsAnsweredWithTheNamesThereAre) {
 TEST_F(SceneArgument, AMissingFileIsNamed) {
     expectFailure("render nonesuch.json -o a.png", 3, {"nonesuch.json"});
     expectFailure("render no/such.obj -o a.png", 3, {"no/such.obj"});
-    // Two shipped scenes have names that are easily typed with their extension.
+    // With an extension it is a path, not the name of a shipped scene.
     expectFailure("render spheres.json -o a.png", 3, {"spheres.json"});
     fs::create_directory(folder / "folder.json");
     expectFailure("render folder.json -o a.png", 3, {"folder.json"});
@@ -160,7 +160,7 @@ const char *const house = "# corners: the front, then the back\n"
 
 TEST_F(SceneArgument, ABareMeshIsFramedAndLit) {
     store("house.obj", house);
-    for (const char *size : {"48 --height 36", "60 --height 12", "12 --height 60"}) {
+    for (const char *size : {"48 --height 36", "120 --height 30", "30 --height 120"}) {
         const Image image = renderImage(std::string("house.obj --spp 4 --device cpu --width ") + size);
         ASSERT_GT(image.width(), 0);
         const glm::vec3 background = image.at(0, 0);

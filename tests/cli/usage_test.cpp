@@ -80,7 +80,7 @@ TEST_F(Usage, AnUnknownOptionIsNamed) {
 
 TEST_F(Usage, WhatIsMissingIsNamed) {
     expectFailure("render", 2);
-    expectFailure("render -o a.png", 2, {"SCENE"});
+    expectFailure("render -o a.png", 2, {"scene"});
     expectFailure("render spheres", 2, {"--output"});
     expectFailure("render spheres cat -o a.png", 2, {"cat"});
     EXPECT_EQ(entries(), std::set<std::string>{});

@@ -1,0 +1,125 @@
+// Division and square root, correctly rounded (to nearest, ties to even) on every device.
+//
+// Vulkan lets a device be 2.5 units off in a / b, and more in sqrt. Where the host knows better (constant
+// hasExactDivision) the device's own operators run; elsewhere these do, which need nothing but + - * and integers. The
+// last bit never depends on a float operation: floats only estimate, and what follows is integer arithmetic modulo 2^32
+// on a remainder that is known to be small. So the proofs ask little of a device: u = 2^-23 bounds the relative error
+// of one float operation here, which holds for any rounding mode, fused or not.
+//
+// Exactly IEEE 754 wherever inputs and result are normal, zero, infinite or NaN. Subnormal inputs count as zeros, and
+// quotients below 2^-126 become zeros, as devices may do with + - * as well: pictures keep clear of them.
+
+const uint signBit = 0x80000000u;
+const uint infinityBits = 0x7F800000u;
+const uint notANumberBits = 0x7FC00000u;
+const uint significandMask = 0x7FFFFFu;
+const uint significandOne = 0x800000u; // 1.0 as a significand: an integer with 24 bits
+const int farExponent = 1000;          // stands for an infinity, negated for a zero
+
+// Rounds to the nearest integer or to the one below. Estimates are within 2^-13 of what they stand for.
+const float justBelowHalf = 0.5 - 1.0 / 8192.0;
+
+// The significand of `bits` as a float in [1, 2).
+float unitSignificand(uint bits) { return uintBitsToFloat((bits & significandMask) | 0x3F800000u); }
+
+// 1/d within 11 u, for d in [1, 2). The seed is the minimax quadratic, with relative error T3(2d - 3) / 99, so
+// |e| <= 1/99, and one step of third order leaves e^3 = 8.7 u; rounding adds 2.1 u.
+float estimateInverse(float d) {
+    precise float seed = (d * (32.0 / 99.0) - 16.0 / 11.0) * d + 70.0 / 33.0;
+    precise float e = 1.0 - d * seed;
+    precise float inverse = seed + seed * (e + e * e);
+    return inverse;
+}
+
+// 1/sqrt(d) within 3 u, for d in [1, 2). The seed is the minimax quadratic, with relative error 1/313, so |e| <= 1/156,
+// and one step of third order leaves 5/16 e^3 = 0.7 u; rounding adds 2.1 u.
+float estimateInverseRoot(float d) {
+    precise float seed = (d * 0.14768758 - 0.73051435) * d + 1.5796391;
+    precise float e = 1.0 - d * (seed * seed);
+    precise float inverse = seed + seed * (e * (e * 0.375 + 0.5));
+    return inverse;
+}
+
+int exponentOrFar(uint magnitude) {
+    int exponent = int(magnitude >> 23u);
+    return exponent == 0 ? -farExponent : (exponent == 255 ? farExponent : exponent);
+}
+
+// Let A and B be the significands, k = 23 or 24 such that t = A 2^k / B lies in [2^23, 2^24): the result's significand
+// is t to the nearest integer.
+//   1. low = estimate - 26. The estimate is off by 12 u t <= 24, and by 1 for the fraction cut off, so
+//      1 < t - low < 52, and the remainder A 2^k - low B lies in (0, 52 * 2^24): 32 bits hold it.
+//   2. remainder / B is t - low, and its estimate is off by 13 u * 52 and the rounding of a sum: less than 2^-13.
+//      So `step` is t - low to the nearest integer, or 1 less.
+//   3. An exact comparison tells which. There are no ties: t = n + 1/2 would make 2^(k+1) A = (2n + 1) B, whose right
+//      side has an odd factor of 25 bits and whose left side has none. Nor does t round to 2^24.
+float divideBySignificands(float a, float b) {
+    uint aBits = floatBitsToUint(a);
+    uint bBits = floatBitsToUint(b);
+    uint aSignificand = (aBits & significandMask) | significandOne;
+    uint bSignificand = (bBits & significandMask) | significandOne;
+    bool isBelowOne = aSignificand < bSignificand;
+    uint numerator = isBelowOne ? aSignificand << 1u : aSignificand;
+
+    float inverse = estimateInverse(unitSignificand(bBits));
+    precise float estimate = float(numerator) * inverse;
+    uint low = uint(estimate) - 26u;
+    int remainder = int((numerator << 23u) - low * bSignificand);
+    precise float distance = float(remainder) * (inverse * (1.0 / 8388608.0)) + justBelowHalf;
+    uint step = uint(distance);
+    uint significand = low + step;
+    int rest = remainder - int(step * bSignificand);
+    significand += 2 * rest > int(bSignificand) ? 1u : 0u;
+
+    uint aMagnitude = aBits & ~signBit;
+    uint bMagnitude = bBits & ~signBit;
+    int aExponent = exponentOrFar(aMagnitude);
+    int bExponent = exponentOrFar(bMagnitude);
+    int exponent = aExponent - bExponent + (isBelowOne ? 126 : 127);
+    uint magnitude = (uint(exponent) << 23u) + (significand - significandOne);
+    magnitude = exponent <= 0 ? 0u : (exponent >= 255 ? infinityBits : magnitude);
+    bool isBothFar = aExponent == bExponent && abs(aExponent) == farExponent; // 0 / 0, infinity / infinity
+    bool isNan = max(aMagnitude, bMagnitude) > infinityBits || isBothFar;
+    return uintBitsToFloat(isNan ? notANumberBits : magnitude | ((aBits ^ bBits) & signBit));
+}
+
+// Let X be the significand times 2^23 or 2^24, whichever makes the exponent even: t = sqrt(X) lies in [2^23, 2^24), and
+// the result's significand is t to the nearest integer.
+//   1. low = estimate - 12. The estimate is off by 5.3 u t <= 10.6, and by 1 for the fraction cut off, so
+//      1 < t - low < 24, and the remainder X - low^2 = (t - low)(t + low) lies in (0, 24 * 2^25): 32 bits hold it.
+//   2. remainder / 2t is less than t - low by (t - low)^2 / 2t < 2^-14.8, and its estimate is off by 7 u * 24 and the
+//      rounding of a sum: together less than 2^-13. So `step` is t - low to the nearest integer, or 1 less.
+//   3. An exact comparison tells which: t > n + 1/2 where X - n^2 > n + 1/4. There are no ties, and t < 2^24 - 1/2.
+float rootBySignificand(float x) {
+    uint bits = floatBitsToUint(x);
+    uint exponent = bits >> 23u;
+    bool isDoubled = (exponent & 1u) == 0u; // 127, the bias, is odd
+    uint square = ((bits & significandMask) | significandOne) << (isDoubled ? 24u : 23u); // modulo 2^32
+
+    float unit = unitSignificand(bits);
+    float inverse = estimateInverseRoot(unit);
+    precise float estimate = unit * (inverse * (isDoubled ? 11863283.0 : 8388608.0)); // 2^23, times sqrt(2)
+    uint low = uint(estimate) - 12u;
+    int remainder = int(square - low * low);
+    precise float distance = float(remainder) * (inverse * (isDoubled ? 4.2146848e-8 : 5.9604645e-8)) + justBelowHalf;
+    uint step = uint(distance);
+    uint significand = low + step;
+    int rest = remainder - int(step * (low + significand));
+    significand += rest > int(significand) ? 1u : 0u;
+
+    uint result = (((exponent + 127u) >> 1u) << 23u) + (significand - significandOne);
+    result = bits < infinityBits ? result : (bits == infinityBits ? infinityBits : notANumberBits);
+    bool isZero = (bits & ~signBit) < significandOne;
+    return uintBitsToFloat(isZero ? bits & signBit : result);
+}
+
+float divide(float a, float b) {
+    if (!hasExactDivision)
+        return divideBySignificands(a, b);
+    precise float quotient = a / b;
+    return quotient;
+}
+
+vec3 divide(float a, vec3 b) { return vec3(divide(a, b.x), divide(a, b.y), divide(a, b.z)); }
+
+float squareRoot(float x) { return hasExactDivision ? sqrt(x) : rootBySignificand(x); }
