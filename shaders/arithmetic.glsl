@@ -1,13 +1,13 @@
 // Division and square root, correctly rounded (to nearest, ties to even) on every device.
 //
 // Vulkan lets a device be 2.5 units off in a / b, and more in sqrt. Where the host knows better (constant
-// hasExactDivision) the device's own operators run; elsewhere these do, which need nothing but + - * and integers. The
-// last bit never depends on a float operation: floats only estimate, and what follows is integer arithmetic modulo 2^32
-// on a remainder that is known to be small. So the proofs ask little of a device: u = 2^-23 bounds the relative error
-// of one float operation here, which holds for any rounding mode, fused or not.
+// hasExactDivision) the device's own operators run; elsewhere these do, which need nothing but + - * and integers.
+// The last bit never depends on a float operation: floats only estimate, and what follows is integer arithmetic
+// modulo 2^32 on a remainder that is known to be small. So the proofs ask little of a device: u = 2^-23 bounds the
+// relative error of one float operation, which holds in any rounding mode, fused or not.
 //
-// Exactly IEEE 754 wherever inputs and result are normal, zero, infinite or NaN. Subnormal inputs count as zeros, and
-// quotients below 2^-126 become zeros, as devices may do with + - * as well: pictures keep clear of them.
+// Exactly IEEE 754 wherever inputs and result are normal, zero, infinite or NaN. Subnormal inputs count as zeros,
+// and quotients below 2^-126 become zeros, as devices may treat + - * as well: pictures keep clear of them.
 
 const uint signBit = 0x80000000u;
 const uint infinityBits = 0x7F800000u;
@@ -31,8 +31,8 @@ float estimateInverse(float d) {
     return inverse;
 }
 
-// 1/sqrt(d) within 3 u, for d in [1, 2). The seed is the minimax quadratic, with relative error 1/313, so |e| <= 1/156,
-// and one step of third order leaves 5/16 e^3 = 0.7 u; rounding adds 2.1 u.
+// 1/sqrt(d) within 3 u, for d in [1, 2). The seed is the minimax quadratic, with relative error 1/313, so
+// |e| <= 1/156, and one step of third order leaves 5/16 e^3 = 0.7 u; rounding adds 2.1 u.
 float estimateInverseRoot(float d) {
     precise float seed = (d * 0.14768758 - 0.73051435) * d + 1.5796391;
     precise float e = 1.0 - d * (seed * seed);
@@ -45,14 +45,15 @@ int exponentOrFar(uint magnitude) {
     return exponent == 0 ? -farExponent : (exponent == 255 ? farExponent : exponent);
 }
 
-// Let A and B be the significands, k = 23 or 24 such that t = A 2^k / B lies in [2^23, 2^24): the result's significand
-// is t to the nearest integer.
+// Let A and B be the significands and k = 23 or 24 such that t = 2^k A / B lies in [2^23, 2^24): the significand of
+// the result is t to the nearest integer.
 //   1. low = estimate - 26. The estimate is off by 12 u t <= 24, and by 1 for the fraction cut off, so
-//      1 < t - low < 52, and the remainder A 2^k - low B lies in (0, 52 * 2^24): 32 bits hold it.
+//      1 < t - low < 52, and the remainder 2^k A - low B lies in (0, 52 * 2^24): 32 bits hold it.
 //   2. remainder / B is t - low, and its estimate is off by 13 u * 52 and the rounding of a sum: less than 2^-13.
 //      So `step` is t - low to the nearest integer, or 1 less.
-//   3. An exact comparison tells which. There are no ties: t = n + 1/2 would make 2^(k+1) A = (2n + 1) B, whose right
-//      side has an odd factor of 25 bits and whose left side has none. Nor does t round to 2^24.
+//   3. An exact comparison tells which. There are no ties: t = n + 1/2 would make 2^(k+1) A = (2n + 1) B, where the
+//      odd part of the right side has at least 25 bits, and that of the left side at most 24. Nor does t round to
+//      2^24: where A < B, t <= 2^24 (B - 1) / B < 2^24 - 1, and else t <= 2^23 (2^24 - 1) / 2^23.
 float divideBySignificands(float a, float b) {
     uint aBits = floatBitsToUint(a);
     uint bBits = floatBitsToUint(b);
@@ -83,12 +84,12 @@ float divideBySignificands(float a, float b) {
     return uintBitsToFloat(isNan ? notANumberBits : magnitude | ((aBits ^ bBits) & signBit));
 }
 
-// Let X be the significand times 2^23 or 2^24, whichever makes the exponent even: t = sqrt(X) lies in [2^23, 2^24), and
-// the result's significand is t to the nearest integer.
+// Let X be the significand times 2^23 or 2^24, whichever makes the exponent even: t = sqrt(X) lies in [2^23, 2^24),
+// and the significand of the result is t to the nearest integer.
 //   1. low = estimate - 12. The estimate is off by 5.3 u t <= 10.6, and by 1 for the fraction cut off, so
 //      1 < t - low < 24, and the remainder X - low^2 = (t - low)(t + low) lies in (0, 24 * 2^25): 32 bits hold it.
-//   2. remainder / 2t is less than t - low by (t - low)^2 / 2t < 2^-14.8, and its estimate is off by 7 u * 24 and the
-//      rounding of a sum: together less than 2^-13. So `step` is t - low to the nearest integer, or 1 less.
+//   2. remainder / 2t is less than t - low by (t - low)^2 / 2t < 2^-14.8, and its estimate is off by 7 u * 24 and
+//      the rounding of a sum: together less than 2^-13. So `step` is t - low to the nearest integer, or 1 less.
 //   3. An exact comparison tells which: t > n + 1/2 where X - n^2 > n + 1/4. There are no ties, and t < 2^24 - 1/2.
 float rootBySignificand(float x) {
     uint bits = floatBitsToUint(x);
@@ -101,7 +102,8 @@ float rootBySignificand(float x) {
     precise float estimate = unit * (inverse * (isDoubled ? 11863283.0 : 8388608.0)); // 2^23, times sqrt(2)
     uint low = uint(estimate) - 12u;
     int remainder = int(square - low * low);
-    precise float distance = float(remainder) * (inverse * (isDoubled ? 4.2146848e-8 : 5.9604645e-8)) + justBelowHalf;
+    precise float halfInverse = inverse * (isDoubled ? 4.2146848e-8 : 5.9604645e-8); // 1/2t
+    precise float distance = float(remainder) * halfInverse + justBelowHalf;
     uint step = uint(distance);
     uint significand = low + step;
     int rest = remainder - int(step * (low + significand));

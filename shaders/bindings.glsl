@@ -12,6 +12,7 @@ layout(set = 0, binding = bindingProgress, std430) buffer ProgressBuffer { Dispa
 layout(set = 0, binding = bindingPaths, std430) buffer PathBuffer { PathRecord pathRecords[]; };
 layout(set = 0, binding = bindingPending, std430) buffer PendingBuffer { PendingRay pendingRays[]; };
 layout(set = 0, binding = bindingStacks, std430) buffer StackBuffer { uint stackEntries[]; };
+layout(set = 0, binding = bindingTrace, std430) writeonly buffer TraceBuffer { TraceEvent traceEvents[]; };
 
 layout(push_constant) uniform DispatchBlock { DispatchConstants dispatch; };
 
@@ -21,3 +22,5 @@ layout(constant_id = constantHasSpecular) const bool hasSpecular = true;
 layout(constant_id = constantHasDielectric) const bool hasDielectric = true;
 layout(constant_id = constantSampler) const uint samplerKind = samplerSobol;
 layout(constant_id = constantStackSize) const uint stackSize = maxTreeDepth;
+layout(constant_id = constantIsTracing) const bool isTracing = false;
+layout(constant_id = constantExactDivision) const bool hasExactDivision = false;

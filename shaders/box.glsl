@@ -24,7 +24,7 @@ BoxRay makeBoxRay(vec3 origin, vec3 direction, vec3 lower, vec3 upper) {
     vec3 bounded = mix(direction, mix(vec3(1e-18), vec3(-1e-18), lessThan(direction, vec3(0.0))),
                        lessThan(abs(direction), vec3(1e-18)));
     BoxRay ray;
-    precise vec3 inverse = 1.0 / bounded;
+    vec3 inverse = divide(1.0, bounded);
     precise vec3 originPlus = origin + pad;
     precise vec3 originMinus = origin - pad;
     ray.inverse = inverse;

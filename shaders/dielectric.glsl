@@ -13,13 +13,15 @@ struct Refraction {
 // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, with the cosine on the optically thinner
 // side, so that the reflectance rises to 1 at the critical angle.
 Refraction refractRay(vec3 direction, vec3 facing, float index, bool isEntering) {
-    precise float eta = isEntering ? 1.0 / index : index;
+    precise float eta = isEntering ? divide(1.0, index) : index;
     precise float cosIncident = -dotProduct(direction, facing);
     precise float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
-    precise float cosTransmitted = sqrt(max(radicand, 0.0));
+    precise float cosTransmitted = squareRoot(max(radicand, 0.0));
     precise float along = eta * cosIncident - cosTransmitted;
     precise vec3 transmitted = direction * eta + facing * along;
-    precise float ratio = (1.0 - index) / (1.0 + index);
+    precise float below = 1.0 - index;
+    precise float above = 1.0 + index;
+    float ratio = divide(below, above);
     precise float normalReflectance = ratio * ratio;
     precise float k = 1.0 - (isEntering ? cosIncident : cosTransmitted);
     precise float k2 = k * k;

@@ -149,9 +149,9 @@ struct DispatchConstants {
     // Workgroup g works on block g % (count/interleave) * interleave + g / (count/interleave) of the tile: a driver
     // that gives each thread one range of workgroups then spreads every part of the image over all threads.
     uint interleave;
+    uint traceCapacity; // events in the trace buffer
     uint pad0;
     uint pad1;
-    uint pad2;
 };
 
 // ---- Results
@@ -168,11 +168,38 @@ struct DispatchProgress {
     uint unfinishedSlots;
     uint stackOverflows; // subtrees that found no room to wait: 0 in any valid tree
     uint finishedSamples;
-    uint pad1;
+    uint traceEvents; // wanted: more than the trace buffer holds are not kept
     uint primaryRays;
     uint shadowRays;
     uint reflectionRays;
     uint refractionRays;
+};
+
+// ---- What a path did, step by step: written only where a difference is searched
+
+const uint traceRayOrigin = 0u;
+const uint traceRayDirection = 1u;
+const uint traceHit = 2u; // integer: the primitive's id; value: distance, u, v
+const uint traceSurfacePosition = 3u;
+const uint traceSurfaceNormal = 4u;
+const uint traceThroughput = 5u;  // of the segment at its hit, tint included
+const uint traceReflectance = 6u; // at glass; integer: 1 where reflection is total; value: reflectance
+const uint traceVisibility = 7u;  // integer: 0 unlit, 1 blocked, 2 dimmed by glass, 3 clear
+const uint traceRadiance = 8u;    // of the sample so far, after light was added to it
+const uint traceQuantityCount = 9u;
+
+const uint visibilityUnlit = 0u;
+const uint visibilityBlocked = 1u;
+const uint visibilityDimmed = 2u;
+const uint visibilityClear = 3u;
+
+struct TraceEvent {
+    uint quantity;
+    uint sampleIndex;
+    uint rayDepth; // segment number of the ray
+    uint integer;
+    vec3 value;
+    uint pad0;
 };
 
 // ---- A path slot, as it waits between two dispatches
@@ -237,7 +264,8 @@ const uint bindingProgress = 8u;
 const uint bindingPaths = 9u;
 const uint bindingPending = 10u; // maxDepth rays a slot
 const uint bindingStacks = 11u;  // stackSize references a slot
-const uint bindingCount = 12u;
+const uint bindingTrace = 12u;
+const uint bindingCount = 13u;
 
 // ---- Specialization constants: what a scene does not use costs nothing
 
@@ -248,7 +276,9 @@ const uint constantHasSpecular = 3u; // mirrors or dielectrics
 const uint constantHasDielectric = 4u;
 const uint constantSampler = 5u;
 const uint constantStackSize = 6u;
-const uint constantCount = 7u;
+const uint constantIsTracing = 7u; // write what path slot 0 does into the trace buffer
+const uint constantExactDivision = 8u; // the device's own / and sqrt are correctly rounded
+const uint constantCount = 9u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);
@@ -261,6 +291,7 @@ static_assert(sizeof(FrameRecord) == 112 && offsetof(FrameRecord, boundsUpper) =
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
 static_assert(sizeof(DispatchProgress) == 32);
+static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
 static_assert(sizeof(PathRecord) == 176 && offsetof(PathRecord, cursorNode) == 160);
 static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
 } // namespace hyalite::layout

@@ -77,3 +77,13 @@ void addProgress() {
     if (hasDielectric)
         atomicAdd(progress.refractionRays, rayCounts.w);
 }
+
+// Keeps what a path did, for those who search for a difference.
+void traceEvent(uint slot, uint quantity, uint integer, vec3 value) {
+    if (!isTracing || slotIndex[slot] != 0u)
+        return;
+    uint index = atomicAdd(progress.traceEvents, 1u);
+    if (index < dispatch.traceCapacity)
+        traceEvents[index] =
+            TraceEvent(quantity, path[slot].sampleIndex, path[slot].rayDepth, integer, value, 0u);
+}

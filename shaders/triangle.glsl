@@ -28,7 +28,7 @@ TriangleRay makeTriangleRay(vec3 origin, vec3 direction) {
     ray.origin = origin;
     ray.axis = size.z >= size.x && size.z >= size.y ? 2u : (size.y >= size.x ? 1u : 0u);
     vec3 along = axisToZ(direction, ray.axis);
-    precise float inverse = 1.0 / along.z;
+    float inverse = divide(1.0, along.z);
     precise vec2 shear = along.xy * inverse;
     ray.shear = vec3(shear, inverse);
     return ray;
@@ -46,7 +46,7 @@ TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, 
     precise float e2 = q.x * p.y - q.y * p.x;
     bool isInside = min(min(e0, e1), e2) >= 0.0 || max(max(e0, e1), e2) <= 0.0;
     precise float determinant = e0 + e1 + e2;
-    precise float inverse = 1.0 / determinant;
+    float inverse = divide(1.0, determinant);
     precise float u = e0 * inverse;
     precise float v = e1 * inverse;
     precise float w = e2 * inverse;

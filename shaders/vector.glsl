@@ -35,12 +35,12 @@ vec3 crossProduct(vec3 a, vec3 b) {
 
 float vectorLength(vec3 v) {
     precise float squared = dotProduct(v, v);
-    return sqrt(squared);
+    return squareRoot(squared);
 }
 
 // `v` is not zero.
 vec3 unitVector(vec3 v) {
-    precise float scale = 1.0 / vectorLength(v);
+    float scale = divide(1.0, vectorLength(v));
     precise vec3 unit = v * scale;
     return unit;
 }

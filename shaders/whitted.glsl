@@ -53,6 +53,8 @@ void chooseNextRay(uint slot) {
 
 // Stage: meet the spheres and stand at the root of the tree.
 void beginClosest(uint slot) {
+    traceEvent(slot, traceRayOrigin, 0u, path[slot].rayOrigin);
+    traceEvent(slot, traceRayDirection, 0u, path[slot].rayDirection);
     path[slot].rayLength = unbounded;
     path[slot].hitPrimitive = noPrimitive;
     for (uint i = 0u; i < sphereCount; ++i) {
@@ -79,6 +81,7 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
     vec3 direction = path[slot].rayDirection;
     vec3 facing = isEntering ? surface.normal : -surface.normal;
     Refraction refraction = refractRay(direction, facing, material.refractiveIndex, isEntering);
+    traceEvent(slot, traceReflectance, refraction.isTotal ? 1u : 0u, vec3(refraction.reflectance));
     uint mediumOfReflection = isEntering ? path[slot].rayMedium : materialIndex;
     if (refraction.isTotal) {
         reflectRay(slot, surface, mediumOfReflection);
@@ -108,18 +111,22 @@ void leaveScene(uint slot) {
     if (hasDielectric && path[slot].rayMedium != noMaterial)
         throughput *= materials[path[slot].rayMedium].segmentTint;
     path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, frame.background);
+    traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     path[slot].stage = stageNextRay;
 }
 
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
+    bool isTriangle = hasTriangles && path[slot].hitPrimitive >= firstTriangleId;
+    traceEvent(slot, traceHit, path[slot].hitPrimitive,
+               vec3(path[slot].rayLength, isTriangle ? vec2(path[slot].hitU, path[slot].hitV) : vec2(0.0)));
     if (path[slot].hitPrimitive == noPrimitive) {
         leaveScene(slot);
         return;
     }
     Surface surface;
     uint materialIndex;
-    if (hasTriangles && path[slot].hitPrimitive >= firstTriangleId) {
+    if (isTriangle) {
         TriangleRecord triangle = triangles[path[slot].hitRecord];
         surface = triangleSurface(triangle, normals[path[slot].hitRecord], path[slot].hitU, path[slot].hitV);
         materialIndex = triangle.materialIndex;
@@ -137,6 +144,9 @@ void shadeHit(uint slot) {
         if (medium != noMaterial)
             path[slot].throughput *= materials[medium].segmentTint;
     }
+    traceEvent(slot, traceSurfacePosition, 0u, surface.position);
+    traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
+    traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
     path[slot].stage = stageNextRay;
     if (!hasSpecular || material.kind == materialDiffuse) {
         if (material.isTwoSided != 0u && dotProduct(direction, surface.geometricNormal) > 0.0) {
@@ -167,10 +177,11 @@ void aimAtLight(uint slot) {
     }
     vec3 toLight = subtract(lights[path[slot].lightIndex].position, path[slot].surfacePosition);
     float distance = vectorLength(toLight);
-    vec3 direction = toLight * (1.0 / distance);
+    vec3 direction = toLight * divide(1.0, distance);
     bool isLit = dotProduct(path[slot].surfaceNormal, direction) > 0.0 &&
                  dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0;
     if (!isLit) {
+        traceEvent(slot, traceVisibility, visibilityUnlit, vec3(path[slot].lightIndex));
         path[slot].lightIndex += 1u;
         return;
     }
@@ -198,14 +209,19 @@ void aimAtLight(uint slot) {
 
 // Stage: the shadow ray has arrived, or was stopped.
 void addLight(uint slot) {
-    if (path[slot].hitPrimitive == noPrimitive) {
+    bool isVisible = path[slot].hitPrimitive == noPrimitive;
+    bool isDimmed = hasDielectric && path[slot].isLightDimmed != 0u;
+    traceEvent(slot, traceVisibility, isVisible ? (isDimmed ? visibilityDimmed : visibilityClear) : visibilityBlocked,
+               vec3(path[slot].lightIndex));
+    if (isVisible) {
         float squaredDistance = path[slot].rayLength * path[slot].rayLength;
         float cosine = dotProduct(path[slot].surfaceNormal, path[slot].rayDirection);
-        vec3 irradiance = lights[path[slot].lightIndex].intensity * (cosine / squaredDistance);
+        vec3 irradiance = lights[path[slot].lightIndex].intensity * divide(cosine, squaredDistance);
         vec3 light = path[slot].surfaceWeight * irradiance;
-        if (hasDielectric && path[slot].isLightDimmed != 0u)
+        if (isDimmed)
             light *= frame.shadowThroughGlass;
         path[slot].sampleRadiance = add(path[slot].sampleRadiance, light);
+        traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
     path[slot].lightIndex += 1u;
     path[slot].stage = path[slot].lightIndex < frame.lightCount ? stageNextLight : stageNextRay;

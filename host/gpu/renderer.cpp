@@ -2,6 +2,7 @@
 
 #include "host/error.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/scene_buffers.h"
 #include "whittedStackOneSlot.h"
 #include "whittedStackTwoSlots.h"
 
@@ -22,6 +23,7 @@ double secondsSince(Clock::time_point start) {
 }
 
 constexpr std::uint32_t workgroupSize = 64;
+constexpr std::uint32_t traceCapacity = 1u << 17;
 
 /// Fills in what the caller left to the device.
 Batching chooseBatching(Batching batching, const DeviceInfo &device) {
@@ -33,7 +35,7 @@ Batching chooseBatching(Batching batching, const DeviceInfo &device) {
         batching.tileHeight = side;
     // Two independent rays at once hide latency on a CPU; on a GPU other subgroups do, and registers are short.
     if (batching.slotsPerInvocation == 0)
-        batching.slotsPerInvocation = device.isSoftware() ? 2 : 1;
+        batching.slotsPerInvocation = device.isSoftware() && batching.kernel.empty() ? 2 : 1;
     // lavapipe stops a subgroup in silence after 65,535 loop iterations of all of its lanes together. The lanes count
     // for themselves, and lanes that diverge add up.
     const std::uint32_t limit = 65535u / (std::max(device.subgroupSize, 1u) + 1u);
@@ -44,12 +46,156 @@ Batching chooseBatching(Batching batching, const DeviceInfo &device) {
     return batching;
 }
 
-/// A tile is a whole number of workgroups: 8x8 pixels are 64 slots.
-int roundUpToTile(int pixels, int tile) { return std::min((pixels + 7) / 8 * 8, tile); }
-
-template <class Record> std::span<const std::byte> bytesOf(const std::vector<Record> &records) {
-    return std::as_bytes(std::span(records));
+std::span<const std::uint32_t> chooseKernel(const Batching &batching) {
+    if (!batching.kernel.empty())
+        return batching.kernel;
+    return batching.slotsPerInvocation == 2 ? std::span<const std::uint32_t>(whittedStackTwoSlots)
+                                            : std::span<const std::uint32_t>(whittedStackOneSlot);
 }
+
+/// A tile is a whole number of blocks of 8x8 pixels, which are 64 slots.
+int fitTile(int pixels, int tile) { return std::min((pixels + 7) / 8 * 8, tile); }
+
+/// What a render is asked to do.
+struct Job {
+    const PackedScene &scene;
+    Crop crop;
+    SamplerKind sampler;
+    std::uint32_t sampleBegin;
+    std::uint32_t sampleEnd;
+    bool isTraced;
+};
+
+/// Everything that a job needs on the device, and the loop over its tiles.
+class TileRenderer {
+  public:
+    TileRenderer(Device &device, const Batching &batching, const Job &job)
+        : device_(device), job_(job), tileWidth_(fitTile(job.crop.width(), batching.tileWidth)),
+          tileHeight_(fitTile(job.crop.height(), batching.tileHeight)),
+          slotCount_(static_cast<std::size_t>(tileWidth_) * static_cast<std::size_t>(tileHeight_)),
+          // One subtree waits for each level at most; kernels of a few sizes are enough.
+          stackSize_(std::bit_ceil(
+              std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth))),
+          buffers_(device, job.scene),
+          film_(device, "the film", BufferUse::Storage, filmPixelCount() * sizeof(layout::FilmPixel)),
+          progress_(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress)),
+          paths_(device, "the path slots", BufferUse::Storage, slotCount_ * sizeof(layout::PathRecord)),
+          pending_(device, "the pending rays", BufferUse::Storage,
+                   job.scene.hasDielectric
+                       ? slotCount_ * job.scene.frame.maxDepth * sizeof(layout::PendingRay)
+                       : 0),
+          stacks_(device, "the traversal stacks", BufferUse::Storage,
+                  job.scene.hasTriangles ? slotCount_ * stackSize_ * sizeof(std::uint32_t) : 0),
+          trace_(device, "the trace", BufferUse::Storage,
+                 job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0) {
+        film_.clear();
+        dispatch_.cropX = static_cast<std::uint32_t>(job.crop.x0);
+        dispatch_.cropY = static_cast<std::uint32_t>(job.crop.y0);
+        dispatch_.filmWidth = static_cast<std::uint32_t>(job.crop.width());
+        dispatch_.filmHeight = static_cast<std::uint32_t>(job.crop.height());
+        dispatch_.tileWidth = static_cast<std::uint32_t>(tileWidth_);
+        dispatch_.tileHeight = static_cast<std::uint32_t>(tileHeight_);
+        dispatch_.sampleBegin = job.sampleBegin;
+        dispatch_.sampleEnd = job.sampleEnd;
+        dispatch_.stepBudget = batching.steps;
+        dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
+        // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
+        dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
+        const std::uint32_t slotsPerRound =
+            workgroupSize * static_cast<std::uint32_t>(batching.slotsPerInvocation) * dispatch_.interleave;
+        groupCount_ = (static_cast<std::uint32_t>(slotCount_) + slotsPerRound - 1) / slotsPerRound *
+                      dispatch_.interleave;
+    }
+
+    [[nodiscard]] Kernel makeKernel(std::span<const std::uint32_t> spirv) const {
+        const PackedScene &scene = job_.scene;
+        SpecializationConstants constants{};
+        constants[layout::constantWorkgroupSize] = workgroupSize;
+        constants[layout::constantSphereCount] = static_cast<std::uint32_t>(scene.spheres.size());
+        constants[layout::constantHasTriangles] = scene.hasTriangles;
+        constants[layout::constantHasSpecular] = scene.hasSpecular;
+        constants[layout::constantHasDielectric] = scene.hasDielectric;
+        constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
+        constants[layout::constantStackSize] = stackSize_;
+        constants[layout::constantIsTracing] = job_.isTraced;
+        const std::array<const Buffer *, layout::bindingCount> bound{
+            &buffers_.frame,     &buffers_.spheres, &buffers_.lights, &buffers_.materials, &buffers_.nodes,
+            &buffers_.triangles, &buffers_.normals, &film_,           &progress_,          &paths_,
+            &pending_,           &stacks_,          &trace_};
+        return Kernel(device_, "whitted", spirv, constants, bound);
+    }
+
+    /// Runs until all samples of all tiles are in the film.
+    void run(Kernel &kernel, Result &result, const std::function<void(double)> &onProgress) {
+        const int tilesAcross = (job_.crop.width() + tileWidth_ - 1) / tileWidth_;
+        const int tilesDown = (job_.crop.height() + tileHeight_ - 1) / tileHeight_;
+        const double samplesWanted =
+            static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
+        std::uint64_t samplesFinished = 0;
+        for (int tile = 0; tile < tilesAcross * tilesDown; ++tile) {
+            dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
+            dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
+            dispatch_.isResumed = 0;
+            std::uint32_t unfinishedSlots = 0;
+            do {
+                const layout::DispatchProgress counters = runOnce(kernel);
+                unfinishedSlots = counters.unfinishedSlots;
+                samplesFinished += counters.finishedSamples;
+                result.rays += {counters.primaryRays, counters.shadowRays, counters.reflectionRays,
+                                counters.refractionRays};
+                ++result.timing.dispatchCount;
+                dispatch_.isResumed = 1;
+                if (onProgress)
+                    onProgress(static_cast<double>(samplesFinished) / samplesWanted);
+            } while (unfinishedSlots > 0);
+        }
+    }
+
+    void readFilm(Film &film) const { film_.download(std::as_writable_bytes(std::span(film.pixels))); }
+
+    [[nodiscard]] std::vector<layout::TraceEvent> readTrace() const {
+        std::vector<layout::TraceEvent> events(std::min(traceEventCount_, traceCapacity));
+        trace_.download(std::as_writable_bytes(std::span(events)));
+        return events;
+    }
+
+  private:
+    [[nodiscard]] std::size_t filmPixelCount() const {
+        return static_cast<std::size_t>(job_.crop.width()) * static_cast<std::size_t>(job_.crop.height());
+    }
+
+    layout::DispatchProgress runOnce(Kernel &kernel) {
+        layout::DispatchProgress counters{};
+        counters.traceEvents = traceEventCount_;
+        progress_.upload(std::as_bytes(std::span(&counters, 1)));
+        kernel.run(dispatch_, groupCount_);
+        progress_.download(std::as_writable_bytes(std::span(&counters, 1)));
+        traceEventCount_ = counters.traceEvents;
+        if (counters.stackOverflows > 0)
+            throw Error(
+                ExitCode::LimitExceeded,
+                fmt::format("the traversal stack of {} entries overflowed: the tree of depth {} is damaged",
+                            stackSize_, job_.scene.treeDepth));
+        return counters;
+    }
+
+    Device &device_;
+    Job job_;
+    int tileWidth_;
+    int tileHeight_;
+    std::size_t slotCount_;
+    std::uint32_t stackSize_;
+    SceneBuffers buffers_;
+    Buffer film_;
+    Buffer progress_;
+    Buffer paths_;
+    Buffer pending_;
+    Buffer stacks_;
+    Buffer trace_;
+    layout::DispatchConstants dispatch_{};
+    std::uint32_t groupCount_ = 0;
+    std::uint32_t traceEventCount_ = 0;
+};
 
 } // namespace
 
@@ -60,12 +206,6 @@ struct Renderer::State {
     State(const DeviceInfo &info, const Batching &wanted)
         : device(info, wanted.isStaged ? Transfers::Staged : Transfers::Automatic),
           batching(chooseBatching(wanted, info)) {}
-
-    Buffer upload(const char *name, BufferUse use, std::size_t sizeBytes, std::span<const std::byte> bytes) {
-        Buffer buffer(device, name, use, sizeBytes);
-        buffer.upload(bytes);
-        return buffer;
-    }
 };
 
 Renderer::Renderer(const DeviceInfo &device, const Batching &batching)
@@ -76,114 +216,34 @@ Renderer &Renderer::operator=(Renderer &&) noexcept = default;
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                         const std::function<void(double)> &onProgress) {
-    Device &device = state_->device;
-    const Batching &batching = state_->batching;
     Result result{Film(crop), {}, {}};
-
     Clock::time_point start = Clock::now();
-    const auto storage = [&](const char *name, const auto &records) {
-        return state_->upload(name, BufferUse::Storage, bytesOf(records).size(), bytesOf(records));
-    };
-    const Buffer frame =
-        state_->upload("the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord),
-                       std::as_bytes(std::span(&scene.frame, 1)));
-    const Buffer spheres =
-        state_->upload("the spheres", BufferUse::Uniform,
-                       sizeof(layout::SphereRecord) * layout::maxSphereCount, bytesOf(scene.spheres));
-    const Buffer lights =
-        state_->upload("the lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxLightCount,
-                       bytesOf(scene.lights));
-    const Buffer materials = storage("the materials", scene.materials);
-    const Buffer nodes = storage("the nodes", scene.nodes);
-    const Buffer triangles = storage("the triangles", scene.triangles);
-    const Buffer normals = storage("the normals", scene.normals);
-
-    const int tileWidth = roundUpToTile(crop.width(), batching.tileWidth);
-    const int tileHeight = roundUpToTile(crop.height(), batching.tileHeight);
-    const std::size_t slotCount = static_cast<std::size_t>(tileWidth) * static_cast<std::size_t>(tileHeight);
-    // At least one subtree waits for every level but the last; kernels of a few sizes are enough.
-    const std::uint32_t stackSize =
-        std::bit_ceil(std::clamp(static_cast<std::uint32_t>(scene.treeDepth), 8u, layout::maxTreeDepth));
-    Buffer film(device, "the film", BufferUse::Storage,
-                result.film.pixels.size() * sizeof(layout::FilmPixel));
-    film.clear();
-    Buffer progress(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
-    const Buffer paths(device, "the path slots", BufferUse::Storage, slotCount * sizeof(layout::PathRecord));
-    const Buffer pending(device, "the pending rays", BufferUse::Storage,
-                         scene.hasDielectric ? slotCount * scene.frame.maxDepth * sizeof(layout::PendingRay)
-                                             : 0);
-    const Buffer stacks(device, "the traversal stacks", BufferUse::Storage,
-                        scene.hasTriangles ? slotCount * stackSize * sizeof(std::uint32_t) : 0);
+    const Job job{scene, crop, settings.sampler, 0, static_cast<std::uint32_t>(settings.samplesPerPixel),
+                  false};
+    TileRenderer tiles(state_->device, state_->batching, job);
     result.timing.uploadSeconds = secondsSince(start);
 
     start = Clock::now();
-    SpecializationConstants constants{};
-    constants[layout::constantWorkgroupSize] = workgroupSize;
-    constants[layout::constantSphereCount] = static_cast<std::uint32_t>(scene.spheres.size());
-    constants[layout::constantHasTriangles] = scene.hasTriangles;
-    constants[layout::constantHasSpecular] = scene.hasSpecular;
-    constants[layout::constantHasDielectric] = scene.hasDielectric;
-    constants[layout::constantSampler] = static_cast<std::uint32_t>(settings.sampler);
-    constants[layout::constantStackSize] = stackSize;
-    const std::array<const Buffer *, layout::bindingCount> buffers{
-        &frame,   &spheres, &lights,   &materials, &nodes,   &triangles,
-        &normals, &film,    &progress, &paths,     &pending, &stacks};
-    const std::span<const std::uint32_t> spirv = batching.slotsPerInvocation == 2
-                                                     ? std::span<const std::uint32_t>(whittedStackTwoSlots)
-                                                     : std::span<const std::uint32_t>(whittedStackOneSlot);
-    Kernel kernel(device, "whitted", spirv, constants, buffers);
+    Kernel kernel = tiles.makeKernel(chooseKernel(state_->batching));
     result.timing.pipelineSeconds = secondsSince(start);
 
     start = Clock::now();
-    const int tilesAcross = (crop.width() + tileWidth - 1) / tileWidth;
-    const int tilesDown = (crop.height() + tileHeight - 1) / tileHeight;
-    const std::uint32_t slotsPerGroup =
-        workgroupSize * static_cast<std::uint32_t>(batching.slotsPerInvocation);
-    // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
-    const std::uint32_t interleave = device.info().isSoftware() ? 16 : 1;
-    const std::uint32_t slotsPerRound = slotsPerGroup * interleave;
-    const std::uint32_t groupCount =
-        (static_cast<std::uint32_t>(slotCount) + slotsPerRound - 1) / slotsPerRound * interleave;
-    layout::DispatchConstants dispatch{};
-    dispatch.cropX = static_cast<std::uint32_t>(crop.x0);
-    dispatch.cropY = static_cast<std::uint32_t>(crop.y0);
-    dispatch.filmWidth = static_cast<std::uint32_t>(crop.width());
-    dispatch.filmHeight = static_cast<std::uint32_t>(crop.height());
-    dispatch.tileWidth = static_cast<std::uint32_t>(tileWidth);
-    dispatch.tileHeight = static_cast<std::uint32_t>(tileHeight);
-    dispatch.sampleEnd = static_cast<std::uint32_t>(settings.samplesPerPixel);
-    dispatch.stepBudget = batching.steps;
-    dispatch.interleave = interleave;
-    const double sampleCount = static_cast<double>(result.film.pixels.size()) * settings.samplesPerPixel;
-    std::uint64_t finishedSamples = 0;
-    for (int tile = 0; tile < tilesAcross * tilesDown; ++tile) {
-        dispatch.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth);
-        dispatch.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight);
-        dispatch.isResumed = 0;
-        layout::DispatchProgress counters{};
-        do {
-            counters = {};
-            progress.upload(std::as_bytes(std::span(&counters, 1)));
-            kernel.run(dispatch, groupCount);
-            progress.download(std::as_writable_bytes(std::span(&counters, 1)));
-            if (counters.stackOverflows > 0)
-                throw Error(
-                    ExitCode::LimitExceeded,
-                    fmt::format(
-                        "the traversal stack of {} entries overflowed: the tree of depth {} is damaged",
-                        stackSize, scene.treeDepth));
-            result.rays +=
-                {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays};
-            ++result.timing.dispatchCount;
-            dispatch.isResumed = 1;
-            finishedSamples += counters.finishedSamples;
-            if (onProgress)
-                onProgress(static_cast<double>(finishedSamples) / sampleCount);
-        } while (counters.unfinishedSlots > 0);
-    }
+    tiles.run(kernel, result, onProgress);
     result.timing.renderSeconds = secondsSince(start);
-    film.download(std::as_writable_bytes(std::span(result.film.pixels)));
+    tiles.readFilm(result.film);
     return result;
+}
+
+std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const RenderSettings &settings,
+                                                const glm::uvec2 &pixel, std::uint32_t sampleIndex) {
+    const int x = static_cast<int>(pixel.x);
+    const int y = static_cast<int>(pixel.y);
+    const Job job{scene, {x, x + 1, y, y + 1}, settings.sampler, sampleIndex, sampleIndex + 1, true};
+    TileRenderer tiles(state_->device, state_->batching, job);
+    Kernel kernel = tiles.makeKernel(chooseKernel(state_->batching));
+    Result result{Film(job.crop), {}, {}};
+    tiles.run(kernel, result, {});
+    return tiles.readTrace();
 }
 
 } // namespace hyalite::gpu

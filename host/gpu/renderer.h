@@ -8,16 +8,20 @@
 
 #include <functional>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace hyalite::gpu {
 
-/// How work is cut into dispatches. The image does not depend on any of it.
+/// How work is cut into dispatches, and what for. The image does not depend on any of it.
 struct Batching {
     int tileWidth = 0;          ///< pixels, a multiple of 8; 0: by the device
     int tileHeight = 0;         ///< pixels, a multiple of 8; 0: by the device
     std::uint32_t steps = 0;    ///< loop iterations of a path slot in one dispatch; 0: by the device
     int slotsPerInvocation = 0; ///< path slots of one invocation, 1 or 2; 0: by the device
     bool isStaged = false;      ///< transfer everything through staging buffers
+    /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an invocation.
+    std::span<const std::uint32_t> kernel;
 };
 
 struct Timing {
@@ -45,6 +49,11 @@ class Renderer {
     /// dispatch. Throws Error{LimitExceeded} where the scene is too large for the device, Error{DeviceLost}.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                                 const std::function<void(double)> &onProgress = {});
+
+    /// What one sample of one pixel of the whole image does, step by step; at most 2^17 steps are kept.
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,
+                                                        const RenderSettings &settings,
+                                                        const glm::uvec2 &pixel, std::uint32_t sampleIndex);
 
   private:
     struct State;

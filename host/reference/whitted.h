@@ -24,6 +24,7 @@ template <class Real> class WhittedIntegrator {
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex) {
         const Vec2<Real> offset = samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed);
         ++counts_.primary;
+        sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
         pending_.push_back({{Vec3<Real>(scene_.frame.eye), primaryDirection(scene_.frame, pixel, offset)},
                             Vec3<Real>(Real(1)),
@@ -39,6 +40,9 @@ template <class Real> class WhittedIntegrator {
 
     [[nodiscard]] const RayCounts &counts() const { return counts_; }
 
+    /// From now on, what the paths do is appended to `events`, which must outlive the integrator.
+    void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
+
   private:
     static constexpr Real inversePi = Real(0.31830988618379067);
 
@@ -49,12 +53,22 @@ template <class Real> class WhittedIntegrator {
         std::uint32_t medium; ///< material of the glass around the segment, or noMaterial
     };
 
+    void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
+        if (events_ != nullptr)
+            events_->push_back({quantity, sampleIndex_, depth_, integer, glm::vec3(value), 0});
+    }
+
     void followSegment(Segment segment) {
+        depth_ = segment.depth;
+        traceEvent(layout::traceRayOrigin, 0, segment.ray.origin);
+        traceEvent(layout::traceRayDirection, 0, segment.ray.direction);
         const Hit<Real> hit = closestHit(scene_, segment.ray);
+        traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         if (hit.primitive == layout::noPrimitive) {
             if (segment.medium != layout::noMaterial)
                 segment.throughput *= Vec3<Real>(scene_.materials[segment.medium].segmentTint);
             radiance_ = radiance_ + segment.throughput * Vec3<Real>(scene_.frame.background);
+            traceEvent(layout::traceRadiance, 0, radiance_);
             return;
         }
         Surface<Real> surface;
@@ -75,6 +89,9 @@ template <class Real> class WhittedIntegrator {
         if (medium != layout::noMaterial)
             segment.throughput *= Vec3<Real>(scene_.materials[medium].segmentTint);
 
+        traceEvent(layout::traceSurfacePosition, 0, surface.position);
+        traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
+        traceEvent(layout::traceThroughput, 0, segment.throughput);
         if (material.kind == layout::materialDiffuse)
             shadeDiffuse(segment, surface, material, hit.primitive);
         else if (segment.depth < scene_.frame.maxDepth && isGlass)
@@ -97,11 +114,19 @@ template <class Real> class WhittedIntegrator {
             const Vec3<Real> direction = toLight * (Real(1) / distance);
             const bool isLit = dotProduct(surface.normal, direction) > 0 &&
                                dotProduct(surface.geometricNormal, direction) > 0;
-            if (!isLit)
+            const Vec3<Real> lightIndex(static_cast<Real>(&light - scene_.lights.data()));
+            if (!isLit) {
+                traceEvent(layout::traceVisibility, layout::visibilityUnlit, lightIndex);
                 continue;
+            }
             ++counts_.shadow;
             const Ray<Real> ray{spawnPoint(surface, direction), direction, primitive};
             const Shadow shadow = castShadowRay(scene_, ray, distance);
+            traceEvent(layout::traceVisibility,
+                       shadow.isBlocked  ? layout::visibilityBlocked
+                       : shadow.isDimmed ? layout::visibilityDimmed
+                                         : layout::visibilityClear,
+                       lightIndex);
             if (shadow.isBlocked)
                 continue;
             const Real squaredDistance = distance * distance;
@@ -111,6 +136,7 @@ template <class Real> class WhittedIntegrator {
             if (shadow.isDimmed)
                 reflected *= static_cast<Real>(scene_.frame.shadowThroughGlass);
             radiance_ = radiance_ + reflected;
+            traceEvent(layout::traceRadiance, 0, radiance_);
         }
     }
 
@@ -127,6 +153,7 @@ template <class Real> class WhittedIntegrator {
         const Vec3<Real> facing = isEntering ? surface.normal : -surface.normal;
         const Refraction<Real> refraction =
             refractRay(segment.ray.direction, facing, static_cast<Real>(refractiveIndex), isEntering);
+        traceEvent(layout::traceReflectance, refraction.isTotal ? 1 : 0, Vec3<Real>(refraction.reflectance));
         const std::uint32_t mediumOfReflection = isEntering ? segment.medium : materialIndex;
         if (refraction.isTotal) {
             reflect(segment, surface, segment.throughput, mediumOfReflection, primitive);
@@ -146,6 +173,9 @@ template <class Real> class WhittedIntegrator {
     std::vector<Segment> pending_;
     Vec3<Real> radiance_{Real(0)};
     RayCounts counts_;
+    std::vector<layout::TraceEvent> *events_ = nullptr;
+    std::uint32_t sampleIndex_ = 0; ///< and the depth of the segment that is followed: for trace events only
+    std::uint32_t depth_ = 0;
 };
 
 } // namespace hyalite::reference

@@ -1,0 +1,22 @@
+// A scene in device memory.
+#pragma once
+
+#include "host/bvh/packed_scene.h"
+#include "host/gpu/buffer.h"
+
+namespace hyalite::gpu {
+
+struct SceneBuffers {
+    /// Uploads everything. Throws as Buffer does.
+    SceneBuffers(Device &device, const PackedScene &scene);
+
+    Buffer frame;
+    Buffer spheres; ///< room for layout::maxSphereCount
+    Buffer lights;  ///< room for layout::maxLightCount
+    Buffer materials;
+    Buffer nodes;
+    Buffer triangles;
+    Buffer normals;
+};
+
+} // namespace hyalite::gpu
