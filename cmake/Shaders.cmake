@@ -1,14 +1,18 @@
 # hyalite_kernel(TARGET KERNEL VARIABLE DEFINITIONS...)
 #
 # Compiles shaders/KERNEL.comp to SPIR-V 1.3 at build time and embeds it into TARGET: a header VARIABLE.h with the
-# array `VARIABLE`. Dependency files follow every include, so an edited shader is always built anew.
+# array `VARIABLE`. KERNEL may also be a path ending in .comp, from the source folder. Dependency files follow every
+# include, so an edited shader is always built anew. The global property HYALITE_KERNELS lists all variables.
 find_program(GLSLANG_VALIDATOR glslangValidator)
 if(NOT GLSLANG_VALIDATOR)
     message(FATAL_ERROR "glslangValidator is missing: install the package glslang-tools")
 endif()
 
 function(hyalite_kernel target kernel variable)
-    set(source ${PROJECT_SOURCE_DIR}/shaders/${kernel}.comp)
+    if(NOT kernel MATCHES "\\.comp$")
+        set(kernel shaders/${kernel}.comp)
+    endif()
+    set(source ${PROJECT_SOURCE_DIR}/${kernel})
     set(folder ${PROJECT_BINARY_DIR}/kernels)
     set(header ${folder}/${variable}.h)
     file(MAKE_DIRECTORY ${folder})
@@ -19,8 +23,9 @@ function(hyalite_kernel target kernel variable)
                 --depfile ${header}.d --vn ${variable} -o ${header} ${source}
         DEPENDS ${source}
         DEPFILE ${header}.d
-        COMMENT "Compiling ${kernel}.comp to ${variable}"
+        COMMENT "Compiling ${kernel} to ${variable}"
         VERBATIM)
     target_sources(${target} PRIVATE ${header})
     target_include_directories(${target} PRIVATE ${folder})
+    set_property(GLOBAL APPEND PROPERTY HYALITE_KERNELS ${variable})
 endfunction()

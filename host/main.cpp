@@ -37,6 +37,7 @@ int run(int argumentCount, char **arguments) {
     CommandContext context;
     context.commandLine = joinArguments(argumentCount, arguments);
     addRenderCommand(app, context);
+    addCompareCommand(app, context);
     addDevicesCommand(app, context);
     addInspectCommand(app, context);
     addDiffCommand(app, context);

@@ -1,5 +1,6 @@
 #include "host/gpu/devices.h"
 #include "host/cli/commands.h"
+#include "host/gpu/arithmetic.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,9 @@ void printTable(const std::vector<gpu::DeviceInfo> &devices) {
         fmt::print("   float32     round to nearest even: {}, signed zero, infinity and NaN kept: {}\n",
                    device.canRoundToNearestEven ? "yes" : "not offered",
                    device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
+        fmt::print("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
+        const std::string unpromised = gpu::explainUnpromisedBits(device);
+        fmt::print("   equal bits  {}\n", unpromised.empty() ? "promised" : "not promised: " + unpromised);
         fmt::print("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
     }
     fmt::print("cpu  the reference renderer, without Vulkan\n");
@@ -50,6 +54,8 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
         entry["hasTimestamps"] = device.hasTimestamps;
         entry["canRoundToNearestEven"] = device.canRoundToNearestEven;
         entry["canPreserveSignedZeroInfNan"] = device.canPreserveSignedZeroInfNan;
+        entry["hasExactDivisionListed"] = device.hasExactDivisionListed;
+        entry["areBitsPromised"] = device.areBitsPromised();
         entry["isUsable"] = device.isUsable();
         if (!device.isUsable())
             entry["rejection"] = device.rejection;

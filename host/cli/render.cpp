@@ -1,16 +1,12 @@
+#include "host/cli/backend.h"
 #include "host/cli/commands.h"
-#include "host/cli/scene_options.h"
-#include "host/error.h"
-#include "host/gpu/renderer.h"
 #include "host/image/image_file.h"
-#include "host/reference/renderer.h"
 #include "host/report/progress.h"
 #include "host/report/render_report.h"
 
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,42 +30,9 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Film renderOnCpu(const PreparedScene &scene, const RenderOptions &options, RenderReport &report) {
-    report.deviceName = "cpu";
-    report.deviceDriver = "reference renderer";
-    if (!options.isQuiet)
-        fmt::print(stderr, "device: cpu, the reference renderer\n");
-    ProgressLine progress("render", options.isQuiet);
-    reference::Options how;
-    how.threadCount = options.threads;
-    how.onProgress = [&](double share) { progress.update(share); };
-    const Clock::time_point start = Clock::now();
-    reference::Result result = reference::render(scene.packed, scene.loaded.scene.settings, scene.crop, how);
-    report.renderSeconds = secondsSince(start);
-    report.rays = result.rays;
-    return std::move(result.film);
-}
-
-Film renderOnDevice(const PreparedScene &scene, const RenderOptions &options, RenderReport &report) {
-    // lavapipe reads the number of its threads when its driver is loaded.
-    if (options.threads > 0)
-        setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
-    const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), options.device);
-    report.deviceName = device.name;
-    report.deviceDriver = device.driver;
-    if (!options.isQuiet)
-        fmt::print(stderr, "device: {}, {} ({}){}\n", device.index, device.name, device.driver,
-                   device.isSoftware() ? ": a software device, it computes on the CPU" : "");
-    gpu::Renderer renderer(device);
-    ProgressLine progress("render", options.isQuiet);
-    gpu::Result result = renderer.render(scene.packed, scene.loaded.scene.settings, scene.crop,
-                                         [&](double share) { progress.update(share); });
-    report.uploadSeconds = result.timing.uploadSeconds;
-    report.pipelineSeconds = result.timing.pipelineSeconds;
-    report.renderSeconds = result.timing.renderSeconds;
-    report.dispatchCount = result.timing.dispatchCount;
-    report.rays = result.rays;
-    return std::move(result.film);
+BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, bool isQuiet) {
+    ProgressLine progress("render", isQuiet);
+    return backend.render(scene, [&](double share) { progress.update(share); });
 }
 
 void runRender(const RenderOptions &options, const std::string &commandLine) {
@@ -94,10 +57,16 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     report.loadSeconds = scene.loadSeconds;
     report.buildSeconds = scene.buildSeconds;
 
-    const Film film = options.device == "cpu" ? renderOnCpu(scene, options, report)
-                                              : renderOnDevice(scene, options, report);
+    const std::unique_ptr<Backend> backend = openBackend(options.device, options.threads);
+    report.deviceName = backend->name();
+    report.deviceDriver = backend->driver();
+    if (!options.isQuiet)
+        fmt::print(stderr, "device: {}\n", backend->description());
+    const BackendResult result = renderWithProgress(*backend, scene, options.isQuiet);
+    report.timing = result.timing;
+    report.rays = result.rays;
     const Clock::time_point writeStart = Clock::now();
-    writeImage(image, format, film.toImage(), settings.exposureStops);
+    writeImage(image, format, result.film.toImage(), settings.exposureStops);
     image.commit();
     report.writeSeconds = secondsSince(writeStart);
     report.totalSeconds = secondsSince(start);
@@ -108,8 +77,8 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     if (!options.isQuiet)
         fmt::print("{}: {}x{}, {} spp, {:.2f} M rays in {:.3f} s: {:.1f} Mray/s ({:.3f} s in all)\n",
                    options.output, report.width, report.height, settings.samplesPerPixel,
-                   static_cast<double>(report.rays.total()) / 1e6, report.renderSeconds,
-                   static_cast<double>(report.rays.total()) / 1e6 / report.renderSeconds,
+                   static_cast<double>(report.rays.total()) / 1e6, report.timing.renderSeconds,
+                   static_cast<double>(report.rays.total()) / 1e6 / report.timing.renderSeconds,
                    report.totalSeconds);
 }
 

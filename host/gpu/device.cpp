@@ -30,6 +30,11 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
+    const char *const floatControls = VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME;
+    if (info.canRoundToNearestEven || info.canPreserveSignedZeroInfNan) {
+        create.enabledExtensionCount = 1;
+        create.ppEnabledExtensionNames = &floatControls;
+    }
     VkDevice device = VK_NULL_HANDLE;
     check(vkCreateDevice(physical_, &create, nullptr, &device),
           fmt::format("vkCreateDevice for {}", info.name));

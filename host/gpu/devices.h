@@ -26,12 +26,18 @@ struct DeviceInfo {
     std::uint32_t maxStorageBuffersPerStage = 0;
     std::uint64_t deviceMemoryBytes = 0; ///< largest device-local heap
     bool hasTimestamps = false;
-    // Float controls of float32 arithmetic: without the first two no bits are promised.
+    std::uint32_t driverId = 0; ///< VkDriverId; 0: not told
+    bool hasExactDivisionListed =
+        false; ///< its / and sqrt are known to be correctly rounded: see arithmetic.h
+    // Float controls of float32 arithmetic: without both no bits are promised.
     bool canRoundToNearestEven = false;
     bool canPreserveSignedZeroInfNan = false;
     std::string rejection; ///< why it cannot be used, or empty
 
     [[nodiscard]] bool isUsable() const { return rejection.empty(); }
+    [[nodiscard]] bool areBitsPromised() const {
+        return canRoundToNearestEven && canPreserveSignedZeroInfNan;
+    }
     [[nodiscard]] bool isSoftware() const { return type == DeviceType::Cpu; }
 };
 

@@ -1,6 +1,7 @@
 #include "host/gpu/kernel.h"
 
 #include "host/gpu/check.h"
+#include "host/gpu/float_controls.h"
 
 #include <cassert>
 #include <vector>
@@ -17,7 +18,7 @@ VkDescriptorType descriptorType(const Buffer &buffer) {
 } // namespace
 
 Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
-               const SpecializationConstants &constants, std::span<const Buffer *const> buffers)
+               std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers)
     : device_(device), name_(std::move(name)) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     std::uint32_t uniformCount = 0;
@@ -53,20 +54,22 @@ Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> 
 
     VkShaderModuleCreateInfo moduleInfo{};
     moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    moduleInfo.codeSize = spirv.size_bytes();
-    moduleInfo.pCode = spirv.data();
+    const std::vector<std::uint32_t> words = addFloatControls(
+        spirv, {device.info().canRoundToNearestEven, device.info().canPreserveSignedZeroInfNan});
+    moduleInfo.codeSize = std::span(words).size_bytes();
+    moduleInfo.pCode = words.data();
     VkShaderModule module = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device.get(), &moduleInfo, nullptr, &module),
           "vkCreateShaderModule for " + name_);
     const ShaderModuleHandle moduleOwner(device.get(), module);
 
-    std::array<VkSpecializationMapEntry, layout::constantCount> entries{};
-    for (std::uint32_t id = 0; id < layout::constantCount; ++id)
-        entries[id] = {id, id * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t)};
+    std::vector<VkSpecializationMapEntry> entries;
+    for (std::uint32_t id = 0; id < constants.size(); ++id)
+        entries.push_back({id, id * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t)});
     VkSpecializationInfo specialization{};
-    specialization.mapEntryCount = layout::constantCount;
+    specialization.mapEntryCount = static_cast<std::uint32_t>(entries.size());
     specialization.pMapEntries = entries.data();
-    specialization.dataSize = sizeof(constants);
+    specialization.dataSize = constants.size_bytes();
     specialization.pData = constants.data();
     VkComputePipelineCreateInfo pipelineInfo{};
     pipelineInfo.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
@@ -82,10 +85,12 @@ Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> 
     pipeline_ = PipelineHandle(device.get(), pipeline);
 
     const std::uint32_t storageCount = static_cast<std::uint32_t>(buffers.size()) - uniformCount;
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, uniformCount},
-        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storageCount}};
-    assert(uniformCount > 0 && storageCount > 0);
+    std::vector<VkDescriptorPoolSize> sizes;
+    if (uniformCount > 0)
+        sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, uniformCount});
+    if (storageCount > 0)
+        sizes.push_back({VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storageCount});
+    assert(!sizes.empty());
     VkDescriptorPoolCreateInfo poolInfo{};
     poolInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     poolInfo.maxSets = 1;

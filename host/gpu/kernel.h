@@ -10,14 +10,15 @@
 
 namespace hyalite::gpu {
 
-/// Values of all specialization constants, by their ids in layout.h; bools are 0 or 1.
+/// Values of all specialization constants of a renderer's kernel, by their ids in layout.h; bools are 0 or 1.
 using SpecializationConstants = std::array<std::uint32_t, layout::constantCount>;
 
 class Kernel {
   public:
-    /// `buffers` are bound in the order of their binding numbers. Throws as `check` does.
+    /// `constants` are the specialization constants 0, 1, ..., and `buffers` the bindings 0, 1, ... of set 0. The float
+    /// controls that the device offers are added to `spirv`. Throws as `check` does.
     Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
-           const SpecializationConstants &constants, std::span<const Buffer *const> buffers);
+           std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers);
 
     /// Runs the kernel with these push constants, waits, and makes what it wrote visible to the host.
     void run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);

@@ -1,5 +1,6 @@
 #include "host/gpu/physical_device.h"
 
+#include "host/gpu/arithmetic.h"
 #include "shaders/layout.h"
 
 #include <fmt/format.h>
@@ -117,7 +118,8 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     floats.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES;
     const bool is12 = properties.apiVersion >= VK_API_VERSION_1_2;
     const bool hasDriver = is12 || hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
-    const bool hasFloats = is12 || hasExtension(device, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
+    // We ask for Vulkan 1.1, where float controls are an extension, whatever the device knows beyond.
+    const bool hasFloats = hasExtension(device, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
     void *next = nullptr;
     if (hasFloats) {
         floats.pNext = next;
@@ -133,8 +135,11 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     all.pNext = &subgroup;
     vkGetPhysicalDeviceProperties2(device, &all);
     info.subgroupSize = subgroup.subgroupSize;
-    if (hasDriver)
+    if (hasDriver) {
         info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+        info.driverId = static_cast<std::uint32_t>(driver.driverID);
+        info.hasExactDivisionListed = isExactDivisionListed(info.driverId);
+    }
     if (hasFloats) {
         info.canRoundToNearestEven = floats.shaderRoundingModeRTEFloat32 == VK_TRUE;
         info.canPreserveSignedZeroInfNan = floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE;

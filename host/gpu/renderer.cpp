@@ -98,6 +98,7 @@ class TileRenderer {
         dispatch_.sampleBegin = job.sampleBegin;
         dispatch_.sampleEnd = job.sampleEnd;
         dispatch_.stepBudget = batching.steps;
+        usesExactDivision_ = batching.arithmetic == Arithmetic::Native;
         dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
         // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
         dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
@@ -118,6 +119,7 @@ class TileRenderer {
         constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
         constants[layout::constantStackSize] = stackSize_;
         constants[layout::constantIsTracing] = job_.isTraced;
+        constants[layout::constantExactDivision] = usesExactDivision_;
         const std::array<const Buffer *, layout::bindingCount> bound{
             &buffers_.frame,     &buffers_.spheres, &buffers_.lights, &buffers_.materials, &buffers_.nodes,
             &buffers_.triangles, &buffers_.normals, &film_,           &progress_,          &paths_,
@@ -193,6 +195,7 @@ class TileRenderer {
     Buffer stacks_;
     Buffer trace_;
     layout::DispatchConstants dispatch_{};
+    bool usesExactDivision_ = false;
     std::uint32_t groupCount_ = 0;
     std::uint32_t traceEventCount_ = 0;
 };
@@ -202,10 +205,13 @@ class TileRenderer {
 struct Renderer::State {
     Device device;
     Batching batching;
+    ArithmeticChoice arithmetic;
 
     State(const DeviceInfo &info, const Batching &wanted)
         : device(info, wanted.isStaged ? Transfers::Staged : Transfers::Automatic),
-          batching(chooseBatching(wanted, info)) {}
+          batching(chooseBatching(wanted, info)), arithmetic(chooseArithmetic(device, wanted.arithmetic)) {
+        batching.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
+    }
 };
 
 Renderer::Renderer(const DeviceInfo &device, const Batching &batching)
@@ -213,6 +219,8 @@ Renderer::Renderer(const DeviceInfo &device, const Batching &batching)
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer &&) noexcept = default;
 Renderer &Renderer::operator=(Renderer &&) noexcept = default;
+
+const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                         const std::function<void(double)> &onProgress) {

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "host/bvh/packed_scene.h"
-#include "host/gpu/devices.h"
+#include "host/gpu/arithmetic.h"
 #include "host/image/film.h"
 #include "host/report/ray_counts.h"
+#include "host/report/render_timing.h"
 
 #include <functional>
 #include <memory>
@@ -20,21 +21,15 @@ struct Batching {
     std::uint32_t steps = 0;    ///< loop iterations of a path slot in one dispatch; 0: by the device
     int slotsPerInvocation = 0; ///< path slots of one invocation, 1 or 2; 0: by the device
     bool isStaged = false;      ///< transfer everything through staging buffers
+    Arithmetic arithmetic = Arithmetic::Automatic; ///< which / and sqrt run
     /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an invocation.
-    std::span<const std::uint32_t> kernel;
-};
-
-struct Timing {
-    double uploadSeconds = 0.0;   ///< scene data to the device
-    double pipelineSeconds = 0.0; ///< kernels built; drivers may go on compiling at the first dispatch
-    double renderSeconds = 0.0;   ///< from the first dispatch to the last
-    std::uint64_t dispatchCount = 0;
+    std::span<const std::uint32_t> kernel{};
 };
 
 struct Result {
     Film film;
     RayCounts rays;
-    Timing timing;
+    RenderTiming timing;
 };
 
 /// Renders scenes on one device, opened once.
@@ -44,6 +39,9 @@ class Renderer {
     ~Renderer();
     Renderer(Renderer &&) noexcept;
     Renderer &operator=(Renderer &&) noexcept;
+
+    /// Which / and sqrt the kernels run.
+    [[nodiscard]] const ArithmeticChoice &arithmetic() const;
 
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
     /// dispatch. Throws Error{LimitExceeded} where the scene is too large for the device, Error{DeviceLost}.

@@ -59,6 +59,17 @@ Result renderAs(const PackedScene &scene, const RenderSettings &settings, const 
     return result;
 }
 
+template <class Real>
+std::vector<layout::TraceEvent> traceAs(const PackedScene &scene, const RenderSettings &settings,
+                                        const glm::uvec2 &pixel, std::uint32_t sampleIndex,
+                                        const glm::dvec2 &shift) {
+    std::vector<layout::TraceEvent> events;
+    WhittedIntegrator<Real> integrator(scene, static_cast<std::uint32_t>(settings.sampler));
+    integrator.traceTo(events);
+    static_cast<void>(integrator.sampleRadiance(pixel, sampleIndex, Vec2<Real>(shift)));
+    return events;
+}
+
 } // namespace
 
 Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
@@ -66,6 +77,14 @@ Result render(const PackedScene &scene, const RenderSettings &settings, const Cr
     if (options.precision == Precision::Float64)
         return renderAs<double>(scene, settings, crop, options);
     return renderAs<float>(scene, settings, crop, options);
+}
+
+std::vector<layout::TraceEvent> trace(const PackedScene &scene, const RenderSettings &settings,
+                                      const glm::uvec2 &pixel, std::uint32_t sampleIndex, Precision precision,
+                                      const glm::dvec2 &shift) {
+    if (precision == Precision::Float64)
+        return traceAs<double>(scene, settings, pixel, sampleIndex, shift);
+    return traceAs<float>(scene, settings, pixel, sampleIndex, shift);
 }
 
 } // namespace hyalite::reference

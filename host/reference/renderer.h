@@ -28,4 +28,10 @@ struct Result {
 [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                             const Options &options = {});
 
+/// What one sample of one pixel of the whole image does, step by step. `shift` moves the sample by so many pixels.
+[[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene, const RenderSettings &settings,
+                                                    const glm::uvec2 &pixel, std::uint32_t sampleIndex,
+                                                    Precision precision,
+                                                    const glm::dvec2 &shift = glm::dvec2(0.0));
+
 } // namespace hyalite::reference

@@ -20,9 +20,12 @@ template <class Real> class WhittedIntegrator {
     WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind)
         : scene_(scene), samplerKind_(samplerKind) {}
 
-    /// Radiance of one sample of a pixel of the whole image.
-    [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex) {
-        const Vec2<Real> offset = samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed);
+    /// Radiance of one sample of a pixel of the whole image. `shift` moves it by so many pixels, to learn how the
+    /// picture changes around it.
+    [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
+                                            const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
+        const Vec2<Real> offset =
+            samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed) + shift;
         ++counts_.primary;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));

@@ -16,20 +16,27 @@ std::string formatReport(const RenderReport &report) {
     json["device"] = {{"name", report.deviceName}, {"driver", report.deviceDriver}};
     json["image"] = {{"width", report.width}, {"height", report.height}};
     const RenderSettings &settings = report.settings;
-    json["settings"] = {{"integrator", nameOf(settings.integrator)},       {"spp", settings.samplesPerPixel},
-                        {"maxDepth", settings.maxDepth}, {"bvh", nameOf(settings.tree)},
-                        {"leafSize", settings.leafSize}, {"sampler", nameOf(settings.sampler)},
-                        {"seed", settings.seed},         {"exposure", settings.exposureStops}};
+    json["settings"] = {{"integrator", nameOf(settings.integrator)},
+                        {"spp", settings.samplesPerPixel},
+                        {"maxDepth", settings.maxDepth},
+                        {"bvh", nameOf(settings.tree)},
+                        {"leafSize", settings.leafSize},
+                        {"sampler", nameOf(settings.sampler)},
+                        {"seed", settings.seed},
+                        {"exposure", settings.exposureStops}};
     json["triangles"] = report.triangleCount;
     json["rays"] = {{"primary", report.rays.primary},
                     {"shadow", report.rays.shadow},
                     {"reflection", report.rays.reflection},
                     {"refraction", report.rays.refraction},
                     {"total", report.rays.total()}};
-    json["dispatches"] = report.dispatchCount;
-    json["seconds"] = {{"load", report.loadSeconds},     {"build", report.buildSeconds},
-                       {"upload", report.uploadSeconds}, {"pipeline", report.pipelineSeconds},
-                       {"render", report.renderSeconds}, {"write", report.writeSeconds},
+    json["dispatches"] = report.timing.dispatchCount;
+    json["seconds"] = {{"load", report.loadSeconds},
+                       {"build", report.buildSeconds},
+                       {"upload", report.timing.uploadSeconds},
+                       {"pipeline", report.timing.pipelineSeconds},
+                       {"render", report.timing.renderSeconds},
+                       {"write", report.writeSeconds},
                        {"total", report.totalSeconds}};
     return json.dump(2) + "\n";
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/report/ray_counts.h"
+#include "host/report/render_timing.h"
 #include "host/scene/scene.h"
 
 #include <string>
@@ -19,12 +20,9 @@ struct RenderReport {
     RenderSettings settings;
     std::size_t triangleCount = 0;
     RayCounts rays;
-    std::uint64_t dispatchCount = 0;
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
-    double uploadSeconds = 0.0;
-    double pipelineSeconds = 0.0;
-    double renderSeconds = 0.0;
+    RenderTiming timing;
     double writeSeconds = 0.0;
     double totalSeconds = 0.0;
 };

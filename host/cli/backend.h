@@ -1,0 +1,40 @@
+// The renderers that a command can name: Vulkan devices, the CPU twin, and the oracle in double precision.
+#pragma once
+
+#include "host/cli/scene_options.h"
+#include "host/gpu/renderer.h"
+#include "host/report/ray_counts.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+struct BackendResult {
+    Film film;
+    RayCounts rays;
+    RenderTiming timing; ///< only renderSeconds on the CPU
+};
+
+class Backend {
+  public:
+    virtual ~Backend() = default;
+
+    [[nodiscard]] virtual std::string name() const = 0;        ///< "cpu", or as the device calls itself
+    [[nodiscard]] virtual std::string driver() const = 0;      ///< what computes
+    [[nodiscard]] virtual std::string description() const = 0; ///< for people
+    [[nodiscard]] virtual BackendResult render(const PreparedScene &scene,
+                                               const std::function<void(double)> &onProgress) = 0;
+    /// What one sample of one pixel of the whole image does.
+    [[nodiscard]] virtual std::vector<layout::TraceEvent>
+    trace(const PreparedScene &scene, const glm::uvec2 &pixel, std::uint32_t sampleIndex) = 0;
+};
+
+/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. `threadCount` of 0 means all; on
+/// lavapipe it holds for the first device that is opened. Throws Error{NoDevice}.
+[[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
+                                                   const gpu::Batching &batching = {});
+
+} // namespace hyalite

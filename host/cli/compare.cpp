@@ -1,0 +1,316 @@
+#include "host/cli/backend.h"
+#include "host/cli/commands.h"
+#include "host/error.h"
+#include "host/image/comparison_json.h"
+#include "host/image/heat_map.h"
+#include "host/image/png.h"
+#include "host/image/tone_map.h"
+#include "host/reference/explain.h"
+#include "host/report/divergence.h"
+#include "host/report/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+namespace hyalite {
+
+namespace {
+
+struct CompareOptions {
+    SceneOptions scene;
+    std::string device = "auto";
+    std::string against = "cpu";
+    std::string tolerance = "0";
+    double maxOutliers = 0.0;
+    int threads = 0;
+    std::string heatMap;
+    std::string report;
+    bool isQuiet = false;
+};
+
+/// How far two channels may be apart: "4ulp" or an absolute difference of linear radiance.
+struct Tolerance {
+    double absolute = 0.0;
+    std::uint32_t ulps = 0;
+
+    [[nodiscard]] bool allows(float a, float b) const {
+        if (ulpDistance(a, b) <= ulps)
+            return true;
+        return std::abs(static_cast<double>(a) - static_cast<double>(b)) <= absolute;
+    }
+};
+
+Tolerance parseTolerance(const std::string &text) {
+    std::size_t end = 0;
+    double value = -1.0;
+    try {
+        value = std::stod(text, &end);
+    } catch (const std::exception &) {
+        end = 0;
+    }
+    const std::string unit = text.substr(end);
+    const bool isUlps = unit == "ulp" || unit == "ulps";
+    if (end == 0 || !(value >= 0.0) || !(isUlps || unit.empty()) || (isUlps && value > 1e9))
+        throw Error(
+            ExitCode::Usage,
+            fmt::format("--tolerance {}: give a difference of radiance such as 1e-5, or ULPs such as 4ulp",
+                        text));
+    return isUlps ? Tolerance{0.0, static_cast<std::uint32_t>(value)} : Tolerance{value, 0};
+}
+
+/// Pixels of the images, that is of the crop.
+using Pixels = std::vector<glm::ivec2>;
+
+Pixels findOutliers(const Image &a, const Image &b, const Tolerance &tolerance) {
+    Pixels outliers;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x)
+            for (int channel = 0; channel < 3; ++channel)
+                if (!tolerance.allows(a.at(x, y)[channel], b.at(x, y)[channel])) {
+                    outliers.push_back({x, y});
+                    break;
+                }
+    return outliers;
+}
+
+/// More than two of 255 levels apart in a PNG: what an eye could find.
+Pixels findVisibleOutliers(const Image &a, const Image &b) {
+    const std::vector<std::uint8_t> levelsA = toneMap(a, 0.0);
+    const std::vector<std::uint8_t> levelsB = toneMap(b, 0.0);
+    Pixels outliers;
+    for (std::size_t i = 0; i < levelsA.size(); i += 3) {
+        const auto isFar = [&](std::size_t k) {
+            return std::abs(int{levelsA[i + k]} - int{levelsB[i + k]}) > 2;
+        };
+        const int pixel = static_cast<int>(i / 3);
+        if (isFar(0) || isFar(1) || isFar(2))
+            outliers.push_back({pixel % a.width(), pixel / a.width()});
+    }
+    return outliers;
+}
+
+/// The pixel that a difference is explained at: the one with the largest, or the first with any.
+glm::ivec2 worstPixel(const Image &a, const Image &b, const PixelMetrics &metrics) {
+    if (metrics.maxAbsoluteDifference > 0.0)
+        return {metrics.worstX, metrics.worstY};
+    const Pixels differing = findOutliers(a, b, {});
+    return differing.empty() ? glm::ivec2(0) : differing.front();
+}
+
+glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel) {
+    return {static_cast<std::uint32_t>(crop.x0 + pixel.x), static_cast<std::uint32_t>(crop.y0 + pixel.y)};
+}
+
+/// Retraces a pixel on both sides, sample by sample, until a step differs.
+std::optional<Divergence> findFirstDivergence(Backend &a, Backend &b, const PreparedScene &scene,
+                                              const glm::uvec2 &pixel) {
+    const int sampleCount = scene.loaded.scene.settings.samplesPerPixel;
+    for (int sample = 0; sample < sampleCount; ++sample) {
+        const std::uint32_t index = static_cast<std::uint32_t>(sample);
+        if (std::optional<Divergence> divergence =
+                findDivergence(a.trace(scene, pixel, index), b.trace(scene, pixel, index)))
+            return divergence;
+    }
+    return std::nullopt;
+}
+
+void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &divergence) {
+    if (!divergence) {
+        fmt::print(
+            "divergence   pixel ({}, {}): the paths agree in every step; what differs is how work is cut or "
+            "summed\n",
+            pixel.x, pixel.y);
+        return;
+    }
+    fmt::print("divergence   pixel ({}, {}), sample {}, bounce {}: {}\n", pixel.x, pixel.y,
+               divergence->sampleIndex, divergence->rayDepth - 1, divergence->quantity);
+    fmt::print("  first      {}\n  second     {}\n", divergence->valueA, divergence->valueB);
+}
+
+/// Explains outliers against the oracle, and returns how many are not explained by a decision near its boundary.
+std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers) {
+    constexpr std::size_t mostExplained = 2000;
+    constexpr std::size_t mostPrinted = 8;
+    std::size_t unexplained = outliers.size() > mostExplained ? outliers.size() - mostExplained : 0;
+    std::array<std::size_t, 5> counts{};
+    for (std::size_t i = 0; i < std::min(outliers.size(), mostExplained); ++i) {
+        const glm::uvec2 pixel = imagePixel(scene.crop, outliers[i]);
+        const reference::Explanation why =
+            reference::explainOutlier(scene.packed, scene.loaded.scene.settings, pixel);
+        ++counts[static_cast<std::size_t>(why.cause)];
+        const bool isExplained = why.cause != reference::Cause::Rounding && why.marginPixels;
+        unexplained += isExplained ? 0u : 1u;
+        if (i < mostPrinted)
+            fmt::print("  ({}, {})  {}{}\n", pixel.x, pixel.y, reference::causeName(why.cause),
+                       why.marginPixels
+                           ? fmt::format(", sample {}, bounce {}: the oracle decides so {:.2g} pixels "
+                                         "away",
+                                         why.sampleIndex, why.rayDepth - 1, *why.marginPixels)
+                           : ", no reason found within a quarter of a pixel");
+    }
+    if (outliers.size() > mostPrinted)
+        fmt::print("  ...\n");
+    for (std::size_t cause = 0; cause < counts.size(); ++cause)
+        if (counts[cause] > 0)
+            fmt::print("  {:<22} {}\n", reference::causeName(static_cast<reference::Cause>(cause)),
+                       counts[cause]);
+    return unexplained;
+}
+
+BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, bool isQuiet) {
+    ProgressLine progress(backend.name(), isQuiet);
+    return backend.render(scene, [&](double share) { progress.update(share); });
+}
+
+void printMetrics(const ImageComparison &comparison, const Image &a, const Image &b) {
+    const PixelMetrics &pixels = comparison.pixels;
+    fmt::print("pixels       {} of {} differ\n", pixels.differingPixelCount, pixels.pixelCount);
+    if (!pixels.identical()) {
+        const glm::ivec2 worst = worstPixel(a, b, pixels);
+        const glm::vec3 &x = a.at(worst.x, worst.y);
+        const glm::vec3 &y = b.at(worst.x, worst.y);
+        fmt::print(
+            "largest      {} ULP; {:.6g} at ({}, {}): ({:.9g} {:.9g} {:.9g}) and ({:.9g} {:.9g} {:.9g})\n",
+            pixels.maxUlpDistance, pixels.maxAbsoluteDifference, worst.x, worst.y, x.x, x.y, x.z, y.x, y.y,
+            y.z);
+    }
+    fmt::print("PSNR         {:.2f} dB\n", pixels.psnrDecibels());
+    fmt::print("HDR-FLIP     mean {:.6f}, max {:.6f}\n", comparison.flip.mean, comparison.flip.max);
+}
+
+nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
+                                        const std::optional<Divergence> &divergence) {
+    nlohmann::ordered_json json;
+    json["pixel"] = {pixel.x, pixel.y};
+    if (!divergence)
+        return json;
+    json["sample"] = divergence->sampleIndex;
+    json["bounce"] = divergence->rayDepth - 1;
+    json["quantity"] = divergence->quantity;
+    json["first"] = divergence->valueA;
+    json["second"] = divergence->valueB;
+    return json;
+}
+
+ExitCode runCompare(const CompareOptions &options, const std::string &commandLine) {
+    const Tolerance tolerance = parseTolerance(options.tolerance);
+    std::optional<AtomicFile> heatMapFile;
+    std::optional<AtomicFile> reportFile;
+    if (!options.heatMap.empty()) {
+        if (imageFormatOf(options.heatMap) != ImageFormat::Png)
+            throw Error(ExitCode::Usage, fmt::format("--diff {}: the heat map is a .png", options.heatMap));
+        heatMapFile.emplace(options.heatMap);
+    }
+    if (!options.report.empty())
+        reportFile.emplace(options.report);
+
+    const PreparedScene scene = prepareScene(options.scene);
+    const std::unique_ptr<Backend> first = openBackend(options.device, options.threads);
+    const std::unique_ptr<Backend> second = openBackend(options.against, options.threads);
+    const bool isAgainstOracle = options.against == "cpu-double";
+    if (!options.isQuiet) {
+        fmt::print("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
+                   scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
+        fmt::print("first        {}\nsecond       {}\n", first->description(), second->description());
+    }
+    const BackendResult a = renderWithProgress(*first, scene, options.isQuiet);
+    const BackendResult b = renderWithProgress(*second, scene, options.isQuiet);
+    const Image imageA = a.film.toImage();
+    const Image imageB = b.film.toImage();
+    const ImageComparison comparison = compareImages(imageB, imageA, Encoding::Linear);
+    const bool isDefaultTolerance = tolerance.absolute == 0.0 && tolerance.ulps == 0;
+    const Pixels outliers = isAgainstOracle && isDefaultTolerance ? findVisibleOutliers(imageA, imageB)
+                                                                  : findOutliers(imageA, imageB, tolerance);
+    printMetrics(comparison, imageA, imageB);
+    const double outlierShare =
+        static_cast<double>(outliers.size()) / static_cast<double>(comparison.pixels.pixelCount);
+    const bool areCountsEqual = a.rays == b.rays;
+    if (isAgainstOracle || !isDefaultTolerance)
+        fmt::print("outliers     {} pixels ({:.4f} %) {}\n", outliers.size(), outlierShare * 100.0,
+                   isAgainstOracle && isDefaultTolerance ? "by more than 2/255 as a PNG shows them"
+                                                         : "beyond the tolerance");
+
+    nlohmann::ordered_json report;
+    bool isPassed = outlierShare <= options.maxOutliers;
+    if (isAgainstOracle) {
+        const std::size_t unexplained = explainOutliers(scene, outliers);
+        report["unexplainedOutliers"] = unexplained;
+        isPassed = isPassed || unexplained == 0;
+        fmt::print("{}\n", outliers.empty()   ? "no outliers"
+                           : unexplained == 0 ? "every outlier is explained"
+                                              : fmt::format("{} outliers are not explained", unexplained));
+    } else {
+        if (!comparison.pixels.identical()) {
+            const glm::uvec2 pixel = imagePixel(scene.crop, worstPixel(imageA, imageB, comparison.pixels));
+            const std::optional<Divergence> divergence = findFirstDivergence(*first, *second, scene, pixel);
+            printDivergence(pixel, divergence);
+            report["divergence"] = divergenceToJson(pixel, divergence);
+        }
+        if (!areCountsEqual)
+            fmt::print("rays         {} and {}: the counts differ\n", a.rays.total(), b.rays.total());
+        fmt::print("{}\n", comparison.pixels.identical() ? "equal, bit for bit"
+                           : isPassed                    ? "equal within the tolerance"
+                                                         : "NOT equal");
+    }
+    if (heatMapFile) {
+        writePng(*heatMapFile, imageA.width(), imageA.height(), heatMap(comparison.flipMap));
+        heatMapFile->commit();
+    }
+    if (reportFile) {
+        nlohmann::ordered_json json;
+        json["commandLine"] = commandLine;
+        json["scene"] = scene.loaded.file.string();
+        json["first"] = {{"name", first->name()}, {"driver", first->driver()}};
+        json["second"] = {{"name", second->name()}, {"driver", second->driver()}};
+        json.update(comparisonToJson(comparison, imageB, imageA));
+        json["outliers"] = outliers.size();
+        json["areRayCountsEqual"] = areCountsEqual;
+        json.update(report);
+        json["passed"] = isPassed;
+        reportFile->write(json.dump(2) + "\n");
+        reportFile->commit();
+    }
+    return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App &app, CommandContext &context) {
+    CLI::App *command = app.add_subcommand("compare", "render a scene twice and compare the two, to the bit");
+    const auto options = std::make_shared<CompareOptions>();
+    addSceneOptions(*command, options->scene);
+    command->add_option("--device", options->device, "the first renderer: as for `hyalite render`")
+        ->type_name("DEVICE")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--against", options->against,
+            "the second one: cpu, the twin of the kernels; cpu-double, which tells the error of float32 and "
+            "explains every outlier; or another device")
+        ->type_name("DEVICE")
+        ->capture_default_str();
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "how far a channel may be off: linear radiance (1e-5) or ULPs (4ulp)")
+        ->capture_default_str();
+    command->add_option("--max-outliers", options->maxOutliers, "share of pixels that may be further off")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    command
+        ->add_option("--threads", options->threads, "of the reference renderer and of lavapipe; default: all")
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--diff", options->heatMap, "write a heat map of the difference (HDR-FLIP)")
+        ->type_name("FILE.png");
+    command->add_option("--report", options->report, "write all metrics")->type_name("FILE.json");
+    command->add_flag("--quiet", options->isQuiet, "print the result only");
+    command->callback([options, &context] {
+        context.exitCode = static_cast<int>(runCompare(*options, context.commandLine));
+    });
+}
+
+} // namespace hyalite

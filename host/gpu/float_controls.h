@@ -1,0 +1,22 @@
+// How a kernel's float32 arithmetic rounds: said in its SPIR-V, where the device can be told.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyalite::gpu {
+
+/// The float controls that a device offers (VK_KHR_shader_float_controls), for 32 bits.
+struct FloatControls {
+    bool canRoundToNearestEven = false;
+    bool canPreserveSignedZeroInfNan = false;
+};
+
+/// The module `spirv` with the execution modes RoundingModeRTE and SignedZeroInfNanPreserve, for 32 bits and all of
+/// its entry points, as far as `controls` offers them. GLSL cannot ask for what only some devices offer, and a module
+/// that asks for more than there is, is invalid. `spirv` is a valid module in the byte order of this machine.
+[[nodiscard]] std::vector<std::uint32_t> addFloatControls(std::span<const std::uint32_t> spirv,
+                                                          const FloatControls &controls);
+
+} // namespace hyalite::gpu

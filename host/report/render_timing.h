@@ -1,0 +1,15 @@
+// Where the time of a render went.
+#pragma once
+
+#include <cstdint>
+
+namespace hyalite {
+
+struct RenderTiming {
+    double uploadSeconds = 0.0;   ///< scene data to the device
+    double pipelineSeconds = 0.0; ///< kernels built; drivers may go on compiling at the first dispatch
+    double renderSeconds = 0.0;   ///< from the first ray to the last
+    std::uint64_t dispatchCount = 0;
+};
+
+} // namespace hyalite

@@ -1,0 +1,248 @@
+// Entry kernel of the kernel tests: calls one function of shaders/*.glsl for each input. Inputs and outputs are words,
+// in the order of the function's parameters and of the fields of its result.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+
+#include "shaders/layout.h"
+#include "tests/kernels/probe.h"
+
+layout(local_size_x_id = 0) in;
+
+#include "shaders/bindings.glsl"
+#include "shaders/arithmetic.glsl"
+#include "shaders/vector.glsl"
+#include "shaders/random.glsl"
+#include "shaders/camera.glsl"
+#include "shaders/box.glsl"
+#include "shaders/triangle.glsl"
+#include "shaders/sphere.glsl"
+#include "shaders/dielectric.glsl"
+#include "shaders/surface.glsl"
+
+layout(set = 0, binding = bindingProbeInputs, std430) readonly buffer InputBuffer { uint inputWords[]; };
+layout(set = 0, binding = bindingProbeOutputs, std430) writeonly buffer OutputBuffer { uint outputWords[]; };
+
+layout(constant_id = constantProbedFunction) const uint probedFunction = 0u;
+layout(constant_id = constantInputWords) const uint inputWordCount = 1u;
+layout(constant_id = constantOutputWords) const uint outputWordCount = 1u;
+
+uint inputCursor;
+uint outputCursor;
+
+uint takeUint() { return inputWords[inputCursor++]; }
+
+float takeFloat() { return uintBitsToFloat(takeUint()); }
+
+vec2 takeVec2() {
+    float x = takeFloat();
+    return vec2(x, takeFloat());
+}
+
+vec3 takeVec3() {
+    vec2 xy = takeVec2();
+    return vec3(xy, takeFloat());
+}
+
+uvec2 takeUvec2() {
+    uint x = takeUint();
+    return uvec2(x, takeUint());
+}
+
+uvec3 takeUvec3() {
+    uvec2 xy = takeUvec2();
+    return uvec3(xy, takeUint());
+}
+
+void give(uint value) { outputWords[outputCursor++] = value; }
+
+void give(float value) { give(floatBitsToUint(value)); }
+
+void give(vec2 value) {
+    give(value.x);
+    give(value.y);
+}
+
+void give(vec3 value) {
+    give(value.xy);
+    give(value.z);
+}
+
+void give(uvec3 value) {
+    give(value.x);
+    give(value.y);
+    give(value.z);
+}
+
+void give(Surface surface) {
+    give(surface.position);
+    give(surface.error);
+    give(surface.normal);
+    give(surface.geometricNormal);
+}
+
+BoxRay takeBoxRay(vec3 origin, vec3 direction) {
+    vec3 lower = takeVec3();
+    return makeBoxRay(origin, direction, lower, takeVec3());
+}
+
+void main() {
+    inputCursor = gl_GlobalInvocationID.x * inputWordCount;
+    outputCursor = gl_GlobalInvocationID.x * outputWordCount;
+    switch (probedFunction) {
+    case probeDotProduct: {
+        vec3 a = takeVec3();
+        give(dotProduct(a, takeVec3()));
+        break;
+    }
+    case probeCrossProduct: {
+        vec3 a = takeVec3();
+        give(crossProduct(a, takeVec3()));
+        break;
+    }
+    case probeVectorLength:
+        give(vectorLength(takeVec3()));
+        break;
+    case probeUnitVector:
+        give(unitVector(takeVec3()));
+        break;
+    case probeMirrorDirection: {
+        vec3 direction = takeVec3();
+        give(mirrorDirection(direction, takeVec3()));
+        break;
+    }
+    case probeLargestComponent:
+        give(largestComponent(takeVec3()));
+        break;
+    case probeSmallestComponent:
+        give(smallestComponent(takeVec3()));
+        break;
+    case probeHashKeys:
+        give(hashKeys(takeUvec3()));
+        break;
+    case probeOwenScramble: {
+        uint x = takeUint();
+        give(owenScramble(x, takeUint()));
+        break;
+    }
+    case probeSecondSobolCoordinate:
+        give(secondSobolCoordinate(takeUint()));
+        break;
+    case probeUnitReal:
+        give(unitFloat(takeUint()));
+        break;
+    case probeSamplePixel: {
+        uvec2 pixel = takeUvec2();
+        uint sampleIndex = takeUint();
+        give(samplePixel(pixel, sampleIndex, takeUint()));
+        break;
+    }
+    case probePrimaryDirection: {
+        uvec2 pixel = takeUvec2();
+        give(primaryDirection(pixel, takeVec2()));
+        break;
+    }
+    case probeMakeBoxRay: {
+        vec3 origin = takeVec3();
+        BoxRay ray = takeBoxRay(origin, takeVec3());
+        give(ray.inverse);
+        give(ray.originPlus);
+        give(ray.originMinus);
+        break;
+    }
+    case probeBoxInterval: {
+        vec3 origin = takeVec3();
+        BoxRay ray = takeBoxRay(origin, takeVec3());
+        vec3 lower = takeVec3();
+        give(boxInterval(ray, lower, takeVec3()));
+        break;
+    }
+    case probeMakeTriangleRay: {
+        vec3 origin = takeVec3();
+        TriangleRay ray = makeTriangleRay(origin, takeVec3());
+        give(ray.origin);
+        give(ray.axis);
+        give(ray.shear);
+        break;
+    }
+    case probeIntersectTriangle: {
+        vec3 origin = takeVec3();
+        vec3 direction = takeVec3();
+        BoxRay boxRay = takeBoxRay(origin, direction);
+        vec3 v0 = takeVec3();
+        vec3 v1 = takeVec3();
+        TriangleHit hit = intersectTriangle(makeTriangleRay(origin, direction), boxRay, v0, v1, takeVec3());
+        give(hit.distance);
+        give(hit.u);
+        give(hit.v);
+        break;
+    }
+    case probeTrianglePoint:
+    case probeTrianglePointError: {
+        vec3 v0 = takeVec3();
+        vec3 v1 = takeVec3();
+        vec3 v2 = takeVec3();
+        vec2 uv = takeVec2();
+        give(probedFunction == probeTrianglePoint ? trianglePoint(v0, v1, v2, uv.x, uv.y)
+                                                  : trianglePointError(v0, v1, v2, uv.x, uv.y));
+        break;
+    }
+    case probeIntersectSphere: {
+        vec3 origin = takeVec3();
+        vec3 direction = takeVec3();
+        vec3 centre = takeVec3();
+        float radius = takeFloat();
+        give(intersectSphere(origin, direction, centre, radius, takeUint() != 0u));
+        break;
+    }
+    case probeRefractRay: {
+        vec3 direction = takeVec3();
+        vec3 facing = takeVec3();
+        float index = takeFloat();
+        Refraction refraction = refractRay(direction, facing, index, takeUint() != 0u);
+        give(refraction.direction);
+        give(refraction.reflectance);
+        give(refraction.transmittance);
+        give(refraction.isTotal ? 1u : 0u);
+        break;
+    }
+    case probeSphereSurface: {
+        vec3 origin = takeVec3();
+        vec3 direction = takeVec3();
+        float distance = takeFloat();
+        SphereRecord sphere;
+        sphere.centre = takeVec3();
+        sphere.normalSign = takeFloat();
+        give(sphereSurface(origin, direction, distance, sphere));
+        break;
+    }
+    case probeTriangleSurface: {
+        TriangleRecord triangle;
+        triangle.v0 = takeVec3();
+        triangle.v1 = takeVec3();
+        triangle.v2 = takeVec3();
+        NormalRecord normals;
+        normals.n0 = takeVec3();
+        normals.n1 = takeVec3();
+        normals.n2 = takeVec3();
+        vec2 uv = takeVec2();
+        give(triangleSurface(triangle, normals, uv.x, uv.y));
+        break;
+    }
+    case probeSpawnPoint: {
+        vec3 position = takeVec3();
+        vec3 error = takeVec3();
+        vec3 geometricNormal = takeVec3();
+        give(spawnPoint(position, error, geometricNormal, takeVec3()));
+        break;
+    }
+    case probeDivide: {
+        float a = takeFloat();
+        give(divide(a, takeFloat()));
+        break;
+    }
+    case probeSquareRoot:
+        give(squareRoot(takeFloat()));
+        break;
+    }
+}

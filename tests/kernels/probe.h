@@ -1,0 +1,53 @@
+// The functions that the probe kernel can run, by their numbers: compiled as C++ and as GLSL.
+#ifndef HYALITE_PROBE_H
+#define HYALITE_PROBE_H
+
+#ifdef __cplusplus
+#include "shaders/layout.h"
+
+namespace hyalite::testing {
+using layout::bindingCount;
+using layout::constantCount;
+using layout::uint;
+#endif
+
+const uint probeDotProduct = 0u;
+const uint probeCrossProduct = 1u;
+const uint probeVectorLength = 2u;
+const uint probeUnitVector = 3u;
+const uint probeMirrorDirection = 4u;
+const uint probeLargestComponent = 5u;
+const uint probeSmallestComponent = 6u;
+const uint probeHashKeys = 7u;
+const uint probeOwenScramble = 8u;
+const uint probeSecondSobolCoordinate = 9u;
+const uint probeUnitReal = 10u;
+const uint probeSamplePixel = 11u;
+const uint probePrimaryDirection = 12u;
+const uint probeMakeBoxRay = 13u;
+const uint probeBoxInterval = 14u;
+const uint probeMakeTriangleRay = 15u;
+const uint probeIntersectTriangle = 16u;
+const uint probeTrianglePoint = 17u;
+const uint probeTrianglePointError = 18u;
+const uint probeIntersectSphere = 19u;
+const uint probeRefractRay = 20u;
+const uint probeSphereSurface = 21u;
+const uint probeTriangleSurface = 22u;
+const uint probeSpawnPoint = 23u;
+const uint probeDivide = 24u;
+const uint probeSquareRoot = 25u;
+
+// Two bindings and three specialization constants beyond those of the renderer's kernels.
+const uint bindingProbeInputs = bindingCount;
+const uint bindingProbeOutputs = bindingCount + 1u;
+const uint probeBindingCount = bindingCount + 2u;
+const uint constantProbedFunction = constantCount;
+const uint constantInputWords = constantCount + 1u; // of one input
+const uint constantOutputWords = constantCount + 2u;
+const uint probeConstantCount = constantCount + 3u;
+
+#ifdef __cplusplus
+} // namespace hyalite::testing
+#endif
+#endif
