@@ -1,11 +1,13 @@
 // The program's entry: the command line, the one catch, and the exit code.
 #include "host/cli/commands.h"
+#include "host/cli/help_formatter.h"
 #include "host/error.h"
 #include "host/version.h"
 
 #include <fmt/format.h>
 
 #include <exception>
+#include <memory>
 #include <new>
 
 namespace {
@@ -30,7 +32,7 @@ int run(int argumentCount, char **arguments) {
         "hyalite");
     app.set_version_flag("--version", "hyalite " HYALITE_VERSION);
     app.require_subcommand(1);
-    app.get_formatter()->column_width(34);
+    app.formatter(std::make_shared<HelpFormatter>());
     app.footer(
         "`hyalite COMMAND --help` explains a command. Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad "
         "input,\n4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written.");

@@ -9,18 +9,21 @@
 // Exactly IEEE 754 wherever inputs and result are normal, zero, infinite or NaN. Subnormal inputs count as zeros,
 // and quotients below 2^-126 become zeros, as devices may treat + - * as well: pictures keep clear of them.
 
-const uint signBit = 0x80000000u;
-const uint infinityBits = 0x7F800000u;
-const uint notANumberBits = 0x7FC00000u;
-const uint significandMask = 0x7FFFFFu;
-const uint significandOne = 0x800000u; // 1.0 as a significand: an integer with 24 bits
-const int farExponent = 1000;          // stands for an infinity, negated for a zero
+// All integers are signed ones, which CPUs convert and compare faster: magnitudes have 31 bits.
+
+const int signBit = int(0x80000000u);
+const int magnitudeMask = 0x7FFFFFFF;
+const int infinityBits = 0x7F800000;
+const int notANumberBits = 0x7FC00000;
+const int significandMask = 0x7FFFFF;
+const int significandOne = 0x800000; // 1.0 as a significand: an integer with 24 bits
+const int farExponent = 1000;        // stands for an infinity, negated for a zero
 
 // Rounds to the nearest integer or to the one below. Estimates are within 2^-13 of what they stand for.
 const float justBelowHalf = 0.5 - 1.0 / 8192.0;
 
 // The significand of `bits` as a float in [1, 2).
-float unitSignificand(uint bits) { return uintBitsToFloat((bits & significandMask) | 0x3F800000u); }
+float unitSignificand(int bits) { return intBitsToFloat((bits & significandMask) | 0x3F800000); }
 
 // 1/d within 11 u, for d in [1, 2). The seed is the minimax quadratic, with relative error T3(2d - 3) / 99, so
 // |e| <= 1/99, and one step of third order leaves e^3 = 8.7 u; rounding adds 2.1 u.
@@ -40,8 +43,8 @@ float estimateInverseRoot(float d) {
     return inverse;
 }
 
-int exponentOrFar(uint magnitude) {
-    int exponent = int(magnitude >> 23u);
+int exponentOrFar(int magnitude) {
+    int exponent = magnitude >> 23;
     return exponent == 0 ? -farExponent : (exponent == 255 ? farExponent : exponent);
 }
 
@@ -55,33 +58,32 @@ int exponentOrFar(uint magnitude) {
 //      odd part of the right side has at least 25 bits, and that of the left side at most 24. Nor does t round to
 //      2^24: where A < B, t <= 2^24 (B - 1) / B < 2^24 - 1, and else t <= 2^23 (2^24 - 1) / 2^23.
 float divideBySignificands(float a, float b) {
-    uint aBits = floatBitsToUint(a);
-    uint bBits = floatBitsToUint(b);
-    uint aSignificand = (aBits & significandMask) | significandOne;
-    uint bSignificand = (bBits & significandMask) | significandOne;
+    int aBits = floatBitsToInt(a);
+    int bBits = floatBitsToInt(b);
+    int aSignificand = (aBits & significandMask) | significandOne;
+    int bSignificand = (bBits & significandMask) | significandOne;
     bool isBelowOne = aSignificand < bSignificand;
-    uint numerator = isBelowOne ? aSignificand << 1u : aSignificand;
+    int numerator = isBelowOne ? aSignificand << 1 : aSignificand;
 
     float inverse = estimateInverse(unitSignificand(bBits));
     precise float estimate = float(numerator) * inverse;
-    uint low = uint(estimate) - 26u;
-    int remainder = int((numerator << 23u) - low * bSignificand);
+    int low = int(estimate) - 26;
+    int remainder = (numerator << 23) - low * bSignificand;
     precise float distance = float(remainder) * (inverse * (1.0 / 8388608.0)) + justBelowHalf;
-    uint step = uint(distance);
-    uint significand = low + step;
-    int rest = remainder - int(step * bSignificand);
-    significand += 2 * rest > int(bSignificand) ? 1u : 0u;
+    int step = int(distance);
+    int rest = remainder - step * bSignificand;
+    int significand = low + step + (2 * rest > bSignificand ? 1 : 0);
 
-    uint aMagnitude = aBits & ~signBit;
-    uint bMagnitude = bBits & ~signBit;
+    int aMagnitude = aBits & magnitudeMask;
+    int bMagnitude = bBits & magnitudeMask;
     int aExponent = exponentOrFar(aMagnitude);
     int bExponent = exponentOrFar(bMagnitude);
     int exponent = aExponent - bExponent + (isBelowOne ? 126 : 127);
-    uint magnitude = (uint(exponent) << 23u) + (significand - significandOne);
-    magnitude = exponent <= 0 ? 0u : (exponent >= 255 ? infinityBits : magnitude);
+    int magnitude = (exponent << 23) + (significand - significandOne);
+    magnitude = exponent <= 0 ? 0 : (exponent >= 255 ? infinityBits : magnitude);
     bool isBothFar = aExponent == bExponent && abs(aExponent) == farExponent; // 0 / 0, infinity / infinity
     bool isNan = max(aMagnitude, bMagnitude) > infinityBits || isBothFar;
-    return uintBitsToFloat(isNan ? notANumberBits : magnitude | ((aBits ^ bBits) & signBit));
+    return intBitsToFloat(isNan ? notANumberBits : magnitude | ((aBits ^ bBits) & signBit));
 }
 
 // Let X be the significand times 2^23 or 2^24, whichever makes the exponent even: t = sqrt(X) lies in [2^23, 2^24),
@@ -92,27 +94,27 @@ float divideBySignificands(float a, float b) {
 //      the rounding of a sum: together less than 2^-13. So `step` is t - low to the nearest integer, or 1 less.
 //   3. An exact comparison tells which: t > n + 1/2 where X - n^2 > n + 1/4. There are no ties, and t < 2^24 - 1/2.
 float rootBySignificand(float x) {
-    uint bits = floatBitsToUint(x);
-    uint exponent = bits >> 23u;
-    bool isDoubled = (exponent & 1u) == 0u; // 127, the bias, is odd
-    uint square = ((bits & significandMask) | significandOne) << (isDoubled ? 24u : 23u); // modulo 2^32
+    int bits = floatBitsToInt(x);
+    int exponent = bits >> 23;
+    bool isDoubled = (exponent & 1) == 0; // 127, the bias, is odd
+    int square = ((bits & significandMask) | significandOne) << (isDoubled ? 24 : 23); // modulo 2^32
 
     float unit = unitSignificand(bits);
     float inverse = estimateInverseRoot(unit);
     precise float estimate = unit * (inverse * (isDoubled ? 11863283.0 : 8388608.0)); // 2^23, times sqrt(2)
-    uint low = uint(estimate) - 12u;
-    int remainder = int(square - low * low);
+    int low = int(estimate) - 12;
+    int remainder = square - low * low;
     precise float halfInverse = inverse * (isDoubled ? 4.2146848e-8 : 5.9604645e-8); // 1/2t
     precise float distance = float(remainder) * halfInverse + justBelowHalf;
-    uint step = uint(distance);
-    uint significand = low + step;
-    int rest = remainder - int(step * (low + significand));
-    significand += rest > int(significand) ? 1u : 0u;
+    int step = int(distance);
+    int significand = low + step;
+    int rest = remainder - step * (low + significand);
+    significand += rest > significand ? 1 : 0;
 
-    uint result = (((exponent + 127u) >> 1u) << 23u) + (significand - significandOne);
-    result = bits < infinityBits ? result : (bits == infinityBits ? infinityBits : notANumberBits);
-    bool isZero = (bits & ~signBit) < significandOne;
-    return uintBitsToFloat(isZero ? bits & signBit : result);
+    int result = (((exponent + 127) >> 1) << 23) + (significand - significandOne);
+    result = bits == infinityBits ? infinityBits : result;
+    result = bits < 0 || bits > infinityBits ? notANumberBits : result;
+    return intBitsToFloat((bits & magnitudeMask) < significandOne ? bits & signBit : result);
 }
 
 float divide(float a, float b) {
