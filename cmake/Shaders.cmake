@@ -2,7 +2,7 @@
 #
 # Compiles shaders/KERNEL.comp to SPIR-V 1.3 at build time and embeds it into TARGET: a header VARIABLE.h with the
 # array `VARIABLE`. KERNEL may also be a path ending in .comp, from the source folder. Dependency files follow every
-# include, so an edited shader is always built anew. The global property HYALITE_KERNELS lists all variables.
+# include, so an edited shader is always built anew. The target property HYALITE_KERNELS lists all variables.
 find_program(GLSLANG_VALIDATOR glslangValidator)
 if(NOT GLSLANG_VALIDATOR)
     message(FATAL_ERROR "glslangValidator is missing: install the package glslang-tools")
@@ -27,5 +27,5 @@ function(hyalite_kernel target kernel variable)
         VERBATIM)
     target_sources(${target} PRIVATE ${header})
     target_include_directories(${target} PRIVATE ${folder})
-    set_property(GLOBAL APPEND PROPERTY HYALITE_KERNELS ${variable})
+    set_property(TARGET ${target} APPEND PROPERTY HYALITE_KERNELS ${variable})
 endfunction()

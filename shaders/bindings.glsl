@@ -1,12 +1,6 @@
-// What a kernel is given: buffers, push constants and specialization constants, as layout.h describes them.
+// What a kernel is given beside the scene (scene_data.glsl): buffers, push constants and specialization constants, as layout.h describes them.
 
 layout(set = 0, binding = bindingFrame, std140) uniform FrameBuffer { FrameRecord frame; };
-layout(set = 0, binding = bindingSpheres, std140) uniform SphereBuffer { SphereRecord spheres[maxSphereCount]; };
-layout(set = 0, binding = bindingLights, std140) uniform LightBuffer { LightRecord lights[maxLightCount]; };
-layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuffer { MaterialRecord materials[]; };
-layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { NodePair nodes[]; };
-layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
-layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
 layout(set = 0, binding = bindingProgress, std430) buffer ProgressBuffer { DispatchProgress progress; };
 layout(set = 0, binding = bindingPaths, std430) buffer PathBuffer { PathRecord pathRecords[]; };

@@ -34,9 +34,9 @@ struct SphereRecord {
     vec3 centre; // world space
     float radius;
     uint materialIndex;
-    float normalSign; // +1: outward, -1: towards the centre
+    float normalSign;    // +1: outward, -1: towards the centre
+    uint isTransmissive; // 1 for a dielectric: light passes, dimmed
     uint pad0;
-    uint pad1;
 };
 
 struct TriangleRecord {
@@ -276,7 +276,7 @@ const uint constantHasSpecular = 3u; // mirrors or dielectrics
 const uint constantHasDielectric = 4u;
 const uint constantSampler = 5u;
 const uint constantStackSize = 6u;
-const uint constantIsTracing = 7u; // write what path slot 0 does into the trace buffer
+const uint constantIsTracing = 7u;     // write what path slot 0 does into the trace buffer
 const uint constantExactDivision = 8u; // the device's own / and sqrt are correctly rounded
 const uint constantCount = 9u;
 

@@ -37,7 +37,7 @@ void stopTraversal(uint slot) {
 }
 
 void visitNode(uint slot, BoxRay ray) {
-    NodePair node = nodes[path[slot].cursorNode];
+    NodePair node = fetchNode(path[slot].cursorNode);
     vec2 left = boxInterval(ray, node.leftLower, node.leftUpper);
     vec2 right = boxInterval(ray, node.rightLower, node.rightUpper);
     bool isLeftHit = node.left != noNode && left.x <= min(left.y, path[slot].rayLength);
@@ -53,7 +53,7 @@ void visitNode(uint slot, BoxRay ray) {
 
 void visitTriangle(uint slot, TriangleRay ray, BoxRay boxRay, const bool isShadow) {
     uint record = path[slot].cursorTriangle;
-    TriangleRecord triangle = triangles[record];
+    TriangleRecord triangle = fetchTriangle(record);
     TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
     uint id = triangle.primitiveId;
     bool isHit = hit.distance > 0.0 && id != path[slot].rayExcluded;

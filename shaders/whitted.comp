@@ -8,6 +8,7 @@
 layout(local_size_x_id = 0) in;
 
 #include "bindings.glsl"
+#include "scene_data.glsl"
 #include "arithmetic.glsl"
 #include "vector.glsl"
 #include "random.glsl"

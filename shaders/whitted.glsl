@@ -109,7 +109,7 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
 void leaveScene(uint slot) {
     vec3 throughput = path[slot].throughput;
     if (hasDielectric && path[slot].rayMedium != noMaterial)
-        throughput *= materials[path[slot].rayMedium].segmentTint;
+        throughput *= fetchMaterial(path[slot].rayMedium).segmentTint;
     path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, frame.background);
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     path[slot].stage = stageNextRay;
@@ -127,22 +127,22 @@ void shadeHit(uint slot) {
     Surface surface;
     uint materialIndex;
     if (isTriangle) {
-        TriangleRecord triangle = triangles[path[slot].hitRecord];
-        surface = triangleSurface(triangle, normals[path[slot].hitRecord], path[slot].hitU, path[slot].hitV);
+        TriangleRecord triangle = fetchTriangle(path[slot].hitRecord);
+        surface = triangleSurface(triangle, fetchNormals(path[slot].hitRecord), path[slot].hitU, path[slot].hitV);
         materialIndex = triangle.materialIndex;
     } else {
         SphereRecord sphere = spheres[path[slot].hitRecord];
         surface = sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
         materialIndex = sphere.materialIndex;
     }
-    MaterialRecord material = materials[materialIndex];
+    MaterialRecord material = fetchMaterial(materialIndex);
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
     bool isGlass = hasDielectric && material.kind == materialDielectric;
     if (hasDielectric) {
         uint medium = isGlass && !isEntering ? materialIndex : path[slot].rayMedium;
         if (medium != noMaterial)
-            path[slot].throughput *= materials[medium].segmentTint;
+            path[slot].throughput *= fetchMaterial(medium).segmentTint;
     }
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
@@ -197,7 +197,7 @@ void aimAtLight(uint slot) {
         float meeting = intersectSphere(path[slot].rayOrigin, direction, spheres[i].centre, spheres[i].radius,
                                         path[slot].rayExcluded == i);
         if (meeting > 0.0 && meeting < distance) {
-            if (hasDielectric && materials[spheres[i].materialIndex].kind == materialDielectric)
+            if (hasDielectric && spheres[i].isTransmissive != 0u)
                 path[slot].isLightDimmed = 1u;
             else
                 path[slot].hitPrimitive = i;

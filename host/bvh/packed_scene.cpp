@@ -140,6 +140,8 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
         record.centre = glm::vec3(sphere.centre);
         record.radius = static_cast<float>(sphere.radius);
         record.materialIndex = sphere.materialIndex;
+        record.isTransmissive =
+            scene.materials[sphere.materialIndex].kind == MaterialKind::Dielectric ? 1u : 0u;
         record.normalSign = sphere.inwardNormal ? -1.0f : 1.0f;
         packed.spheres.push_back(record);
     }

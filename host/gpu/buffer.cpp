@@ -15,6 +15,8 @@ namespace {
 constexpr VkMemoryPropertyFlags hostMemory =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
+constexpr std::size_t bytesPerTexel = 16;
+
 VkBufferUsageFlags usageFlags(BufferUse use) {
     constexpr VkBufferUsageFlags transfer =
         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
@@ -24,6 +26,8 @@ VkBufferUsageFlags usageFlags(BufferUse use) {
     case BufferUse::Storage:
     case BufferUse::Counters:
         return transfer | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    case BufferUse::Texels:
+        return transfer | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
     case BufferUse::Staging:
         break;
     }
@@ -58,6 +62,10 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
         throw Error(ExitCode::LimitExceeded,
                     fmt::format("the buffer for {} is too large: {} allows {} bytes in a storage buffer",
                                 what, device.info().name, device.info().maxStorageBufferBytes));
+    if (use == BufferUse::Texels && sizeBytes_ / bytesPerTexel > device.info().maxTexelBufferElements)
+        throw Error(ExitCode::LimitExceeded,
+                    fmt::format("the buffer for {} is too large: {} allows {} texels of {} bytes", what,
+                                device.info().name, device.info().maxTexelBufferElements, bytesPerTexel));
     VkBufferCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     create.size = sizeBytes_;
@@ -81,6 +89,16 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
     check(vkAllocateMemory(device.get(), &allocate, nullptr, &memory), "vkAllocateMemory for " + what);
     memory_ = MemoryHandle(device.get(), memory);
     check(vkBindBufferMemory(device.get(), buffer, memory, 0), "vkBindBufferMemory for " + what);
+    if (use == BufferUse::Texels) {
+        VkBufferViewCreateInfo viewInfo{};
+        viewInfo.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+        viewInfo.buffer = buffer;
+        viewInfo.format = VK_FORMAT_R32G32B32A32_UINT;
+        viewInfo.range = VK_WHOLE_SIZE;
+        VkBufferView view = VK_NULL_HANDLE;
+        check(vkCreateBufferView(device.get(), &viewInfo, nullptr, &view), "vkCreateBufferView for " + what);
+        view_ = BufferViewHandle(device.get(), view);
+    }
     if (device.isMappable(type) &&
         (!device.isStagingPreferred() || use == BufferUse::Counters || use == BufferUse::Staging)) {
         void *address = nullptr;

@@ -12,6 +12,7 @@ namespace hyalite::gpu {
 enum class BufferUse {
     Uniform,  ///< small constants
     Storage,  ///< the bulk: in device memory, which the host may not see
+    Texels,   ///< the same, read by kernels as texels of four 32-bit words
     Counters, ///< storage that the host reads and writes between dispatches: in host memory
     Staging,  ///< a stop-over of transfers, in host memory
 };
@@ -24,6 +25,8 @@ class Buffer {
     Buffer(Device &device, std::string name, BufferUse use, std::size_t sizeBytes);
 
     [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
+    /// Of all texels; only for BufferUse::Texels.
+    [[nodiscard]] VkBufferView view() const { return view_.get(); }
     [[nodiscard]] BufferUse use() const { return use_; }
     [[nodiscard]] std::size_t sizeBytes() const { return sizeBytes_; }
 
@@ -41,6 +44,7 @@ class Buffer {
     std::size_t sizeBytes_;
     MemoryHandle memory_; ///< before the buffer, to outlive it
     BufferHandle buffer_;
+    BufferViewHandle view_;       ///< after the buffer, to be gone before it
     std::byte *mapped_ = nullptr; ///< null where the host cannot see the memory
 };
 

@@ -23,6 +23,7 @@ struct DeviceInfo {
     std::uint32_t maxWorkgroupInvocations = 0;
     std::uint32_t maxWorkgroupCount = 0; ///< along x
     std::uint64_t maxStorageBufferBytes = 0;
+    std::uint64_t maxTexelBufferElements = 0;
     std::uint32_t maxStorageBuffersPerStage = 0;
     std::uint64_t deviceMemoryBytes = 0; ///< largest device-local heap
     bool hasTimestamps = false;

@@ -42,6 +42,7 @@ template <class Object, auto destroy, class Parent = VkDevice> class Handle {
 using InstanceHandle = Handle<VkInstance, vkDestroyInstance, NoParent>;
 using DeviceHandle = Handle<VkDevice, vkDestroyDevice, NoParent>;
 using BufferHandle = Handle<VkBuffer, vkDestroyBuffer>;
+using BufferViewHandle = Handle<VkBufferView, vkDestroyBufferView>;
 using MemoryHandle = Handle<VkDeviceMemory, vkFreeMemory>;
 using ShaderModuleHandle = Handle<VkShaderModule, vkDestroyShaderModule>;
 using SetLayoutHandle = Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;

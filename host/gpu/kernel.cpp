@@ -3,7 +3,6 @@
 #include "host/gpu/check.h"
 #include "host/gpu/float_controls.h"
 
-#include <cassert>
 #include <vector>
 
 namespace hyalite::gpu {
@@ -11,8 +10,14 @@ namespace hyalite::gpu {
 namespace {
 
 VkDescriptorType descriptorType(const Buffer &buffer) {
-    return buffer.use() == BufferUse::Uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                              : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    switch (buffer.use()) {
+    case BufferUse::Uniform:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BufferUse::Texels:
+        return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    default:
+        return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
 }
 
 } // namespace
@@ -20,25 +25,29 @@ VkDescriptorType descriptorType(const Buffer &buffer) {
 Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
                std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers)
     : device_(device), name_(std::move(name)) {
+    makeLayouts(buffers);
+    makePipeline(spirv, constants);
+    makeDescriptors(buffers);
+}
+
+void Kernel::makeLayouts(std::span<const Buffer *const> buffers) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    std::uint32_t uniformCount = 0;
-    for (std::size_t i = 0; i < buffers.size(); ++i) {
+    for (const Buffer *buffer : buffers) {
         VkDescriptorSetLayoutBinding binding{};
-        binding.binding = static_cast<std::uint32_t>(i);
-        binding.descriptorType = descriptorType(*buffers[i]);
+        binding.binding = static_cast<std::uint32_t>(bindings.size());
+        binding.descriptorType = descriptorType(*buffer);
         binding.descriptorCount = 1;
         binding.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
         bindings.push_back(binding);
-        uniformCount += binding.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ? 1u : 0u;
     }
     VkDescriptorSetLayoutCreateInfo setInfo{};
     setInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     setInfo.bindingCount = static_cast<std::uint32_t>(bindings.size());
     setInfo.pBindings = bindings.data();
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
-    check(vkCreateDescriptorSetLayout(device.get(), &setInfo, nullptr, &setLayout),
+    check(vkCreateDescriptorSetLayout(device_.get(), &setInfo, nullptr, &setLayout),
           "vkCreateDescriptorSetLayout for " + name_);
-    setLayout_ = SetLayoutHandle(device.get(), setLayout);
+    setLayout_ = SetLayoutHandle(device_.get(), setLayout);
 
     const VkPushConstantRange pushRange{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(layout::DispatchConstants)};
     VkPipelineLayoutCreateInfo layoutInfo{};
@@ -48,20 +57,22 @@ Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> 
     layoutInfo.pushConstantRangeCount = 1;
     layoutInfo.pPushConstantRanges = &pushRange;
     VkPipelineLayout pipelineLayout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device.get(), &layoutInfo, nullptr, &pipelineLayout),
+    check(vkCreatePipelineLayout(device_.get(), &layoutInfo, nullptr, &pipelineLayout),
           "vkCreatePipelineLayout for " + name_);
-    pipelineLayout_ = PipelineLayoutHandle(device.get(), pipelineLayout);
+    pipelineLayout_ = PipelineLayoutHandle(device_.get(), pipelineLayout);
+}
 
+void Kernel::makePipeline(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants) {
+    const std::vector<std::uint32_t> words = addFloatControls(
+        spirv, {device_.info().canRoundToNearestEven, device_.info().canPreserveSignedZeroInfNan});
     VkShaderModuleCreateInfo moduleInfo{};
     moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    const std::vector<std::uint32_t> words = addFloatControls(
-        spirv, {device.info().canRoundToNearestEven, device.info().canPreserveSignedZeroInfNan});
     moduleInfo.codeSize = std::span(words).size_bytes();
     moduleInfo.pCode = words.data();
     VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device.get(), &moduleInfo, nullptr, &module),
+    check(vkCreateShaderModule(device_.get(), &moduleInfo, nullptr, &module),
           "vkCreateShaderModule for " + name_);
-    const ShaderModuleHandle moduleOwner(device.get(), module);
+    const ShaderModuleHandle moduleOwner(device_.get(), module);
 
     std::vector<VkSpecializationMapEntry> entries;
     for (std::uint32_t id = 0; id < constants.size(); ++id)
@@ -78,48 +89,54 @@ Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> 
     pipelineInfo.stage.module = module;
     pipelineInfo.stage.pName = "main";
     pipelineInfo.stage.pSpecializationInfo = &specialization;
-    pipelineInfo.layout = pipelineLayout;
+    pipelineInfo.layout = pipelineLayout_.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateComputePipelines(device.get(), VK_NULL_HANDLE, 1, &pipelineInfo, nullptr, &pipeline),
+    check(vkCreateComputePipelines(device_.get(), VK_NULL_HANDLE, 1, &pipelineInfo, nullptr, &pipeline),
           "vkCreateComputePipelines for " + name_);
-    pipeline_ = PipelineHandle(device.get(), pipeline);
+    pipeline_ = PipelineHandle(device_.get(), pipeline);
+}
 
-    const std::uint32_t storageCount = static_cast<std::uint32_t>(buffers.size()) - uniformCount;
+void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
     std::vector<VkDescriptorPoolSize> sizes;
-    if (uniformCount > 0)
-        sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, uniformCount});
-    if (storageCount > 0)
-        sizes.push_back({VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storageCount});
-    assert(!sizes.empty());
+    for (const Buffer *buffer : buffers)
+        sizes.push_back({descriptorType(*buffer), 1});
     VkDescriptorPoolCreateInfo poolInfo{};
     poolInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     poolInfo.maxSets = 1;
     poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     poolInfo.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device.get(), &poolInfo, nullptr, &pool),
+    check(vkCreateDescriptorPool(device_.get(), &poolInfo, nullptr, &pool),
           "vkCreateDescriptorPool for " + name_);
-    descriptorPool_ = DescriptorPoolHandle(device.get(), pool);
+    descriptorPool_ = DescriptorPoolHandle(device_.get(), pool);
+
+    const VkDescriptorSetLayout setLayout = setLayout_.get();
     VkDescriptorSetAllocateInfo allocate{};
     allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     allocate.descriptorPool = pool;
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &setLayout;
-    check(vkAllocateDescriptorSets(device.get(), &allocate, &descriptorSet_),
+    check(vkAllocateDescriptorSets(device_.get(), &allocate, &descriptorSet_),
           "vkAllocateDescriptorSets for " + name_);
 
     std::vector<VkDescriptorBufferInfo> infos(buffers.size());
+    std::vector<VkBufferView> views(buffers.size());
     std::vector<VkWriteDescriptorSet> writes(buffers.size());
     for (std::size_t i = 0; i < buffers.size(); ++i) {
-        infos[i] = {buffers[i]->get(), 0, VK_WHOLE_SIZE};
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         writes[i].dstSet = descriptorSet_;
         writes[i].dstBinding = static_cast<std::uint32_t>(i);
         writes[i].descriptorCount = 1;
         writes[i].descriptorType = descriptorType(*buffers[i]);
-        writes[i].pBufferInfo = &infos[i];
+        if (buffers[i]->use() == BufferUse::Texels) {
+            views[i] = buffers[i]->view();
+            writes[i].pTexelBufferView = &views[i];
+        } else {
+            infos[i] = {buffers[i]->get(), 0, VK_WHOLE_SIZE};
+            writes[i].pBufferInfo = &infos[i];
+        }
     }
-    vkUpdateDescriptorSets(device.get(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+    vkUpdateDescriptorSets(device_.get(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
                            nullptr);
 }
 

@@ -24,6 +24,10 @@ class Kernel {
     void run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);
 
   private:
+    void makeLayouts(std::span<const Buffer *const> buffers);
+    void makePipeline(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants);
+    void makeDescriptors(std::span<const Buffer *const> buffers);
+
     Device &device_;
     std::string name_;
     SetLayoutHandle setLayout_;

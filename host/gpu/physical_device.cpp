@@ -88,6 +88,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     info.maxWorkgroupInvocations = properties.limits.maxComputeWorkGroupInvocations;
     info.maxWorkgroupCount = properties.limits.maxComputeWorkGroupCount[0];
     info.maxStorageBufferBytes = properties.limits.maxStorageBufferRange;
+    info.maxTexelBufferElements = properties.limits.maxTexelBufferElements;
     info.maxStorageBuffersPerStage = properties.limits.maxPerStageDescriptorStorageBuffers;
     info.rejection = findRejection(device, properties);
 

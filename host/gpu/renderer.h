@@ -14,6 +14,10 @@
 
 namespace hyalite::gpu {
 
+/// How kernels read the scene's arrays: through storage buffers, or through texel buffers, which lavapipe reads
+/// several times faster.
+enum class Fetch { Automatic, Buffers, Texels };
+
 /// How work is cut into dispatches, and what for. The image does not depend on any of it.
 struct Batching {
     int tileWidth = 0;          ///< pixels, a multiple of 8; 0: by the device
@@ -22,7 +26,9 @@ struct Batching {
     int slotsPerInvocation = 0; ///< path slots of one invocation, 1 or 2; 0: by the device
     bool isStaged = false;      ///< transfer everything through staging buffers
     Arithmetic arithmetic = Arithmetic::Automatic; ///< which / and sqrt run
-    /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an invocation.
+    Fetch fetch = Fetch::Automatic;
+    /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an
+    /// invocation, storage buffers.
     std::span<const std::uint32_t> kernel{};
 };
 

@@ -17,22 +17,23 @@ Buffer uploaded(Device &device, const char *name, BufferUse use, std::span<const
     return buffer;
 }
 
-template <class Record> Buffer storage(Device &device, const char *name, const std::vector<Record> &records) {
-    return uploaded(device, name, BufferUse::Storage, bytesOf(records), bytesOf(records).size());
+template <class Record>
+Buffer array(Device &device, const char *name, BufferUse use, const std::vector<Record> &records) {
+    return uploaded(device, name, use, bytesOf(records), bytesOf(records).size());
 }
 
 } // namespace
 
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene)
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, BufferUse arrays)
     : frame(uploaded(device, "the frame constants", BufferUse::Uniform,
                      std::as_bytes(std::span(&scene.frame, 1)), sizeof(layout::FrameRecord))),
       spheres(uploaded(device, "the spheres", BufferUse::Uniform, bytesOf(scene.spheres),
                        sizeof(layout::SphereRecord) * layout::maxSphereCount)),
       lights(uploaded(device, "the lights", BufferUse::Uniform, bytesOf(scene.lights),
                       sizeof(layout::LightRecord) * layout::maxLightCount)),
-      materials(storage(device, "the materials", scene.materials)),
-      nodes(storage(device, "the nodes", scene.nodes)),
-      triangles(storage(device, "the triangles", scene.triangles)),
-      normals(storage(device, "the normals", scene.normals)) {}
+      materials(array(device, "the materials", arrays, scene.materials)),
+      nodes(array(device, "the nodes", arrays, scene.nodes)),
+      triangles(array(device, "the triangles", arrays, scene.triangles)),
+      normals(array(device, "the normals", arrays, scene.normals)) {}
 
 } // namespace hyalite::gpu

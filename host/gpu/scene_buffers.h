@@ -7,8 +7,9 @@
 namespace hyalite::gpu {
 
 struct SceneBuffers {
-    /// Uploads everything. Throws as Buffer does.
-    SceneBuffers(Device &device, const PackedScene &scene);
+    /// Uploads everything. `arrays` is how kernels read materials, nodes, triangles and normals: Storage or Texels.
+    /// Throws as Buffer does.
+    SceneBuffers(Device &device, const PackedScene &scene, BufferUse arrays);
 
     Buffer frame;
     Buffer spheres; ///< room for layout::maxSphereCount

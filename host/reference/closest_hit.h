@@ -105,7 +105,7 @@ template <class Real>
                                               static_cast<Real>(sphere.radius), ray.excluded == i);
         if (!(distance > 0 && distance < length))
             continue;
-        if (scene.materials[sphere.materialIndex].kind == layout::materialDielectric)
+        if (sphere.isTransmissive != 0)
             shadow.isDimmed = true;
         else
             shadow.isBlocked = true;

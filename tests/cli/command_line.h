@@ -3,6 +3,7 @@
 
 #include "host/image/image.h"
 #include "tests/cli/program.h"
+#include "tests/cli/words.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // The program as a user runs it: a command line goes in; exit code, standard output and standard error come out.
 //
-// No shell is involved: words are split here, and what a shell would add (pipes, variables, patterns) is refused.
+// No shell is involved.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace hyalite::testing {
@@ -48,10 +47,5 @@ std::ostream &operator<<(std::ostream &stream, const Outcome &outcome);
 /// Runs HYALITE_PROGRAM and waits for it. A run that exceeds the timeout adds a test failure. Throws
 /// std::runtime_error where no program can be started.
 [[nodiscard]] Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings &surroundings);
-
-/// The words of a command line by the rules of sh: spaces separate; '...', "..." and \ quote; # begins a comment.
-/// Throws std::runtime_error at what only a shell can do: | & ; < > ( ) $ ` * ? [ outside of quotes, ~ at the
-/// beginning of a word, $ and ` between double quotes, or a quote without an end.
-[[nodiscard]] std::vector<std::string> splitWords(std::string_view line);
 
 } // namespace hyalite::testing

@@ -1,0 +1,67 @@
+// The scene's arrays, and how their records are fetched.
+//
+// On a GPU a storage buffer is the natural thing. lavapipe loads each component of a storage buffer in a loop over the
+// lanes, with a bounds check each, but inlines the load of a whole texel: there the same buffers are bound as storage
+// texel buffers (TEXELS=1), which makes traversal several times faster.
+
+layout(set = 0, binding = bindingSpheres, std140) uniform SphereBuffer { SphereRecord spheres[maxSphereCount]; };
+layout(set = 0, binding = bindingLights, std140) uniform LightBuffer { LightRecord lights[maxLightCount]; };
+
+#if TEXELS
+
+layout(set = 0, binding = bindingMaterials, rgba32ui) uniform restrict readonly uimageBuffer materialTexels;
+layout(set = 0, binding = bindingNodes, rgba32ui) uniform restrict readonly uimageBuffer nodeTexels;
+layout(set = 0, binding = bindingTriangles, rgba32ui) uniform restrict readonly uimageBuffer triangleTexels;
+layout(set = 0, binding = bindingNormals, rgba32ui) uniform restrict readonly uimageBuffer normalTexels;
+
+MaterialRecord fetchMaterial(uint index) {
+    int row = int(index) * 3;
+    uvec4 a = imageLoad(materialTexels, row);
+    uvec4 b = imageLoad(materialTexels, row + 1);
+    uvec4 c = imageLoad(materialTexels, row + 2);
+    return MaterialRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w), c.x, c.y, c.z,
+                          c.w);
+}
+
+NodePair fetchNode(uint index) {
+    int row = int(index) * 4;
+    uvec4 a = imageLoad(nodeTexels, row);
+    uvec4 b = imageLoad(nodeTexels, row + 1);
+    uvec4 c = imageLoad(nodeTexels, row + 2);
+    uvec4 d = imageLoad(nodeTexels, row + 3);
+    return NodePair(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w,
+                    uintBitsToFloat(d.xyz), d.w);
+}
+
+TriangleRecord fetchTriangle(uint index) {
+    int row = int(index) * 3;
+    uvec4 a = imageLoad(triangleTexels, row);
+    uvec4 b = imageLoad(triangleTexels, row + 1);
+    uvec4 c = imageLoad(triangleTexels, row + 2);
+    return TriangleRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w);
+}
+
+NormalRecord fetchNormals(uint index) {
+    int row = int(index) * 3;
+    vec3 a = uintBitsToFloat(imageLoad(normalTexels, row).xyz);
+    vec3 b = uintBitsToFloat(imageLoad(normalTexels, row + 1).xyz);
+    vec3 c = uintBitsToFloat(imageLoad(normalTexels, row + 2).xyz);
+    return NormalRecord(a, 0.0, b, 0.0, c, 0.0);
+}
+
+#else
+
+layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuffer { MaterialRecord materials[]; };
+layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { NodePair nodes[]; };
+layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
+layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
+
+MaterialRecord fetchMaterial(uint index) { return materials[index]; }
+
+NodePair fetchNode(uint index) { return nodes[index]; }
+
+TriangleRecord fetchTriangle(uint index) { return triangles[index]; }
+
+NormalRecord fetchNormals(uint index) { return normals[index]; }
+
+#endif

@@ -1,0 +1,55 @@
+// Entry kernel of the layout test: reads every struct of layout.h as the renderer's kernels do (three from uniform
+// buffers, one from push constants, the others from storage buffers) and writes its fields as a row of words. Of
+// arrays it reads the second element.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/layout.h"
+#include "tests/kernels/layout_fields.h"
+
+layout(local_size_x = 1) in;
+
+layout(push_constant) uniform DispatchBlock { DispatchConstants dispatch; };
+layout(set = 0, binding = 0, std140) uniform FrameBuffer { FrameRecord frames[2]; };
+layout(set = 0, binding = 1, std140) uniform SphereBuffer { SphereRecord spheres[2]; };
+layout(set = 0, binding = 2, std140) uniform LightBuffer { LightRecord lights[2]; };
+layout(set = 0, binding = 3, std430) readonly buffer MaterialBuffer { MaterialRecord materials[]; };
+layout(set = 0, binding = 4, std430) readonly buffer NodeBuffer { NodePair nodes[]; };
+layout(set = 0, binding = 5, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
+layout(set = 0, binding = 6, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
+layout(set = 0, binding = 7, std430) readonly buffer FilmBuffer { FilmPixel films[]; };
+layout(set = 0, binding = 8, std430) readonly buffer ProgressBuffer { DispatchProgress progresses[]; };
+layout(set = 0, binding = 9, std430) readonly buffer TraceBuffer { TraceEvent traces[]; };
+layout(set = 0, binding = 10, std430) readonly buffer PathBuffer { PathRecord paths[]; };
+layout(set = 0, binding = 11, std430) readonly buffer PendingBuffer { PendingRay pendings[]; };
+layout(set = 0, binding = 12, std430) writeonly buffer WordBuffer { uint words[]; };
+
+uint cursor = 0u;
+
+void give(uint value) { words[cursor++] = value; }
+
+void give(float value) { give(floatBitsToUint(value)); }
+
+void give(vec3 value) {
+    give(value.x);
+    give(value.y);
+    give(value.z);
+}
+
+#define GIVE(field) give(field);
+
+void main() {
+    FRAME_FIELDS(GIVE, frames[1])
+    SPHERE_FIELDS(GIVE, spheres[1])
+    LIGHT_FIELDS(GIVE, lights[1])
+    MATERIAL_FIELDS(GIVE, materials[1])
+    NODE_FIELDS(GIVE, nodes[1])
+    TRIANGLE_FIELDS(GIVE, triangles[1])
+    NORMAL_FIELDS(GIVE, normals[1])
+    FILM_FIELDS(GIVE, films[1])
+    PROGRESS_FIELDS(GIVE, progresses[1])
+    TRACE_FIELDS(GIVE, traces[1])
+    PATH_FIELDS(GIVE, paths[1])
+    PENDING_FIELDS(GIVE, pendings[1])
+    DISPATCH_FIELDS(GIVE, dispatch)
+}

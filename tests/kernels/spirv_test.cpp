@@ -1,0 +1,143 @@
+// What our kernels may consist of, so that every device computes the same bits; and the float controls that the host
+// adds to them.
+#include "host/gpu/float_controls.h"
+#include "kernel_list.h"
+#include "tests/kernels/spirv_module.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace hyalite::testing {
+namespace {
+
+bool startsWith(const std::string &text, const char *beginning) { return text.rfind(beginning, 0) == 0; }
+
+/// Where the device's own / and sqrt may stand: behind hasExactDivision, and in the kernel that checks them.
+bool mayDivide(const EmbeddedKernel &kernel, const Instruction &instruction) {
+    return startsWith(instruction.function, "divide(") || startsWith(instruction.function, "squareRoot(") ||
+           std::string(kernel.name) == "checkArithmetic";
+}
+
+TEST(EmbeddedKernels, AreAllListed) {
+    std::vector<std::string> names;
+    for (const EmbeddedKernel &kernel : embeddedKernels)
+        names.push_back(kernel.name);
+    for (const char *name : {"checkArithmetic", "whittedStackOneSlot", "whittedStackTwoSlots", "probeKernel"})
+        EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+}
+
+TEST(EmbeddedKernels, FuseNoSum) {
+    for (const EmbeddedKernel &kernel : embeddedKernels) {
+        const SpirvModule module(kernel.words);
+        for (const Instruction &instruction : module.instructions) {
+            if (instruction.opcode != spirv::opFAdd && instruction.opcode != spirv::opFSub)
+                continue;
+            EXPECT_TRUE(module.uncontracted.contains(instruction.operands[1]))
+                << kernel.name << ": a sum that is not precise, in " << instruction.function;
+        }
+    }
+}
+
+TEST(EmbeddedKernels, UseExactOperationsOnly) {
+    // GLSL.std.450 instructions whose results are exact: FAbs, SAbs, Floor, FMin, UMin, SMin, FMax, UMax, SMax, FClamp,
+    // UClamp, SClamp, FindILsb, FindSMsb, FindUMsb.
+    const std::set<std::uint32_t> exact{4, 5, 8, 37, 38, 39, 40, 41, 42, 43, 44, 45, 73, 74, 75};
+    constexpr std::uint32_t sqrtNumber = 31;
+    const std::set<std::uint32_t> withoutOrder{spirv::opDot,
+                                               spirv::opVectorTimesMatrix,
+                                               spirv::opMatrixTimesVector,
+                                               spirv::opMatrixTimesMatrix,
+                                               spirv::opFRem,
+                                               spirv::opFMod};
+    for (const EmbeddedKernel &kernel : embeddedKernels) {
+        std::size_t nativeCount = 0;
+        const SpirvModule module(kernel.words);
+        for (const Instruction &instruction : module.instructions) {
+            const auto where = [&] { return std::string(kernel.name) + ", in " + instruction.function; };
+            EXPECT_FALSE(withoutOrder.contains(instruction.opcode))
+                << "opcode " << instruction.opcode << ": " << where();
+            const bool isExtended = instruction.opcode == spirv::opExtInst;
+            const bool isNative =
+                instruction.opcode == spirv::opFDiv || (isExtended && instruction.operands[3] == sqrtNumber);
+            nativeCount += isNative ? 1u : 0u;
+            if (isNative) {
+                EXPECT_TRUE(mayDivide(kernel, instruction)) << "the device's own / or sqrt: " << where();
+            } else if (isExtended) {
+                EXPECT_TRUE(exact.contains(instruction.operands[3]))
+                    << "GLSL.std.450 instruction " << instruction.operands[3] << ": " << where();
+            }
+        }
+        // The same check sees them where they are.
+        if (std::string(kernel.name) != "echoKernel") {
+            EXPECT_EQ(nativeCount, 2u) << kernel.name;
+        }
+    }
+}
+
+// ---- Float controls
+
+struct ControlsCase {
+    gpu::FloatControls controls;
+    std::vector<std::uint32_t> capabilities;
+    std::vector<std::uint32_t> modes;
+};
+
+const ControlsCase controlsCases[] = {
+    {{true, true}, {4466, 4467}, {4461, 4462}},
+    {{true, false}, {4467}, {4462}},
+    {{false, true}, {4466}, {4461}},
+};
+
+TEST(FloatControls, AreAddedInTheirSections) {
+    for (const EmbeddedKernel &kernel : embeddedKernels) {
+        for (const auto &[controls, capabilities, modes] : controlsCases) {
+            const std::vector<std::uint32_t> words = gpu::addFloatControls(kernel.words, controls);
+            const SpirvModule module(words);
+            std::vector<std::uint32_t> addedCapabilities;
+            std::vector<std::uint32_t> addedModes;
+            std::size_t extensionCount = 0;
+            std::uint32_t entryPoint = 0;
+            // The order of sections in a module, as far as it concerns us.
+            int section = 0;
+            for (const Instruction &instruction : module.instructions) {
+                const int wanted = instruction.opcode == spirv::opCapability      ? 0
+                                   : instruction.opcode == spirv::opExtension     ? 1
+                                   : instruction.opcode == spirv::opEntryPoint    ? 2
+                                   : instruction.opcode == spirv::opExecutionMode ? 3
+                                                                                  : section;
+                EXPECT_GE(wanted, section) << kernel.name << ": opcode " << instruction.opcode;
+                section = wanted;
+                if (instruction.opcode == spirv::opEntryPoint)
+                    entryPoint = instruction.operands[1];
+                if (instruction.opcode == spirv::opExtension)
+                    ++extensionCount;
+                if (instruction.opcode == spirv::opCapability && instruction.operands[0] >= 4464)
+                    addedCapabilities.push_back(instruction.operands[0]);
+                if (instruction.opcode == spirv::opExecutionMode && instruction.operands[1] >= 4459) {
+                    EXPECT_EQ(instruction.operands[0], entryPoint);
+                    addedModes.push_back(instruction.operands[1]);
+                    EXPECT_EQ(instruction.operands[2], 32u);
+                }
+            }
+            EXPECT_EQ(addedCapabilities, capabilities) << kernel.name;
+            EXPECT_EQ(addedModes, modes) << kernel.name;
+            EXPECT_EQ(extensionCount, SpirvModule(kernel.words).instructions.size() > 0 ? 1u : 0u);
+        }
+    }
+}
+
+TEST(FloatControls, LeaveTheRestAsItIs) {
+    for (const EmbeddedKernel &kernel : embeddedKernels) {
+        const std::vector<std::uint32_t> original(kernel.words.begin(), kernel.words.end());
+        EXPECT_EQ(gpu::addFloatControls(kernel.words, {}), original);
+        const std::vector<std::uint32_t> words = gpu::addFloatControls(kernel.words, {true, true});
+        // Two capabilities of 2 words, an extension of 7, two modes of 4.
+        ASSERT_EQ(words.size(), original.size() + 4 + 7 + 8);
+        EXPECT_TRUE(std::equal(original.begin(), original.begin() + 5, words.begin())) << "the header";
+        EXPECT_TRUE(std::equal(original.rbegin(), original.rbegin() + 1000, words.rbegin())) << "the code";
+    }
+}
+
+} // namespace
+} // namespace hyalite::testing

@@ -1,0 +1,399 @@
+// Each function of shaders/*.glsl against its twin in host/reference: the same bits for the same input.
+#include "host/reference/box.h"
+#include "host/reference/camera.h"
+#include "host/reference/dielectric.h"
+#include "host/reference/random.h"
+#include "host/reference/sphere.h"
+#include "host/reference/surface.h"
+#include "host/reference/triangle.h"
+#include "tests/kernels/probe_device.h"
+
+#include <gtest/gtest.h>
+
+namespace hyalite::testing {
+namespace {
+
+using glm::uvec2;
+using glm::uvec3;
+using glm::vec2;
+using glm::vec3;
+
+// ---- Vectors
+
+TEST(VectorTwin, DotProduct) {
+    expectTwin(probeDotProduct, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 a = draw.point();
+        const vec3 b = draw.point();
+        input << a << b;
+        expected << reference::dotProduct(a, b);
+    });
+}
+
+TEST(VectorTwin, CrossProduct) {
+    expectTwin(probeCrossProduct, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 a = draw.point();
+        const vec3 b = draw.chance(16) ? a * 3.0f : draw.point();
+        input << a << b;
+        expected << reference::crossProduct(a, b);
+    });
+}
+
+TEST(VectorTwin, VectorLength) {
+    expectTwin(probeVectorLength, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 v = draw.point();
+        input << v;
+        expected << reference::vectorLength(v);
+    });
+}
+
+TEST(VectorTwin, UnitVector) {
+    expectTwin(probeUnitVector, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 v = draw.point();
+        input << v;
+        expected << reference::unitVector(v);
+    });
+}
+
+TEST(VectorTwin, MirrorDirection) {
+    expectTwin(probeMirrorDirection, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 direction = draw.direction();
+        const vec3 normal = draw.chance(16) ? -direction : draw.direction();
+        input << direction << normal;
+        expected << reference::mirrorDirection(direction, normal);
+    });
+}
+
+// Of equal components of different sign, as 0 and -0, either may be the largest.
+vec3 pointWithoutNegativeZero(Draw &draw) { return draw.point() + vec3(0.0f); }
+
+TEST(VectorTwin, LargestComponent) {
+    expectTwin(probeLargestComponent, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 v = pointWithoutNegativeZero(draw);
+        input << v;
+        expected << reference::largestComponent(v);
+    });
+}
+
+TEST(VectorTwin, SmallestComponent) {
+    expectTwin(probeSmallestComponent, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 v = pointWithoutNegativeZero(draw);
+        input << v;
+        expected << reference::smallestComponent(v);
+    });
+}
+
+// ---- Random numbers
+
+TEST(RandomTwin, HashKeys) {
+    expectTwin(probeHashKeys, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        const std::uint32_t y = draw.word();
+        const uvec3 keys(x, y, draw.word());
+        input << keys;
+        expected << reference::hashKeys(keys);
+    });
+}
+
+TEST(RandomTwin, OwenScramble) {
+    expectTwin(probeOwenScramble, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        const std::uint32_t key = draw.word();
+        input << x << key;
+        expected << reference::owenScramble(x, key);
+    });
+}
+
+TEST(RandomTwin, SecondSobolCoordinate) {
+    expectTwin(probeSecondSobolCoordinate, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        input << x;
+        expected << reference::secondSobolCoordinate(x);
+    });
+}
+
+TEST(RandomTwin, UnitReal) {
+    expectTwin(probeUnitReal, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        input << x;
+        expected << reference::unitReal<float>(x);
+    });
+}
+
+TEST(RandomTwin, SamplePixel) {
+    for (const std::uint32_t samplerKind : {layout::samplerCentre, layout::samplerSobol}) {
+        const auto call = [&](Draw &draw, Words &input, Words &expected) {
+            const std::uint32_t x = draw.index(5000);
+            const uvec2 pixel(x, draw.index(5000));
+            const std::uint32_t sampleIndex = draw.chance(2) ? draw.index(64) : draw.word();
+            const std::uint32_t seed = draw.word();
+            input << pixel << sampleIndex << seed;
+            expected << reference::samplePixel<float>(samplerKind, pixel, sampleIndex, seed);
+        };
+        expectTwin(probeSamplePixel, call, {{}, samplerKind});
+    }
+}
+
+// ---- Camera
+
+TEST(CameraTwin, PrimaryDirection) {
+    Draw views;
+    for (int view = 0; view < 4; ++view) {
+        ProbeScene scene;
+        scene.frame.imageWidth = 1 + views.index(4000);
+        scene.frame.imageHeight = 1 + views.index(4000);
+        scene.frame.imagePlane = views.direction();
+        scene.frame.pixelRight = 1e-3f * views.direction();
+        scene.frame.pixelUp = 1e-3f * views.direction();
+        const auto call = [&](Draw &draw, Words &input, Words &expected) {
+            const std::uint32_t x = draw.index(scene.frame.imageWidth);
+            const uvec2 pixel(x, draw.index(scene.frame.imageHeight));
+            const float offsetX = draw.chance(8) ? 0.0f : draw.unit();
+            const vec2 offset(offsetX, draw.chance(8) ? 0.5f : draw.unit());
+            input << pixel << offset;
+            expected << reference::primaryDirection(scene.frame, pixel, offset);
+        };
+        expectTwin(probePrimaryDirection, call, scene);
+    }
+}
+
+// ---- Boxes
+
+struct Box {
+    vec3 lower;
+    vec3 upper;
+};
+
+/// Often flat in some axis.
+Box drawBox(Draw &draw) {
+    const vec3 a = draw.point();
+    vec3 b = draw.point();
+    for (int axis = 0; axis < 3; ++axis)
+        if (draw.chance(6))
+            b[axis] = a[axis];
+    return {glm::min(a, b), glm::max(a, b)};
+}
+
+/// Often on a face, an edge or a corner of the box.
+vec3 drawOrigin(Draw &draw, const Box &box) {
+    vec3 origin = draw.point();
+    for (int axis = 0; axis < 3; ++axis)
+        if (draw.chance(6))
+            origin[axis] = draw.chance(2) ? box.lower[axis] : box.upper[axis];
+    return origin;
+}
+
+TEST(BoxTwin, MakeBoxRay) {
+    expectTwin(probeMakeBoxRay, [](Draw &draw, Words &input, Words &expected) {
+        const Box bounds = drawBox(draw);
+        const vec3 origin = drawOrigin(draw, bounds);
+        const vec3 direction = draw.direction();
+        input << origin << direction << bounds.lower << bounds.upper;
+        const reference::BoxRay<float> ray =
+            reference::makeBoxRay(origin, direction, bounds.lower, bounds.upper);
+        expected << ray.inverse << ray.originPlus << ray.originMinus;
+    });
+}
+
+TEST(BoxTwin, BoxInterval) {
+    expectTwin(probeBoxInterval, [](Draw &draw, Words &input, Words &expected) {
+        const Box box = drawBox(draw);
+        const vec3 origin = drawOrigin(draw, box);
+        const vec3 direction = draw.direction();
+        const vec3 lower = box.lower - vec3(1.0f);
+        const vec3 upper = box.upper + vec3(1.0f);
+        input << origin << direction << lower << upper << box.lower << box.upper;
+        const reference::Interval<float> interval =
+            boxInterval(reference::makeBoxRay(origin, direction, lower, upper), box.lower, box.upper);
+        expected << interval.enter << interval.leave;
+    });
+}
+
+// ---- Triangles
+
+struct Triangle {
+    vec3 v0;
+    vec3 v1;
+    vec3 v2;
+};
+
+/// Sometimes a needle, or without area.
+Triangle drawTriangle(Draw &draw) {
+    Triangle triangle{draw.point(), {}, {}};
+    triangle.v1 = draw.point();
+    triangle.v2 = draw.point();
+    switch (draw.index(16)) {
+    case 0:
+        triangle.v2 = triangle.v1;
+        break;
+    case 1:
+        triangle.v2 = 0.5f * (triangle.v0 + triangle.v1);
+        break;
+    default:
+        break;
+    }
+    return triangle;
+}
+
+/// A point of the triangle's plane, often on an edge or a vertex.
+vec3 drawTarget(Draw &draw, const Triangle &triangle) {
+    switch (draw.index(4)) {
+    case 0:
+        return triangle.v1;
+    case 1:
+        return 0.5f * (triangle.v0 + triangle.v2);
+    default:
+        const float u = draw.unit();
+        return reference::trianglePoint(triangle.v0, triangle.v1, triangle.v2, u, draw.unit());
+    }
+}
+
+TEST(TriangleTwin, MakeTriangleRay) {
+    expectTwin(probeMakeTriangleRay, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 origin = draw.point();
+        const vec3 direction = draw.direction();
+        input << origin << direction;
+        const reference::TriangleRay<float> ray = reference::makeTriangleRay(origin, direction);
+        expected << ray.origin << static_cast<std::uint32_t>(ray.axis) << ray.shear;
+    });
+}
+
+TEST(TriangleTwin, IntersectTriangle) {
+    std::size_t hitCount = 0;
+    expectTwin(probeIntersectTriangle, [&](Draw &draw, Words &input, Words &expected) {
+        const Triangle triangle = drawTriangle(draw);
+        vec3 origin = draw.point();
+        const vec3 target = drawTarget(draw, triangle);
+        vec3 direction = draw.chance(8) ? draw.direction() : draw.towards(origin, target);
+        if (draw.chance(8)) { // along an axis, so that edge functions are exactly 0
+            const int axis = static_cast<int>(draw.index(3));
+            direction = vec3(draw.chance(2) ? -0.0f : 0.0f);
+            direction[axis] = draw.chance(2) ? -1.0f : 1.0f;
+            origin = target - direction * draw.coordinate();
+        }
+        const vec3 lower = glm::min(glm::min(triangle.v0, triangle.v1), triangle.v2);
+        const vec3 upper = glm::max(glm::max(triangle.v0, triangle.v1), triangle.v2);
+        input << origin << direction << lower << upper << triangle.v0 << triangle.v1 << triangle.v2;
+        const reference::TriangleHit<float> hit = intersectTriangle(
+            reference::makeTriangleRay(origin, direction),
+            reference::makeBoxRay(origin, direction, lower, upper), triangle.v0, triangle.v1, triangle.v2);
+        hitCount += hit.distance > 0.0f ? 1u : 0u;
+        expected << hit.distance << hit.u << hit.v;
+    });
+    EXPECT_GT(hitCount, probeInputCount / 8);
+    EXPECT_LT(hitCount, probeInputCount / 8 * 7);
+}
+
+TEST(TriangleTwin, TrianglePoint) {
+    expectTwin(probeTrianglePoint, [](Draw &draw, Words &input, Words &expected) {
+        const Triangle triangle = drawTriangle(draw);
+        const vec2 uv(draw.unit(), draw.unit());
+        input << triangle.v0 << triangle.v1 << triangle.v2 << uv;
+        expected << reference::trianglePoint(triangle.v0, triangle.v1, triangle.v2, uv.x, uv.y);
+    });
+}
+
+TEST(TriangleTwin, TrianglePointError) {
+    expectTwin(probeTrianglePointError, [](Draw &draw, Words &input, Words &expected) {
+        const Triangle triangle = drawTriangle(draw);
+        const vec2 uv(draw.unit(), draw.unit());
+        input << triangle.v0 << triangle.v1 << triangle.v2 << uv;
+        expected << reference::trianglePointError(triangle.v0, triangle.v1, triangle.v2, uv.x, uv.y);
+    });
+}
+
+// ---- Spheres
+
+TEST(SphereTwin, IntersectSphere) {
+    std::size_t hitCount = 0;
+    expectTwin(probeIntersectSphere, [&](Draw &draw, Words &input, Words &expected) {
+        const vec3 centre = draw.point();
+        const float radius = draw.chance(8) ? 940.0f : 0.01f + 10.0f * draw.unit();
+        vec3 origin = draw.point();
+        vec3 direction = draw.chance(4) ? draw.direction() : draw.towards(origin, centre);
+        if (draw.chance(8)) // grazing
+            origin = centre + radius * draw.direction();
+        if (draw.chance(8))
+            direction = draw.direction();
+        const bool startsOnSphere = draw.chance(2);
+        input << origin << direction << centre << radius << std::uint32_t{startsOnSphere};
+        const float distance = reference::intersectSphere(origin, direction, centre, radius, startsOnSphere);
+        hitCount += distance > 0.0f ? 1u : 0u;
+        expected << distance;
+    });
+    EXPECT_GT(hitCount, probeInputCount / 8);
+    EXPECT_LT(hitCount, probeInputCount / 8 * 7);
+}
+
+// ---- Glass
+
+TEST(DielectricTwin, RefractRay) {
+    std::size_t totalCount = 0;
+    expectTwin(probeRefractRay, [&](Draw &draw, Words &input, Words &expected) {
+        const vec3 facing = draw.direction();
+        vec3 direction = draw.chance(16) ? -facing : draw.direction();
+        if (reference::dotProduct(direction, facing) > 0.0f)
+            direction = -direction;
+        const float index = draw.chance(8) ? 1.0f : 1.0f + 1.5f * draw.unit();
+        const bool isEntering = draw.chance(2);
+        input << direction << facing << index << std::uint32_t{isEntering};
+        const reference::Refraction<float> refraction =
+            reference::refractRay(direction, facing, index, isEntering);
+        totalCount += refraction.isTotal ? 1u : 0u;
+        expected << refraction.direction << refraction.reflectance << refraction.transmittance
+                 << std::uint32_t{refraction.isTotal};
+    });
+    EXPECT_GT(totalCount, probeInputCount / 16);
+}
+
+// ---- Surfaces
+
+Words &operator<<(Words &words, const reference::Surface<float> &surface) {
+    return words << surface.position << surface.error << surface.normal << surface.geometricNormal;
+}
+
+TEST(SurfaceTwin, SphereSurface) {
+    expectTwin(probeSphereSurface, [](Draw &draw, Words &input, Words &expected) {
+        layout::SphereRecord sphere{};
+        sphere.centre = draw.point();
+        sphere.normalSign = draw.chance(2) ? -1.0f : 1.0f;
+        const vec3 origin = draw.point();
+        const vec3 direction = draw.direction();
+        const float distance = std::abs(draw.coordinate());
+        input << origin << direction << distance << sphere.centre << sphere.normalSign;
+        expected << reference::sphereSurface(origin, direction, distance, sphere);
+    });
+}
+
+TEST(SurfaceTwin, TriangleSurface) {
+    expectTwin(probeTriangleSurface, [](Draw &draw, Words &input, Words &expected) {
+        const Triangle drawn = drawTriangle(draw);
+        layout::TriangleRecord triangle{};
+        triangle.v0 = drawn.v0;
+        triangle.v1 = drawn.v1;
+        triangle.v2 = drawn.v2;
+        layout::NormalRecord normals{};
+        if (!draw.chance(4)) {
+            normals.n0 = draw.direction();
+            normals.n1 = draw.chance(8) ? normals.n0 : draw.direction();
+            normals.n2 = draw.chance(8) ? -normals.n0 : draw.direction();
+        }
+        const vec2 uv(draw.unit(), draw.unit());
+        input << triangle.v0 << triangle.v1 << triangle.v2 << normals.n0 << normals.n1 << normals.n2 << uv;
+        expected << reference::triangleSurface(triangle, normals, uv.x, uv.y);
+    });
+}
+
+TEST(SurfaceTwin, SpawnPoint) {
+    expectTwin(probeSpawnPoint, [](Draw &draw, Words &input, Words &expected) {
+        reference::Surface<float> surface{};
+        surface.position = draw.point();
+        surface.error = draw.chance(4) ? vec3(0.0f) : glm::abs(surface.position) * 0x1p-21f;
+        surface.geometricNormal = draw.direction();
+        const vec3 direction = draw.chance(8) ? -surface.geometricNormal : draw.direction();
+        input << surface.position << surface.error << surface.geometricNormal << direction;
+        expected << reference::spawnPoint(surface, direction);
+    });
+}
+
+} // namespace
+} // namespace hyalite::testing

@@ -1,0 +1,47 @@
+// Inputs and outputs of a probed function as words, and how those of the device are compared with the host's.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace hyalite::testing {
+
+/// The words of one input or output, in the order in which the probe kernel takes or gives them.
+class Words {
+  public:
+    Words &operator<<(std::uint32_t value) {
+        words_.push_back({value, false});
+        return *this;
+    }
+    Words &operator<<(float value) {
+        words_.push_back({std::bit_cast<std::uint32_t>(value), true});
+        return *this;
+    }
+    Words &operator<<(const glm::vec2 &v) { return *this << v.x << v.y; }
+    Words &operator<<(const glm::vec3 &v) { return *this << v.x << v.y << v.z; }
+    Words &operator<<(const glm::uvec2 &v) { return *this << v.x << v.y; }
+    Words &operator<<(const glm::uvec3 &v) { return *this << v.x << v.y << v.z; }
+
+    struct Word {
+        std::uint32_t bits;
+        bool isFloat;
+    };
+    [[nodiscard]] const std::vector<Word> &get() const { return words_; }
+
+    void clear() { words_.clear(); }
+
+  private:
+    std::vector<Word> words_;
+};
+
+/// Equal to the bit; but any NaN equals any other, as no standard says which one an operation gives.
+[[nodiscard]] inline bool isSame(const Words::Word &expected, std::uint32_t bits) {
+    const auto isNan = [](std::uint32_t word) { return (word & 0x7FFFFFFFu) > 0x7F800000u; };
+    return expected.bits == bits || (expected.isFloat && isNan(expected.bits) && isNan(bits));
+}
+
+} // namespace hyalite::testing
