@@ -19,7 +19,7 @@ function(hyalite_kernel target kernel variable)
     list(TRANSFORM ARGN PREPEND -D OUTPUT_VARIABLE definitions)
     add_custom_command(
         OUTPUT ${header}
-        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.1 ${definitions} -I${PROJECT_SOURCE_DIR}
+        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.1 ${definitions} -I${PROJECT_SOURCE_DIR} -I${folder}
                 --depfile ${header}.d --vn ${variable} -o ${header} ${source}
         DEPENDS ${source}
         DEPFILE ${header}.d

@@ -80,6 +80,22 @@ struct NodePair {
     uint pad1;
 };
 
+// The same tree as a list without a stack, for texel buffers: depth first, each node followed by its subtree, and the
+// index where a ray goes on that misses it. There is one such list for each octant of directions, in which the nearer
+// child comes first. Boxes are rounded outward to a grid of 16 bits over all triangles. Low half-words hold the plane
+// that a ray of the octant meets first, high ones the other. `link` of an inner node is the index to go on at, of a
+// leaf it is leafFlag | index of its first triangle, and the list goes on with the next node. A list ends with nodes
+// that no ray meets, skipPadding of them, so that several steps can be taken without looking.
+
+const uint skipPadding = 8u;
+
+struct SkipNode {
+    uint x;
+    uint y;
+    uint z;
+    uint link;
+};
+
 // ---- Materials and lights
 
 const uint materialDiffuse = 0u;
@@ -126,7 +142,11 @@ struct FrameRecord {
     vec3 boundsLower; // of all triangles
     uint triangleCount;
     vec3 boundsUpper;
-    uint maxDepth; // segments of a path, the primary ray included
+    uint maxDepth;       // segments of a path, the primary ray included
+    vec3 gridOrigin;     // of the skip lists' boxes
+    uint skipListLength; // nodes of one octant's list, padding included
+    vec3 gridScale;
+    uint pad0;
 };
 
 // ---- What changes with each dispatch
@@ -284,10 +304,11 @@ const uint constantCount = 9u;
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);
 static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) == 44);
 static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
+static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
 static_assert(sizeof(MaterialRecord) == 48 && offsetof(MaterialRecord, isTwoSided) == 32);
 static_assert(sizeof(LightRecord) == 32 && offsetof(LightRecord, intensity) == 16);
-static_assert(sizeof(FrameRecord) == 112 && offsetof(FrameRecord, boundsUpper) == 96);
+static_assert(sizeof(FrameRecord) == 144 && offsetof(FrameRecord, boundsUpper) == 96);
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
 static_assert(sizeof(DispatchProgress) == 32);

@@ -1,13 +1,13 @@
 // The scene's arrays, and how their records are fetched.
 //
 // On a GPU a storage buffer is the natural thing. lavapipe loads each component of a storage buffer in a loop over the
-// lanes, with a bounds check each, but inlines the load of a whole texel: there the same buffers are bound as storage
-// texel buffers (TEXELS=1), which makes traversal several times faster.
+// lanes, with a bounds check each, but inlines the load of a whole texel: there the arrays are storage texel buffers,
+// which makes traversal several times faster, and the tree is a skip list (SKIP_LIST=1).
 
 layout(set = 0, binding = bindingSpheres, std140) uniform SphereBuffer { SphereRecord spheres[maxSphereCount]; };
 layout(set = 0, binding = bindingLights, std140) uniform LightBuffer { LightRecord lights[maxLightCount]; };
 
-#if TEXELS
+#if SKIP_LIST
 
 layout(set = 0, binding = bindingMaterials, rgba32ui) uniform restrict readonly uimageBuffer materialTexels;
 layout(set = 0, binding = bindingNodes, rgba32ui) uniform restrict readonly uimageBuffer nodeTexels;
@@ -23,14 +23,9 @@ MaterialRecord fetchMaterial(uint index) {
                           c.w);
 }
 
-NodePair fetchNode(uint index) {
-    int row = int(index) * 4;
-    uvec4 a = imageLoad(nodeTexels, row);
-    uvec4 b = imageLoad(nodeTexels, row + 1);
-    uvec4 c = imageLoad(nodeTexels, row + 2);
-    uvec4 d = imageLoad(nodeTexels, row + 3);
-    return NodePair(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w,
-                    uintBitsToFloat(d.xyz), d.w);
+SkipNode fetchSkipNode(uint index) {
+    uvec4 words = imageLoad(nodeTexels, int(index));
+    return SkipNode(words.x, words.y, words.z, words.w);
 }
 
 TriangleRecord fetchTriangle(uint index) {

@@ -4,8 +4,6 @@
 // latency. A step visits at most one inner node and tests at most one triangle for each slot. It can stop after any
 // step: the cursor, the nearest hit and the stack all outlive the dispatch.
 
-bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
-
 void pushSubtree(uint slot, uint subtree) {
     uint size = path[slot].stackSize;
     if (size < stackSize) {
@@ -29,6 +27,8 @@ void enterSubtree(uint slot, uint subtree) {
     path[slot].cursorNode = isLeaf ? noNode : subtree;
     path[slot].cursorTriangle = isLeaf ? subtree & ~leafFlag : noNode;
 }
+
+void enterTree(uint slot) { enterSubtree(slot, 0u); }
 
 void stopTraversal(uint slot) {
     path[slot].cursorNode = noNode;
@@ -54,34 +54,13 @@ void visitNode(uint slot, BoxRay ray) {
 void visitTriangle(uint slot, TriangleRay ray, BoxRay boxRay, const bool isShadow) {
     uint record = path[slot].cursorTriangle;
     TriangleRecord triangle = fetchTriangle(record);
-    TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
-    uint id = triangle.primitiveId;
-    bool isHit = hit.distance > 0.0 && id != path[slot].rayExcluded;
     bool isLast = (triangle.flags & triangleEndsLeaf) != 0u;
     uint next = record + 1u;
     if (isLast)
         next = popSubtree(slot);
     enterSubtree(slot, isLast ? next : next | leafFlag);
-    if (isShadow) {
-        bool isBetween = isHit && hit.distance < path[slot].rayLength;
-        bool isTransmissive = (triangle.flags & triangleIsTransmissive) != 0u;
-        if (isBetween && isTransmissive)
-            path[slot].isLightDimmed = 1u;
-        if (isBetween && !isTransmissive) {
-            path[slot].hitPrimitive = id;
-            stopTraversal(slot);
-        }
-    } else {
-        bool isNearer = hit.distance < path[slot].rayLength ||
-                        (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive);
-        if (isHit && isNearer) {
-            path[slot].rayLength = hit.distance;
-            path[slot].hitU = hit.u;
-            path[slot].hitV = hit.v;
-            path[slot].hitPrimitive = id;
-            path[slot].hitRecord = record;
-        }
-    }
+    if (meetTriangle(slot, record, triangle, ray, boxRay, isShadow))
+        stopTraversal(slot);
 }
 
 // Carries on with the rays of all slots at `stage`, until all are through the tree or the step budget is spent.

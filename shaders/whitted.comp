@@ -1,4 +1,4 @@
-// Entry kernel: the Whitted integrator over the stack traversal, RAYS path slots an invocation.
+// Entry kernel: the Whitted integrator, RAYS path slots an invocation, over a stack or a skip list (SKIP_LIST=1).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -19,7 +19,12 @@ layout(local_size_x_id = 0) in;
 #include "dielectric.glsl"
 #include "surface.glsl"
 #include "path_slots.glsl"
+#include "meet_triangle.glsl"
+#if SKIP_LIST
+#include "traverse_skip.glsl"
+#else
 #include "traverse_stack.glsl"
+#endif
 #include "whitted.glsl"
 
 void main() {

@@ -66,7 +66,10 @@ void beginClosest(uint slot) {
         }
     }
     path[slot].hitRecord = path[slot].hitPrimitive;
-    enterSubtree(slot, hasTriangles ? 0u : noNode);
+    if (hasTriangles)
+        enterTree(slot);
+    else
+        stopTraversal(slot);
     path[slot].stage = stageClosest;
 }
 
@@ -203,7 +206,10 @@ void aimAtLight(uint slot) {
                 path[slot].hitPrimitive = i;
         }
     }
-    enterSubtree(slot, hasTriangles && path[slot].hitPrimitive == noPrimitive ? 0u : noNode);
+    if (hasTriangles && path[slot].hitPrimitive == noPrimitive)
+        enterTree(slot);
+    else
+        stopTraversal(slot);
     path[slot].stage = stageShadow;
 }
 

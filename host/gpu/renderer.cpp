@@ -3,10 +3,10 @@
 #include "host/error.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/scene_buffers.h"
+#include "whittedSkipOneSlot.h"
+#include "whittedSkipTwoSlots.h"
 #include "whittedStackOneSlot.h"
 #include "whittedStackTwoSlots.h"
-#include "whittedTexelsOneSlot.h"
-#include "whittedTexelsTwoSlots.h"
 
 #include <fmt/format.h>
 
@@ -41,8 +41,9 @@ Batching chooseBatching(Batching batching, const DeviceInfo &device) {
     // lavapipe stops a subgroup in silence after 65,535 loop iterations of all of its lanes together. The lanes count
     // for themselves, and lanes that diverge add up.
     const std::uint32_t limit = 65535u / (std::max(device.subgroupSize, 1u) + 1u);
-    if (batching.fetch == Fetch::Automatic)
-        batching.fetch = device.isSoftware() && batching.kernel.empty() ? Fetch::Texels : Fetch::Buffers;
+    if (batching.traversal == Traversal::Automatic)
+        batching.traversal =
+            device.isSoftware() && batching.kernel.empty() ? Traversal::SkipList : Traversal::Stack;
     if (batching.steps == 0)
         batching.steps = 4096;
     if (device.isSoftware())
@@ -54,8 +55,8 @@ std::span<const std::uint32_t> chooseKernel(const Batching &batching) {
     using Words = std::span<const std::uint32_t>;
     if (!batching.kernel.empty())
         return batching.kernel;
-    if (batching.fetch == Fetch::Texels)
-        return batching.slotsPerInvocation == 2 ? Words(whittedTexelsTwoSlots) : Words(whittedTexelsOneSlot);
+    if (batching.traversal == Traversal::SkipList)
+        return batching.slotsPerInvocation == 2 ? Words(whittedSkipTwoSlots) : Words(whittedSkipOneSlot);
     return batching.slotsPerInvocation == 2 ? Words(whittedStackTwoSlots) : Words(whittedStackOneSlot);
 }
 
@@ -82,8 +83,7 @@ class TileRenderer {
           // One subtree waits for each level at most; kernels of a few sizes are enough.
           stackSize_(std::bit_ceil(
               std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth))),
-          buffers_(device, job.scene,
-                   batching.fetch == Fetch::Texels ? BufferUse::Texels : BufferUse::Storage),
+          buffers_(device, job.scene, batching.traversal == Traversal::SkipList),
           film_(device, "the film", BufferUse::Storage, filmPixelCount() * sizeof(layout::FilmPixel)),
           progress_(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress)),
           paths_(device, "the path slots", BufferUse::Storage, slotCount_ * sizeof(layout::PathRecord)),

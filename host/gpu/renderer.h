@@ -14,9 +14,9 @@
 
 namespace hyalite::gpu {
 
-/// How kernels read the scene's arrays: through storage buffers, or through texel buffers, which lavapipe reads
-/// several times faster.
-enum class Fetch { Automatic, Buffers, Texels };
+/// How rays go through the tree. Stack: the portable one, over storage buffers. SkipList: over texel buffers, which
+/// lavapipe reads several times faster.
+enum class Traversal { Automatic, Stack, SkipList };
 
 /// How work is cut into dispatches, and what for. The image does not depend on any of it.
 struct Batching {
@@ -26,9 +26,9 @@ struct Batching {
     int slotsPerInvocation = 0; ///< path slots of one invocation, 1 or 2; 0: by the device
     bool isStaged = false;      ///< transfer everything through staging buffers
     Arithmetic arithmetic = Arithmetic::Automatic; ///< which / and sqrt run
-    Fetch fetch = Fetch::Automatic;
+    Traversal traversal = Traversal::Automatic;
     /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an
-    /// invocation, storage buffers.
+    /// invocation, and the stack.
     std::span<const std::uint32_t> kernel{};
 };
 

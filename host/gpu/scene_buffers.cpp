@@ -1,5 +1,6 @@
 #include "host/gpu/scene_buffers.h"
 
+#include <memory>
 #include <span>
 
 namespace hyalite::gpu {
@@ -22,18 +23,37 @@ Buffer array(Device &device, const char *name, BufferUse use, const std::vector<
     return uploaded(device, name, use, bytesOf(records), bytesOf(records).size());
 }
 
+/// The frame constants, with what kernels need to know of the skip lists.
+layout::FrameRecord frameWith(const SkipList *list, layout::FrameRecord frame) {
+    if (list != nullptr) {
+        frame.gridOrigin = list->gridOrigin;
+        frame.gridScale = list->gridScale;
+        frame.skipListLength = list->length;
+    }
+    return frame;
+}
+
+BufferUse arrayUse(const SkipList *list) { return list != nullptr ? BufferUse::Texels : BufferUse::Storage; }
+
 } // namespace
 
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, BufferUse arrays)
-    : frame(uploaded(device, "the frame constants", BufferUse::Uniform,
-                     std::as_bytes(std::span(&scene.frame, 1)), sizeof(layout::FrameRecord))),
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList)
+    : SceneBuffers(device, scene,
+                   isSkipList ? std::make_unique<SkipList>(makeSkipList(scene)).get() : nullptr) {}
+
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const SkipList *list)
+    : frame(device, "the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord)),
       spheres(uploaded(device, "the spheres", BufferUse::Uniform, bytesOf(scene.spheres),
                        sizeof(layout::SphereRecord) * layout::maxSphereCount)),
       lights(uploaded(device, "the lights", BufferUse::Uniform, bytesOf(scene.lights),
                       sizeof(layout::LightRecord) * layout::maxLightCount)),
-      materials(array(device, "the materials", arrays, scene.materials)),
-      nodes(array(device, "the nodes", arrays, scene.nodes)),
-      triangles(array(device, "the triangles", arrays, scene.triangles)),
-      normals(array(device, "the normals", arrays, scene.normals)) {}
+      materials(array(device, "the materials", arrayUse(list), scene.materials)),
+      nodes(list != nullptr ? array(device, "the skip lists", arrayUse(list), list->nodes)
+                            : array(device, "the nodes", arrayUse(list), scene.nodes)),
+      triangles(array(device, "the triangles", arrayUse(list), scene.triangles)),
+      normals(array(device, "the normals", arrayUse(list), scene.normals)) {
+    const layout::FrameRecord record = frameWith(list, scene.frame);
+    frame.upload(std::as_bytes(std::span(&record, 1)));
+}
 
 } // namespace hyalite::gpu

@@ -2,22 +2,26 @@
 #pragma once
 
 #include "host/bvh/packed_scene.h"
+#include "host/bvh/skip_list.h"
 #include "host/gpu/buffer.h"
 
 namespace hyalite::gpu {
 
 struct SceneBuffers {
-    /// Uploads everything. `arrays` is how kernels read materials, nodes, triangles and normals: Storage or Texels.
-    /// Throws as Buffer does.
-    SceneBuffers(Device &device, const PackedScene &scene, BufferUse arrays);
+    /// Uploads everything, with the tree as node pairs in storage buffers, or as skip lists in texel buffers. Throws as
+    /// Buffer does.
+    SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList);
 
     Buffer frame;
     Buffer spheres; ///< room for layout::maxSphereCount
     Buffer lights;  ///< room for layout::maxLightCount
     Buffer materials;
-    Buffer nodes;
+    Buffer nodes; ///< node pairs or skip lists
     Buffer triangles;
     Buffer normals;
+
+  private:
+    SceneBuffers(Device &device, const PackedScene &scene, const SkipList *list);
 };
 
 } // namespace hyalite::gpu

@@ -50,7 +50,8 @@ TEST(Twins, AgreeOnEveryTree) {
             Scene scene = shippedScene("cat", 48, 48, 1);
             scene.settings.tree = tree;
             scene.settings.leafSize = leafSize;
-            expectTwins(scene);
+            expectTwins(scene, {.traversal = gpu::Traversal::SkipList});
+            expectTwins(scene, {.traversal = gpu::Traversal::Stack});
         }
     }
 }
@@ -90,10 +91,13 @@ TEST(Batching, ChangesNoBit) {
 TEST(Batching, ResumesInsideTheTree) {
     const Scene scene = shippedScene("cat", 24, 24, 2);
     const Film expected = renderOnCpu(scene).film;
-    for (const int slots : {1, 2}) {
-        const gpu::Result result = renderOnDevice(scene, {.steps = 20, .slotsPerInvocation = slots});
-        EXPECT_EQ(differingPixels(result.film, expected), 0u);
-        EXPECT_GT(result.timing.dispatchCount, 10u);
+    for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
+        for (const int slots : {1, 2}) {
+            const gpu::Result result =
+                renderOnDevice(scene, {.steps = 20, .slotsPerInvocation = slots, .traversal = traversal});
+            EXPECT_EQ(differingPixels(result.film, expected), 0u);
+            EXPECT_GT(result.timing.dispatchCount, 5u);
+        }
     }
 }
 
@@ -102,9 +106,11 @@ TEST(Batching, ResumesInsideBruteForce) {
     Scene scene = shippedScene("cat", 8, 4, 1);
     const Film expected = renderOnCpu(scene).film;
     scene.settings.tree = TreeKind::None;
-    const gpu::Result brute = renderOnDevice(scene);
-    EXPECT_EQ(differingPixels(brute.film, expected), 0u);
-    EXPECT_GT(brute.timing.dispatchCount, 20u);
+    for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
+        const gpu::Result brute = renderOnDevice(scene, {.traversal = traversal});
+        EXPECT_EQ(differingPixels(brute.film, expected), 0u);
+        EXPECT_GT(brute.timing.dispatchCount, 20u);
+    }
 }
 
 TEST(Crop, IsThatPartOfTheWholeImage) {

@@ -7,7 +7,7 @@
 namespace hyalite::testing {
 
 std::uint32_t Draw::word() {
-    const std::uint32_t bits = generator_();
+    const std::uint32_t bits = next();
     switch (index(8)) {
     case 0:
         return 1u << (bits % 32);

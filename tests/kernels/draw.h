@@ -16,10 +16,10 @@ class Draw {
     /// Any word; often one with few bits set or clear.
     [[nodiscard]] std::uint32_t word();
     /// In [0, count).
-    [[nodiscard]] std::uint32_t index(std::uint32_t count) { return generator_() % count; }
+    [[nodiscard]] std::uint32_t index(std::uint32_t count) { return next() % count; }
     [[nodiscard]] bool chance(std::uint32_t oneIn) { return index(oneIn) == 0; }
     /// In [0, 1).
-    [[nodiscard]] float unit() { return static_cast<float>(generator_() >> 8) * 0x1p-24f; }
+    [[nodiscard]] float unit() { return static_cast<float>(next() >> 8) * 0x1p-24f; }
 
     /// Mostly in [-10, 10]; also zeros of both signs, small integers, powers of two, and magnitudes from 2^-20 to 2^20:
     /// what the functions make of these is far from subnormal.
@@ -31,6 +31,8 @@ class Draw {
     [[nodiscard]] glm::vec3 towards(const glm::vec3 &origin, const glm::vec3 &target);
 
   private:
+    std::uint32_t next() { return static_cast<std::uint32_t>(generator_()); }
+
     std::mt19937 generator_{seed}; // the same numbers on every machine, unlike the distributions
 };
 

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/layout.h"
-#include "tests/kernels/layout_fields.h"
+#include "layout_fields.h"
 
 layout(local_size_x = 1) in;
 
@@ -22,7 +22,8 @@ layout(set = 0, binding = 8, std430) readonly buffer ProgressBuffer { DispatchPr
 layout(set = 0, binding = 9, std430) readonly buffer TraceBuffer { TraceEvent traces[]; };
 layout(set = 0, binding = 10, std430) readonly buffer PathBuffer { PathRecord paths[]; };
 layout(set = 0, binding = 11, std430) readonly buffer PendingBuffer { PendingRay pendings[]; };
-layout(set = 0, binding = 12, std430) writeonly buffer WordBuffer { uint words[]; };
+layout(set = 0, binding = 12, std430) readonly buffer SkipBuffer { SkipNode skips[]; };
+layout(set = 0, binding = 13, std430) writeonly buffer WordBuffer { uint words[]; };
 
 uint cursor = 0u;
 
@@ -39,17 +40,18 @@ void give(vec3 value) {
 #define GIVE(field) give(field);
 
 void main() {
-    FRAME_FIELDS(GIVE, frames[1])
-    SPHERE_FIELDS(GIVE, spheres[1])
-    LIGHT_FIELDS(GIVE, lights[1])
-    MATERIAL_FIELDS(GIVE, materials[1])
-    NODE_FIELDS(GIVE, nodes[1])
-    TRIANGLE_FIELDS(GIVE, triangles[1])
-    NORMAL_FIELDS(GIVE, normals[1])
-    FILM_FIELDS(GIVE, films[1])
-    PROGRESS_FIELDS(GIVE, progresses[1])
-    TRACE_FIELDS(GIVE, traces[1])
-    PATH_FIELDS(GIVE, paths[1])
-    PENDING_FIELDS(GIVE, pendings[1])
-    DISPATCH_FIELDS(GIVE, dispatch)
+    FIELDS_FrameRecord(GIVE, frames[1])
+    FIELDS_SphereRecord(GIVE, spheres[1])
+    FIELDS_LightRecord(GIVE, lights[1])
+    FIELDS_MaterialRecord(GIVE, materials[1])
+    FIELDS_NodePair(GIVE, nodes[1])
+    FIELDS_TriangleRecord(GIVE, triangles[1])
+    FIELDS_NormalRecord(GIVE, normals[1])
+    FIELDS_FilmPixel(GIVE, films[1])
+    FIELDS_DispatchProgress(GIVE, progresses[1])
+    FIELDS_TraceEvent(GIVE, traces[1])
+    FIELDS_PathRecord(GIVE, paths[1])
+    FIELDS_PendingRay(GIVE, pendings[1])
+    FIELDS_SkipNode(GIVE, skips[1])
+    FIELDS_DispatchConstants(GIVE, dispatch)
 }

@@ -1,8 +1,8 @@
 // layout.h means the same bytes to the host and to a kernel: each struct, filled with distinct values, comes back field
 // by field.
-#include "echoKernel.h"
-#include "tests/kernels/layout_fields.h"
 #include "tests/kernels/probe_device.h"
+
+#include "echoKernel.h"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,14 @@
 namespace hyalite::testing {
 namespace {
 
+using layout::uint;
+#include "layout_fields.h"
+
 /// What the kernel is to write: the words of all fields as this compiler finds them, and their names.
 struct Expected {
     Words words;
     std::vector<std::string> names;
+    std::uint32_t structCount = 0;
 
     template <class Field> void add(const char *name, const Field &field) {
         words << field;
@@ -50,11 +54,13 @@ template <class Record> struct Pair {
 };
 
 // Adds the fields of `record`, and expects them to be all that it has.
-#define EXPECT_FIELDS(FIELDS, record)                                                                        \
+#define EXPECT_FIELDS(Struct, record)                                                                        \
     do {                                                                                                     \
         const std::size_t before = expected.words.get().size();                                              \
-        FIELDS(ADD_FIELD, record)                                                                            \
-        EXPECT_EQ((expected.words.get().size() - before) * 4, sizeof(record)) << #FIELDS;                    \
+        FIELDS_##Struct(ADD_FIELD, record)                                                                   \
+                EXPECT_EQ((expected.words.get().size() - before) * 4, sizeof(layout::Struct))                \
+            << #Struct;                                                                                      \
+        ++expected.structCount;                                                                              \
     } while (false)
 #define ADD_FIELD(field) expected.add(#field, field);
 
@@ -72,29 +78,32 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     const Pair<layout::TraceEvent> trace(Storage);
     const Pair<layout::PathRecord> path(Storage);
     const Pair<layout::PendingRay> pending(Storage);
+    const Pair<layout::SkipNode> skip(Storage);
     const layout::DispatchConstants dispatch = fill<layout::DispatchConstants>();
 
     Expected expected;
-    EXPECT_FIELDS(FRAME_FIELDS, frame.records[1]);
-    EXPECT_FIELDS(SPHERE_FIELDS, sphere.records[1]);
-    EXPECT_FIELDS(LIGHT_FIELDS, light.records[1]);
-    EXPECT_FIELDS(MATERIAL_FIELDS, material.records[1]);
-    EXPECT_FIELDS(NODE_FIELDS, node.records[1]);
-    EXPECT_FIELDS(TRIANGLE_FIELDS, triangle.records[1]);
-    EXPECT_FIELDS(NORMAL_FIELDS, normal.records[1]);
-    EXPECT_FIELDS(FILM_FIELDS, film.records[1]);
-    EXPECT_FIELDS(PROGRESS_FIELDS, progress.records[1]);
-    EXPECT_FIELDS(TRACE_FIELDS, trace.records[1]);
-    EXPECT_FIELDS(PATH_FIELDS, path.records[1]);
-    EXPECT_FIELDS(PENDING_FIELDS, pending.records[1]);
-    EXPECT_FIELDS(DISPATCH_FIELDS, dispatch);
+    EXPECT_FIELDS(FrameRecord, frame.records[1]);
+    EXPECT_FIELDS(SphereRecord, sphere.records[1]);
+    EXPECT_FIELDS(LightRecord, light.records[1]);
+    EXPECT_FIELDS(MaterialRecord, material.records[1]);
+    EXPECT_FIELDS(NodePair, node.records[1]);
+    EXPECT_FIELDS(TriangleRecord, triangle.records[1]);
+    EXPECT_FIELDS(NormalRecord, normal.records[1]);
+    EXPECT_FIELDS(FilmPixel, film.records[1]);
+    EXPECT_FIELDS(DispatchProgress, progress.records[1]);
+    EXPECT_FIELDS(TraceEvent, trace.records[1]);
+    EXPECT_FIELDS(PathRecord, path.records[1]);
+    EXPECT_FIELDS(PendingRay, pending.records[1]);
+    EXPECT_FIELDS(SkipNode, skip.records[1]);
+    EXPECT_FIELDS(DispatchConstants, dispatch);
+    EXPECT_EQ(expected.structCount, layoutStructCount) << "a struct of layout.h is not echoed";
 
     std::vector<std::uint32_t> words(expected.words.get().size());
     const gpu::Buffer output(probeDevice(), "the words", Storage, std::span(words).size_bytes());
-    const std::array<const gpu::Buffer *, 13> buffers{
+    const std::array<const gpu::Buffer *, 14> buffers{
         &frame.buffer,    &sphere.buffer,  &light.buffer, &material.buffer, &node.buffer,
         &triangle.buffer, &normal.buffer,  &film.buffer,  &progress.buffer, &trace.buffer,
-        &path.buffer,     &pending.buffer, &output};
+        &path.buffer,     &pending.buffer, &skip.buffer,  &output};
     gpu::Kernel(probeDevice(), "echo", echoKernel, {}, buffers).run(dispatch, 1);
     output.download(std::as_writable_bytes(std::span(words)));
     for (std::size_t i = 0; i < words.size(); ++i)

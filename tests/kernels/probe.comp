@@ -172,7 +172,7 @@ void main() {
         vec3 v0 = takeVec3();
         vec3 v1 = takeVec3();
         TriangleHit hit = intersectTriangle(makeTriangleRay(origin, direction), boxRay, v0, v1, takeVec3());
-        give(hit.distance);
+        give(hit.distance == 0.0 ? 0.0 : hit.distance); // of either sign, as min and max leave it
         give(hit.u);
         give(hit.v);
         break;

@@ -1,0 +1,32 @@
+// What all traversals share: where a ray stands in the tree, and what it does when it meets a triangle.
+
+bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
+
+// Tests a triangle and keeps what comes of it. isShadow: anything opaque between the surface and the light ends the
+// search, which is when this returns true, and glass only dims; otherwise the nearest hit is kept.
+bool meetTriangle(uint slot, uint record, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
+                  const bool isShadow) {
+    TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
+    uint id = triangle.primitiveId;
+    bool isHit = hit.distance > 0.0 && id != path[slot].rayExcluded;
+    if (isShadow) {
+        bool isBetween = isHit && hit.distance < path[slot].rayLength;
+        bool isTransmissive = hasDielectric && (triangle.flags & triangleIsTransmissive) != 0u;
+        if (isBetween && isTransmissive)
+            path[slot].isLightDimmed = 1u;
+        bool isBlocked = isBetween && !isTransmissive;
+        if (isBlocked)
+            path[slot].hitPrimitive = id;
+        return isBlocked;
+    }
+    bool isNearer = hit.distance < path[slot].rayLength ||
+                    (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive);
+    if (isHit && isNearer) {
+        path[slot].rayLength = hit.distance;
+        path[slot].hitU = hit.u;
+        path[slot].hitV = hit.v;
+        path[slot].hitPrimitive = id;
+        path[slot].hitRecord = record;
+    }
+    return false;
+}

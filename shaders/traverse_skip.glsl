@@ -1,0 +1,95 @@
+// The traversal for lavapipe: skip lists, without a stack (layout.h: SkipNode).
+//
+// There an `if` skips no code, only the back edge of a loop branches, and a step costs the same for one lane as for
+// eight: so each pass takes a fixed number of steps and tests one triangle, for all path slots at once. It can stop
+// after any pass: the cursor and the nearest hit are all there is to keep.
+
+const uint stepsAPass = 4u;
+
+// Distances to the planes of the grid: q * scale + near for planes that are met first, q * scale + far for the others.
+//
+// Both are moved outward by 3 pads (box.glsl). With u the unit of rounding, M the reach and o the origin, a pad is
+// 16 u (M + |o|): one covers the error of the triangle test as in box.glsl, and two the rounding here. That is at most
+// u (4 |b| + 4 |65535 a| + 2 |q a + b|) <= 20 u M |inverse| for b = (gridOrigin - o) inverse, |b| <= M |inverse|, and
+// 65535 a = extent inverse, at most 2 M |inverse|, and 4 u M |inverse| in the box test of the triangle itself.
+struct GridRay {
+    vec3 scale;
+    vec3 near;
+    vec3 far;
+};
+
+GridRay makeGridRay(vec3 origin, BoxRay ray) {
+    vec3 pads = 1.5 * (ray.originPlus - ray.originMinus);
+    vec3 outward = abs(pads * ray.inverse);
+    vec3 base = (frame.gridOrigin - origin) * ray.inverse;
+    return GridRay(frame.gridScale * ray.inverse, base - outward, base + outward);
+}
+
+void enterTree(uint slot) {
+    vec3 d = path[slot].rayDirection;
+    uint octant = (d.x < 0.0 ? 1u : 0u) | (d.y < 0.0 ? 2u : 0u) | (d.z < 0.0 ? 4u : 0u);
+    path[slot].cursorNode = octant * frame.skipListLength;
+    path[slot].cursorTriangle = noNode;
+}
+
+void stopTraversal(uint slot) {
+    path[slot].cursorNode = noNode;
+    path[slot].cursorTriangle = noNode;
+}
+
+// A slot whose cursor stands on a triangle waits.
+void visitNode(uint slot, GridRay ray) {
+    uint cursor = path[slot].cursorNode;
+    SkipNode node = fetchSkipNode(cursor);
+    uvec3 planes = uvec3(node.x, node.y, node.z);
+    vec3 enter = vec3(planes & 0xFFFFu) * ray.scale + ray.near;
+    vec3 leave = vec3(planes >> 16u) * ray.scale + ray.far;
+    bool isHit = max(largestComponent(enter), 0.0) <= min(smallestComponent(leave), path[slot].rayLength);
+    bool isLeaf = (node.link & leafFlag) != 0u;
+    bool isWaiting = path[slot].cursorTriangle != noNode;
+    uint next = isHit || isLeaf ? cursor + 1u : node.link;
+    path[slot].cursorNode = isWaiting ? cursor : next;
+    path[slot].cursorTriangle = !isWaiting && isHit && isLeaf ? node.link & ~leafFlag : path[slot].cursorTriangle;
+}
+
+void traverse(uint stage, const bool isShadow) {
+    GridRay gridRay[RAYS];
+    BoxRay boxRay[RAYS];
+    TriangleRay triangleRay[RAYS];
+    uint end[RAYS];
+    bool isRunning = false;
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+        vec3 origin = path[slot].rayOrigin;
+        vec3 direction = path[slot].rayDirection;
+        boxRay[slot] = makeBoxRay(origin, direction, frame.boundsLower, frame.boundsUpper);
+        triangleRay[slot] = makeTriangleRay(origin, direction);
+        gridRay[slot] = makeGridRay(origin, boxRay[slot]);
+        bool isMine = path[slot].stage == stage && isTraversing(slot);
+        // Padding begins here; the cursor may stand in it.
+        uint octant = path[slot].cursorNode / frame.skipListLength;
+        end[slot] = isMine ? (octant + 1u) * frame.skipListLength - skipPadding : 0u;
+        isRunning = isRunning || isMine;
+    }
+    while (isRunning && stepsTaken < dispatch.stepBudget) {
+        isRunning = false;
+        [[unroll]] for (uint step = 0u; step < stepsAPass; ++step)
+            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+                if (path[slot].cursorNode < end[slot])
+                    visitNode(slot, gridRay[slot]);
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+            if (end[slot] != 0u && path[slot].cursorTriangle != noNode) {
+                uint record = path[slot].cursorTriangle;
+                TriangleRecord triangle = fetchTriangle(record);
+                path[slot].cursorTriangle = (triangle.flags & triangleEndsLeaf) != 0u ? noNode : record + 1u;
+                if (meetTriangle(slot, record, triangle, triangleRay[slot], boxRay[slot], isShadow))
+                    stopTraversal(slot);
+            }
+            bool isLeft = path[slot].cursorNode < end[slot] || (end[slot] != 0u && path[slot].cursorTriangle != noNode);
+            isRunning = isRunning || isLeft;
+        }
+        stepsTaken += 1u;
+    }
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        if (end[slot] != 0u && path[slot].cursorNode >= end[slot] && path[slot].cursorTriangle == noNode)
+            stopTraversal(slot);
+}

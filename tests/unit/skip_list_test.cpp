@@ -1,0 +1,114 @@
+// The skip lists hold the same tree: every leaf, in boxes that enclose the real ones.
+#include "host/bvh/skip_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace hyalite {
+namespace {
+
+/// `count` small triangles in a cube of the given size around `centre`.
+Scene randomScene(std::size_t count, float size, const glm::vec3 &centre) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> uniform(-0.5f, 0.5f);
+    const auto point = [&](float scale) {
+        return glm::vec3(uniform(random), uniform(random), uniform(random)) * scale;
+    };
+    Scene scene;
+    scene.materials.push_back({});
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 corner = centre + point(size);
+        mesh.positions.insert(mesh.positions.end(),
+                              {corner, corner + point(size * 0.02f), corner + point(size * 0.02f)});
+        mesh.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}});
+    }
+    scene.meshes.push_back(mesh);
+    return scene;
+}
+
+PackedScene pack(const Scene &scene, TreeKind kind, int leafSize) {
+    return packScene(scene, buildBvh(kind, buildTriangles(scene), leafSize));
+}
+
+/// The box that a node of an octant's list stands for, in double as the grid is exact there.
+std::pair<glm::dvec3, glm::dvec3> boxOf(const SkipList &list, const layout::SkipNode &node,
+                                        std::uint32_t octant) {
+    const std::uint32_t words[3] = {node.x, node.y, node.z};
+    glm::dvec3 lower;
+    glm::dvec3 upper;
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool isNegative = (octant >> axis & 1u) != 0;
+        const std::uint32_t low = isNegative ? words[axis] >> 16 : words[axis] & 0xFFFFu;
+        const std::uint32_t high = isNegative ? words[axis] & 0xFFFFu : words[axis] >> 16;
+        lower[axis] = list.gridOrigin[axis] + static_cast<double>(list.gridScale[axis]) * low;
+        upper[axis] = list.gridOrigin[axis] + static_cast<double>(list.gridScale[axis]) * high;
+    }
+    return {lower, upper};
+}
+
+void expectSound(const PackedScene &scene) {
+    const SkipList list = makeSkipList(scene);
+    ASSERT_EQ(list.nodes.size(), 8u * list.length);
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        const std::uint32_t first = octant * list.length;
+        const std::uint32_t end = first + list.length - layout::skipPadding;
+        std::vector<bool> isSeen(scene.triangles.size(), false);
+        std::vector<std::uint32_t> ends; // of the subtrees around the node
+        for (std::uint32_t index = first; index < end; ++index) {
+            const layout::SkipNode &node = list.nodes[index];
+            while (!ends.empty() && ends.back() == index)
+                ends.pop_back();
+            if ((node.link & layout::leafFlag) == 0) {
+                ASSERT_GT(node.link, index);
+                ASSERT_LE(node.link, ends.empty() ? end : ends.back());
+                ends.push_back(node.link);
+                continue;
+            }
+            const auto [lower, upper] = boxOf(list, node, octant);
+            for (std::uint32_t record = node.link & ~layout::leafFlag;; ++record) {
+                const layout::TriangleRecord &triangle = scene.triangles[record];
+                ASSERT_FALSE(isSeen[record]);
+                isSeen[record] = true;
+                for (const glm::vec3 &vertex : {triangle.v0, triangle.v1, triangle.v2})
+                    for (int axis = 0; axis < 3; ++axis) {
+                        ASSERT_GE(vertex[axis], lower[axis]);
+                        ASSERT_LE(vertex[axis], upper[axis]);
+                    }
+                if ((triangle.flags & layout::triangleEndsLeaf) != 0)
+                    break;
+            }
+        }
+        EXPECT_TRUE(std::all_of(isSeen.begin(), isSeen.end(), [](bool seen) { return seen; })) << octant;
+    }
+}
+
+TEST(SkipList, HoldsEveryTriangleOnceInEnclosingBoxes) {
+    for (const int leafSize : {1, 4, 8}) {
+        expectSound(pack(randomScene(3000, 1.0f, glm::vec3(0.0f)), TreeKind::Midpoint, leafSize));
+        expectSound(pack(randomScene(3000, 1.0f, glm::vec3(0.0f)), TreeKind::Sah, leafSize));
+    }
+    expectSound(pack(randomScene(500, 1.0f, glm::vec3(0.0f)), TreeKind::None, 8));
+}
+
+TEST(SkipList, EnclosesFarSmallAndFlatMeshes) {
+    expectSound(pack(randomScene(1000, 1.0f, glm::vec3(1e6f, -1e6f, 3e5f)), TreeKind::Midpoint, 2));
+    expectSound(pack(randomScene(1000, 1e-6f, glm::vec3(0.0f)), TreeKind::Midpoint, 2));
+    expectSound(pack(randomScene(1000, 1e9f, glm::vec3(-1e9f)), TreeKind::Midpoint, 2));
+    Scene flat = randomScene(1000, 1.0f, glm::vec3(0.0f));
+    for (glm::vec3 &position : flat.meshes.front().positions)
+        position.y = 5.0f;
+    expectSound(pack(flat, TreeKind::Midpoint, 2));
+    for (glm::vec3 &position : flat.meshes.front().positions)
+        position.y = 0.0f;
+    expectSound(pack(flat, TreeKind::Midpoint, 2));
+}
+
+TEST(SkipList, IsEmptyWithoutTriangles) {
+    EXPECT_TRUE(makeSkipList(packScene(Scene{}, Bvh{})).nodes.empty());
+}
+
+} // namespace
+} // namespace hyalite
