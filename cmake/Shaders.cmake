@@ -8,6 +8,9 @@ if(NOT GLSLANG_VALIDATOR)
     message(FATAL_ERROR "glslangValidator is missing: install the package glslang-tools")
 endif()
 
+# glslang 12 may follow `precise` round and round until memory is full (see shaders/vector.glsl): better an error.
+set(GLSLANG_BOUNDED sh -c "ulimit -v 2000000 && exec \"$0\" \"$@\"" ${GLSLANG_VALIDATOR})
+
 function(hyalite_kernel target kernel variable)
     if(NOT kernel MATCHES "\\.comp$")
         set(kernel shaders/${kernel}.comp)
@@ -19,7 +22,7 @@ function(hyalite_kernel target kernel variable)
     list(TRANSFORM ARGN PREPEND -D OUTPUT_VARIABLE definitions)
     add_custom_command(
         OUTPUT ${header}
-        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.1 ${definitions} -I${PROJECT_SOURCE_DIR} -I${folder}
+        COMMAND ${GLSLANG_BOUNDED} --quiet -V --target-env vulkan1.1 ${definitions} -I${PROJECT_SOURCE_DIR} -I${folder}
                 --depfile ${header}.d --vn ${variable} -o ${header} ${source}
         DEPENDS ${source}
         DEPFILE ${header}.d

@@ -1,70 +1,144 @@
-// The program's entry: the command line, the one catch, and the exit code.
+// The program's entry: the standard streams, the command line, the one catch, and the exit code.
 #include "host/cli/commands.h"
 #include "host/cli/help_formatter.h"
 #include "host/error.h"
+#include "host/report/message.h"
+#include "host/report/shell.h"
+#include "host/scene/json_reader.h"
 #include "host/version.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <exception>
 #include <memory>
 #include <new>
+#include <span>
+#include <sstream>
+#include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace {
 
-/// As it was typed, with quotes where a shell needs them.
-std::string joinArguments(int count, char **arguments) {
-    std::string line;
-    for (int i = 0; i < count; ++i) {
-        const std::string argument = arguments[i];
-        const bool isPlain =
-            !argument.empty() && argument.find_first_of(" \t\n\"'\\$*?;&|<>()") == std::string::npos;
-        line += (i > 0 ? " " : "") + (isPlain ? argument : "'" + argument + "'");
-    }
-    return line;
+using namespace hyalite;
+
+/// A file that is opened takes the lowest free descriptor. If that of a stream were free, messages would end up in an
+/// image.
+void openMissingStreams() {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDWR) != descriptor)
+            std::_Exit(static_cast<int>(ExitCode::OutputNotWritten)); // and there is nowhere to say why
 }
 
-int run(int argumentCount, char **arguments) {
-    using namespace hyalite;
+/// What is buffered is written at last; results that are lost are no success.
+ExitCode finishOutput(ExitCode code) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
+        return code;
+    if (code != ExitCode::Ok && code != ExitCode::AnswerIsNo)
+        return code;
+    printMessage("hyalite: cannot write to standard output: what is printed there is incomplete\n");
+    return ExitCode::OutputNotWritten;
+}
+
+std::vector<std::string> commandNames(const CLI::App &app) {
+    std::vector<std::string> names;
+    for (const CLI::App *command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> optionNames(const CLI::App &command) {
+    std::vector<std::string> names;
+    for (const CLI::Option *option : command.get_options())
+        names.push_back(option->get_name());
+    return names;
+}
+
+std::string suggestionFor(const std::string &word, const std::vector<std::string> &names) {
+    const std::vector<std::string_view> candidates(names.begin(), names.end());
+    return suggestion(word, candidates);
+}
+
+/// Why the command line cannot be parsed.
+std::string describeMistake(const CLI::App &app, const CLI::ParseError &error) {
+    if (app.get_subcommands().empty()) {
+        const std::vector<std::string> unknown = app.remaining();
+        if (unknown.empty())
+            return fmt::format("no command is given\n\n{}", app.help());
+        const std::vector<std::string> names = commandNames(app);
+        return fmt::format("there is no command \"{}\"; the commands are {}{}\n", unknown.front(),
+                           fmt::join(names, ", "), suggestionFor(unknown.front(), names));
+    }
+    const CLI::App &command = *app.get_subcommands().front();
+    const std::vector<std::string> unknown = command.remaining();
+    const std::string mistake = unknown.empty()
+                                    ? error.what()
+                                    : fmt::format("\"{}\" is not expected{}", unknown.front(),
+                                                  suggestionFor(unknown.front(), optionNames(command)));
+    return fmt::format("{}\n`hyalite {} --help` lists the options\n", mistake, command.get_name());
+}
+
+ExitCode run(std::span<char *> arguments) {
     CLI::App app(
         "Hyalite renders scenes on any Vulkan device, with compute shaders whose every pixel can be checked "
         "against a reference renderer on the CPU.",
         "hyalite");
-    app.set_version_flag("--version", "hyalite " HYALITE_VERSION);
     app.require_subcommand(1);
+    app.set_help_flag("-h,--help", "print this page");
     app.formatter(std::make_shared<HelpFormatter>());
-    app.footer(
-        "`hyalite COMMAND --help` explains a command. Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad "
-        "input,\n4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written.");
     CommandContext context;
-    context.commandLine = joinArguments(argumentCount, arguments);
+    context.commandLine = shellLine(arguments);
     addRenderCommand(app, context);
     addCompareCommand(app, context);
     addDevicesCommand(app, context);
     addInspectCommand(app, context);
     addDiffCommand(app, context);
+    // After the commands, which would take it over.
+    app.footer(
+        "`hyalite COMMAND --help` explains a command. Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad "
+        "input, 4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written.");
+    app.set_version_flag("--version", "hyalite " HYALITE_VERSION, "print the version");
+    for (CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
+        command->set_version_flag("--version", "hyalite " HYALITE_VERSION)->group("");
     try {
-        app.parse(argumentCount, arguments);
+        app.parse(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const CLI::Success &request) { // of --help or --version
+        std::ostringstream page;
+        app.exit(request, page);
+        fmt::print("{}", page.str());
+        return ExitCode::Ok;
     } catch (const CLI::ParseError &error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+        printMessage("hyalite: {}", describeMistake(app, error));
+        return ExitCode::Usage;
     }
-    return context.exitCode;
+    return static_cast<ExitCode>(context.exitCode);
+}
+
+ExitCode runAndReport(std::span<char *> arguments) {
+    try {
+        return run(arguments);
+    } catch (const Error &error) {
+        printMessage("hyalite: {}\n", error.what());
+        return error.exitCode;
+    } catch (const std::bad_alloc &) {
+        printMessage("hyalite: out of memory\n");
+        return ExitCode::LimitExceeded;
+    } catch (const std::exception &error) {
+        if (std::ferror(stdout) != 0) // fmt::print throws
+            return ExitCode::Ok;      // which finishOutput corrects
+        printMessage("hyalite: internal error: {}\n", error.what());
+        return ExitCode::BadInput;
+    }
 }
 
 } // namespace
 
 int main(int argumentCount, char **arguments) {
-    using hyalite::ExitCode;
-    try {
-        return run(argumentCount, arguments);
-    } catch (const hyalite::Error &error) {
-        fmt::print(stderr, "hyalite: {}\n", error.what());
-        return static_cast<int>(error.exitCode);
-    } catch (const std::bad_alloc &) {
-        fmt::print(stderr, "hyalite: out of memory\n");
-        return static_cast<int>(ExitCode::LimitExceeded);
-    } catch (const std::exception &error) {
-        fmt::print(stderr, "hyalite: internal error: {}\n", error.what());
-        return static_cast<int>(ExitCode::BadInput);
-    }
+    openMissingStreams();
+    const ExitCode code = runAndReport({arguments, static_cast<std::size_t>(argumentCount)});
+    return static_cast<int>(finishOutput(code));
 }

@@ -8,35 +8,27 @@
 const float boxPadScale = 16.0 / 16777216.0; // 16 units of rounding
 
 struct BoxRay {
-    vec3 inverse;     // 1 / direction, bounded
-    vec3 originPlus;  // origin + pad: the lower planes are moved down by it
-    vec3 originMinus; // origin - pad
+    vec3 origin;
+    float pad;    // widens every box on every side
+    vec3 inverse; // 1 / direction, bounded
 };
 
 // `lower` and `upper` enclose all boxes that will be tested.
 BoxRay makeBoxRay(vec3 origin, vec3 direction, vec3 lower, vec3 upper) {
     precise vec3 toLower = abs(lower - origin);
     precise vec3 toUpper = abs(upper - origin);
-    precise float reach = largestComponent(max(toLower, toUpper)) + largestComponent(abs(origin));
-    precise float pad = boxPadScale * reach;
+    float reach = largestComponent(max(toLower, toUpper));
     // A direction of nearly 0 would give infinities and, on a face of the box, NaN. Bounded, it moves the ray by
     // less than the pad over any distance that occurs.
     vec3 bounded = mix(direction, mix(vec3(1e-18), vec3(-1e-18), lessThan(direction, vec3(0.0))),
                        lessThan(abs(direction), vec3(1e-18)));
-    BoxRay ray;
-    vec3 inverse = divide(1.0, bounded);
-    precise vec3 originPlus = origin + pad;
-    precise vec3 originMinus = origin - pad;
-    ray.inverse = inverse;
-    ray.originPlus = originPlus;
-    ray.originMinus = originMinus;
-    return ray;
+    return BoxRay(origin, boxPadScale * reach, divide(1.0, bounded));
 }
 
 // The distances (x to y) at which the ray is inside of the box, from 0 on; x > y where it misses.
 vec2 boxInterval(BoxRay ray, vec3 lower, vec3 upper) {
-    precise vec3 toLower = (lower - ray.originPlus) * ray.inverse;
-    precise vec3 toUpper = (upper - ray.originMinus) * ray.inverse;
+    precise vec3 toLower = ((lower - ray.origin) - ray.pad) * ray.inverse;
+    precise vec3 toUpper = ((upper - ray.origin) + ray.pad) * ray.inverse;
     float enter = max(largestComponent(min(toLower, toUpper)), 0.0);
     float leave = smallestComponent(max(toLower, toUpper));
     return vec2(enter, leave);

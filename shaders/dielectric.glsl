@@ -23,7 +23,7 @@ Refraction refractRay(vec3 direction, vec3 facing, float index, bool isEntering)
     precise float above = 1.0 + index;
     float ratio = divide(below, above);
     precise float normalReflectance = ratio * ratio;
-    precise float k = 1.0 - (isEntering ? cosIncident : cosTransmitted);
+    precise float k = 1.0 - min(isEntering ? cosIncident : cosTransmitted, 1.0);
     precise float k2 = k * k;
     precise float reflectance = normalReflectance + (1.0 - normalReflectance) * (k2 * k2 * k);
     precise float transmittance = 1.0 - reflectance;

@@ -21,6 +21,9 @@ float intersectSphere(vec3 origin, vec3 direction, vec3 centre, float radius, bo
     precise float chord = -2.0 * b;
     float first = r < q ? r : q;
     float second = r < q ? q : r;
-    float distance = startsOnSphere ? chord : (first > 0.0 ? first : second);
+    // Along the tangent the sign of a chord is that of rounding.
+    precise float shortest = radius * (8.0 / 16777216.0);
+    float across = chord > shortest ? chord : -1.0;
+    float distance = startsOnSphere ? across : (first > 0.0 ? first : second);
     return startsOnSphere || discriminant > 0.0 ? distance : -1.0;
 }

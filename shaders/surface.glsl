@@ -18,7 +18,9 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
     precise vec3 edge1 = triangle.v1 - triangle.v0;
     precise vec3 edge2 = triangle.v2 - triangle.v0;
     vec3 area = crossProduct(edge1, edge2);
-    vec3 geometric = dotProduct(area, area) > 0.0 ? unitVector(area) : vec3(0.0); // no area: no light
+    // Scaled first, as the square of a small or of a giant area leaves the range of floats.
+    float largest = largestComponent(abs(area));
+    vec3 geometric = largest > 0.0 ? unitVector(area * divide(1.0, largest)) : vec3(0.0); // no area: no light
     vec3 blended = trianglePoint(normals.n0, normals.n1, normals.n2, u, v);
     vec3 normal = dotProduct(blended, blended) > 0.0 ? unitVector(blended) : geometric;
     Surface surface;

@@ -8,10 +8,10 @@ const uint stepsAPass = 4u;
 
 // Distances to the planes of the grid: q * scale + near for planes that are met first, q * scale + far for the others.
 //
-// Both are moved outward by 3 pads (box.glsl). With u the unit of rounding, M the reach and o the origin, a pad is
-// 16 u (M + |o|): one covers the error of the triangle test as in box.glsl, and two the rounding here. That is at most
-// u (4 |b| + 4 |65535 a| + 2 |q a + b|) <= 20 u M |inverse| for b = (gridOrigin - o) inverse, |b| <= M |inverse|, and
-// 65535 a = extent inverse, at most 2 M |inverse|, and 4 u M |inverse| in the box test of the triangle itself.
+// Both are moved outward by 3 pads. With u the unit of rounding and M the reach, a pad is 16 u M: one is the pad of
+// the triangle's own box (box.glsl), whose interval is rounded by 4 u M |inverse|, and the others cover the rounding
+// here: at most u (4 |b| + 4 |65535 a| + 2 |q a + b|) <= 20 u M |inverse|, for b = (gridOrigin - o) inverse with
+// |b| <= M |inverse|, and 65535 a = extent inverse, at most 2 M |inverse|.
 struct GridRay {
     vec3 scale;
     vec3 near;
@@ -19,10 +19,9 @@ struct GridRay {
 };
 
 GridRay makeGridRay(vec3 origin, BoxRay ray) {
-    vec3 pads = 1.5 * (ray.originPlus - ray.originMinus);
-    vec3 outward = abs(pads * ray.inverse);
-    vec3 base = (frame.gridOrigin - origin) * ray.inverse;
-    return GridRay(frame.gridScale * ray.inverse, base - outward, base + outward);
+    vec3 outward = abs(3.0 * ray.pad * ray.inverse);
+    vec3 base = subtract(frame.gridOrigin, origin) * ray.inverse;
+    return GridRay(frame.gridScale * ray.inverse, subtract(base, outward), add(base, outward));
 }
 
 void enterTree(uint slot) {
@@ -42,8 +41,8 @@ void visitNode(uint slot, GridRay ray) {
     uint cursor = path[slot].cursorNode;
     SkipNode node = fetchSkipNode(cursor);
     uvec3 planes = uvec3(node.x, node.y, node.z);
-    vec3 enter = vec3(planes & 0xFFFFu) * ray.scale + ray.near;
-    vec3 leave = vec3(planes >> 16u) * ray.scale + ray.far;
+    vec3 enter = addProduct(ray.near, vec3(planes & 0xFFFFu), ray.scale);
+    vec3 leave = addProduct(ray.far, vec3(planes >> 16u), ray.scale);
     bool isHit = max(largestComponent(enter), 0.0) <= min(smallestComponent(leave), path[slot].rayLength);
     bool isLeaf = (node.link & leafFlag) != 0u;
     bool isWaiting = path[slot].cursorTriangle != noNode;

@@ -5,7 +5,8 @@
 // fl(fl(a b) - fl(c d)) never has the wrong sign, as rounding is monotone: it is right or 0, and 0 counts as inside.
 // Hence no ray passes between triangles that share an edge or a vertex. Unlike the paper we need no second precision
 // where an edge function is 0: the hit is confined to the triangle's own box, which also keeps needles from being
-// hit where they are not.
+// hit where they are not. The limit: where all three are rounded to 0 there is no hit, which happens to needles whose
+// width is under 1e-6 of their length.
 
 struct TriangleRay {
     vec3 origin;
@@ -64,11 +65,14 @@ vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     return point;
 }
 
-// A bound on the rounding error of trianglePoint, for each coordinate: Pharr, Jakob and Humphreys, "Physically Based
-// Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7).
+// How far trianglePoint may lie off the plane, as a bound for each coordinate: Pharr, Jakob and Humphreys, "Physically
+// Based Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7). And how far a neighbour in the same
+// plane may seem to lie off it: its depth is uncertain by units of its size, for which this triangle's stands. Without
+// that, the triangles of a floor at y = 0 would shadow each other.
 vec3 trianglePointError(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     precise float w = 1.0 - u - v;
-    precise vec3 size = abs(v0 * u) + abs(v1 * v) + abs(v2 * w);
+    precise float extent = largestComponent(max(abs(v1 - v0), abs(v2 - v0)));
+    precise vec3 size = abs(v0 * u) + abs(v1 * v) + abs(v2 * w) + extent;
     precise vec3 bound = size * (8.0 / 16777216.0);
     return bound;
 }

@@ -31,6 +31,7 @@ struct Binning {
 struct Candidate {
     double cost =
         std::numeric_limits<double>::infinity(); ///< of the triangle tests, times the parent's half area
+    std::size_t largerCount = 0;                 ///< triangles on the fuller side
     int axis = -1;
     int lastLeftBin = 0;
 };
@@ -57,8 +58,10 @@ Candidate bestOnAxis(std::span<const BuildTriangle> range, int axis, const Binni
         if (left.count == 0 || left.count == range.size())
             continue;
         const double cost = left.box.halfArea() * static_cast<double>(left.count) + rightCost[i + 1];
-        if (cost < best.cost)
-            best = {cost, axis, static_cast<int>(i)};
+        // Boxes without area cost nothing wherever they are cut: then halves are best.
+        const std::size_t larger = std::max(left.count, range.size() - left.count);
+        if (cost < best.cost || (cost == best.cost && larger < best.largerCount))
+            best = {cost, larger, axis, static_cast<int>(i)};
     }
     return best;
 }
@@ -73,7 +76,8 @@ std::size_t splitBySah(std::span<BuildTriangle> range, const Box &box, std::size
     for (int axis = 0; axis < 3; ++axis) {
         const Candidate candidate =
             bestOnAxis(range, axis, Binning(centroids.lower[axis], centroids.upper[axis]));
-        if (candidate.cost < best.cost)
+        if (candidate.axis >= 0 && (candidate.cost < best.cost || (candidate.cost == best.cost &&
+                                                                   candidate.largerCount < best.largerCount)))
             best = candidate;
     }
     const double area = box.halfArea();

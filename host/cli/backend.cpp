@@ -1,15 +1,32 @@
 #include "host/cli/backend.h"
 
+#include "host/cli/options.h"
+#include "host/error.h"
 #include "host/reference/renderer.h"
+#include "host/report/progress.h"
+#include "host/report/quantities.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
+#include <new>
+#include <optional>
 
 namespace hyalite {
 
 namespace {
+
+/// "Mesa 22.3.6" of "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", where the device is called "llvmpipe (LLVM 15.0.6, 256 bits)".
+std::string driverBesideName(const std::string &driver, const std::string &name) {
+    std::string text = driver.substr(0, driver.find(" ("));
+    const std::size_t firstWordEnd = std::min(text.find(' '), text.size());
+    if (name.starts_with(text.substr(0, firstWordEnd)))
+        text.erase(0, firstWordEnd + 1);
+    return text;
+}
 
 class CpuBackend : public Backend {
   public:
@@ -53,8 +70,9 @@ class DeviceBackend : public Backend {
     [[nodiscard]] std::string name() const override { return device_.name; }
     [[nodiscard]] std::string driver() const override { return device_.driver; }
     [[nodiscard]] std::string description() const override {
-        return fmt::format("{}, {} ({}){}", device_.index, device_.name, device_.driver,
-                           device_.isSoftware() ? ": a software device, it computes on the CPU" : "");
+        const std::string driver = driverBesideName(device_.driver, device_.name);
+        return fmt::format("{}, {}{}{}{}", device_.index, device_.name, driver.empty() ? "" : ", ", driver,
+                           device_.isSoftware() ? ": software, computes on the CPU" : "");
     }
     [[nodiscard]] BackendResult render(const PreparedScene &scene,
                                        const std::function<void(double)> &onProgress) override {
@@ -72,7 +90,62 @@ class DeviceBackend : public Backend {
     gpu::Renderer renderer_;
 };
 
+/// The memory that can be had without pushing other programs out, where the system tells.
+std::optional<std::uint64_t> availableBytes() {
+    std::ifstream stream("/proc/meminfo");
+    for (std::string key, rest; stream >> key; std::getline(stream, rest))
+        if (std::uint64_t kibibytes = 0; key == "MemAvailable:" && stream >> kibibytes)
+            return kibibytes * 1024;
+    return std::nullopt;
+}
+
+/// A film and the image made of it: tone mapping and packing come on top of that and take less.
+std::uint64_t filmBytes(const Crop &crop) {
+    return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height()) *
+           (sizeof(layout::FilmPixel) + sizeof(glm::vec3));
+}
+
+[[noreturn]] void refuseFilm(const Crop &crop, std::uint64_t neededBytes, const std::string &available) {
+    throw Error(ExitCode::LimitExceeded,
+                fmt::format("{}x{} pixels take {} of memory, and {}; render a smaller image, or parts of it "
+                            "with --crop",
+                            crop.width(), crop.height(), sizeText(neededBytes), available));
+}
+
+std::vector<gpu::DeviceInfo> listDevices() {
+    try {
+        return gpu::listDevices();
+    } catch (const Error &error) {
+        if (error.exitCode != ExitCode::NoDevice)
+            throw;
+        throw Error(error.exitCode,
+                    fmt::format("{}; --device cpu renders without Vulkan, to the same bits", error.what()));
+    }
+}
+
 } // namespace
+
+void requireFilmMemory(const Crop &crop, unsigned filmCount) {
+    const std::uint64_t neededBytes = filmCount * filmBytes(crop);
+    const std::optional<std::uint64_t> available = availableBytes();
+    if (available && neededBytes > *available)
+        refuseFilm(crop, neededBytes, sizeText(*available) + " are available");
+}
+
+BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, const std::string &task,
+                                 bool isQuiet) {
+    ProgressLine progress(task, isQuiet);
+    try {
+        return backend.render(scene, [&](double share) { progress.update(share); });
+    } catch (const std::bad_alloc &) {
+        refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
+    }
+}
+
+void addThreadsOption(CLI::App &command, int &threadCount) {
+    addNumber(command, "--threads", threadCount, limits::threadCount,
+              "of the reference renderer and of lavapipe; default: all");
+}
 
 std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
                                      const gpu::Batching &batching) {
@@ -83,7 +156,7 @@ std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
     // lavapipe reads the number of its threads when its driver is loaded.
     if (threadCount > 0)
         setenv("LP_NUM_THREADS", std::to_string(threadCount).c_str(), 1);
-    return std::make_unique<DeviceBackend>(gpu::chooseDevice(gpu::listDevices(), name), batching);
+    return std::make_unique<DeviceBackend>(gpu::chooseDevice(listDevices(), name), batching);
 }
 
 } // namespace hyalite

@@ -32,6 +32,17 @@ class Backend {
     trace(const PreparedScene &scene, const glm::uvec2 &pixel, std::uint32_t sampleIndex) = 0;
 };
 
+/// Renders with a progress line that `task` begins. Throws Error{LimitExceeded} with the film's size where there is not
+/// the memory for it.
+[[nodiscard]] BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene,
+                                               const std::string &task, bool isQuiet);
+
+/// Throws Error{LimitExceeded} where memory cannot hold so many films of the crop and the images made of them.
+void requireFilmMemory(const Crop &crop, unsigned filmCount);
+
+/// Adds --threads, for openBackend. `threadCount` must outlive the command.
+void addThreadsOption(CLI::App &command, int &threadCount);
+
 /// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. `threadCount` of 0 means all; on
 /// lavapipe it holds for the first device that is opened. Throws Error{NoDevice}.
 [[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,

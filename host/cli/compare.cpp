@@ -1,5 +1,6 @@
 #include "host/cli/backend.h"
 #include "host/cli/commands.h"
+#include "host/cli/options.h"
 #include "host/error.h"
 #include "host/image/comparison_json.h"
 #include "host/image/heat_map.h"
@@ -7,7 +8,8 @@
 #include "host/image/tone_map.h"
 #include "host/reference/explain.h"
 #include "host/report/divergence.h"
-#include "host/report/progress.h"
+#include "host/report/json_text.h"
+#include "host/scene/assets.h"
 
 #include <fmt/format.h>
 
@@ -162,11 +164,6 @@ std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers) 
     return unexplained;
 }
 
-BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, bool isQuiet) {
-    ProgressLine progress(backend.name(), isQuiet);
-    return backend.render(scene, [&](double share) { progress.update(share); });
-}
-
 void printMetrics(const ImageComparison &comparison, const Image &a, const Image &b) {
     const PixelMetrics &pixels = comparison.pixels;
     fmt::print("pixels       {} of {} differ\n", pixels.differingPixelCount, pixels.pixelCount);
@@ -199,6 +196,8 @@ nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
 
 ExitCode runCompare(const CompareOptions &options, const std::string &commandLine) {
     const Tolerance tolerance = parseTolerance(options.tolerance);
+    requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
+                         {resolveScene(options.scene.scene).string()});
     std::optional<AtomicFile> heatMapFile;
     std::optional<AtomicFile> reportFile;
     if (!options.heatMap.empty()) {
@@ -210,6 +209,9 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
         reportFile.emplace(options.report);
 
     const PreparedScene scene = prepareScene(options.scene);
+    if (heatMapFile)
+        requirePngSize(options.heatMap, scene.crop.width(), scene.crop.height());
+    requireFilmMemory(scene.crop, 2);
     const std::unique_ptr<Backend> first = openBackend(options.device, options.threads);
     const std::unique_ptr<Backend> second = openBackend(options.against, options.threads);
     const bool isAgainstOracle = options.against == "cpu-double";
@@ -218,8 +220,8 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
                    scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
         fmt::print("first        {}\nsecond       {}\n", first->description(), second->description());
     }
-    const BackendResult a = renderWithProgress(*first, scene, options.isQuiet);
-    const BackendResult b = renderWithProgress(*second, scene, options.isQuiet);
+    const BackendResult a = renderWithProgress(*first, scene, first->name(), options.isQuiet);
+    const BackendResult b = renderWithProgress(*second, scene, second->name(), options.isQuiet);
     const Image imageA = a.film.toImage();
     const Image imageB = b.film.toImage();
     const ImageComparison comparison = compareImages(imageB, imageA, Encoding::Linear);
@@ -272,7 +274,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
         json["areRayCountsEqual"] = areCountsEqual;
         json.update(report);
         json["passed"] = isPassed;
-        reportFile->write(json.dump(2) + "\n");
+        reportFile->write(jsonText(json));
         reportFile->commit();
     }
     return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
@@ -297,16 +299,15 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
     command
         ->add_option("--tolerance", options->tolerance,
                      "how far a channel may be off: linear radiance (1e-5) or ULPs (4ulp)")
+        ->type_name("DIFFERENCE")
         ->capture_default_str();
-    command->add_option("--max-outliers", options->maxOutliers, "share of pixels that may be further off")
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
-    command
-        ->add_option("--threads", options->threads, "of the reference renderer and of lavapipe; default: all")
-        ->check(CLI::Range(1, 1024));
-    command->add_option("--diff", options->heatMap, "write a heat map of the difference (HDR-FLIP)")
-        ->type_name("FILE.png");
-    command->add_option("--report", options->report, "write all metrics")->type_name("FILE.json");
+    addNumber(*command, "--max-outliers", options->maxOutliers, limits::fraction,
+              "share of pixels that may be further off")
+        ->default_str("0");
+    addThreadsOption(*command, options->threads);
+    addFile(*command, "--diff", options->heatMap, "FILE.png",
+            "write a heat map of the difference (HDR-FLIP)");
+    addFile(*command, "--report", options->report, "FILE.json", "write all metrics");
     command->add_flag("--quiet", options->isQuiet, "print the result only");
     command->callback([options, &context] {
         context.exitCode = static_cast<int>(runCompare(*options, context.commandLine));

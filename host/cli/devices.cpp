@@ -1,6 +1,8 @@
 #include "host/gpu/devices.h"
 #include "host/cli/commands.h"
 #include "host/gpu/arithmetic.h"
+#include "host/report/json_text.h"
+#include "host/version.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -61,7 +63,14 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
             entry["rejection"] = device.rejection;
         list.push_back(entry);
     }
-    fmt::print("{}\n", list.dump(2));
+    nlohmann::ordered_json reference; // without an index: it is chosen by its name
+    reference["name"] = "cpu";
+    reference["type"] = "reference renderer";
+    reference["driver"] = "hyalite " HYALITE_VERSION;
+    reference["areBitsPromised"] = true;
+    reference["isUsable"] = true;
+    list.push_back(reference);
+    fmt::print("{}", jsonText(list));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #include "host/cli/commands.h"
-
+#include "host/cli/options.h"
 #include "host/error.h"
 #include "host/image/comparison_json.h"
 #include "host/image/heat_map.h"
@@ -7,12 +7,12 @@
 #include "host/image/ssim.h"
 #include "host/image/tone_map.h"
 #include "host/report/atomic_file.h"
+#include "host/report/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -192,28 +192,14 @@ std::string formatReport(const DiffOptions &options, const std::string &commandL
                                    {"value", gate.value},
                                    {"passed", gate.isPassed}});
     report["passed"] = isPassed;
-    // File names need not be UTF-8, JSON is.
-    return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-void requireFreshOutputs(const DiffOptions &options) {
-    for (const std::string &output : {options.heatMap, options.report}) {
-        for (const std::string &input : {options.reference, options.test, options.mask}) {
-            std::error_code error;
-            if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, error))
-                throw Error(
-                    ExitCode::Usage,
-                    fmt::format("'{}' would be overwritten, but it is compared; name another output", input));
-        }
-    }
-    if (!options.heatMap.empty() && options.heatMap == options.report)
-        throw Error(ExitCode::Usage, "--diff and --report name the same file; name two");
-    if (!options.heatMap.empty() && imageFormatOf(options.heatMap) != ImageFormat::Png)
-        throw Error(ExitCode::Usage, fmt::format("--diff '{}': the heat map is a .png", options.heatMap));
+    return jsonText(report);
 }
 
 ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
-    requireFreshOutputs(options);
+    requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
+                         {options.reference, options.test, options.mask});
+    if (!options.heatMap.empty() && imageFormatOf(options.heatMap) != ImageFormat::Png)
+        throw Error(ExitCode::Usage, fmt::format("--diff '{}': the heat map is a .png", options.heatMap));
     // Opened before the work begins, so that an output that cannot be written is known now.
     std::optional<AtomicFile> heatMapFile;
     if (!options.heatMap.empty())
@@ -244,48 +230,34 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
     return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 
-/// CLI::Range lets NaN through.
-CLI::Validator finiteFrom(double low, double high) {
-    const auto check = [low, high](const std::string &text) {
-        double value = 0.0;
-        const bool isNumber = CLI::detail::lexical_cast(text, value);
-        return isNumber && value >= low && value <= high
-                   ? std::string()
-                   : fmt::format("'{}' is not a number from {:g} to {:g}", text, low, high);
-    };
-    return {check, "", "finite"};
-}
-
-template <typename Number>
-void addBound(CLI::App &command, const std::string &option, Number &value, double low, double high,
-              const std::string &typeName, const std::string &help) {
-    command.add_option(option, value, help)->check(finiteFrom(low, high))->type_name(typeName);
-}
-
 } // namespace
 
 void addDiffCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("diff", "compare two image files, and gate on how they differ");
     const auto options = std::make_shared<DiffOptions>();
-    command->footer(
-        "Values are compared as the files have them: PNG in [0, 1], PFM linear; PSNR and SSIM take a\n"
-        "range of 1. The exit code is 0 if all gates are passed, or, without a gate (--min-..., --max-...),\n"
-        "if the images are identical to the bit; and 1 if not.");
-    command->add_option("A", options->reference, "the reference: PNG or PFM")->required()->type_name("FILE");
-    command->add_option("B", options->test, "the image to judge: PNG or PFM")->required()->type_name("FILE");
-    command->add_option("--mask", options->mask, "compare only where this image is white")->type_name("FILE");
-    command->add_option("--diff", options->heatMap, "write the FLIP error of each pixel as a heat map")
-        ->type_name("FILE.png");
-    command->add_option("--report", options->report, "write all numbers as JSON")->type_name("FILE.json");
-    addBound(*command, "--threshold", options->outlierThreshold, 0.0, 1e38, "T",
-             "a pixel is an outlier if a channel differs by more than T (default: 0)");
-    addBound(*command, "--min-psnr", options->minPsnr, -1e6, 1e6, "DB", "gate: PSNR at least");
-    addBound(*command, "--min-ssim", options->minSsim, -1.0, 1.0, "S", "gate: mean SSIM at least");
-    addBound(*command, "--max-flip", options->maxFlip, 0.0, 1.0, "E", "gate: mean FLIP error at most");
-    addBound(*command, "--max-diff", options->maxDifference, 0.0, 1e38, "D",
-             "gate: largest difference of a channel at most");
-    addBound(*command, "--max-outliers", options->maxOutliers, 0.0, 1.0, "FRACTION",
-             "gate: share of outliers at most, from 0 to 1");
+    command->footer("Values are compared as the files have them: PNG in [0, 1], PFM linear; PSNR and SSIM "
+                    "take a range of 1. "
+                    "The exit code is 0 if all gates are passed, or, without a gate (--min-..., --max-...), "
+                    "if the images "
+                    "are identical to the bit; and 1 if not.");
+    command->add_option("A", options->reference, "the reference: PNG or PFM")->required();
+    command->add_option("B", options->test, "the image to judge: PNG or PFM")->required();
+    addFile(*command, "--mask", options->mask, "FILE", "compare only where this image is white");
+    addFile(*command, "--diff", options->heatMap, "FILE.png",
+            "write the FLIP error of each pixel as a heat map");
+    addFile(*command, "--report", options->report, "FILE.json", "write all numbers as JSON");
+
+    constexpr Interval distance{0.0, 1e38};
+    addNumber(*command, "--threshold", options->outlierThreshold, distance,
+              "a pixel is an outlier if a channel differs by more than this")
+        ->default_str("0");
+    addNumber(*command, "--min-psnr", options->minPsnr, Interval{-1e6, 1e6}, "gate: PSNR at least, in dB");
+    addNumber(*command, "--min-ssim", options->minSsim, Interval{-1.0, 1.0}, "gate: mean SSIM at least");
+    addNumber(*command, "--max-flip", options->maxFlip, limits::fraction, "gate: mean FLIP error at most");
+    addNumber(*command, "--max-diff", options->maxDifference, distance,
+              "gate: largest difference of a channel at most");
+    addNumber(*command, "--max-outliers", options->maxOutliers, limits::fraction,
+              "gate: share of outliers at most, from 0 to 1");
     command->callback(
         [options, &context] { context.exitCode = static_cast<int>(runDiff(*options, context.commandLine)); });
 }

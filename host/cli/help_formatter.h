@@ -1,4 +1,4 @@
-// How the options of `--help` are shown: with their type, and without the counts and tables of values that CLI11 adds.
+// The pages of `--help`: paragraphs with a blank line between them, in lines of at most 100 columns.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,22 +7,11 @@
 
 namespace hyalite {
 
-class HelpFormatter : public CLI::Formatter {
+/// Without the counts, types and tables of values that CLI11 shows.
+class HelpFormatter : public CLI::FormatterBase {
   public:
-    HelpFormatter() { column_width(34); }
-
-    std::string make_option_opts(const CLI::Option *option) const override {
-        if (option->get_type_size() == 0)
-            return {};
-        // CLI11 appends what validators say after a colon.
-        const std::string type = option->get_type_name();
-        std::string text = " " + type.substr(0, type.find(':'));
-        if (!option->get_default_str().empty())
-            text += " (" + option->get_default_str() + ")";
-        if (option->get_required())
-            text += " (required)";
-        return text;
-    }
+    [[nodiscard]] std::string make_help(const CLI::App *app, std::string name,
+                                        CLI::AppFormatMode mode) const override;
 };
 
 } // namespace hyalite

@@ -1,9 +1,11 @@
 #include "host/bvh/statistics.h"
 #include "host/cli/commands.h"
+#include "host/cli/options.h"
 #include "host/cli/scene_options.h"
 #include "host/error.h"
 #include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
+#include "host/report/quantities.h"
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
@@ -28,25 +30,28 @@ void printMeshes(const PreparedScene &prepared) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const TriangleMesh &mesh = scene.meshes[i];
         const MeshReport &report = prepared.loaded.meshReports[i];
-        fmt::print("mesh         {}: {} triangles, {} vertices, {} normals\n", mesh.name,
-                   mesh.triangles.size(), mesh.positions.size(), mesh.normals.size());
+        fmt::print("mesh         {}: {}, {}, {}\n", mesh.name, countText(mesh.triangles.size(), "triangle"),
+                   countText(mesh.positions.size(), "vertex", "vertices"),
+                   countText(mesh.normals.size(), "normal"));
         fmt::print("  faces      {}, {} of them polygons of more than three corners\n", report.faceCount,
                    report.polygonCount);
-        fmt::print("  dropped    {} degenerate triangles, {} statements that are not geometry\n",
-                   report.degenerateTriangleCount, report.unusedStatementCount);
-        fmt::print("  repaired   {} triangles without usable normals get the geometric one\n",
-                   report.lostNormalCount);
+        fmt::print("  dropped    {}, {}\n", countText(report.degenerateTriangleCount, "degenerate triangle"),
+                   countText(report.unusedStatementCount, "statement that is not geometry",
+                             "statements that are not geometry"));
+        fmt::print("  repaired   {}\n",
+                   countText(report.lostNormalCount, "triangle without usable normals gets the geometric one",
+                             "triangles without usable normals get the geometric one"));
     }
 }
 
-void printTree(const PreparedScene &prepared) {
+void printTree(const PreparedScene &prepared, const std::string &fault) {
     const RenderSettings &settings = prepared.loaded.scene.settings;
     const BvhStatistics statistics = measureBvh(prepared.bvh);
     fmt::print("tree         {}, leaf size {}\n", nameOf(settings.tree), settings.leafSize);
-    fmt::print("  nodes      {} inner, {} leaves, depth {}\n", statistics.innerCount, statistics.leafCount,
-               statistics.depth);
-    fmt::print("  leaves     mean {:.2f}, largest {} triangles\n", statistics.meanLeaf,
-               statistics.largestLeaf);
+    fmt::print("  nodes      {} inner, {}, depth {}\n", statistics.innerCount,
+               countText(statistics.leafCount, "leaf", "leaves"), statistics.depth);
+    fmt::print("  leaves     mean {:.2f}, largest {}\n", statistics.meanLeaf,
+               countText(statistics.largestLeaf, "triangle"));
     std::string histogram;
     for (std::size_t i = 0; i < statistics.leafHistogram.size(); ++i) {
         const bool isLast = i + 1 == statistics.leafHistogram.size();
@@ -54,13 +59,18 @@ void printTree(const PreparedScene &prepared) {
             histogram += fmt::format("  {}{}: {}", isLast ? ">" : "<=", 1u << (isLast ? i - 1 : i),
                                      statistics.leafHistogram[i]);
     }
-    fmt::print("  histogram{}\n", histogram.empty() ? "  no leaves" : histogram);
+    fmt::print("  histogram{}\n", histogram);
     fmt::print("  SAH cost   {:.2f}\n", statistics.sahCost);
-    fmt::print("  memory     {} bytes of nodes, {} of triangles, {} of normals, {} of the scene in all\n",
+    fmt::print("  check      {}\n",
+               fault.empty() ? "every triangle in one leaf, every box encloses its subtree" : fault);
+}
+
+void printCosts(const PreparedScene &prepared) {
+    fmt::print("memory       {} bytes of nodes, {} of triangles, {} of normals, {} of the scene in all\n",
                prepared.packed.nodes.size() * sizeof(layout::NodePair),
                prepared.packed.triangles.size() * sizeof(layout::TriangleRecord),
                prepared.packed.normals.size() * sizeof(layout::NormalRecord), prepared.packed.sizeBytes());
-    fmt::print("  time       {:.3f} s to load, {:.3f} s to build and pack\n", prepared.loadSeconds,
+    fmt::print("time         {:.3f} s to load, {:.3f} s to build and pack\n", prepared.loadSeconds,
                prepared.buildSeconds);
 }
 
@@ -99,10 +109,13 @@ bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
     for (std::size_t i = 0; i < treeHits.size(); ++i)
         differenceCount += isSame(treeHits[i], bruteHits[i]) ? 0u : 1u;
     const double rays = rayCount;
-    fmt::print("rays         {} primary rays on one thread of the reference renderer\n", rayCount);
-    fmt::print("  tree       {:.3f} us a ray\n", treeSeconds / rays * 1e6);
-    fmt::print("  brute      {:.3f} us a ray: the tree is {:.0f} times faster\n", bruteSeconds / rays * 1e6,
-               bruteSeconds / treeSeconds);
+    fmt::print("rays         {} on one thread of the reference renderer\n",
+               countText(static_cast<std::uint64_t>(rayCount), "primary ray"));
+    const bool hasTree = prepared.bvh.depth > 0; // or there is no difference to tell
+    if (hasTree)
+        fmt::print("  tree       {:.3f} us a ray\n", treeSeconds / rays * 1e6);
+    fmt::print("  brute      {:.3f} us a ray{}\n", bruteSeconds / rays * 1e6,
+               hasTree ? fmt::format(": the tree is {:.1f} times as fast", bruteSeconds / treeSeconds) : "");
     fmt::print("  hits       {} of {} differ\n", differenceCount, rayCount);
     return differenceCount == 0;
 }
@@ -111,14 +124,14 @@ ExitCode runInspect(const InspectOptions &options) {
     const PreparedScene prepared = prepareScene(options.scene);
     const Scene &scene = prepared.loaded.scene;
     fmt::print("scene        {}\n", prepared.loaded.file.string());
-    fmt::print("contents     {} triangles in {} meshes, {} spheres, {} lights, {} materials\n",
-               triangleCount(scene), scene.meshes.size(), scene.spheres.size(), scene.lights.size(),
-               scene.materials.size());
+    fmt::print("contents     {} in {}, {}, {}, {}\n", countText(triangleCount(scene), "triangle"),
+               countText(scene.meshes.size(), "mesh", "meshes"), countText(scene.spheres.size(), "sphere"),
+               countText(scene.lights.size(), "light"), countText(scene.materials.size(), "material"));
     printMeshes(prepared);
-    printTree(prepared);
     const std::string fault = findBvhFault(prepared.bvh, buildTriangles(scene));
-    fmt::print("  check      {}\n",
-               fault.empty() ? "every triangle in one leaf, every box encloses its subtree" : fault);
+    if (!prepared.bvh.nodes.empty())
+        printTree(prepared, fault);
+    printCosts(prepared);
     const bool isSame = options.rayCount == 0 || compareWithBruteForce(prepared, options.rayCount);
     return fault.empty() && isSame ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
@@ -129,11 +142,8 @@ void addInspectCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("inspect", "print what a scene or mesh is made of, and its tree");
     const auto options = std::make_shared<InspectOptions>();
     addSceneOptions(*command, options->scene);
-    command
-        ->add_option(
-            "--rays", options->rayCount,
-            "trace so many primary rays through the tree and by brute force, and compare hits and times")
-        ->check(CLI::Range(1, 1'000'000));
+    addNumber(*command, "--rays", options->rayCount, limits::inspectedRays,
+              "trace so many primary rays through the tree and by brute force, and compare hits and times");
     command->callback([options, &context] { context.exitCode = static_cast<int>(runInspect(*options)); });
 }
 

@@ -1,8 +1,12 @@
 #include "host/cli/backend.h"
 #include "host/cli/commands.h"
+#include "host/cli/options.h"
 #include "host/image/image_file.h"
-#include "host/report/progress.h"
+#include "host/image/png.h"
+#include "host/report/message.h"
+#include "host/report/quantities.h"
 #include "host/report/render_report.h"
+#include "host/scene/assets.h"
 
 #include <fmt/format.h>
 
@@ -30,14 +34,11 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, bool isQuiet) {
-    ProgressLine progress("render", isQuiet);
-    return backend.render(scene, [&](double share) { progress.update(share); });
-}
-
 void runRender(const RenderOptions &options, const std::string &commandLine) {
     const Clock::time_point start = Clock::now();
     const ImageFormat format = imageFormatOf(options.output);
+    requireDistinctFiles({{"--output", options.output}, {"--report", options.report}},
+                         {resolveScene(options.scene.scene).string()});
     // Opened before the work begins, so that an output that cannot be written is known now.
     AtomicFile image(options.output);
     std::optional<AtomicFile> reportFile;
@@ -45,6 +46,9 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
         reportFile.emplace(options.report);
 
     const PreparedScene scene = prepareScene(options.scene);
+    if (format == ImageFormat::Png)
+        requirePngSize(options.output, scene.crop.width(), scene.crop.height());
+    requireFilmMemory(scene.crop, 1);
     const RenderSettings &settings = scene.loaded.scene.settings;
     RenderReport report;
     report.commandLine = commandLine;
@@ -61,8 +65,8 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     report.deviceName = backend->name();
     report.deviceDriver = backend->driver();
     if (!options.isQuiet)
-        fmt::print(stderr, "device: {}\n", backend->description());
-    const BackendResult result = renderWithProgress(*backend, scene, options.isQuiet);
+        printMessage("device: {}\n", backend->description());
+    const BackendResult result = renderWithProgress(*backend, scene, "render", options.isQuiet);
     report.timing = result.timing;
     report.rays = result.rays;
     const Clock::time_point writeStart = Clock::now();
@@ -74,12 +78,14 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
         reportFile->write(formatReport(report));
         reportFile->commit();
     }
-    if (!options.isQuiet)
-        fmt::print("{}: {}x{}, {} spp, {:.2f} M rays in {:.3f} s: {:.1f} Mray/s ({:.3f} s in all)\n",
-                   options.output, report.width, report.height, settings.samplesPerPixel,
-                   static_cast<double>(report.rays.total()) / 1e6, report.timing.renderSeconds,
-                   static_cast<double>(report.rays.total()) / 1e6 / report.timing.renderSeconds,
-                   report.totalSeconds);
+    if (options.isQuiet)
+        return;
+    const double megaraysPerSecond =
+        static_cast<double>(report.rays.total()) / 1e6 / report.timing.renderSeconds;
+    fmt::print("{}: {}x{}, {} spp, {} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", options.output,
+               report.width, report.height, settings.samplesPerPixel,
+               roundedText(report.rays.total(), "rays"), report.timing.renderSeconds, megaraysPerSecond,
+               megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
 }
 
 } // namespace
@@ -98,11 +104,8 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
             "`hyalite devices` lists them")
         ->type_name("DEVICE")
         ->capture_default_str();
-    command
-        ->add_option("--threads", options->threads, "of the reference renderer and of lavapipe; default: all")
-        ->check(CLI::Range(1, 1024));
-    command->add_option("--report", options->report, "write what was done and how long it took")
-        ->type_name("FILE.json");
+    addThreadsOption(*command, options->threads);
+    addFile(*command, "--report", options->report, "FILE.json", "write what was done and how long it took");
     command->add_flag("--quiet", options->isQuiet, "print errors only");
     command->callback([options, &context] { runRender(*options, context.commandLine); });
 }

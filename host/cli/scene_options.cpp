@@ -1,5 +1,6 @@
 #include "host/cli/scene_options.h"
 
+#include "host/cli/options.h"
 #include "host/error.h"
 #include "host/scene/framing.h"
 #include "host/scene/limits.h"
@@ -8,31 +9,46 @@
 #include "host/scene/validate.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <chrono>
-#include <map>
+#include <limits>
+#include <optional>
 
 namespace hyalite {
 
 namespace {
 
-/// For CLI11: from the words of scene files to values.
-template <class Value, std::size_t count>
-CLI::CheckedTransformer choiceOf(const std::array<Name<Value>, count> &names) {
-    std::map<std::string, Value> choices;
-    for (const auto &[name, value] : names)
-        choices.emplace(name, value);
-    return CLI::CheckedTransformer(choices);
-}
+/// What a crop allows depends on the image.
+constexpr Interval anyInteger{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 
 glm::dvec3 toVector(const std::vector<double> &values) { return {values[0], values[1], values[2]}; }
 
-/// An option of three numbers: `--up 0,1,0`.
-void addVectorOption(CLI::App &command, const char *name, std::vector<double> &values, const char *help) {
-    command.add_option(name, values, help)->delimiter(',')->expected(3)->type_name("X,Y,Z");
+/// A bare mesh has no scene file that says where to look.
+std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const LoadedScene &loaded) {
+    if (!options.lookAt.empty())
+        return toVector(options.lookAt);
+    if (loaded.autoFramed && !options.cameraPosition.empty())
+        return triangleBounds(loaded.scene.meshes.front()).centre();
+    return std::nullopt;
 }
 
-/// Ranges of single values are those of scene files: validateScene checks them after the overrides.
+/// A camera that is moved keeps its direction; one that is told where to look keeps its position.
+void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &camera) {
+    if (!options.cameraPosition.empty())
+        camera.position = toVector(options.cameraPosition);
+    if (!options.up.empty())
+        camera.up = toVector(options.up);
+    if (!limits::directionLength.contains(glm::length(camera.up)))
+        throw Error(ExitCode::Usage, "--up: found a vector without length; allowed: any other vector");
+    if (const std::optional<glm::dvec3> target = chooseTarget(options, loaded)) {
+        camera.direction = *target - camera.position;
+        if (!limits::directionLength.contains(glm::length(camera.direction)))
+            throw Error(ExitCode::Usage,
+                        "--look-at: found the camera's own position; allowed: any other point");
+    }
+}
+
 void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     RenderSettings &settings = scene.settings;
@@ -43,28 +59,17 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     settings.sampler = options.sampler.value_or(settings.sampler);
     settings.seed = options.seed.value_or(settings.seed);
     settings.exposureStops = options.exposureStops.value_or(settings.exposureStops);
-
-    Camera &camera = scene.camera;
-    const int width = options.width.value_or(camera.width);
-    const int height = options.height.value_or(camera.height);
-    const double fov = options.fovDegrees.value_or(camera.horizontalFovDegrees);
-    const bool isValidFrame = limits::imageSize.contains(static_cast<double>(width)) &&
-                              limits::imageSize.contains(static_cast<double>(height)) &&
-                              limits::horizontalFovDegrees.contains(fov);
-    if (loaded.autoFramed && isValidFrame)
-        camera = frameCamera(triangleBounds(scene.meshes.front()), width, height, fov);
-    camera.width = width;
-    camera.height = height;
-    camera.horizontalFovDegrees = fov;
-    // A camera that is moved keeps its direction; one that is told where to look keeps its position.
-    if (!options.cameraPosition.empty())
-        camera.position = toVector(options.cameraPosition);
-    if (!options.lookAt.empty())
-        camera.direction = toVector(options.lookAt) - camera.position;
-    if (!options.up.empty())
-        camera.up = toVector(options.up);
     if (!options.background.empty())
         scene.background = glm::vec3(toVector(options.background));
+
+    Camera &camera = scene.camera;
+    camera.width = options.width.value_or(camera.width);
+    camera.height = options.height.value_or(camera.height);
+    camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
+    if (loaded.autoFramed)
+        camera = frameCamera(triangleBounds(scene.meshes.front()), camera.width, camera.height,
+                             camera.horizontalFovDegrees);
+    moveCamera(options, loaded, camera);
 }
 
 Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
@@ -94,46 +99,49 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->required()
         ->type_name("SCENE");
     const char *image = "Image";
-    command.add_option("--width", options.width, "pixels")->group(image);
-    command.add_option("--height", options.height, "pixels")->group(image);
-    command
-        .add_option("--crop", options.crop, "render only these pixels, half open; the output has that size")
-        ->delimiter(',')
-        ->expected(4)
-        ->type_name("X0,X1,Y0,Y1")
+    addNumber(command, "--width", options.width, limits::imageSize, "pixels")->group(image);
+    addNumber(command, "--height", options.height, limits::imageSize, "pixels")->group(image);
+    addNumbers(command, "--crop", options.crop, anyInteger, "X0,X1,Y0,Y1",
+               "render only these pixels, half open; the output has that size")
         ->group(image);
-    command.add_option("--spp", options.samplesPerPixel, "samples per pixel")->group(image);
-    command
-        .add_option("--sampler", options.sampler,
-                    "centre: all samples at the pixel's centre; sobol: antialiased")
-        ->transform(choiceOf(samplerNames))
-        ->type_name("centre|sobol")
+    addNumber(command, "--spp", options.samplesPerPixel, limits::samplesPerPixel, "samples per pixel")
         ->group(image);
-    command.add_option("--seed", options.seed, "of the sample pattern")->group(image);
-    command.add_option("--exposure", options.exposureStops, "stops: brighten a PNG by 2^EXPOSURE")
+    addChoice(command, "--sampler", options.sampler, samplerNames,
+              "centre: all samples at the pixel's centre; sobol: antialiased")
+        ->group(image);
+    addNumber(command, "--seed", options.seed, limits::seed, "of the sample pattern")->group(image);
+    addNumber(command, "--exposure", options.exposureStops, limits::exposureStops,
+              "stops: brighten a PNG by 2^NUMBER")
         ->group(image);
 
     const char *view = "Camera and light";
-    addVectorOption(command, "--camera-position", options.cameraPosition, "world space");
-    addVectorOption(command, "--look-at", options.lookAt, "the point to look at, world space");
-    addVectorOption(command, "--up", options.up, "the direction that is up in the image");
-    command.add_option("--fov", options.fovDegrees, "horizontal field of view in degrees")->group(view);
-    command
-        .add_option("--background", options.background, "radiance of rays that leave the scene, linear RGB")
-        ->delimiter(',')
-        ->expected(3)
-        ->type_name("R,G,B");
-    for (const char *name : {"--camera-position", "--look-at", "--up", "--background"})
-        command.get_option(name)->group(view);
+    const char *point = "X,Y,Z";
+    addNumbers(command, "--camera-position", options.cameraPosition, limits::coordinate, point, "world space")
+        ->group(view);
+    addNumbers(command, "--look-at", options.lookAt, limits::coordinate, point,
+               "the point to look at, world space")
+        ->group(view);
+    addNumbers(command, "--up", options.up, limits::coordinate, point,
+               "the direction that is up in the image")
+        ->group(view);
+    addNumber(command, "--fov", options.fovDegrees, limits::horizontalFovDegrees,
+              "horizontal field of view in degrees")
+        ->group(view);
+    addNumbers(command, "--background", options.background, limits::radiance, "R,G,B",
+               "radiance of rays that leave the scene, linear RGB")
+        ->group(view);
 
     const char *tracing = "Tracing";
-    command.add_option("--max-depth", options.maxDepth, "segments of a path, the primary ray included")
+    addNumber(
+        command, "--max-depth", options.maxDepth, limits::maxDepth,
+        "segments of a path, the primary ray included; glass splits paths in two, so that each level may "
+        "double the work")
         ->group(tracing);
-    command.add_option("--bvh", options.tree, "how the tree is built; none: every ray tests every triangle")
-        ->transform(choiceOf(treeNames))
-        ->type_name("midpoint|sah|none")
+    addChoice(command, "--bvh", options.tree, treeNames,
+              "how the tree is built; none: every ray tests every triangle")
         ->group(tracing);
-    command.add_option("--leaf-size", options.leafSize, "most triangles in a leaf")->group(tracing);
+    addNumber(command, "--leaf-size", options.leafSize, limits::leafSize, "most triangles in a leaf")
+        ->group(tracing);
 }
 
 PreparedScene prepareScene(const SceneOptions &options) {
@@ -143,7 +151,12 @@ PreparedScene prepareScene(const SceneOptions &options) {
     prepared.loaded = loadScene(options.scene);
     applyOverrides(options, prepared.loaded);
     const Scene &scene = prepared.loaded.scene;
-    validateScene(scene, "the command line");
+    try {
+        validateScene(scene, "--camera-position, --look-at, --up");
+    } catch (const Error &error) {
+        // The scene was valid as loaded and each option is in range: the camera's vectors do not go together.
+        throw Error(ExitCode::Usage, error.what());
+    }
     prepared.crop = chooseCrop(options.crop, scene.camera);
     const Clock::time_point loaded = Clock::now();
     prepared.bvh = buildBvh(scene.settings.tree, buildTriangles(scene), scene.settings.leafSize);

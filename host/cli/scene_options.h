@@ -47,8 +47,8 @@ struct PreparedScene {
     double buildSeconds = 0.0;
 };
 
-/// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for a crop outside of the
-/// image.
+/// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for options that do not go
+/// together, such as a crop outside of the image.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options);
 
 } // namespace hyalite

@@ -106,16 +106,20 @@ bool isPng(std::span<const std::byte> head) {
                       [](unsigned char a, std::byte b) { return std::byte{a} == b; });
 }
 
-void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb) {
-    assert(width > 0 && height > 0);
+void requirePngSize(const std::filesystem::path &name, int width, int height) {
     const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    assert(rgb.size() == pixelCount * 3);
     if (pixelCount > imagePixelCountMax) { // stb counts bytes with int
         throw Error(
             ExitCode::LimitExceeded,
             fmt::format("'{}': a PNG of {} x {} pixels is more than {}; write a .pfm, or a smaller image",
-                        file.path().string(), width, height, imagePixelCountMax));
+                        name.string(), width, height, imagePixelCountMax));
     }
+}
+
+void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb) {
+    assert(width > 0 && height > 0);
+    assert(rgb.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    requirePngSize(file.path(), width, height);
     WriteContext context{file, nullptr};
     const int written = stbi_write_png_to_func(writeBytes, &context, width, height, 3, rgb.data(), width * 3);
     if (context.failure) {

@@ -1,10 +1,9 @@
 // Conservative ray-box tests. Twin: shaders/box.glsl.
 //
 // How wide the pad must be. Let u be the unit of rounding and M the largest coordinate distance from the ray's origin
-// to any box ("reach"). The triangle test moves the image of a vertex by at most 6 u M: one rounding of the
-// translation and three of the shear for each of two axes, and one of their sum, which is at most 2 M. The slab test
-// moves a plane by at most 3 u M: a difference, the inverse, a product. Together 9 u M, and adding the pad to the
-// origin o rounds by u |o|. A pad of 16 u (M + |o|) covers it with room to spare.
+// to any box ("reach"). The triangle test moves the image of a vertex by at most 7 u M: one rounding of each of two
+// translations, three of the shear, and one of the sum, which is at most 2 M. The slab test moves a plane by at most
+// 4 u M: a difference, the pad, the inverse, a product. Together 11 u M: a pad of 16 u M covers it with room to spare.
 //
 // The test is monotone: whatever interval a box gives, a box around it gives no smaller one, to the bit, because each
 // operation rounds monotonically. Triangle hits are confined to the interval of the triangle's own box (triangle.h),
@@ -17,9 +16,9 @@
 namespace hyalite::reference {
 
 template <class Real> struct BoxRay {
-    Vec3<Real> inverse;     ///< 1 / direction, bounded
-    Vec3<Real> originPlus;  ///< origin + pad: the lower planes are moved down by it
-    Vec3<Real> originMinus; ///< origin - pad
+    Vec3<Real> origin;
+    Real pad;           ///< widens every box on every side
+    Vec3<Real> inverse; ///< 1 / direction, bounded
 };
 
 /// Distances along a ray, empty where enter > leave.
@@ -32,10 +31,9 @@ template <class Real> struct Interval {
 template <class Real>
 [[nodiscard]] BoxRay<Real> makeBoxRay(const Vec3<Real> &origin, const Vec3<Real> &direction,
                                       const Vec3<Real> &lower, const Vec3<Real> &upper) {
-    const Vec3<Real> toLower = glm::abs(lower - origin);
-    const Vec3<Real> toUpper = glm::abs(upper - origin);
-    const Real reach = largestComponent(glm::max(toLower, toUpper)) + largestComponent(glm::abs(origin));
-    const Real pad = Real(16) * roundingUnit<Real> * reach;
+    const Vec3<Real> toLower = absolute(lower - origin);
+    const Vec3<Real> toUpper = absolute(upper - origin);
+    const Real reach = largestComponent(glm::max(toLower, toUpper));
     // A direction of nearly 0 would give infinities and, on a face of the box, NaN. Bounded, it moves the ray by less
     // than the pad over any distance that occurs.
     const Real smallest = Real(1e-18);
@@ -43,15 +41,15 @@ template <class Real>
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(direction[axis]) < smallest)
             bounded[axis] = direction[axis] < 0 ? -smallest : smallest;
-    return {Real(1) / bounded, origin + pad, origin - pad};
+    return {origin, Real(16) * roundingUnit<Real> * reach, Real(1) / bounded};
 }
 
 /// The distances at which the ray is inside of the box, from 0 on.
 template <class Real>
 [[nodiscard]] Interval<Real> boxInterval(const BoxRay<Real> &ray, const Vec3<Real> &lower,
                                          const Vec3<Real> &upper) {
-    const Vec3<Real> toLower = (lower - ray.originPlus) * ray.inverse;
-    const Vec3<Real> toUpper = (upper - ray.originMinus) * ray.inverse;
+    const Vec3<Real> toLower = ((lower - ray.origin) - ray.pad) * ray.inverse;
+    const Vec3<Real> toUpper = ((upper - ray.origin) + ray.pad) * ray.inverse;
     const Real enter = glm::max(largestComponent(glm::min(toLower, toUpper)), Real(0));
     const Real leave = smallestComponent(glm::max(toLower, toUpper));
     return {enter, leave};

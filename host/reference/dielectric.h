@@ -28,7 +28,7 @@ template <class Real>
     const Vec3<Real> transmitted = direction * eta + facing * along;
     const Real ratio = (Real(1) - index) / (Real(1) + index);
     const Real normalReflectance = ratio * ratio;
-    const Real k = Real(1) - (isEntering ? cosIncident : cosTransmitted);
+    const Real k = Real(1) - glm::min(isEntering ? cosIncident : cosTransmitted, Real(1));
     const Real k2 = k * k;
     const Real reflectance = normalReflectance + (Real(1) - normalReflectance) * (k2 * k2 * k);
     return {unitVector(transmitted), reflectance, Real(1) - reflectance, radicand < 0};

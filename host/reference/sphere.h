@@ -28,7 +28,9 @@ template <class Real>
     const Real chord = Real(-2) * b;
     const Real first = r < q ? r : q;
     const Real second = r < q ? q : r;
-    const Real distance = startsOnSphere ? chord : (first > 0 ? first : second);
+    // Along the tangent the sign of a chord is that of rounding.
+    const Real across = chord > radius * (Real(8) * roundingUnit<Real>) ? chord : Real(-1);
+    const Real distance = startsOnSphere ? across : (first > 0 ? first : second);
     return startsOnSphere || discriminant > 0 ? distance : Real(-1);
 }
 

@@ -29,8 +29,10 @@ template <class Real>
     const Vec3<Real> v1(triangle.v1);
     const Vec3<Real> v2(triangle.v2);
     const Vec3<Real> area = crossProduct<Real>(v1 - v0, v2 - v0);
-    // No area: no light.
-    const Vec3<Real> geometric = dotProduct(area, area) > 0 ? unitVector(area) : Vec3<Real>(Real(0));
+    // Scaled first, as the square of a small or of a giant area leaves the range of floats. No area: no light.
+    const Real largest = largestComponent(absolute(area));
+    const Vec3<Real> geometric =
+        largest > 0 ? unitVector<Real>(area * (Real(1) / largest)) : Vec3<Real>(Real(0));
     const Vec3<Real> blended =
         trianglePoint(Vec3<Real>(normals.n0), Vec3<Real>(normals.n1), Vec3<Real>(normals.n2), u, v);
     const Vec3<Real> normal = dotProduct(blended, blended) > 0 ? unitVector(blended) : geometric;
@@ -47,7 +49,7 @@ template <class Real>
 /// Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
 template <class Real>
 [[nodiscard]] Vec3<Real> spawnPoint(const Surface<Real> &surface, const Vec3<Real> &direction) {
-    const Real distance = Real(2) * dotProduct<Real>(glm::abs(surface.geometricNormal), surface.error);
+    const Real distance = Real(2) * dotProduct<Real>(absolute(surface.geometricNormal), surface.error);
     const Real side = dotProduct(direction, surface.geometricNormal) < 0 ? -distance : distance;
     return surface.position + surface.geometricNormal * side;
 }

@@ -26,7 +26,7 @@ template <class Real> [[nodiscard]] Vec3<Real> axisToZ(const Vec3<Real> &v, int 
 
 template <class Real>
 [[nodiscard]] TriangleRay<Real> makeTriangleRay(const Vec3<Real> &origin, const Vec3<Real> &direction) {
-    const Vec3<Real> size = glm::abs(direction);
+    const Vec3<Real> size = absolute(direction);
     const int axis = size.z >= size.x && size.z >= size.y ? 2 : (size.y >= size.x ? 1 : 0);
     const Vec3<Real> along = axisToZ(direction, axis);
     const Real inverse = Real(1) / along.z;
@@ -70,13 +70,15 @@ template <class Real>
     return v0 * u + v1 * v + v2 * w;
 }
 
-/// A bound on the rounding error of trianglePoint, for each coordinate: Pharr, Jakob and Humphreys, "Physically Based
-/// Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7).
+/// How far trianglePoint may lie off the plane, as a bound for each coordinate: Pharr, Jakob and Humphreys, "Physically
+/// Based Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7). And how far a neighbour in the same
+/// plane may seem to lie off it: its depth is uncertain by units of its size, for which this triangle's stands.
 template <class Real>
 [[nodiscard]] Vec3<Real> trianglePointError(const Vec3<Real> &v0, const Vec3<Real> &v1, const Vec3<Real> &v2,
                                             Real u, Real v) {
     const Real w = Real(1) - u - v;
-    const Vec3<Real> size = glm::abs(v0 * u) + glm::abs(v1 * v) + glm::abs(v2 * w);
+    const Real extent = largestComponent(glm::max(absolute(v1 - v0), absolute(v2 - v0)));
+    const Vec3<Real> size = absolute(v0 * u) + absolute(v1 * v) + absolute(v2 * w) + extent;
     return size * (Real(8) * roundingUnit<Real>);
 }
 

@@ -40,6 +40,11 @@ template <class Real> [[nodiscard]] Vec3<Real> mirrorDirection(const Vec3<Real> 
     return d - n * twice;
 }
 
+/// As abs in GLSL; glm::abs leaves -0 as it is.
+template <class Real> [[nodiscard]] Vec3<Real> absolute(const Vec3<Real> &v) {
+    return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+}
+
 template <class Real> [[nodiscard]] Real largestComponent(const Vec3<Real> &v) {
     return glm::max(glm::max(v.x, v.y), v.z);
 }

@@ -101,6 +101,19 @@ std::string temporaryName(const std::string &targetName, std::random_device &ran
     return fmt::format(".{}.{:016x}.tmp", targetName.substr(0, prefixBytesMax), number);
 }
 
+/// Where the open file is seen while it has no name, and what linkat() gives it one by.
+std::string descriptorPath(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
+/// A file without a name on the folder's file system, or -1 where there is no such thing.
+int openUnnamed(const fs::path &folder) {
+    const int descriptor = open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (descriptor >= 0 && access(descriptorPath(descriptor).c_str(), F_OK) != 0) { // no /proc
+        close(descriptor);
+        return -1;
+    }
+    return descriptor;
+}
+
 /// fsync, with "this file system cannot" taken as done. Returns errno, or 0.
 int synchronize(int descriptor) {
     while (fsync(descriptor) != 0) {
@@ -116,28 +129,41 @@ int synchronize(int descriptor) {
 
 } // namespace
 
-AtomicFile::AtomicFile(const fs::path &target) : givenPath_(target) {
+template <class Create> bool AtomicFile::claimName(const Create &create) {
+    std::random_device random;
+    constexpr int attemptCount = 16; // each fails only if a 64-bit random number was used before
+    errno = EEXIST;
+    for (int attempt = 0; attempt < attemptCount && (errno == EEXIST || errno == EINTR); ++attempt) {
+        const fs::path path =
+            targetPath_.parent_path() / temporaryName(targetPath_.filename().string(), random);
+        if (create(path)) {
+            temporaryPath_ = path;
+            return true;
+        }
+    }
+    return false;
+}
+
+AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(target) {
     if (target.empty()) {
         refuse(target, "the name is empty; name a file");
     }
     targetPath_ = followLinks(target);
     requireReplaceable(givenPath_, targetPath_);
 
-    std::random_device random;
-    constexpr int attemptCount = 16; // each fails only if a 64-bit random number was used before
-    int errorNumber = EEXIST;
-    for (int attempt = 0; attempt < attemptCount && (errorNumber == EEXIST || errorNumber == EINTR);
-         ++attempt) {
-        temporaryPath_ = targetPath_.parent_path() / temporaryName(targetPath_.filename().string(), random);
-        descriptor_ = open(temporaryPath_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ >= 0) {
-            return;
-        }
-        errorNumber = errno;
+    if (kind == TemporaryFile::Automatic) {
+        descriptor_ = openUnnamed(targetPath_.parent_path());
     }
-    refuseWithErrno(givenPath_,
-                    fmt::format("no file can be created in '{}'", targetPath_.parent_path().string()),
-                    errorNumber);
+    // Whatever kept it from being made: it is tried with a name, and fails for the reason to be told.
+    if (descriptor_ < 0 && !claimName([this](const fs::path &path) {
+            descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            return descriptor_ >= 0;
+        })) {
+        const int errorNumber = errno;
+        refuseWithErrno(givenPath_,
+                        fmt::format("no file can be created in '{}'", targetPath_.parent_path().string()),
+                        errorNumber);
+    }
 }
 
 AtomicFile::AtomicFile(AtomicFile &&other) noexcept
@@ -160,7 +186,9 @@ AtomicFile::~AtomicFile() { discard(); }
 void AtomicFile::discard() noexcept {
     if (descriptor_ >= 0) {
         close(descriptor_);
-        unlink(temporaryPath_.c_str());
+        if (!temporaryPath_.empty()) {
+            unlink(temporaryPath_.c_str());
+        }
         descriptor_ = -1;
     }
 }
@@ -183,6 +211,12 @@ void AtomicFile::commit() {
     assert(descriptor_ >= 0);
     if (const int errorNumber = synchronize(descriptor_); errorNumber != 0) {
         refuseWithErrno(givenPath_, "storing the bytes", errorNumber);
+    }
+    if (temporaryPath_.empty() && !claimName([this](const fs::path &path) {
+            return linkat(AT_FDCWD, descriptorPath(descriptor_).c_str(), AT_FDCWD, path.c_str(),
+                          AT_SYMLINK_FOLLOW) == 0;
+        })) {
+        refuseWithErrno(givenPath_, "naming the finished file", errno);
     }
     if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) { // network file systems report late
         const int errorNumber = errno;

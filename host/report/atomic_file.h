@@ -1,7 +1,9 @@
 // A file that appears whole or not at all.
 //
-// The bytes go into a temporary file beside the target; commit() puts it in the target's place with one rename. A
-// failure at any moment, from a full disk to a killed process, leaves the file that was there before as it was.
+// The bytes go into a temporary file in the target's folder; commit() puts it in the target's place with one rename.
+// A failure at any moment, from a full disk to a killed process, leaves the file that was there before as it was. The
+// temporary file has no name until commit() where the file system offers that (O_TMPFILE): a process that is killed
+// then leaves nothing behind.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +13,9 @@
 
 namespace hyalite {
 
+/// Whether the temporary file has a name from the start. Automatic: only where it must.
+enum class TemporaryFile { Automatic, Named };
+
 class AtomicFile {
   public:
     /// Creates the temporary file, and so finds out before any work is done whether the output can be written.
@@ -18,7 +23,7 @@ class AtomicFile {
     /// The new file has the permissions of any new file (0666 less the umask), whatever the old one had.
     /// Throws Error{OutputNotWritten} for a target that exists and is not a regular file (a folder, a device, a
     /// pipe), that is write-protected, or whose folder is missing or takes no new file.
-    explicit AtomicFile(const std::filesystem::path &target);
+    explicit AtomicFile(const std::filesystem::path &target, TemporaryFile kind = TemporaryFile::Automatic);
 
     AtomicFile(AtomicFile &&other) noexcept;
     AtomicFile &operator=(AtomicFile &&other) noexcept;
@@ -40,12 +45,15 @@ class AtomicFile {
     [[nodiscard]] const std::filesystem::path &path() const { return givenPath_; }
 
   private:
+    /// Calls `create` with unused names in the target's folder until it makes one of them a file, and keeps that name.
+    /// `create` returns whether it did and sets errno if not; so does this function.
+    template <class Create> [[nodiscard]] bool claimName(const Create &create);
     void discard() noexcept;
 
     std::filesystem::path givenPath_;
-    std::filesystem::path targetPath_; ///< absolute, links followed
-    std::filesystem::path temporaryPath_;
-    int descriptor_ = -1; ///< -1 once committed, discarded or moved from
+    std::filesystem::path targetPath_;    ///< absolute, links followed
+    std::filesystem::path temporaryPath_; ///< empty while the temporary file has no name
+    int descriptor_ = -1;                 ///< -1 once committed, discarded or moved from
 };
 
 } // namespace hyalite

@@ -1,9 +1,10 @@
 #include "host/report/progress.h"
 
+#include "host/report/message.h"
+#include "host/report/quantities.h"
+
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include <unistd.h>
@@ -19,13 +20,14 @@ constexpr int barWidth = 24;
 
 } // namespace
 
-std::string durationText(double seconds) {
-    const long whole = std::lround(seconds);
-    if (whole < 60)
-        return fmt::format("{} s", whole);
-    if (whole < 3600)
-        return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-    return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+std::optional<double> TimeLeft::update(double elapsedSeconds, double share) {
+    moments_.push_back({elapsedSeconds, share});
+    while (moments_.size() > 2 && moments_[1].elapsedSeconds <= 0.5 * elapsedSeconds)
+        moments_.pop_front();
+    const double finished = share - moments_.front().share;
+    if (!(finished > 0.0))
+        return std::nullopt;
+    return (1.0 - share) * (elapsedSeconds - moments_.front().elapsedSeconds) / finished;
 }
 
 ProgressLine::ProgressLine(std::string task, bool isQuiet)
@@ -33,7 +35,7 @@ ProgressLine::ProgressLine(std::string task, bool isQuiet)
 
 ProgressLine::~ProgressLine() {
     if (isDrawn_)
-        fmt::print(stderr, "\r\033[K");
+        printMessage("\r\033[K");
 }
 
 void ProgressLine::update(double share) {
@@ -44,17 +46,16 @@ void ProgressLine::update(double share) {
         sinceLast < (isTerminal_ ? terminalIntervalSeconds : logIntervalSeconds))
         return;
     lastPrint_ = now;
-    const double left = share > 0.0 ? elapsed * (1.0 - share) / share : 0.0;
+    const std::optional<double> left = timeLeft_.update(elapsed, share);
     if (isTerminal_) {
         const int filled = static_cast<int>(share * barWidth);
-        fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {} left", task_, "", filled, "",
-                   barWidth - filled, share * 100.0, share > 0.0 ? durationText(left) : "?");
+        printMessage("\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {} left", task_, "", filled, "",
+                     barWidth - filled, share * 100.0, left ? durationText(*left) : "?");
         isDrawn_ = true;
     } else {
-        fmt::print(stderr, "task={} progress={:.3f} elapsed_s={:.1f} left_s={:.1f}\n", task_, share, elapsed,
-                   left);
+        printMessage("task={} progress={:.3f} elapsed_s={:.1f} left_s={}\n", task_, share, elapsed,
+                     left ? fmt::format("{:.1f}", *left) : "?");
     }
-    std::fflush(stderr);
 }
 
 } // namespace hyalite

@@ -2,9 +2,27 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
+#include <optional>
 #include <string>
 
 namespace hyalite {
+
+/// The time that the rest of a task takes, at the speed of the last half of the time so far: parts of an image differ
+/// in cost, and what came before the last half says little about what comes next.
+class TimeLeft {
+  public:
+    /// In seconds, after `elapsedSeconds` in which `share` of the work was finished. Both never decrease. Nothing where
+    /// no work was finished lately.
+    [[nodiscard]] std::optional<double> update(double elapsedSeconds, double share);
+
+  private:
+    struct Moment {
+        double elapsedSeconds;
+        double share;
+    };
+    std::deque<Moment> moments_{{0.0, 0.0}}; ///< the first one begins the half
+};
 
 /// On a terminal one line that is drawn over and over, with the time left; elsewhere a `key=value` line every few
 /// seconds. Prints nothing at all if quiet, nor for tasks that end within half a second.
@@ -26,11 +44,9 @@ class ProgressLine {
     bool isQuiet_;
     bool isTerminal_;
     bool isDrawn_ = false;
+    TimeLeft timeLeft_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point lastPrint_ = start_;
 };
-
-/// "12 s", "3 min 05 s", "2 h 10 min".
-[[nodiscard]] std::string durationText(double seconds);
 
 } // namespace hyalite

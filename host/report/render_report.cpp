@@ -1,9 +1,8 @@
 #include "host/report/render_report.h"
 
+#include "host/report/json_text.h"
 #include "host/scene/names.h"
 #include "host/version.h"
-
-#include <nlohmann/json.hpp>
 
 namespace hyalite {
 
@@ -38,7 +37,7 @@ std::string formatReport(const RenderReport &report) {
                        {"render", report.timing.renderSeconds},
                        {"write", report.writeSeconds},
                        {"total", report.totalSeconds}};
-    return json.dump(2) + "\n";
+    return jsonText(json);
 }
 
 } // namespace hyalite

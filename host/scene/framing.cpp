@@ -26,8 +26,6 @@ constexpr double lightDistance = 10.0; ///< in half diagonals: near and far side
 constexpr double keyRadiance = 0.7;
 constexpr double fillRadiance = 0.2;
 
-glm::dvec3 centreOf(const Bounds &bounds) { return 0.5 * bounds.low + 0.5 * bounds.high; }
-
 double halfDiagonal(const Bounds &bounds) { return 0.5 * glm::length(bounds.high - bounds.low); }
 
 /// The unit vector `azimuth` from +z towards +x and `elevation` above the horizon.
@@ -44,7 +42,7 @@ PointLight lightFrom(const glm::dvec3 &direction, double radiance, const Bounds 
     const double distance = lightDistance * halfDiagonal(bounds);
     const double power =
         radiance * 4.0 * std::numbers::pi * std::numbers::pi * distance * distance / double{neutralAlbedo};
-    return {centreOf(bounds) + distance * direction, glm::dvec3(power)};
+    return {bounds.centre() + distance * direction, glm::dvec3(power)};
 }
 
 } // namespace
@@ -79,7 +77,7 @@ Camera frameCamera(const Bounds &bounds, int width, int height, double horizonta
 
     // A corner p from the centre is seen within the margin if |p.right| <= tangentX * (distance - p.backwards),
     // and so for up. The camera also keeps clear of the box, which matters for wide fields of view.
-    const glm::dvec3 centre = centreOf(bounds);
+    const glm::dvec3 centre = bounds.centre();
     double distance = 1.5 * halfDiagonal(bounds);
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 p = glm::dvec3((corner & 1) != 0 ? bounds.high.x : bounds.low.x,

@@ -10,6 +10,8 @@ namespace hyalite {
 struct Bounds {
     glm::dvec3 low;
     glm::dvec3 high;
+
+    [[nodiscard]] glm::dvec3 centre() const { return 0.5 * low + 0.5 * high; }
 };
 [[nodiscard]] Bounds triangleBounds(const TriangleMesh &mesh);
 

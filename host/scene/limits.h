@@ -1,4 +1,4 @@
-// What a scene may hold: the ranges and counts that the loader and the validation share.
+// The ranges and counts of scene files and of options on the command line: the one place.
 #pragma once
 
 #include "shaders/layout.h"
@@ -26,11 +26,11 @@ struct Interval {
                (highIncluded ? value <= highest : value < highest);
     }
 
-    /// In words: "from 0 to 1", "more than 0, less than 180".
+    /// In words: "from 0 to 1", "more than 0 and less than 180".
     [[nodiscard]] std::string text() const {
         if (lowIncluded && highIncluded)
             return fmt::format("from {:.10g} to {:.10g}", low, high);
-        return fmt::format("{} {:.10g}, {} {:.10g}", lowIncluded ? "at least" : "more than", low,
+        return fmt::format("{} {:.10g} and {} {:.10g}", lowIncluded ? "at least" : "more than", low,
                            highIncluded ? "at most" : "less than", high);
     }
 };
@@ -59,6 +59,9 @@ inline constexpr Interval maxDepth{1, layout::maxPathDepth};
 inline constexpr Interval leafSize{1, 64};
 inline constexpr Interval seed{0, 4294967295.0};
 inline constexpr Interval exposureStops{-100.0, 100.0};
+
+inline constexpr Interval threadCount{1, 1024};
+inline constexpr Interval inspectedRays{1, 1e6}; ///< each meets all triangles
 
 inline constexpr std::size_t lightCount = layout::maxLightCount;
 inline constexpr std::size_t sphereCount = layout::maxSphereCount; ///< each ray tests all of them

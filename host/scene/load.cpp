@@ -1,13 +1,33 @@
 #include "host/scene/load.h"
 
+#include "host/error.h"
 #include "host/scene/assets.h"
 #include "host/scene/framing.h"
 #include "host/scene/validate.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace hyalite {
 namespace {
+
+/// A scene's name with an extension is a path: whoever typed one may have meant the name.
+void requireFile(const std::filesystem::path &file) {
+    std::error_code error;
+    if (std::filesystem::exists(file, error) || error)
+        return; // whoever reads it says what is wrong
+    const std::vector<std::string> names = availableScenes();
+    const std::string stem = file.stem().string();
+    const bool isName = std::find(names.begin(), names.end(), stem) != names.end();
+    throw Error(ExitCode::BadInput,
+                fmt::format("{}: there is no such file{}", file.string(),
+                            isName ? fmt::format("; did you mean the shipped scene {}?", stem) : ""));
+}
 
 LoadedScene loadBareMesh(const std::filesystem::path &file) {
     ObjMesh mesh = loadObj(file);
@@ -23,6 +43,7 @@ LoadedScene loadBareMesh(const std::filesystem::path &file) {
 
 LoadedScene loadScene(const std::string &argument) {
     const std::filesystem::path file = resolveScene(argument);
+    requireFile(file);
     LoadedScene loaded = hasExtension(file, ".obj") ? loadBareMesh(file) : loadSceneFile(file);
     validateScene(loaded.scene, file.string());
     return loaded;

@@ -146,8 +146,8 @@ void main() {
         vec3 origin = takeVec3();
         BoxRay ray = takeBoxRay(origin, takeVec3());
         give(ray.inverse);
-        give(ray.originPlus);
-        give(ray.originMinus);
+        give(ray.origin);
+        give(ray.pad);
         break;
     }
     case probeBoxInterval: {

@@ -190,7 +190,7 @@ TEST(BoxTwin, MakeBoxRay) {
         input << origin << direction << bounds.lower << bounds.upper;
         const reference::BoxRay<float> ray =
             reference::makeBoxRay(origin, direction, bounds.lower, bounds.upper);
-        expected << ray.inverse << ray.originPlus << ray.originMinus;
+        expected << ray.inverse << ray.origin << ray.pad;
     });
 }
 

@@ -1,5 +1,3 @@
-#include "host/cli/diff.h"
-
 #include "host/cli/commands.h"
 #include "host/error.h"
 #include "host/image/image_file.h"

@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{R"({"settings": {"bvh": "kd"}})", " /settings/bvh: ", "\"midpoint\", \"sah\", \"none\""},
         // ranges
         Refusal{R"({"camera": {"horizontalFov": 180}})",
-                " /camera/horizontalFov: ", "found 180; allowed: a number more than 0, less than 180"},
+                " /camera/horizontalFov: ", "found 180; allowed: a number more than 0 and less than 180"},
         Refusal{R"({"camera": {"height": 0}})", " /camera/height: ", "found 0"},
         Refusal{R"({"camera": {"position": [0, 2e15, 0]}})", " /camera/position/1: ", "1e+15"},
         Refusal{R"({"camera": {"direction": [0, 0, 0]}})", " /camera/direction: ", "length"},

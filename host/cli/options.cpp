@@ -1,0 +1,92 @@
+#include "host/cli/options.h"
+
+#include "host/scene/json_document.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+
+namespace hyalite {
+
+namespace {
+
+/// All of `text` as a number, without the blanks around it and a plus sign in front.
+template <class Number> std::optional<Number> parse(std::string_view text) {
+    constexpr std::string_view blanks = " \t";
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    text.remove_suffix(text.size() - (text.find_last_not_of(blanks) + 1)); // npos + 1 is 0
+    if (text.starts_with('+') && !text.starts_with("+-"))
+        text.remove_prefix(1);
+    Number number{};
+    const char *end = text.data() + text.size();
+    const std::from_chars_result result = std::from_chars(text.data(), end, number);
+    return result.ec == std::errc{} && result.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+/// One file has one such path: absolute, without links. It need not exist.
+std::filesystem::path canonicalPath(const std::string &path) {
+    std::error_code error;
+    const std::filesystem::path canonical =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+    return error ? std::filesystem::path(path)
+                 : canonical; // a path that leads nowhere is refused when it is opened
+}
+
+bool isSameFile(const std::string &a, const std::string &b) {
+    std::error_code error; // of files that do not exist
+    return canonicalPath(a) == canonicalPath(b) || std::filesystem::equivalent(a, b, error);
+}
+
+} // namespace
+
+void refuseValue(const std::string &option, std::string_view found, std::string_view allowed) {
+    throw Error(ExitCode::Usage,
+                fmt::format("{}: found \"{}\"; allowed: {}", option, printable(std::string(found)), allowed));
+}
+
+double readNumber(const std::string &option, std::string_view text, const Interval &allowed) {
+    const std::optional<double> number = parse<double>(text);
+    if (!number || !allowed.contains(*number))
+        refuseValue(option, text, "a number " + allowed.text());
+    return *number;
+}
+
+std::int64_t readWholeNumber(const std::string &option, std::string_view text, const Interval &allowed) {
+    const std::optional<std::int64_t> number = parse<std::int64_t>(text);
+    if (!number || !allowed.contains(static_cast<double>(*number)))
+        refuseValue(option, text, "a whole number " + allowed.text());
+    return *number;
+}
+
+CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
+                     const std::string &typeName, const std::string &help) {
+    const auto read = [name, &path](const CLI::results_t &words) {
+        if (words.front().empty())
+            refuseValue(name, "", "the name of a file");
+        path = words.front();
+        return true;
+    };
+    return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);
+}
+
+void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const NamedFile &output = outputs[i];
+        if (output.path.empty())
+            continue;
+        for (const std::string &input : inputs)
+            if (!input.empty() && isSameFile(output.path, input))
+                throw Error(ExitCode::Usage,
+                            fmt::format("{} {}: this would replace what is read from {}; name another output",
+                                        output.option, output.path, input));
+        for (std::size_t j = 0; j < i; ++j)
+            if (!outputs[j].path.empty() && isSameFile(output.path, outputs[j].path))
+                throw Error(ExitCode::Usage,
+                            fmt::format("{} {} and {} {} name the same file; name two", outputs[j].option,
+                                        outputs[j].path, output.option, output.path));
+    }
+}
+
+} // namespace hyalite

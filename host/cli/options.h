@@ -1,0 +1,110 @@
+// Options of one kind each, read in one way by all commands: numbers, vectors, words and files.
+//
+// A value that cannot be used is Error{Usage} "--spp: found "0"; allowed: a whole number from 1 to 65536". Each function
+// adds an option to `command`, which sets `value` when it is parsed: `value` must outlive the command.
+#pragma once
+
+#include "host/error.h"
+#include "host/scene/json_reader.h"
+#include "host/scene/limits.h"
+#include "host/scene/names.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyalite {
+
+/// Throws Error{Usage}.
+[[noreturn]] void refuseValue(const std::string &option, std::string_view found, std::string_view allowed);
+
+/// The number that `text` is, apart from blanks around it. Throws Error{Usage} for other text and what is not in range.
+[[nodiscard]] double readNumber(const std::string &option, std::string_view text, const Interval &allowed);
+/// The same; 1.5 and 1e3 are no whole numbers.
+[[nodiscard]] std::int64_t readWholeNumber(const std::string &option, std::string_view text,
+                                           const Interval &allowed);
+
+template <class Number>
+[[nodiscard]] Number readAs(const std::string &option, std::string_view text, const Interval &allowed) {
+    if constexpr (std::integral<Number>)
+        return static_cast<Number>(readWholeNumber(option, text, allowed));
+    else
+        return readNumber(option, text, allowed);
+}
+
+template <class Value> struct NumberIn { using Type = Value; };
+template <class Number> struct NumberIn<std::optional<Number>> { using Type = Number; };
+
+/// An option with one number: Value is a number or optional, and the number is whole if its type is.
+template <class Value>
+CLI::Option *addNumber(CLI::App &command, const std::string &name, Value &value, const Interval &allowed,
+                       const std::string &help) {
+    using Number = typename NumberIn<Value>::Type;
+    const auto read = [name, &value, allowed](const CLI::results_t &words) {
+        value = readAs<Number>(name, words.front(), allowed);
+        return true;
+    };
+    return command.add_option(name, CLI::callback_t(read), help)
+        ->type_name(std::integral<Number> ? "N" : "NUMBER");
+}
+
+/// An option with as many numbers as `typeName` has words: `--up 0,1,0` for "X,Y,Z".
+template <class Number>
+CLI::Option *addNumbers(CLI::App &command, const std::string &name, std::vector<Number> &values,
+                        const Interval &allowed, const std::string &typeName, const std::string &help) {
+    const auto count = static_cast<std::size_t>(1 + std::count(typeName.begin(), typeName.end(), ','));
+    const auto read = [name, &values, allowed, count](const CLI::results_t &words) {
+        if (words.size() != count)
+            refuseValue(name, fmt::format("{}", fmt::join(words, ",")), fmt::format("{} numbers", count));
+        for (const std::string &word : words)
+            values.push_back(readAs<Number>(name, word, allowed));
+        return true;
+    };
+    return command.add_option(name, CLI::callback_t(read), help)
+        ->delimiter(',')
+        ->expected(static_cast<int>(count))
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll) // any other number of them is told here
+        ->type_name(typeName);
+}
+
+/// An option with one of a few words.
+template <class Value, std::size_t count>
+CLI::Option *addChoice(CLI::App &command, const std::string &name, std::optional<Value> &value,
+                       const std::array<Name<Value>, count> &choices, const std::string &help) {
+    std::array<std::string_view, count> words;
+    for (std::size_t i = 0; i < count; ++i)
+        words[i] = choices[i].first;
+    const auto read = [name, &value, &choices, words](const CLI::results_t &typed) {
+        for (const auto &[word, meaning] : choices)
+            if (word == typed.front())
+                value = meaning;
+        if (!value)
+            refuseValue(name, typed.front(), quotedList(words) + suggestion(typed.front(), words));
+        return true;
+    };
+    return command.add_option(name, CLI::callback_t(read), help)
+        ->type_name(fmt::format("{}", fmt::join(words, "|")));
+}
+
+/// An option with the name of a file, which is not empty.
+CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
+                     const std::string &typeName, const std::string &help);
+
+/// A file that the user named with an option; without a path where the option was not given.
+struct NamedFile {
+    std::string option;
+    std::string path;
+};
+
+/// Throws Error{Usage} where two outputs are one file, or where an output is an input and would replace it.
+void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs);
+
+} // namespace hyalite
