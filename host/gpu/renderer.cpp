@@ -63,6 +63,17 @@ std::span<const std::uint32_t> chooseKernel(const Batching &batching) {
 /// A tile is a whole number of blocks of 8x8 pixels, which are 64 slots.
 int fitTile(int pixels, int tile) { return std::min((pixels + 7) / 8 * 8, tile); }
 
+/// Bands of whole rows whose films fit into a storage buffer of the device, from top to bottom.
+std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
+    const std::uint64_t rowBytes = static_cast<std::uint64_t>(crop.width()) * sizeof(layout::FilmPixel);
+    const int rows = static_cast<int>(std::clamp<std::uint64_t>(device.maxStorageBufferBytes / rowBytes, 1,
+                                                                static_cast<std::uint64_t>(crop.height())));
+    std::vector<Crop> bands;
+    for (int y = crop.y0; y < crop.y1; y += rows)
+        bands.push_back({crop.x0, crop.x1, y, std::min(y + rows, crop.y1)});
+    return bands;
+}
+
 /// What a render is asked to do.
 struct Job {
     const PackedScene &scene;
@@ -76,14 +87,14 @@ struct Job {
 /// Everything that a job needs on the device, and the loop over its tiles.
 class TileRenderer {
   public:
-    TileRenderer(Device &device, const Batching &batching, const Job &job)
+    TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job)
         : device_(device), job_(job), tileWidth_(fitTile(job.crop.width(), batching.tileWidth)),
           tileHeight_(fitTile(job.crop.height(), batching.tileHeight)),
           slotCount_(static_cast<std::size_t>(tileWidth_) * static_cast<std::size_t>(tileHeight_)),
           // One subtree waits for each level at most; kernels of a few sizes are enough.
           stackSize_(std::bit_ceil(
               std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth))),
-          buffers_(device, job.scene, batching.traversal == Traversal::SkipList),
+          buffers_(buffers),
           film_(device, "the film", BufferUse::Storage, filmPixelCount() * sizeof(layout::FilmPixel)),
           progress_(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress)),
           paths_(device, "the path slots", BufferUse::Storage, slotCount_ * sizeof(layout::PathRecord)),
@@ -134,6 +145,13 @@ class TileRenderer {
         return Kernel(device_, "whitted", spirv, constants, bound);
     }
 
+    /// Runs without samples: drivers that compile at the first dispatch do it now.
+    void warmUp(Kernel &kernel) {
+        dispatch_.sampleEnd = dispatch_.sampleBegin;
+        runOnce(kernel);
+        dispatch_.sampleEnd = job_.sampleEnd;
+    }
+
     /// Runs until all samples of all tiles are in the film.
     void run(Kernel &kernel, Result &result, const std::function<void(double)> &onProgress) {
         const int tilesAcross = (job_.crop.width() + tileWidth_ - 1) / tileWidth_;
@@ -160,7 +178,9 @@ class TileRenderer {
         }
     }
 
-    void readFilm(Film &film) const { film_.download(std::as_writable_bytes(std::span(film.pixels))); }
+    void readFilm(std::span<layout::FilmPixel> pixels) const {
+        film_.download(std::as_writable_bytes(pixels));
+    }
 
     [[nodiscard]] std::vector<layout::TraceEvent> readTrace() const {
         std::vector<layout::TraceEvent> events(std::min(traceEventCount_, traceCapacity));
@@ -194,7 +214,7 @@ class TileRenderer {
     int tileHeight_;
     std::size_t slotCount_;
     std::uint32_t stackSize_;
-    SceneBuffers buffers_;
+    const SceneBuffers &buffers_;
     Buffer film_;
     Buffer progress_;
     Buffer paths_;
@@ -219,6 +239,10 @@ struct Renderer::State {
           batching(chooseBatching(wanted, info)), arithmetic(chooseArithmetic(device, wanted.arithmetic)) {
         batching.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
     }
+
+    SceneBuffers upload(const PackedScene &scene) {
+        return SceneBuffers(device, scene, batching.traversal == Traversal::SkipList);
+    }
 };
 
 Renderer::Renderer(const DeviceInfo &device, const Batching &batching)
@@ -233,19 +257,30 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                         const std::function<void(double)> &onProgress) {
     Result result{Film(crop), {}, {}};
     Clock::time_point start = Clock::now();
-    const Job job{scene, crop, settings.sampler, 0, static_cast<std::uint32_t>(settings.samplesPerPixel),
-                  false};
-    TileRenderer tiles(state_->device, state_->batching, job);
+    const SceneBuffers buffers = state_->upload(scene);
     result.timing.uploadSeconds = secondsSince(start);
 
-    start = Clock::now();
-    Kernel kernel = tiles.makeKernel(chooseKernel(state_->batching));
-    result.timing.pipelineSeconds = secondsSince(start);
+    for (const Crop &band : cutIntoBands(crop, state_->device.info())) {
+        start = Clock::now();
+        const Job job{scene, band, settings.sampler, 0, static_cast<std::uint32_t>(settings.samplesPerPixel),
+                      false};
+        TileRenderer tiles(state_->device, buffers, state_->batching, job);
+        Kernel kernel = tiles.makeKernel(chooseKernel(state_->batching));
+        tiles.warmUp(kernel);
+        result.timing.pipelineSeconds += secondsSince(start);
 
-    start = Clock::now();
-    tiles.run(kernel, result, onProgress);
-    result.timing.renderSeconds = secondsSince(start);
-    tiles.readFilm(result.film);
+        start = Clock::now();
+        const double rowsBefore = band.y0 - crop.y0;
+        tiles.run(kernel, result, [&](double share) {
+            if (onProgress)
+                onProgress((rowsBefore + share * band.height()) / crop.height());
+        });
+        result.timing.renderSeconds += secondsSince(start);
+        const std::size_t width = static_cast<std::size_t>(crop.width());
+        tiles.readFilm(std::span(result.film.pixels)
+                           .subspan(static_cast<std::size_t>(band.y0 - crop.y0) * width,
+                                    static_cast<std::size_t>(band.height()) * width));
+    }
     return result;
 }
 
@@ -254,7 +289,8 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     const int x = static_cast<int>(pixel.x);
     const int y = static_cast<int>(pixel.y);
     const Job job{scene, {x, x + 1, y, y + 1}, settings.sampler, sampleIndex, sampleIndex + 1, true};
-    TileRenderer tiles(state_->device, state_->batching, job);
+    const SceneBuffers buffers = state_->upload(scene);
+    TileRenderer tiles(state_->device, buffers, state_->batching, job);
     Kernel kernel = tiles.makeKernel(chooseKernel(state_->batching));
     Result result{Film(job.crop), {}, {}};
     tiles.run(kernel, result, {});

@@ -7,7 +7,7 @@ namespace hyalite {
 
 struct RenderTiming {
     double uploadSeconds = 0.0;   ///< scene data to the device
-    double pipelineSeconds = 0.0; ///< kernels built; drivers may go on compiling at the first dispatch
+    double pipelineSeconds = 0.0; ///< kernels built, and run once without work as some drivers compile then
     double renderSeconds = 0.0;   ///< from the first ray to the last
     std::uint64_t dispatchCount = 0;
 };

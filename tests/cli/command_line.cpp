@@ -93,7 +93,11 @@ nlohmann::json listDevices() {
     const Outcome outcome = runProgram({"devices", "--json"}, surroundings);
     if (outcome.exitCode != 0)
         throw std::runtime_error("devices --json: " + outcome.errors);
-    return nlohmann::json::parse(outcome.output);
+    nlohmann::json devices = nlohmann::json::array();
+    for (const nlohmann::json &device : nlohmann::json::parse(outcome.output))
+        if (device.contains("index"))
+            devices.push_back(device);
+    return devices;
 }
 
 std::string softwareDevice() {

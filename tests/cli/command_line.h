@@ -48,7 +48,7 @@ class CommandLine : public ::testing::Test {
 
 [[nodiscard]] bool contains(const std::string &text, const std::string &part);
 
-/// The list of `devices --json`, in surroundings as they are.
+/// The Vulkan devices in the list of `devices --json`, in surroundings as they are.
 [[nodiscard]] nlohmann::json listDevices();
 /// The index of a software device: the one that is sure to round as the reference renderer does.
 [[nodiscard]] std::string softwareDevice();

@@ -15,8 +15,8 @@ TEST_F(DevicesCommand, JsonDescribesEachDevice) {
     const Outcome outcome = run("devices --json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_EQ(outcome.errors, "");
-    const nlohmann::json devices = nlohmann::json::parse(outcome.output);
-    ASSERT_TRUE(devices.is_array());
+    ASSERT_TRUE(nlohmann::json::parse(outcome.output).is_array());
+    const nlohmann::json devices = listDevices();
     ASSERT_GE(devices.size(), 1u);
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const nlohmann::json &device = devices[i];
@@ -61,6 +61,11 @@ TEST_F(DevicesCommand, TheTableSaysTheSame) {
 TEST_F(DevicesCommand, TheReferenceRendererIsListedLast) {
     const Outcome outcome = run("devices");
     EXPECT_TRUE(std::regex_search(outcome.output, std::regex("\ncpu  [^\n]*reference[^\n]*\n$"))) << outcome;
+    const nlohmann::json last = nlohmann::json::parse(run("devices --json").output).back();
+    EXPECT_EQ(last.at("name"), "cpu"); // as --device takes it
+    EXPECT_FALSE(last.contains("index"));
+    EXPECT_TRUE(contains(last.at("type"), "reference"));
+    EXPECT_TRUE(last.at("isUsable"));
 }
 
 TEST_F(DevicesCommand, WhatIsNotExpectedIsAUsageError) {

@@ -74,6 +74,8 @@ TEST_F(RenderDevice, TheDeviceIsNamedOnceOnStandardError) {
     EXPECT_TRUE(contains(outcome.errors, name)) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "software")) << outcome;
     EXPECT_EQ(outcome.errors.find("software"), outcome.errors.rfind("software")) << outcome;
+    const std::string firstWord = name.substr(0, name.find(' '));
+    EXPECT_EQ(outcome.errors.find(firstWord), outcome.errors.rfind(firstWord)) << outcome;
     EXPECT_FALSE(contains(outcome.output, name)) << outcome;
 }
 

@@ -154,6 +154,18 @@ TEST_F(RenderOptions, LookAtTurnsTheCamera) {
     EXPECT_EQ(renderPfm("square.json --look-at 0,0,-7" + onCpu), renderPfm("square.json" + onCpu));
 }
 
+TEST_F(RenderOptions, ABareMeshIsLookedAtFromWhereTheCameraIsPut) {
+    for (const char *position : {"0,0,6", "5,2,-4", "-6,-1,0.5"}) {
+        const std::string line =
+            std::string("square.obj --width 33 --height 25 --device cpu --camera-position ") + position;
+        const Image image = renderImage(line);
+        EXPECT_NE(image.at(16, 12), image.at(0, 0)) << position;
+        EXPECT_EQ(renderPfm(line), renderPfm(line + " --look-at 0,0,0")) << position;
+    }
+    expectFailure("render square.obj -o a.png --camera-position 0,0,0", 2, {"--look-at"});
+    expectFailure("render square.obj -o a.png --camera-position 0,5,0", 2, {"--up"});
+}
+
 TEST_F(RenderOptions, UpsideDownIsTheImageTurned) {
     const Image image = renderImage("sheet.json --sampler centre" + onCpu);
     const Image turned = renderImage("sheet.json --sampler centre --up 0,-1,0" + onCpu);

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <limits>
 #include <string>
 
 namespace hyalite::testing {
@@ -107,6 +110,22 @@ TEST_F(RenderOutput, AnImageThatIsTooLargeForItsFormatIsRefusedBeforeRendering) 
     EXPECT_EQ(entries(), std::set<std::string>{});
 }
 
+TEST_F(RenderOutput, AFilmThatMemoryCannotHoldIsRefusedWithNumbers) {
+    // 44 GiB: machines that have them render for hours and are left out.
+    std::ifstream stream("/proc/meminfo");
+    std::string key;
+    std::uint64_t kibibytes = 0;
+    while (key != "MemTotal:" && stream >> key >> kibibytes)
+        stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    if (kibibytes > 0 && kibibytes < 40'000'000) {
+        const Outcome refused = run("render spheres -o a.pfm --width 32768 --height 32768 --device cpu");
+        EXPECT_EQ(refused.exitCode, 5) << refused;
+        for (const char *part : {"32768x32768", "44.0 GiB", "--crop"})
+            EXPECT_TRUE(contains(refused.errors, part)) << refused;
+    }
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
 TEST_F(RenderOutput, AnImageLargerThanADeviceAllowsIsRenderedInPartsOrRefusedWithARemedy) {
     // Vulkan promises storage buffers of 128 MiB: less than a film of this size.
     store("empty.json", "{}");
@@ -139,7 +158,7 @@ TEST_F(RenderOutput, TheOldFileSurvivesARenderThatFails) {
     store("bad.json", R"({"camera": 3})");
     expectFailure("render bad.json -o a.png", 3);
     expectFailure("render spheres -o a.png --device nonesuch", 4);
-    expectFailure("render spheres -o a.png --spp 0", 3);
+    expectFailure("render spheres -o a.png --spp 0", 2);
     expectFailure("render spheres -o a.png --crop 0,0,0,0", 2);
     expectFailure("render spheres -o a.png --nonesuch", 2);
     EXPECT_EQ(load("a.png"), "old");
@@ -204,12 +223,20 @@ TEST_F(RenderOutput, AReportThatCannotBeWrittenIsRefusedBeforeRendering) {
 TEST_F(RenderOutput, ImageAndReportAreNotTheSameFile) {
     expectFailure("render spheres -o a.png --report a.png" + small, 2, {"a.png"});
     expectFailure("render spheres -o a.png --report ./a.png" + small, 2, {"a.png"});
+    expectFailure("compare spheres --diff a.png --report ./a.png" + small, 2, {"a.png"});
     EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(RenderOutput, TheSceneIsNotReplacedByTheReport) {
+    store("own.json", "{}");
+    expectFailure("render own.json -o a.png --report ./own.json" + small, 2, {"own.json"});
+    expectFailure("compare own.json --report own.json" + small, 2, {"own.json"});
+    EXPECT_EQ(load("own.json"), "{}");
 }
 
 TEST_F(RenderOutput, AnInterruptedRenderLeavesNothingBehind) {
     store("a.png", "old");
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
         Surroundings interrupted;
         interrupted.signalAfter = "device:";
         interrupted.signal = signal;
@@ -242,6 +269,16 @@ TEST_F(RenderOutput, OutputThatIsLostIsAFailure) {
     EXPECT_EQ(runIn(full, "devices --json").exitCode, 7);
     EXPECT_EQ(runIn(full, "devices").exitCode, 7);
     EXPECT_EQ(runIn(full, "inspect spheres").exitCode, 7);
+    EXPECT_EQ(runIn(full, "--help").exitCode, 7);
+    EXPECT_TRUE(contains(runIn(full, "devices").errors, "standard output"));
+}
+
+TEST_F(RenderOutput, MessagesThatAreLostStopNoRender) {
+    Surroundings full;
+    full.errors = Stream::FullDevice;
+    EXPECT_EQ(runIn(full, "render spheres -o a.png" + small).exitCode, 0);
+    EXPECT_EQ(runIn(full, "render nonesuch -o b.png").exitCode, 3);
+    EXPECT_EQ(entries(), std::set<std::string>{"a.png"});
 }
 
 TEST_F(RenderOutput, AFileNameMayHoldAnything) {

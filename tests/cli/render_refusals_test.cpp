@@ -55,7 +55,7 @@ TEST_F(RenderRefusals, ValuesOutOfRangeAreRefusedWithTheRange) {
     for (const OutOfRange &wrong : cases) {
         const std::string line = std::string("render spheres -o a.png ") + wrong.option + " " + wrong.value;
         const Outcome outcome = run(line);
-        EXPECT_TRUE(outcome.exitCode == 2 || outcome.exitCode == 3) << line << '\n' << outcome;
+        EXPECT_EQ(outcome.exitCode, 2) << line << '\n' << outcome;
         EXPECT_EQ(outcome.output, "") << line;
         EXPECT_FALSE(contains(outcome.errors, "device:")) << outcome;
         for (const std::string &bound : wrong.range)
@@ -111,6 +111,24 @@ TEST_F(RenderRefusals, AnUnknownWordIsAnsweredWithTheWordsThereAre) {
         EXPECT_FALSE(contains(run(std::string("render spheres -o a.png ") + line).errors, "->")) << line;
     for (const char *line : {"--sampler 1", "--bvh 2", "--bvh 0", "--sampler SOBOL", "--sampler ''"})
         expectFailure("render spheres -o a.png " + std::string(line) + small, 2);
+}
+
+TEST_F(RenderRefusals, AnEmptyValueIsAUsageError) {
+    for (const char *option : {"--width", "--spp", "--fov", "--seed", "--threads", "--crop", "--up", "--bvh",
+                               "--sampler", "--report", "-o"})
+        EXPECT_EQ(run(std::string("render spheres ") + option + " ''").exitCode, 2) << option;
+    for (const char *option : {"--diff", "--report", "--tolerance", "--max-outliers"})
+        expectFailure(std::string("compare spheres ") + option + " ''", 2, {option});
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(RenderRefusals, TheWayToWriteAValueIsTold) {
+    expectFailure("render spheres -o a.png --max-depth 0", 2,
+                  {"--max-depth: found \"0\"; allowed: a whole number from 1 to 32"});
+    expectFailure("render spheres -o a.png --look-at 1,2", 2,
+                  {"--look-at: found \"1,2\"; allowed: 3 numbers"});
+    expectFailure("render spheres -o a.png --look-at 0,0,55", 2, {"--look-at", "the camera's own position"});
+    expectFailure("render spheres -o a.png --bvh shah", 2, {"did you mean \"sah\"?"});
 }
 
 TEST_F(RenderRefusals, AnOptionWithoutItsValueIsAUsageError) {

@@ -70,6 +70,20 @@ TEST_F(RenderReport, CommandLineCanBePastedBack) {
     EXPECT_EQ(words.at(11), "it's") << report.at("commandLine");
 }
 
+TEST_F(RenderReport, TheCommandLineIsQuotedAsAShellNeedsIt) {
+    for (const char *name :
+         {"#a.pfm", "~a.pfm", "a[b]!.pfm", "a`b$c.pfm", "a\\b.pfm", "'a' \"b\".pfm"}) {
+        Surroundings surroundings;
+        surroundings.folder = folder;
+        const Outcome outcome = runProgram({"render", "sheet.json", "-o", name, "--width", "4", "--spp", "1",
+                                            "--device", "cpu", "--report", "report.json"},
+                                           surroundings);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome;
+        const nlohmann::json report = nlohmann::json::parse(load("report.json"));
+        EXPECT_EQ(splitWords(report.at("commandLine").get<std::string>()).at(4), name) << report;
+    }
+}
+
 TEST_F(RenderReport, RayCountsAreEqualOnDeviceAndCpu) {
     const std::string software = softwareDevice();
     for (const char *scene : {"sheet.json", "spheres", "spheres-nested"}) {
@@ -131,6 +145,12 @@ TEST_F(RenderReport, TheClosingLineSaysSizeSamplesRaysTimeAndSpeed) {
                                        "Mray/s.*\n")))
             << outcome;
     }
+}
+
+TEST_F(RenderReport, TheClosingLineCountsFewRaysOneByOne) {
+    const Outcome outcome =
+        run("render spheres -o a.png --device cpu --width 4 --height 3 --spp 1 --max-depth 1");
+    EXPECT_TRUE(std::regex_search(outcome.output, std::regex(" [0-9]+ rays in "))) << outcome;
 }
 
 TEST_F(RenderReport, TheClosingLineHasTheSizeOfTheCrop) {

@@ -74,9 +74,10 @@ TEST_F(SceneArgument, AnUnknownNameIsAnsweredWithTheNamesThereAre) {
 
 TEST_F(SceneArgument, AMissingFileIsNamed) {
     expectFailure("render nonesuch.json -o a.png", 3, {"nonesuch.json"});
-    expectFailure("render no/such.obj -o a.png", 3, {"no/such.obj"});
+    expectFailure("render no/such.obj -o a.png", 3, {"no/such.obj: there is no such file"});
     // With an extension it is a path, not the name of a shipped scene.
-    expectFailure("render spheres.json -o a.png", 3, {"spheres.json"});
+    expectFailure("render spheres.json -o a.png", 3,
+                  {"spheres.json: there is no such file", "did you mean the shipped scene spheres?"});
     fs::create_directory(folder / "folder.json");
     expectFailure("render folder.json -o a.png", 3, {"folder.json"});
 }
@@ -104,7 +105,7 @@ TEST_F(SceneArgument, FaultsInASceneFileAreNamedWithFileAndKey) {
              "spheres": [{"centre": [0, 0, 0], "radius": -1, "material": "m"}]})",
          {"/spheres/0/radius", "-1"}},
         {R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "no.obj", "material": "m"}]})",
-         {"/meshes/0/file", "no.obj"}},
+         {"/meshes/0/file", "no.obj: there is no such file"}},
     };
     for (const WrongScene &wrong : cases) {
         store("wrong.json", wrong.text);

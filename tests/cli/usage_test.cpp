@@ -47,13 +47,16 @@ TEST_F(Usage, HelpListsTheCommandsAndTheExitCodes) {
 }
 
 TEST_F(Usage, HelpFitsATerminalAndShowsNoInnards) {
-    for (const char *command : {"", "render ", "devices ", "inspect "}) {
-        std::istringstream lines(run(command + std::string("--help")).output);
+    for (const char *command : {"", "render ", "compare ", "diff ", "devices ", "inspect "}) {
+        const std::string page = run(command + std::string("--help")).output;
+        EXPECT_FALSE(contains(page, "\n\n\n")) << page;
+        std::istringstream lines(page);
         for (std::string line; std::getline(lines, line);) {
-            EXPECT_LE(line.size(), 120u) << line;
+            EXPECT_LE(line.size(), 100u) << line;
             EXPECT_FALSE(contains(line, "->")) << line;
         }
     }
+    EXPECT_TRUE(contains(run("render --help").output, "Usage: hyalite render [OPTIONS] SCENE\n"));
 }
 
 TEST_F(Usage, VersionIsOneLine) {
@@ -62,17 +65,21 @@ TEST_F(Usage, VersionIsOneLine) {
     EXPECT_TRUE(std::regex_match(outcome.output, std::regex("hyalite [0-9]+\\.[0-9]+\\.[0-9]+\n")))
         << outcome;
     EXPECT_EQ(outcome.errors, "");
-    EXPECT_EQ(run("render --version").output, outcome.output);
+    for (const char *command : {"render", "compare", "diff", "devices", "inspect"})
+        EXPECT_EQ(run(std::string(command) + " --version").output, outcome.output);
 }
 
 TEST_F(Usage, NothingAtAllIsAnsweredWithTheCommands) {
     expectFailure("", 2, {"render", "devices", "inspect"});
 }
 
-TEST_F(Usage, AnUnknownCommandIsNamed) { expectFailure("rendre spheres -o a.png", 2, {"rendre"}); }
+TEST_F(Usage, AnUnknownCommandIsNamed) {
+    expectFailure("rendre spheres -o a.png", 2, {"\"rendre\"", "compare", "did you mean \"render\"?"});
+    expectFailure("foo", 2, {"\"foo\"", "render", "compare", "devices", "inspect", "diff"});
+}
 
 TEST_F(Usage, AnUnknownOptionIsNamed) {
-    expectFailure("render spheres -o a.png --hieght 3", 2, {"--hieght"});
+    expectFailure("render spheres -o a.png --hieght 3", 2, {"\"--hieght\"", "did you mean \"--height\"?"});
     expectFailure("render spheres -o a.png -x", 2, {"-x"});
     expectFailure("--hieght 3", 2);
     EXPECT_EQ(entries(), std::set<std::string>{});

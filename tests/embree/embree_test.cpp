@@ -163,6 +163,7 @@ struct Rates {
     // Where both found the same triangle: the worst errors, in units of those that rounding explains.
     Real ourDistance = 0;
     Real theirDistance = 0;
+    Real ourPosition = 0;
     Real ourNormal = 0;
     Real theirNormal = 0;
     Real relative = 0; ///< difference of both distances, for triangles in a good position
@@ -176,6 +177,7 @@ struct Rates {
         theirsWrong += other.theirsWrong;
         ourDistance = std::max(ourDistance, other.ourDistance);
         theirDistance = std::max(theirDistance, other.theirDistance);
+        ourPosition = std::max(ourPosition, other.ourPosition);
         ourNormal = std::max(ourNormal, other.ourNormal);
         theirNormal = std::max(theirNormal, other.theirNormal);
         relative = std::max(relative, other.relative);
@@ -184,12 +186,14 @@ struct Rates {
     void print(const Subject &subject, const char *kind) const {
         fmt::print(
             "{:<11} {:<8} {:>5} rays, {:4.1f} % hit; differences: edge {}, grazing {}, tie {}, start {}, "
-            "wrong: ours {}, Embree's {}; t {:.2f} and {:.2f}, relative {:.1e}; normal {:.2f} and {:.2f}\n",
+            "wrong: ours {}, Embree's {}; errors over bounds: t {:.2f}, {:.2f}, point {:.2f}, normal {:.2f}, "
+            "{:.2f}; "
+            "t differs by {:.1e}\n",
             subject.name, kind, rayCount,
             100.0 * static_cast<double>(hitCount) / static_cast<double>(rayCount), reasons[0], reasons[1],
             reasons[2], reasons[3], oursWrong, theirsWrong, static_cast<double>(ourDistance),
-            static_cast<double>(theirDistance), static_cast<double>(relative), static_cast<double>(ourNormal),
-            static_cast<double>(theirNormal));
+            static_cast<double>(theirDistance), static_cast<double>(ourPosition),
+            static_cast<double>(ourNormal), static_cast<double>(theirNormal), static_cast<double>(relative));
         std::fflush(stdout);
     }
 };
@@ -206,15 +210,17 @@ void compareHits(const Subject &subject, const FloatRay &ray, const FloatHit &ou
     if (exact.slenderness < 4 && exact.cosine > Real(0.25) && exact.reach < 2 * exact.t)
         rates.relative = std::max(rates.relative, std::abs(ourT - theirT) / exact.t);
 
-    const vec3 ourNormal = reference::triangleSurface(subject.ours.triangles[ours.record],
-                                                      subject.ours.normals[ours.record], ours.u, ours.v)
-                               .geometricNormal;
+    const reference::Surface<float> surface = reference::triangleSurface(
+        subject.ours.triangles[ours.record], subject.ours.normals[ours.record], ours.u, ours.v);
+    rates.ourPosition =
+        std::max(rates.ourPosition,
+                 glm::distance(testing::Vector(surface.position), exact.position) / exact.ourPositionError);
     const auto error = [&](const vec3 &normal) {
         return glm::length(glm::normalize(testing::Vector(normal)) - exact.normal);
     };
     // Embree subtracts the ray's origin from the vertices first, which costs their last digits.
     const Real allowed = 12 * testing::roundingUnit * exact.slenderness;
-    rates.ourNormal = std::max(rates.ourNormal, error(ourNormal) / allowed);
+    rates.ourNormal = std::max(rates.ourNormal, error(surface.geometricNormal) / allowed);
     rates.theirNormal =
         std::max(rates.theirNormal, error(theirs.normal) / (allowed * (1 + exact.reach / exact.longest)));
 }
@@ -267,6 +273,7 @@ std::vector<FloatHit> compareNearest(const Subject &subject, const char *kind,
     EXPECT_EQ(total.oursWrong, 0u) << subject.name << ", " << kind;
     EXPECT_EQ(total.theirsWrong, 0u) << subject.name << ", " << kind;
     EXPECT_LE(total.ourDistance, 1) << "in units of what rounding explains";
+    EXPECT_LE(total.ourPosition, 1) << "in units of what rounding explains";
     EXPECT_LE(total.ourNormal, 1) << "in units of what rounding explains";
     EXPECT_LE(total.relative, 2e-6);
     return hits;

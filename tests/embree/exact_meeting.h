@@ -35,6 +35,8 @@ struct ExactMeeting {
     Real reach = 0;       ///< distance from the ray's origin to the farthest vertex
     Real longest = 0;     ///< edge
     Vector normal{0};     ///< unit length, or zero
+    Vector position{0};   ///< at t
+    Real ourPositionError = 0; ///< of the point that our weights of the vertices give
     Doubt ours;
     Doubt theirs;
 
@@ -112,6 +114,9 @@ inline ExactMeeting meetExactly(const Corners &corners, const glm::vec3 &origin,
     const Real weightError = (ourError[0] + ourError[1] + ourError[2]) / std::abs(approach);
     const Real normalError = moved * meeting.longest / std::abs(approach);
     meeting.ours.tError = moved + span * std::min(weightError, Real(1));
+    meeting.position = Vector(origin) + d * meeting.t;
+    meeting.ourPositionError = moved + meeting.longest * std::min(weightError, Real(1)) +
+                               8 * roundingUnit * (glm::length(Vector(origin)) + meeting.reach);
     meeting.theirs.tError = moved + meeting.longest * normalError;
     return meeting;
 }

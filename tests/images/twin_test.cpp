@@ -85,6 +85,7 @@ TEST(Batching, ChangesNoBit) {
     expectSame({.steps = 1, .slotsPerInvocation = 1});
     expectSame({.steps = 100, .slotsPerInvocation = 2});
     expectSame({.isStaged = true});
+    expectSame({.arithmetic = gpu::Arithmetic::Own});
 }
 
 // With a budget of a few steps every ray of the cat stops in the middle of the tree, many times.
@@ -111,6 +112,16 @@ TEST(Batching, ResumesInsideBruteForce) {
         EXPECT_EQ(differingPixels(brute.film, expected), 0u);
         EXPECT_GT(brute.timing.dispatchCount, 20u);
     }
+}
+
+// Films larger than a device's largest storage buffer are rendered in bands.
+TEST(Batching, CutsTheFilmIntoBands) {
+    const Scene scene = shippedScene("spheres", 70, 50, 2);
+    gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), "llvmpipe");
+    device.maxStorageBufferBytes = 32 * 1024;
+    gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8});
+    const Film film = renderer.render(testing::pack(scene), scene.settings, {0, 70, 0, 50}).film;
+    EXPECT_EQ(differingPixels(film, renderOnCpu(scene).film), 0u);
 }
 
 TEST(Crop, IsThatPartOfTheWholeImage) {

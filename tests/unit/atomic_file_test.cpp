@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <csignal>
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -20,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A fresh folder for each test, removed after it.
-class AtomicFileTest : public testing::Test {
+/// A fresh folder for each test, removed after it. Every test runs with both kinds of temporary file.
+class AtomicFileTest : public testing::TestWithParam<TemporaryFile> {
   protected:
     void SetUp() override {
         std::string name = (fs::temp_directory_path() / "hyalite-atomic-XXXXXX").string();
@@ -34,8 +35,22 @@ class AtomicFileTest : public testing::Test {
         return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
     }
 
+    /// Of one file that is not committed: none where the file system has files without names.
+    [[nodiscard]] std::ptrdiff_t temporaryEntries() const {
+        const int unnamed = ::open(folder.c_str(), O_WRONLY | O_TMPFILE, 0600);
+        if (unnamed >= 0)
+            close(unnamed);
+        return GetParam() == TemporaryFile::Named || unnamed < 0 ? 1 : 0;
+    }
+    [[nodiscard]] AtomicFile open(const fs::path &path) const { return AtomicFile(path, GetParam()); }
+
     fs::path folder;
 };
+
+INSTANTIATE_TEST_SUITE_P(, AtomicFileTest, testing::Values(TemporaryFile::Automatic, TemporaryFile::Named),
+                         [](const auto &kind) {
+                             return kind.param == TemporaryFile::Named ? "Named" : "Automatic";
+                         });
 
 void store(const fs::path &path, const std::string &text) { std::ofstream(path, std::ios::binary) << text; }
 
@@ -62,8 +77,8 @@ void expectRefused(const fs::path &path, const std::string &reason) {
     EXPECT_NE(message->find(reason), std::string::npos) << *message;
 }
 
-TEST_F(AtomicFileTest, CommitPutsTheBytesInPlaceAndLeavesNothingElse) {
-    AtomicFile file(folder / "out.txt");
+TEST_P(AtomicFileTest, CommitPutsTheBytesInPlaceAndLeavesNothingElse) {
+    AtomicFile file = open(folder / "out.txt");
     file.write("one ");
     file.write("two");
     EXPECT_FALSE(fs::exists(folder / "out.txt"));
@@ -72,20 +87,20 @@ TEST_F(AtomicFileTest, CommitPutsTheBytesInPlaceAndLeavesNothingElse) {
     EXPECT_EQ(entryCount(), 1);
 }
 
-TEST_F(AtomicFileTest, WithoutCommitTheOldFileStaysAndNoTemporaryFileIsLeft) {
+TEST_P(AtomicFileTest, WithoutCommitTheOldFileStaysAndNoTemporaryFileIsLeft) {
     store(folder / "out.txt", "old");
     {
-        AtomicFile file(folder / "out.txt");
+        AtomicFile file = open(folder / "out.txt");
         file.write("new");
-        EXPECT_EQ(entryCount(), 2);
+        EXPECT_EQ(entryCount(), temporaryEntries() + 1);
     }
     EXPECT_EQ(load(folder / "out.txt"), "old");
     EXPECT_EQ(entryCount(), 1);
 }
 
-TEST_F(AtomicFileTest, CommitReplacesTheOldFile) {
+TEST_P(AtomicFileTest, CommitReplacesTheOldFile) {
     store(folder / "out.txt", "an older and longer text");
-    AtomicFile file(folder / "out.txt");
+    AtomicFile file = open(folder / "out.txt");
     file.write("new");
     EXPECT_EQ(load(folder / "out.txt"), "an older and longer text");
     file.commit();
@@ -93,40 +108,40 @@ TEST_F(AtomicFileTest, CommitReplacesTheOldFile) {
     EXPECT_EQ(entryCount(), 1);
 }
 
-TEST_F(AtomicFileTest, AnEmptyFileIsAFile) {
-    AtomicFile file(folder / "out.txt");
+TEST_P(AtomicFileTest, AnEmptyFileIsAFile) {
+    AtomicFile file = open(folder / "out.txt");
     file.commit();
     EXPECT_EQ(fs::file_size(folder / "out.txt"), 0u);
 }
 
-TEST_F(AtomicFileTest, TheNewFileHasThePermissionsOfTheUmask) {
+TEST_P(AtomicFileTest, TheNewFileHasThePermissionsOfTheUmask) {
     const mode_t before = umask(027);
-    AtomicFile file(folder / "out.txt");
+    AtomicFile file = open(folder / "out.txt");
     file.commit();
     umask(before);
     EXPECT_EQ(fs::status(folder / "out.txt").permissions(), static_cast<fs::perms>(0640));
 }
 
-TEST_F(AtomicFileTest, MovingHandsTheTemporaryFileOn) {
+TEST_P(AtomicFileTest, MovingHandsTheTemporaryFileOn) {
     std::optional<AtomicFile> outer;
     {
-        AtomicFile inner(folder / "out.txt");
+        AtomicFile inner = open(folder / "out.txt");
         inner.write("kept");
         outer.emplace(std::move(inner));
     }
-    AtomicFile other(folder / "other.txt");
-    EXPECT_EQ(entryCount(), 2);
+    AtomicFile other = open(folder / "other.txt");
+    EXPECT_EQ(entryCount(), 2 * temporaryEntries());
     other = std::move(*outer); // drops the file that it had
     outer.reset();
-    EXPECT_EQ(entryCount(), 1);
+    EXPECT_EQ(entryCount(), temporaryEntries());
     other.commit();
     EXPECT_EQ(load(folder / "out.txt"), "kept");
     EXPECT_EQ(entryCount(), 1);
 }
 
-TEST_F(AtomicFileTest, TwoWritersOfOneTargetDoNotMeet) {
-    AtomicFile first(folder / "out.txt");
-    AtomicFile second(folder / "out.txt");
+TEST_P(AtomicFileTest, TwoWritersOfOneTargetDoNotMeet) {
+    AtomicFile first = open(folder / "out.txt");
+    AtomicFile second = open(folder / "out.txt");
     first.write("first");
     second.write("second");
     second.commit();
@@ -135,30 +150,30 @@ TEST_F(AtomicFileTest, TwoWritersOfOneTargetDoNotMeet) {
     EXPECT_EQ(entryCount(), 1);
 }
 
-TEST_F(AtomicFileTest, ANameOfTheGreatestLengthCanBeWritten) {
+TEST_P(AtomicFileTest, ANameOfTheGreatestLengthCanBeWritten) {
     const std::string name(255, 'n');
-    AtomicFile file(folder / name);
+    AtomicFile file = open(folder / name);
     file.commit();
     EXPECT_TRUE(fs::exists(folder / name));
     expectRefused(folder / std::string(256, 'n') / "x", "shorter name");
 }
 
-TEST_F(AtomicFileTest, ANameInTheWorkingFolderNeedsNoPath) {
+TEST_P(AtomicFileTest, ANameInTheWorkingFolderNeedsNoPath) {
     const fs::path before = fs::current_path();
     fs::current_path(folder);
-    AtomicFile file("out.txt");
+    AtomicFile file = open("out.txt");
     file.commit();
     fs::current_path(before);
     EXPECT_TRUE(fs::exists(folder / "out.txt"));
     EXPECT_EQ(file.path(), "out.txt");
 }
 
-TEST_F(AtomicFileTest, ALinkIsWrittenThrough) {
+TEST_P(AtomicFileTest, ALinkIsWrittenThrough) {
     fs::create_directory(folder / "far");
     store(folder / "far/real.txt", "old");
     fs::create_symlink("far/real.txt", folder / "link1");
     fs::create_symlink(folder / "link1", folder / "link2");
-    AtomicFile file(folder / "link2");
+    AtomicFile file = open(folder / "link2");
     file.write("new");
     file.commit();
     EXPECT_TRUE(fs::is_symlink(folder / "link1"));
@@ -167,22 +182,22 @@ TEST_F(AtomicFileTest, ALinkIsWrittenThrough) {
     EXPECT_EQ(entryCount(), 3);
 }
 
-TEST_F(AtomicFileTest, ADanglingLinkCreatesWhatItPointsAt) {
+TEST_P(AtomicFileTest, ADanglingLinkCreatesWhatItPointsAt) {
     fs::create_symlink("real.txt", folder / "link");
-    AtomicFile file(folder / "link");
+    AtomicFile file = open(folder / "link");
     file.write("new");
     file.commit();
     EXPECT_TRUE(fs::is_symlink(folder / "link"));
     EXPECT_EQ(load(folder / "real.txt"), "new");
 }
 
-TEST_F(AtomicFileTest, LinksInACircleAreRefused) {
+TEST_P(AtomicFileTest, LinksInACircleAreRefused) {
     fs::create_symlink("b", folder / "a");
     fs::create_symlink("a", folder / "b");
     expectRefused(folder / "a", "circle");
 }
 
-TEST_F(AtomicFileTest, WhatCannotBeWrittenIsRefusedAtOnceAndNothingIsLeft) {
+TEST_P(AtomicFileTest, WhatCannotBeWrittenIsRefusedAtOnceAndNothingIsLeft) {
     store(folder / "file", "text");
     fs::create_directory(folder / "sub");
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
@@ -200,7 +215,7 @@ TEST_F(AtomicFileTest, WhatCannotBeWrittenIsRefusedAtOnceAndNothingIsLeft) {
     EXPECT_EQ(load(folder / "file"), "text");
 }
 
-TEST_F(AtomicFileTest, ProtectedFilesAndFoldersAreRefused) {
+TEST_P(AtomicFileTest, ProtectedFilesAndFoldersAreRefused) {
     if (geteuid() == 0) { // root may write everywhere
         ASSERT_EQ(refusalOf(folder / "file"), std::nullopt);
         return;
@@ -213,7 +228,7 @@ TEST_F(AtomicFileTest, ProtectedFilesAndFoldersAreRefused) {
     fs::permissions(folder, fs::perms::owner_all);
 }
 
-TEST_F(AtomicFileTest, AFullDiskIsReportedAndTheOldFileStays) {
+TEST_P(AtomicFileTest, AFullDiskIsReportedAndTheOldFileStays) {
     store(folder / "out.txt", "old");
     // A limit on the size of files stands in for the full disk.
     rlimit before{};
@@ -224,7 +239,7 @@ TEST_F(AtomicFileTest, AFullDiskIsReportedAndTheOldFileStays) {
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
     std::string message;
     try {
-        AtomicFile file(folder / "out.txt");
+        AtomicFile file = open(folder / "out.txt");
         file.write(std::string(10000, 'x'));
         file.commit();
     } catch (const Error &error) {
@@ -238,8 +253,8 @@ TEST_F(AtomicFileTest, AFullDiskIsReportedAndTheOldFileStays) {
     EXPECT_EQ(entryCount(), 1);
 }
 
-TEST_F(AtomicFileTest, AFailingRenameIsReportedAndLeavesNoTemporaryFile) {
-    AtomicFile file(folder / "out.txt");
+TEST_P(AtomicFileTest, AFailingRenameIsReportedAndLeavesNoTemporaryFile) {
+    AtomicFile file = open(folder / "out.txt");
     file.write("new");
     fs::create_directory(folder / "out.txt"); // appears while the render runs
     try {

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Plants small faults one at a time (mutations.txt) and counts how many the tests catch:
+#
+#   tests/mutation/run.sh [FIRST [LAST]]     by line of faults, 1 being the first; all by default
+#
+# Works on a copy of the sources in a temporary folder. Takes about a minute a fault. A fault that does not compile
+# counts as caught. Succeeds if at least 95 % are caught.
+set -uo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+first=${1:-1}
+last=${2:-1000000}
+
+(cd "$root" && git ls-files -z | xargs -0 tar cf - ) | tar xf - -C "$work" || exit 2
+cmake -S "$work" -B "$work/build" -DCMAKE_BUILD_TYPE=Release >/dev/null || exit 2
+targets=(unit_tests kernels_tests images_tests)
+build() { cmake --build "$work/build" --parallel "$(nproc)" --target "${targets[@]}" assets >"$work/build.log" 2>&1; }
+echo "building without faults ..."
+build || { tail -n 30 "$work/build.log"; exit 2; }
+
+export HYALITE_ASSETS=$work/build/share/hyalite
+export GTEST_FAIL_FAST=1
+pass() {
+    local test
+    for test in "${targets[@]}"; do
+        timeout 600 "$work/build/bin/$test" >"$work/test.log" 2>&1 || return 1
+    done
+}
+pass || { echo "the tests fail without any fault:"; tail -n 30 "$work/test.log"; exit 2; }
+
+number=0 planted=0 caught=0
+trim() { local text=$1; text=${text#"${text%%[![:space:]]*}"}; printf '%s' "${text%"${text##*[![:space:]]}"}"; }
+while IFS= read -r line; do
+    case $line in '' | '#'*) continue ;; esac
+    number=$((number + 1))
+    [ "$number" -ge "$first" ] && [ "$number" -le "$last" ] || continue
+    line=${line//\\|/$'\x01'}
+    IFS='|' read -r file from to <<<"$line"
+    file=$(trim "$file") from=$(trim "${from//$'\x01'/|}") to=$(trim "${to//$'\x01'/|}")
+    text=$(cat "$work/$file"; printf x)
+    text=${text%x}
+    if [[ "$text" != *"$from"* ]]; then
+        echo "$number  $file does not contain: $from"
+        exit 2
+    fi
+    printf '%s' "${text%%"$from"*}$to${text#*"$from"}" >"$work/$file"
+    planted=$((planted + 1))
+    if ! build; then
+        caught=$((caught + 1)) verdict='caught (does not compile)'
+    elif pass; then
+        verdict=MISSED
+    else
+        caught=$((caught + 1)) verdict="caught by $(grep -m1 -o 'FAILED  \] [A-Za-z0-9_.]*' "$work/test.log" | cut -c11-)"
+    fi
+    printf '%s' "$text" >"$work/$file"
+    echo "$number  $file: $from -> $to: $verdict"
+done <"$root/tests/mutation/mutations.txt"
+echo "$caught of $planted faults caught"
+[ $((caught * 100)) -ge $((planted * 95)) ]
