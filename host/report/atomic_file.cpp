@@ -129,19 +129,21 @@ int synchronize(int descriptor) {
 
 } // namespace
 
-template <class Create> bool AtomicFile::claimName(const Create &create) {
+template <class Create> int AtomicFile::claimName(const Create &create) {
     std::random_device random;
     constexpr int attemptCount = 16; // each fails only if a 64-bit random number was used before
-    errno = EEXIST;
-    for (int attempt = 0; attempt < attemptCount && (errno == EEXIST || errno == EINTR); ++attempt) {
+    int errorNumber = EEXIST;
+    for (int attempt = 0; attempt < attemptCount && (errorNumber == EEXIST || errorNumber == EINTR);
+         ++attempt) {
         const fs::path path =
             targetPath_.parent_path() / temporaryName(targetPath_.filename().string(), random);
         if (create(path)) {
             temporaryPath_ = path;
-            return true;
+            return 0;
         }
+        errorNumber = errno;
     }
-    return false;
+    return errorNumber;
 }
 
 AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(target) {
@@ -154,12 +156,15 @@ AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(
     if (kind == TemporaryFile::Automatic) {
         descriptor_ = openUnnamed(targetPath_.parent_path());
     }
+    if (descriptor_ >= 0) {
+        return;
+    }
     // Whatever kept it from being made: it is tried with a name, and fails for the reason to be told.
-    if (descriptor_ < 0 && !claimName([this](const fs::path &path) {
-            descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-            return descriptor_ >= 0;
-        })) {
-        const int errorNumber = errno;
+    const int errorNumber = claimName([this](const fs::path &path) {
+        descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        return descriptor_ >= 0;
+    });
+    if (errorNumber != 0) {
         refuseWithErrno(givenPath_,
                         fmt::format("no file can be created in '{}'", targetPath_.parent_path().string()),
                         errorNumber);
@@ -212,11 +217,14 @@ void AtomicFile::commit() {
     if (const int errorNumber = synchronize(descriptor_); errorNumber != 0) {
         refuseWithErrno(givenPath_, "storing the bytes", errorNumber);
     }
-    if (temporaryPath_.empty() && !claimName([this](const fs::path &path) {
+    if (temporaryPath_.empty()) {
+        const int errorNumber = claimName([this](const fs::path &path) {
             return linkat(AT_FDCWD, descriptorPath(descriptor_).c_str(), AT_FDCWD, path.c_str(),
                           AT_SYMLINK_FOLLOW) == 0;
-        })) {
-        refuseWithErrno(givenPath_, "naming the finished file", errno);
+        });
+        if (errorNumber != 0) {
+            refuseWithErrno(givenPath_, "naming the finished file", errorNumber);
+        }
     }
     if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) { // network file systems report late
         const int errorNumber = errno;

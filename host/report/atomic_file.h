@@ -46,8 +46,8 @@ class AtomicFile {
 
   private:
     /// Calls `create` with unused names in the target's folder until it makes one of them a file, and keeps that name.
-    /// `create` returns whether it did and sets errno if not; so does this function.
-    template <class Create> [[nodiscard]] bool claimName(const Create &create);
+    /// `create` returns whether it did and sets errno if not. Returns errno, or 0.
+    template <class Create> [[nodiscard]] int claimName(const Create &create);
     void discard() noexcept;
 
     std::filesystem::path givenPath_;

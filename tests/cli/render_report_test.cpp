@@ -71,8 +71,7 @@ TEST_F(RenderReport, CommandLineCanBePastedBack) {
 }
 
 TEST_F(RenderReport, TheCommandLineIsQuotedAsAShellNeedsIt) {
-    for (const char *name :
-         {"#a.pfm", "~a.pfm", "a[b]!.pfm", "a`b$c.pfm", "a\\b.pfm", "'a' \"b\".pfm"}) {
+    for (const char *name : {"#a.pfm", "~a.pfm", "a[b]!.pfm", "a`b$c.pfm", "a\\b.pfm", "'a' \"b\".pfm"}) {
         Surroundings surroundings;
         surroundings.folder = folder;
         const Outcome outcome = runProgram({"render", "sheet.json", "-o", name, "--width", "4", "--spp", "1",

@@ -498,6 +498,19 @@ TEST(BallOnTheAxis, ShowsTheWallBehind) {
     }
 }
 
+// A sheet that has no other side: what enters is lost in glass, and the background is seen through its tint.
+TEST(GlassSheet, TintsTheBackgroundBehind) {
+    Scene scene = emptyScene(37, 25, 100.0);
+    scene.background = {0.25f, 0.5f, 1.0f};
+    const dvec3 tint(0.75, 0.25, 0.5);
+    addWall(scene, wallAhead, addGlass(scene, 1.5f, glm::vec3(tint)));
+    expectPicture(scene, [&](const dvec2 &position) {
+        const dvec3 direction = glm::normalize(directionThrough(scene.camera, position));
+        const double reflectance = reflectanceOf(1.5, -direction.z);
+        return Prediction{0, dvec3(scene.background) * (reflectance + (1.0 - reflectance) * tint)};
+    });
+}
+
 // Schlick's reflectance does not vanish for an index of 1, but away from the rim it is below rounding.
 TEST(HollowBall, OfIndexOneIsNotThere) {
     Scene scene = emptyScene(49, 49);
