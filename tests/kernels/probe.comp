@@ -1,5 +1,5 @@
-// Entry kernel of the kernel tests: calls one function of shaders/*.glsl for each input. Inputs and outputs are words,
-// in the order of the function's parameters and of the fields of its result.
+// Entry kernel of the kernel tests: calls one function of shaders/*.glsl for each input. Inputs and outputs are
+// words, in the order of the function's parameters and of the fields of its result.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
