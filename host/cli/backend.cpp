@@ -37,6 +37,7 @@ class CpuBackend : public Backend {
         return precision_ == reference::Precision::Float32 ? "cpu" : "cpu-double";
     }
     [[nodiscard]] std::string driver() const override { return "reference renderer"; }
+    [[nodiscard]] std::string arithmetic() const override { return "native / and sqrt: IEEE 754"; }
     [[nodiscard]] std::string description() const override {
         return precision_ == reference::Precision::Float32
                    ? "cpu, the reference renderer"
@@ -69,6 +70,11 @@ class DeviceBackend : public Backend {
 
     [[nodiscard]] std::string name() const override { return device_.name; }
     [[nodiscard]] std::string driver() const override { return device_.driver; }
+    [[nodiscard]] std::string arithmetic() const override {
+        const gpu::ArithmeticChoice &choice = renderer_.arithmetic();
+        return fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason);
+    }
+    [[nodiscard]] std::string unpromisedBits() const override { return gpu::explainUnpromisedBits(device_); }
     [[nodiscard]] std::string description() const override {
         const std::string driver = driverBesideName(device_.driver, device_.name);
         return fmt::format("{}, {}{}{}{}", device_.index, device_.name, driver.empty() ? "" : ", ", driver,

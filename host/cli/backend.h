@@ -25,6 +25,9 @@ class Backend {
     [[nodiscard]] virtual std::string name() const = 0;        ///< "cpu", or as the device calls itself
     [[nodiscard]] virtual std::string driver() const = 0;      ///< what computes
     [[nodiscard]] virtual std::string description() const = 0; ///< for people
+    [[nodiscard]] virtual std::string arithmetic() const = 0;  ///< which / and sqrt run, and why
+    /// Why images may differ from the CPU twin's in their bits, or empty where they may not.
+    [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
     [[nodiscard]] virtual BackendResult render(const PreparedScene &scene,
                                                const std::function<void(double)> &onProgress) = 0;
     /// What one sample of one pixel of the whole image does.

@@ -194,6 +194,10 @@ nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
     return json;
 }
 
+nlohmann::ordered_json describe(const Backend &backend) {
+    return {{"name", backend.name()}, {"driver", backend.driver()}, {"arithmetic", backend.arithmetic()}};
+}
+
 ExitCode runCompare(const CompareOptions &options, const std::string &commandLine) {
     const Tolerance tolerance = parseTolerance(options.tolerance);
     requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
@@ -219,6 +223,10 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
         fmt::print("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
                    scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
         fmt::print("first        {}\nsecond       {}\n", first->description(), second->description());
+        for (const Backend *backend : {first.get(), second.get()})
+            if (!backend->unpromisedBits().empty())
+                fmt::print("note         bits are not promised by {}: {}\n", backend->name(),
+                           backend->unpromisedBits());
     }
     const BackendResult a = renderWithProgress(*first, scene, first->name(), options.isQuiet);
     const BackendResult b = renderWithProgress(*second, scene, second->name(), options.isQuiet);
@@ -267,8 +275,8 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
         nlohmann::ordered_json json;
         json["commandLine"] = commandLine;
         json["scene"] = scene.loaded.file.string();
-        json["first"] = {{"name", first->name()}, {"driver", first->driver()}};
-        json["second"] = {{"name", second->name()}, {"driver", second->driver()}};
+        json["first"] = describe(*first);
+        json["second"] = describe(*second);
         json.update(comparisonToJson(comparison, imageB, imageA));
         json["outliers"] = outliers.size();
         json["areRayCountsEqual"] = areCountsEqual;

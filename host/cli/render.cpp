@@ -64,8 +64,12 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     const std::unique_ptr<Backend> backend = openBackend(options.device, options.threads);
     report.deviceName = backend->name();
     report.deviceDriver = backend->driver();
-    if (!options.isQuiet)
+    report.arithmetic = backend->arithmetic();
+    if (!options.isQuiet) {
         printMessage("device: {}\n", backend->description());
+        if (!backend->unpromisedBits().empty())
+            printMessage("note: bits may differ from the CPU twin's: {}\n", backend->unpromisedBits());
+    }
     const BackendResult result = renderWithProgress(*backend, scene, "render", options.isQuiet);
     report.timing = result.timing;
     report.rays = result.rays;

@@ -12,7 +12,8 @@ std::string formatReport(const RenderReport &report) {
     json["commandLine"] = report.commandLine;
     json["scene"] = report.scene;
     json["output"] = report.output;
-    json["device"] = {{"name", report.deviceName}, {"driver", report.deviceDriver}};
+    json["device"] = {
+        {"name", report.deviceName}, {"driver", report.deviceDriver}, {"arithmetic", report.arithmetic}};
     json["image"] = {{"width", report.width}, {"height", report.height}};
     const RenderSettings &settings = report.settings;
     json["settings"] = {{"integrator", nameOf(settings.integrator)},

@@ -15,6 +15,7 @@ struct RenderReport {
     std::string output;
     std::string deviceName;
     std::string deviceDriver;
+    std::string arithmetic; ///< which / and sqrt ran
     int width = 0; ///< of the output, pixels
     int height = 0;
     RenderSettings settings;

@@ -36,7 +36,7 @@ TEST_F(RenderReport, HasAllItsKeys) {
         EXPECT_EQ(keysOf(report),
                   (std::set<std::string>{"program", "commandLine", "scene", "output", "device", "image",
                                          "settings", "triangles", "rays", "dispatches", "seconds"}));
-        EXPECT_EQ(keysOf(report.at("device")), (std::set<std::string>{"name", "driver"}));
+        EXPECT_EQ(keysOf(report.at("device")), (std::set<std::string>{"name", "driver", "arithmetic"}));
         EXPECT_EQ(keysOf(report.at("image")), (std::set<std::string>{"width", "height"}));
         EXPECT_EQ(keysOf(report.at("settings")),
                   (std::set<std::string>{"integrator", "spp", "maxDepth", "bvh", "leafSize", "sampler",

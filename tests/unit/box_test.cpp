@@ -91,10 +91,14 @@ TEST(Box, IsNeverMissedByARayThroughAPointInside) {
         const glm::vec3 lower = glm::min(a, b);
         const glm::vec3 upper = glm::max(a, b);
         const glm::dvec3 weights(random.uniform(), random.uniform(), random.uniform());
-        const glm::dvec3 inside = glm::mix(glm::dvec3(lower), glm::dvec3(upper), weights);
-        glm::vec3 direction = hostileDirection(random);
-        const double back = scale * random.logUniform(1e-3, 1e4);
-        const glm::vec3 origin(inside - glm::dvec3(direction) * back);
+        const glm::vec3 inside(glm::mix(glm::dvec3(lower), glm::dvec3(upper), weights));
+        const glm::dvec3 step = glm::dvec3(hostileDirection(random)) * (scale * random.logUniform(1e-3, 1e4));
+        const glm::vec3 origin(glm::dvec3(inside) - step);
+        const glm::dvec3 way = glm::dvec3(inside) - glm::dvec3(origin);
+        const double back = glm::length(way);
+        if (back == 0.0)
+            continue;
+        const glm::vec3 direction(way / back);
         const BoxRay<float> ray = makeBoxRay(origin, direction, lower, upper);
         const Interval<float> interval = boxInterval(ray, lower, upper);
         missed.check(interval.enter <= interval.leave, [&] {
@@ -103,7 +107,12 @@ TEST(Box, IsNeverMissedByARayThroughAPointInside) {
         });
         const double slack = 0x1p-22 * back;
         outside.check(static_cast<double>(interval.enter) <= back + slack &&
-                      back - slack <= static_cast<double>(interval.leave));
+                          back - slack <= static_cast<double>(interval.leave),
+                      [&] {
+                          return fmt::format("{} {}, origin {}, direction {}: {} not in [{}, {}]",
+                                             text(lower), text(upper), text(origin), text(direction), back,
+                                             interval.enter, interval.leave);
+                      });
     }
     missed.expectNone();
     outside.expectNone();
