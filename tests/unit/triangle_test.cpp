@@ -396,6 +396,9 @@ bool isSameHit(const Hit<float> &a, const Hit<float> &b) {
 }
 
 TEST(ClosestHit, IsTheSameToTheBitWithEveryTreeAndWithout) {
+    // For long runs by hand: HYALITE_TEST_SCALE=10 traces ten times as many rays.
+    const char *scale = std::getenv("HYALITE_TEST_SCALE");
+    const int raysPerScene = 80'000 * std::clamp(scale != nullptr ? std::atoi(scale) : 1, 1, 1000);
     Random random(105);
     Tally differences("tree against brute force", random.seed());
     std::uint64_t hitCount = 0;
@@ -409,7 +412,7 @@ TEST(ClosestHit, IsTheSameToTheBitWithEveryTreeAndWithout) {
         for (const int leafSize : {1, 4, 64})
             trees.emplace_back(fmt::format("sah, leaf size {}", leafSize),
                                hyalite::testing::packed(scene, TreeKind::Sah, leafSize));
-        for (int i = 0; i < 80'000; ++i) {
+        for (int i = 0; i < raysPerScene; ++i) {
             const Ray<float> ray = hostileRay(random, trees[0].second);
             const Hit<float> expected = nearestByDefinition(trees[0].second, ray);
             hitCount += expected.primitive != layout::noPrimitive ? 1 : 0;
@@ -424,7 +427,8 @@ TEST(ClosestHit, IsTheSameToTheBitWithEveryTreeAndWithout) {
             }
         }
     }
-    fmt::print("    {:.1f} % of the rays hit\n", 100.0 * static_cast<double>(hitCount) / (13 * 80'000.0));
+    fmt::print("    {:.1f} % of the rays hit\n",
+               100.0 * static_cast<double>(hitCount) / (13.0 * raysPerScene));
     EXPECT_GT(hitCount, 300'000u);
     differences.expectNone();
 }
