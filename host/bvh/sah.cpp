@@ -34,6 +34,11 @@ struct Candidate {
     std::size_t largerCount = 0;                 ///< triangles on the fuller side
     int axis = -1;
     int lastLeftBin = 0;
+
+    /// Boxes without area cost nothing wherever they are cut: then halves are best.
+    [[nodiscard]] bool isBetterThan(const Candidate &other) const {
+        return cost < other.cost || (cost == other.cost && largerCount < other.largerCount);
+    }
 };
 
 Candidate bestOnAxis(std::span<const BuildTriangle> range, int axis, const Binning &binning) {
@@ -58,10 +63,10 @@ Candidate bestOnAxis(std::span<const BuildTriangle> range, int axis, const Binni
         if (left.count == 0 || left.count == range.size())
             continue;
         const double cost = left.box.halfArea() * static_cast<double>(left.count) + rightCost[i + 1];
-        // Boxes without area cost nothing wherever they are cut: then halves are best.
-        const std::size_t larger = std::max(left.count, range.size() - left.count);
-        if (cost < best.cost || (cost == best.cost && larger < best.largerCount))
-            best = {cost, larger, axis, static_cast<int>(i)};
+        const Candidate candidate{cost, std::max(left.count, range.size() - left.count), axis,
+                                  static_cast<int>(i)};
+        if (candidate.isBetterThan(best))
+            best = candidate;
     }
     return best;
 }
@@ -76,8 +81,7 @@ std::size_t splitBySah(std::span<BuildTriangle> range, const Box &box, std::size
     for (int axis = 0; axis < 3; ++axis) {
         const Candidate candidate =
             bestOnAxis(range, axis, Binning(centroids.lower[axis], centroids.upper[axis]));
-        if (candidate.axis >= 0 && (candidate.cost < best.cost || (candidate.cost == best.cost &&
-                                                                   candidate.largerCount < best.largerCount)))
+        if (candidate.isBetterThan(best))
             best = candidate;
     }
     const double area = box.halfArea();
