@@ -1,0 +1,44 @@
+#include "host/gpu/batching.h"
+
+#include "whittedSkipOneSlot.h"
+#include "whittedSkipTwoSlots.h"
+#include "whittedStackOneSlot.h"
+#include "whittedStackTwoSlots.h"
+
+#include <algorithm>
+
+namespace hyalite::gpu {
+
+Batching completed(Batching batching, const DeviceInfo &device) {
+    // A software device has few cores and wants to report progress; a GPU wants to be filled.
+    const int side = device.isSoftware() ? 128 : 512;
+    if (batching.tileWidth == 0)
+        batching.tileWidth = side;
+    if (batching.tileHeight == 0)
+        batching.tileHeight = side;
+    // Two independent rays at once hide latency on a CPU; on a GPU other subgroups do, and registers are short.
+    if (batching.slotsPerInvocation == 0)
+        batching.slotsPerInvocation = device.isSoftware() && batching.kernel.empty() ? 2 : 1;
+    // lavapipe stops a subgroup in silence after 65,535 loop iterations of all of its lanes together. The lanes count
+    // for themselves, and lanes that diverge add up.
+    const std::uint32_t limit = 65535u / (std::max(device.subgroupSize, 1u) + 1u);
+    if (batching.traversal == Traversal::Automatic)
+        batching.traversal =
+            device.isSoftware() && batching.kernel.empty() ? Traversal::SkipList : Traversal::Stack;
+    if (batching.steps == 0)
+        batching.steps = 4096;
+    if (device.isSoftware())
+        batching.steps = std::min(batching.steps, limit);
+    return batching;
+}
+
+std::span<const std::uint32_t> kernelWords(const Batching &batching) {
+    using Words = std::span<const std::uint32_t>;
+    if (!batching.kernel.empty())
+        return batching.kernel;
+    if (batching.traversal == Traversal::SkipList)
+        return batching.slotsPerInvocation == 2 ? Words(whittedSkipTwoSlots) : Words(whittedSkipOneSlot);
+    return batching.slotsPerInvocation == 2 ? Words(whittedStackTwoSlots) : Words(whittedStackOneSlot);
+}
+
+} // namespace hyalite::gpu

@@ -1,0 +1,36 @@
+// How work is cut into dispatches, and which kernel does it.
+#pragma once
+
+#include "host/gpu/arithmetic.h"
+#include "host/gpu/devices.h"
+
+#include <cstdint>
+#include <span>
+
+namespace hyalite::gpu {
+
+/// How rays go through the tree. Stack: the portable one, over storage buffers. SkipList: over texel buffers, which
+/// lavapipe reads several times faster.
+enum class Traversal { Automatic, Stack, SkipList };
+
+/// How work is cut into dispatches, and what for. The image does not depend on any of it.
+struct Batching {
+    int tileWidth = 0;          ///< pixels, a multiple of 8; 0: by the device
+    int tileHeight = 0;         ///< pixels, a multiple of 8; 0: by the device
+    std::uint32_t steps = 0;    ///< loop iterations of a path slot in one dispatch; 0: by the device
+    int slotsPerInvocation = 0; ///< path slots of one invocation, 1 or 2; 0: by the device
+    bool isStaged = false;      ///< transfer everything through staging buffers
+    Arithmetic arithmetic = Arithmetic::Automatic; ///< which / and sqrt run
+    Traversal traversal = Traversal::Automatic;
+    /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an
+    /// invocation, and the stack.
+    std::span<const std::uint32_t> kernel{};
+};
+
+/// `batching` with everything filled in that was left to the device.
+[[nodiscard]] Batching completed(Batching batching, const DeviceInfo &device);
+
+/// The kernel that a complete `batching` names, as SPIR-V.
+[[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching);
+
+} // namespace hyalite::gpu
