@@ -1,10 +1,8 @@
 // What a kernel is given beside the scene (scene_data.glsl): buffers, push constants and specialization constants, as layout.h describes them.
 
 layout(set = 0, binding = bindingFrame, std140) uniform FrameBuffer { FrameRecord frame; };
-layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
 layout(set = 0, binding = bindingProgress, std430) buffer ProgressBuffer { DispatchProgress progress; };
 layout(set = 0, binding = bindingPaths, std430) buffer PathBuffer { PathRecord pathRecords[]; };
-layout(set = 0, binding = bindingPending, std430) buffer PendingBuffer { PendingRay pendingRays[]; };
 layout(set = 0, binding = bindingStacks, std430) buffer StackBuffer { uint stackEntries[]; };
 layout(set = 0, binding = bindingTrace, std430) writeonly buffer TraceBuffer { TraceEvent traceEvents[]; };
 
@@ -18,3 +16,7 @@ layout(constant_id = constantSampler) const uint samplerKind = samplerSobol;
 layout(constant_id = constantStackSize) const uint stackSize = maxTreeDepth;
 layout(constant_id = constantIsTracing) const bool isTracing = false;
 layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
+layout(constant_id = constantSamplesAbreast) const uint samplesAbreast = 1u;
+layout(constant_id = constantIsResumable) const bool isResumable = true;
+layout(constant_id = constantLightCount) const uint lightCount = 1u;
+layout(constant_id = constantPendingInRegisters) const uint pendingInRegisters = 0u;

@@ -17,7 +17,7 @@ struct BoxRay {
 BoxRay makeBoxRay(vec3 origin, vec3 direction, vec3 lower, vec3 upper) {
     precise vec3 toLower = abs(lower - origin);
     precise vec3 toUpper = abs(upper - origin);
-    float reach = largestComponent(max(toLower, toUpper));
+    float reach = largestComponent(greater(toLower, toUpper));
     // A direction of nearly 0 would give infinities and, on a face of the box, NaN. Bounded, it moves the ray by
     // less than the pad over any distance that occurs.
     vec3 bounded = mix(direction, mix(vec3(1e-18), vec3(-1e-18), lessThan(direction, vec3(0.0))),
@@ -29,7 +29,7 @@ BoxRay makeBoxRay(vec3 origin, vec3 direction, vec3 lower, vec3 upper) {
 vec2 boxInterval(BoxRay ray, vec3 lower, vec3 upper) {
     precise vec3 toLower = ((lower - ray.origin) - ray.pad) * ray.inverse;
     precise vec3 toUpper = ((upper - ray.origin) + ray.pad) * ray.inverse;
-    float enter = max(largestComponent(min(toLower, toUpper)), 0.0);
-    float leave = smallestComponent(max(toLower, toUpper));
+    float enter = greater(largestComponent(lesser(toLower, toUpper)), 0.0);
+    float leave = smallestComponent(greater(toLower, toUpper));
     return vec2(enter, leave);
 }

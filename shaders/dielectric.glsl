@@ -16,14 +16,14 @@ Refraction refractRay(vec3 direction, vec3 facing, float index, bool isEntering)
     precise float eta = isEntering ? divide(1.0, index) : index;
     precise float cosIncident = -dotProduct(direction, facing);
     precise float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
-    precise float cosTransmitted = squareRoot(max(radicand, 0.0));
+    precise float cosTransmitted = squareRoot(greater(radicand, 0.0));
     precise float along = eta * cosIncident - cosTransmitted;
     precise vec3 transmitted = direction * eta + facing * along;
     precise float below = 1.0 - index;
     precise float above = 1.0 + index;
     float ratio = divide(below, above);
     precise float normalReflectance = ratio * ratio;
-    precise float k = 1.0 - min(isEntering ? cosIncident : cosTransmitted, 1.0);
+    precise float k = 1.0 - lesser(isEntering ? cosIncident : cosTransmitted, 1.0);
     precise float k2 = k * k;
     precise float reflectance = normalReflectance + (1.0 - normalReflectance) * (k2 * k2 * k);
     precise float transmittance = 1.0 - reflectance;

@@ -224,12 +224,14 @@ struct TraceEvent {
 
 // ---- A path slot, as it waits between two dispatches
 
-const uint stageNextRay = 0u;   // take the next pending ray, or begin the next sample
-const uint stageNewRay = 1u;    // a ray is ready to be traced
-const uint stageClosest = 2u;   // looking for its nearest hit
-const uint stageNextLight = 3u; // on a diffuse surface: aim at the next light
-const uint stageShadow = 4u;    // looking for anything between the surface and the light
-const uint stageDone = 5u;      // all samples of the pixel are in the film
+const uint stageNextSample = 0u; // begin the next sample
+const uint stageNextRay = 1u;    // take the next pending ray, or end the sample
+const uint stageNewRay = 2u;     // a ray is ready to be traced
+const uint stageClosest = 3u;    // looking for its nearest hit
+const uint stageNextLight = 4u;  // on a diffuse surface: aim at the next light
+const uint stageShadow = 5u;     // looking for anything between the surface and the light
+const uint stageSampleDone = 6u; // the sample waits for those of the pixel's other slots
+const uint stageDone = 7u;       // all samples of the pixel are in the film
 
 struct PathRecord {
     vec3 rayOrigin;
@@ -270,6 +272,8 @@ struct PendingRay {
     uint medium;
 };
 
+const uint mostPendingInRegisters = 8u;
+
 // ---- Bindings, all in set 0. The first three are uniform buffers, the others storage buffers.
 
 const uint bindingFrame = 0u;
@@ -285,7 +289,8 @@ const uint bindingPaths = 9u;
 const uint bindingPending = 10u; // maxDepth rays a slot
 const uint bindingStacks = 11u;  // stackSize references a slot
 const uint bindingTrace = 12u;
-const uint bindingCount = 13u;
+const uint bindingSphereArray = 13u; // the spheres again, as texels
+const uint bindingCount = 14u;
 
 // ---- Specialization constants: what a scene does not use costs nothing
 
@@ -298,7 +303,11 @@ const uint constantSampler = 5u;
 const uint constantStackSize = 6u;
 const uint constantIsTracing = 7u;     // write what path slot 0 does into the trace buffer
 const uint constantExactDivision = 8u; // the device's own / and sqrt are correctly rounded
-const uint constantCount = 9u;
+const uint constantSamplesAbreast = 9u; // slots of one pixel: a power of two, at most the subgroup's size
+const uint constantIsResumable = 10u;   // unfinished slots wait in the path buffer
+const uint constantLightCount = 11u;
+const uint constantPendingInRegisters = 12u; // how many; 0: they are in the buffer
+const uint constantCount = 13u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);

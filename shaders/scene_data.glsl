@@ -14,6 +14,14 @@ layout(set = 0, binding = bindingNodes, rgba32ui) uniform restrict readonly uima
 layout(set = 0, binding = bindingTriangles, rgba32ui) uniform restrict readonly uimageBuffer triangleTexels;
 layout(set = 0, binding = bindingNormals, rgba32ui) uniform restrict readonly uimageBuffer normalTexels;
 
+layout(set = 0, binding = bindingSphereArray, rgba32ui) uniform restrict readonly uimageBuffer sphereTexels;
+
+SphereRecord fetchSphere(uint index) {
+    uvec4 a = imageLoad(sphereTexels, int(index) * 2);
+    uvec4 b = imageLoad(sphereTexels, int(index) * 2 + 1);
+    return SphereRecord(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), b.x, uintBitsToFloat(b.y), b.z, b.w);
+}
+
 MaterialRecord fetchMaterial(uint index) {
     int row = int(index) * 3;
     uvec4 a = imageLoad(materialTexels, row);
@@ -50,6 +58,8 @@ layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuff
 layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { NodePair nodes[]; };
 layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
 layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
+
+SphereRecord fetchSphere(uint index) { return spheres[index]; }
 
 MaterialRecord fetchMaterial(uint index) { return materials[index]; }
 

@@ -15,7 +15,7 @@ float intersectSphere(vec3 origin, vec3 direction, vec3 centre, float radius, bo
     precise float squaredRadius = radius * radius;
     precise float discriminant = squaredRadius - dotProduct(nearest, nearest);
     precise float c = dotProduct(f, f) - squaredRadius;
-    precise float root = squareRoot(max(discriminant, 0.0));
+    precise float root = squareRoot(greater(discriminant, 0.0));
     precise float q = b >= 0.0 ? -b - root : root - b;
     float r = divide(c, q);
     precise float chord = -2.0 * b;

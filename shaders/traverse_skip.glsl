@@ -43,7 +43,7 @@ void visitNode(uint slot, GridRay ray) {
     uvec3 planes = uvec3(node.x, node.y, node.z);
     vec3 enter = addProduct(ray.near, vec3(planes & 0xFFFFu), ray.scale);
     vec3 leave = addProduct(ray.far, vec3(planes >> 16u), ray.scale);
-    bool isHit = max(largestComponent(enter), 0.0) <= min(smallestComponent(leave), path[slot].rayLength);
+    bool isHit = greater(largestComponent(enter), 0.0) <= lesser(smallestComponent(leave), path[slot].rayLength);
     bool isLeaf = (node.link & leafFlag) != 0u;
     bool isWaiting = path[slot].cursorTriangle != noNode;
     uint next = isHit || isLeaf ? cursor + 1u : node.link;
@@ -69,7 +69,7 @@ void traverse(uint stage, const bool isShadow) {
         end[slot] = isMine ? (octant + 1u) * frame.skipListLength - skipPadding : 0u;
         isRunning = isRunning || isMine;
     }
-    while (isRunning && stepsTaken < dispatch.stepBudget) {
+    do {
         isRunning = false;
         [[unroll]] for (uint step = 0u; step < stepsAPass; ++step)
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
@@ -87,7 +87,7 @@ void traverse(uint stage, const bool isShadow) {
             isRunning = isRunning || isLeft;
         }
         stepsTaken += 1u;
-    }
+    } while (isRunning && stepsTaken < dispatch.stepBudget);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (end[slot] != 0u && path[slot].cursorNode >= end[slot] && path[slot].cursorTriangle == noNode)
             stopTraversal(slot);

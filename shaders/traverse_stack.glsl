@@ -40,8 +40,8 @@ void visitNode(uint slot, BoxRay ray) {
     NodePair node = fetchNode(path[slot].cursorNode);
     vec2 left = boxInterval(ray, node.leftLower, node.leftUpper);
     vec2 right = boxInterval(ray, node.rightLower, node.rightUpper);
-    bool isLeftHit = node.left != noNode && left.x <= min(left.y, path[slot].rayLength);
-    bool isRightHit = node.right != noNode && right.x <= min(right.y, path[slot].rayLength);
+    bool isLeftHit = node.left != noNode && left.x <= lesser(left.y, path[slot].rayLength);
+    bool isRightHit = node.right != noNode && right.x <= lesser(right.y, path[slot].rayLength);
     bool isRightNearer = isRightHit && (!isLeftHit || right.x < left.x);
     uint nearer = isRightNearer ? node.right : node.left;
     if (isLeftHit && isRightHit)
@@ -74,7 +74,7 @@ void traverse(uint stage, const bool isShadow) {
         triangleRay[slot] = makeTriangleRay(path[slot].rayOrigin, path[slot].rayDirection);
         isRunning = isRunning || (path[slot].stage == stage && isTraversing(slot));
     }
-    while (isRunning && stepsTaken < dispatch.stepBudget) {
+    do {
         isRunning = false;
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
             if (path[slot].stage == stage && path[slot].cursorNode != noNode)
@@ -84,5 +84,5 @@ void traverse(uint stage, const bool isShadow) {
             isRunning = isRunning || (path[slot].stage == stage && isTraversing(slot));
         }
         stepsTaken += 1u;
-    }
+    } while (isRunning && stepsTaken < dispatch.stepBudget);
 }

@@ -45,15 +45,15 @@ TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, 
     precise float e0 = r.x * q.y - r.y * q.x;
     precise float e1 = p.x * r.y - p.y * r.x;
     precise float e2 = q.x * p.y - q.y * p.x;
-    bool isInside = min(min(e0, e1), e2) >= 0.0 || max(max(e0, e1), e2) <= 0.0;
+    bool isInside = lesser(lesser(e0, e1), e2) >= 0.0 || greater(greater(e0, e1), e2) <= 0.0;
     precise float determinant = e0 + e1 + e2;
     float inverse = divide(1.0, determinant);
     precise float u = e0 * inverse;
     precise float v = e1 * inverse;
     precise float w = e2 * inverse;
     precise float depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
-    vec2 interval = boxInterval(boxRay, min(min(v0, v1), v2), max(max(v0, v1), v2));
-    float distance = min(max(depth, interval.x), interval.y);
+    vec2 interval = boxInterval(boxRay, lesser(lesser(v0, v1), v2), greater(greater(v0, v1), v2));
+    float distance = lesser(greater(depth, interval.x), interval.y);
     bool isHit = isInside && determinant != 0.0 && interval.x <= interval.y;
     return TriangleHit(isHit ? distance : 0.0, u, v);
 }
@@ -71,7 +71,7 @@ vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
 // that, the triangles of a floor at y = 0 would shadow each other.
 vec3 trianglePointError(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     precise float w = 1.0 - u - v;
-    precise float extent = largestComponent(max(abs(v1 - v0), abs(v2 - v0)));
+    precise float extent = largestComponent(greater(abs(v1 - v0), abs(v2 - v0)));
     precise vec3 size = abs(v0 * u) + abs(v1 * v) + abs(v2 * w) + extent;
     precise vec3 bound = size * (8.0 / 16777216.0);
     return bound;

@@ -52,6 +52,16 @@ vec3 mirrorDirection(vec3 d, vec3 n) {
     return mirrored;
 }
 
-float largestComponent(vec3 v) { return max(max(v.x, v.y), v.z); }
+// The lesser and the greater of two numbers, and `b` where they are equal or one of them is NaN. The built-in min and max
+// leave that open; and on lavapipe they are three instructions, these are one.
+float lesser(float a, float b) { return a < b ? a : b; }
 
-float smallestComponent(vec3 v) { return min(min(v.x, v.y), v.z); }
+float greater(float a, float b) { return a > b ? a : b; }
+
+vec3 lesser(vec3 a, vec3 b) { return vec3(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z)); }
+
+vec3 greater(vec3 a, vec3 b) { return vec3(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)); }
+
+float largestComponent(vec3 v) { return greater(greater(v.x, v.y), v.z); }
+
+float smallestComponent(vec3 v) { return lesser(lesser(v.x, v.y), v.z); }

@@ -2,6 +2,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#if SKIP_LIST
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
 
 #include "layout.h"
 
@@ -18,7 +21,10 @@ layout(local_size_x_id = 0) in;
 #include "sphere.glsl"
 #include "dielectric.glsl"
 #include "surface.glsl"
+#include "preloaded.glsl"
 #include "path_slots.glsl"
+#include "film.glsl"
+#include "pending_rays.glsl"
 #include "meet_triangle.glsl"
 #if SKIP_LIST
 #include "traverse_skip.glsl"
@@ -28,11 +34,27 @@ layout(local_size_x_id = 0) in;
 #include "whitted.glsl"
 
 void main() {
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        loadSlot(slot);
-    while (isUnfinished() && stepsTaken < dispatch.stepBudget)
+    preload();
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+        placeSlot(slot);
+        loadFilm(slot);
+        loadSlot(slot, film[slot].sampleCount);
+    }
+    // The same for all lanes that share a pixel.
+    bool isOutOfSteps = false;
+    do {
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            if (path[slot].stage == stageNextSample)
+                beginSample(slot);
         advancePaths();
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            addRoundToFilm(slot);
+        stepsTaken += 1u;
+        isOutOfSteps = !isTrueForAllAbreast(stepsTaken < dispatch.stepBudget);
+    } while (isUnfinished() && !isOutOfSteps);
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+        storeFilm(slot);
         storeSlot(slot);
+    }
     addProgress();
 }

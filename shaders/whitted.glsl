@@ -17,38 +17,44 @@ void startRay(uint slot, vec3 origin, vec3 direction, uint excluded, uint depth,
     path[slot].stage = stageNewRay;
 }
 
-void addSampleToFilm(uint slot) {
-    vec3 radiance = path[slot].sampleRadiance;
-    film[slot].sum = add(film[slot].sum, radiance);
-    film[slot].sumOfSquares = addProduct(film[slot].sumOfSquares, radiance, radiance);
-    film[slot].sampleCount += 1u;
-    finishedSampleCount += 1u;
-}
-
-// Stage: take the ray that waits, or else finish the sample and begin the next one.
-void chooseNextRay(uint slot) {
-    if (hasDielectric && path[slot].pendingCount > 0u) {
-        path[slot].pendingCount -= 1u;
-        PendingRay ray = pendingRays[path[slot].pendingCount * slotCount() + slotIndex[slot]];
-        path[slot].throughput = ray.throughput;
-        startRay(slot, ray.origin, ray.direction, ray.excluded, ray.depth, ray.medium);
-        return;
-    }
-    if (path[slot].rayDepth != 0u) {
-        addSampleToFilm(slot);
-        path[slot].sampleIndex += 1u;
-    }
+// Stage: the primary ray of the next sample.
+void beginSample(uint slot) {
     path[slot].sampleRadiance = vec3(0.0);
     path[slot].throughput = vec3(1.0);
+    path[slot].stage = stageSampleDone;
     if (path[slot].sampleIndex < dispatch.sampleEnd) {
         uvec2 pixel = imagePixel[slot];
         vec3 direction = primaryDirection(pixel, samplePixel(pixel, path[slot].sampleIndex, frame.seed));
         startRay(slot, frame.eye, direction, noPrimitive, 1u, noMaterial);
-        rayCounts.x += 1u;
-    } else {
-        path[slot].rayDepth = 0u;
-        path[slot].stage = stageDone;
+        rayCounts[slot].x += 1u;
     }
+}
+
+// A path has come to its end: another one of the sample may wait.
+void endPath(uint slot) {
+    path[slot].stage = hasDielectric && path[slot].pendingCount > 0u ? stageNextRay : stageSampleDone;
+}
+
+// Stage: take the ray that waits.
+void takePendingRay(uint slot) {
+    PendingRay ray = popPendingRay(slot);
+    path[slot].throughput = ray.throughput;
+    startRay(slot, ray.origin, ray.direction, ray.excluded, ray.depth, ray.medium);
+}
+
+void meetSphere(uint slot, uint i, vec4 shape) {
+    float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape.xyz, shape.w, path[slot].rayExcluded == i);
+    bool isNearer = distance > 0.0 && distance < path[slot].rayLength;
+    path[slot].rayLength = isNearer ? distance : path[slot].rayLength;
+    path[slot].hitPrimitive = isNearer ? i : path[slot].hitPrimitive;
+}
+
+void meetSphereInShadow(uint slot, uint i, vec4 shape) {
+    float meeting = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape.xyz, shape.w, path[slot].rayExcluded == i);
+    bool isBetween = meeting > 0.0 && meeting < path[slot].rayLength;
+    bool isTransmissive = hasDielectric && isSphereTransmissive(i);
+    path[slot].isLightDimmed = isBetween && isTransmissive ? 1u : path[slot].isLightDimmed;
+    path[slot].hitPrimitive = isBetween && !isTransmissive ? i : path[slot].hitPrimitive;
 }
 
 // Stage: meet the spheres and stand at the root of the tree.
@@ -57,14 +63,12 @@ void beginClosest(uint slot) {
     traceEvent(slot, traceRayDirection, 0u, path[slot].rayDirection);
     path[slot].rayLength = unbounded;
     path[slot].hitPrimitive = noPrimitive;
-    for (uint i = 0u; i < sphereCount; ++i) {
-        float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, spheres[i].centre,
-                                         spheres[i].radius, path[slot].rayExcluded == i);
-        if (distance > 0.0 && distance < path[slot].rayLength) {
-            path[slot].rayLength = distance;
-            path[slot].hitPrimitive = i;
-        }
-    }
+    if (sphereCount <= unrolledSphereCount)
+        [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
+            meetSphere(slot, i, sphereShapes[i]);
+    else
+        for (uint i = 0u; i < sphereCount; ++i)
+            meetSphere(slot, i, sphereShape(i));
     path[slot].hitRecord = path[slot].hitPrimitive;
     if (hasTriangles)
         enterTree(slot);
@@ -77,7 +81,7 @@ void reflectRay(uint slot, Surface surface, uint medium) {
     vec3 direction = mirrorDirection(path[slot].rayDirection, surface.normal);
     vec3 origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, direction);
     startRay(slot, origin, direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u, medium);
-    rayCounts.z += 1u;
+    rayCounts[slot].z += 1u;
 }
 
 void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint materialIndex, bool isEntering) {
@@ -98,15 +102,14 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
     reflected.depth = path[slot].rayDepth + 1u;
     reflected.medium = mediumOfReflection;
     reflected.throughput = path[slot].throughput * refraction.reflectance;
-    pendingRays[path[slot].pendingCount * slotCount() + slotIndex[slot]] = reflected;
-    path[slot].pendingCount += 1u;
-    rayCounts.z += 1u;
+    pushPendingRay(slot, reflected);
+    rayCounts[slot].z += 1u;
 
     path[slot].throughput = path[slot].throughput * refraction.transmittance;
     vec3 origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, refraction.direction);
     startRay(slot, origin, refraction.direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u,
              isEntering ? materialIndex : noMaterial);
-    rayCounts.w += 1u;
+    rayCounts[slot].w += 1u;
 }
 
 void leaveScene(uint slot) {
@@ -115,7 +118,7 @@ void leaveScene(uint slot) {
         throughput *= fetchMaterial(path[slot].rayMedium).segmentTint;
     path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, frame.background);
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
-    path[slot].stage = stageNextRay;
+    endPath(slot);
 }
 
 // Stage: the nearest hit is known.
@@ -134,7 +137,7 @@ void shadeHit(uint slot) {
         surface = triangleSurface(triangle, fetchNormals(path[slot].hitRecord), path[slot].hitU, path[slot].hitV);
         materialIndex = triangle.materialIndex;
     } else {
-        SphereRecord sphere = spheres[path[slot].hitRecord];
+        SphereRecord sphere = fetchSphere(path[slot].hitRecord);
         surface = sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
         materialIndex = sphere.materialIndex;
     }
@@ -150,7 +153,7 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
-    path[slot].stage = stageNextRay;
+    endPath(slot);
     if (!hasSpecular || material.kind == materialDiffuse) {
         if (material.isTwoSided != 0u && dotProduct(direction, surface.geometricNormal) > 0.0) {
             surface.normal = -surface.normal;
@@ -174,11 +177,11 @@ void shadeHit(uint slot) {
 
 // Stage: send a shadow ray from the surface to the next light, if it lies on the lit side.
 void aimAtLight(uint slot) {
-    if (path[slot].lightIndex == frame.lightCount) {
-        path[slot].stage = stageNextRay;
+    if (path[slot].lightIndex == lightCount) {
+        endPath(slot);
         return;
     }
-    vec3 toLight = subtract(lights[path[slot].lightIndex].position, path[slot].surfacePosition);
+    vec3 toLight = subtract(lightPosition(path[slot].lightIndex), path[slot].surfacePosition);
     float distance = vectorLength(toLight);
     vec3 direction = toLight * divide(1.0, distance);
     bool isLit = dotProduct(path[slot].surfaceNormal, direction) > 0.0 &&
@@ -186,9 +189,11 @@ void aimAtLight(uint slot) {
     if (!isLit) {
         traceEvent(slot, traceVisibility, visibilityUnlit, vec3(path[slot].lightIndex));
         path[slot].lightIndex += 1u;
+        if (path[slot].lightIndex == lightCount)
+            endPath(slot);
         return;
     }
-    rayCounts.y += 1u;
+    rayCounts[slot].y += 1u;
     path[slot].rayOrigin = spawnPoint(path[slot].surfacePosition, path[slot].surfaceError,
                                       path[slot].surfaceGeometricNormal, direction);
     path[slot].rayDirection = direction;
@@ -196,16 +201,12 @@ void aimAtLight(uint slot) {
     path[slot].rayExcluded = path[slot].surfacePrimitive;
     path[slot].hitPrimitive = noPrimitive;
     path[slot].isLightDimmed = 0u;
-    for (uint i = 0u; i < sphereCount; ++i) {
-        float meeting = intersectSphere(path[slot].rayOrigin, direction, spheres[i].centre, spheres[i].radius,
-                                        path[slot].rayExcluded == i);
-        if (meeting > 0.0 && meeting < distance) {
-            if (hasDielectric && spheres[i].isTransmissive != 0u)
-                path[slot].isLightDimmed = 1u;
-            else
-                path[slot].hitPrimitive = i;
-        }
-    }
+    if (sphereCount <= unrolledSphereCount)
+        [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
+            meetSphereInShadow(slot, i, sphereShapes[i]);
+    else
+        for (uint i = 0u; i < sphereCount; ++i)
+            meetSphereInShadow(slot, i, sphereShape(i));
     if (hasTriangles && path[slot].hitPrimitive == noPrimitive)
         enterTree(slot);
     else
@@ -222,7 +223,7 @@ void addLight(uint slot) {
     if (isVisible) {
         float squaredDistance = path[slot].rayLength * path[slot].rayLength;
         float cosine = dotProduct(path[slot].surfaceNormal, path[slot].rayDirection);
-        vec3 irradiance = lights[path[slot].lightIndex].intensity * divide(cosine, squaredDistance);
+        vec3 irradiance = lightIntensity(path[slot].lightIndex) * divide(cosine, squaredDistance);
         vec3 light = path[slot].surfaceWeight * irradiance;
         if (isDimmed)
             light *= frame.shadowThroughGlass;
@@ -230,7 +231,9 @@ void addLight(uint slot) {
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
     path[slot].lightIndex += 1u;
-    path[slot].stage = path[slot].lightIndex < frame.lightCount ? stageNextLight : stageNextRay;
+    path[slot].stage = stageNextLight;
+    if (path[slot].lightIndex == lightCount)
+        endPath(slot);
 }
 
 bool isUnfinished() {
@@ -240,11 +243,21 @@ bool isUnfinished() {
     return any;
 }
 
-// One pass over all stages.
-void advancePaths() {
+bool isAtStageUpTo(uint stage) {
+    bool any = false;
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageNextRay)
-            chooseNextRay(slot);
+        any = any || path[slot].stage <= stage;
+    return any;
+}
+
+// Of loops over the spheres in one pass, which count as steps.
+const uint sphereIterations = sphereCount <= unrolledSphereCount ? 0u : RAYS * sphereCount;
+
+// Follows rays until they meet a diffuse surface or nothing.
+void followPaths() {
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        if (hasDielectric && path[slot].stage == stageNextRay)
+            takePendingRay(slot);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageNewRay)
             beginClosest(slot);
@@ -253,6 +266,11 @@ void advancePaths() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageClosest && !isTraversing(slot))
             shadeHit(slot);
+    stepsTaken += 1u + sphereIterations;
+}
+
+// Lights the surface where a path stands.
+void lightPaths() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageNextLight)
             aimAtLight(slot);
@@ -261,5 +279,16 @@ void advancePaths() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageShadow && !isTraversing(slot))
             addLight(slot);
-    stepsTaken += 1u + 2u * sphereCount;
+    stepsTaken += 1u + sphereIterations;
+}
+
+// Runs the samples that the slots have begun to their end, or until the step budget is spent.
+void advancePaths() {
+    do {
+        do
+            followPaths();
+        while (hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
+        lightPaths();
+        stepsTaken += 1u;
+    } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }

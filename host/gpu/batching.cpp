@@ -6,6 +6,7 @@
 #include "whittedStackTwoSlots.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace hyalite::gpu {
 
@@ -25,8 +26,14 @@ Batching completed(Batching batching, const DeviceInfo &device) {
     if (batching.traversal == Traversal::Automatic)
         batching.traversal =
             device.isSoftware() && batching.kernel.empty() ? Traversal::SkipList : Traversal::Stack;
+    // Sums over samples abreast cross lanes, which only the kernels over texel buffers do.
+    const int lanes = static_cast<int>(std::bit_floor(std::clamp(device.subgroupSize, 1u, 8u)));
+    if (batching.samplesAbreast == 0)
+        batching.samplesAbreast = lanes;
+    batching.samplesAbreast =
+        batching.traversal == Traversal::SkipList ? std::min(batching.samplesAbreast, lanes) : 1;
     if (batching.steps == 0)
-        batching.steps = 4096;
+        batching.steps = device.isSoftware() ? limit : 4096;
     if (device.isSoftware())
         batching.steps = std::min(batching.steps, limit);
     return batching;

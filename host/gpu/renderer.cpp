@@ -64,19 +64,18 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
         const Job job{scene, band, settings.sampler, 0, static_cast<std::uint32_t>(settings.samplesPerPixel),
                       false};
         TileRenderer tiles(state_->device, buffers, state_->batching, job);
-        Kernel kernel = tiles.makeKernel(kernelWords(state_->batching));
-        tiles.warmUp(kernel);
         result.timing.pipelineSeconds += secondsSince(start);
 
         start = Clock::now();
         const double rowsBefore = band.y0 - crop.y0;
-        const TileTotals totals = tiles.run(kernel, [&](double share) {
+        const TileTotals totals = tiles.run([&](double share) {
             if (onProgress)
                 onProgress((rowsBefore + share * band.height()) / crop.height());
         });
         result.rays += totals.rays;
         result.timing.dispatchCount += totals.dispatchCount;
-        result.timing.renderSeconds += secondsSince(start);
+        result.timing.pipelineSeconds += tiles.lateBuildSeconds();
+        result.timing.renderSeconds += secondsSince(start) - tiles.lateBuildSeconds();
         const std::size_t width = static_cast<std::size_t>(crop.width());
         tiles.readFilm(std::span(result.film.pixels)
                            .subspan(static_cast<std::size_t>(band.y0 - crop.y0) * width,
@@ -92,8 +91,7 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     const Job job{scene, {x, x + 1, y, y + 1}, settings.sampler, sampleIndex, sampleIndex + 1, true};
     const SceneBuffers buffers = state_->upload(scene);
     TileRenderer tiles(state_->device, buffers, state_->batching, job);
-    Kernel kernel = tiles.makeKernel(kernelWords(state_->batching));
-    (void)tiles.run(kernel, {});
+    (void)tiles.run({});
     return tiles.readTrace();
 }
 

@@ -45,6 +45,7 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const SkipL
     : frame(device, "the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord)),
       spheres(uploaded(device, "the spheres", BufferUse::Uniform, bytesOf(scene.spheres),
                        sizeof(layout::SphereRecord) * layout::maxSphereCount)),
+      sphereArray(array(device, "the spheres", arrayUse(list), scene.spheres)),
       lights(uploaded(device, "the lights", BufferUse::Uniform, bytesOf(scene.lights),
                       sizeof(layout::LightRecord) * layout::maxLightCount)),
       materials(array(device, "the materials", arrayUse(list), scene.materials)),

@@ -14,6 +14,7 @@ struct SceneBuffers {
 
     Buffer frame;
     Buffer spheres; ///< room for layout::maxSphereCount
+    Buffer sphereArray; ///< again, as a kernel's array
     Buffer lights;  ///< room for layout::maxLightCount
     Buffer materials;
     Buffer nodes; ///< node pairs or skip lists

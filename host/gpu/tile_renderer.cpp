@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
+#include <utility>
 
 namespace hyalite::gpu {
 
@@ -18,25 +20,38 @@ constexpr std::uint32_t traceCapacity = 1u << 17;
 /// A tile is a whole number of blocks of 8x8 pixels, which are 64 slots.
 int fitTile(int pixels, int tile) { return std::min((pixels + 7) / 8 * 8, tile); }
 
+/// Samples of a pixel that run side by side: as many as leave few slots idle in the last round.
+std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
+    std::uint32_t abreast = static_cast<std::uint32_t>(most);
+    while (abreast > 1 && samples < 8 * ((samples + abreast - 1) / abreast * abreast - samples))
+        abreast /= 2;
+    return abreast;
+}
+
+/// Storage that a kernel over texel buffers sees as texels.
+BufferUse bulkUse(const Batching &batching) {
+    return batching.traversal == Traversal::SkipList ? BufferUse::Texels : BufferUse::Storage;
+}
+
 } // namespace
 
 TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching,
                            const Job &job)
-    : device_(device), job_(job), tileWidth_(fitTile(job.crop.width(), batching.tileWidth)),
+    : device_(device), buffers_(buffers), batching_(batching), job_(job),
+      tileWidth_(fitTile(job.crop.width(), batching.tileWidth)),
       tileHeight_(fitTile(job.crop.height(), batching.tileHeight)),
-      slotCount_(static_cast<std::size_t>(tileWidth_) * static_cast<std::size_t>(tileHeight_)),
+      samplesAbreast_(fitSamplesAbreast(batching.samplesAbreast, job.sampleEnd - job.sampleBegin)),
+      slotCount_(static_cast<std::uint32_t>(tileWidth_) * static_cast<std::uint32_t>(tileHeight_) *
+                 samplesAbreast_),
       // One subtree waits for each level at most; kernels of a few sizes are enough.
       stackSize_(std::bit_ceil(
           std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth))),
-      buffers_(buffers),
-      film_(device, "the film", BufferUse::Storage, filmPixelCount() * sizeof(layout::FilmPixel)),
+      film_(device, "the film", bulkUse(batching), filmPixelCount() * sizeof(layout::FilmPixel)),
       progress_(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress)),
-      paths_(device, "the path slots", BufferUse::Storage, slotCount_ * sizeof(layout::PathRecord)),
-      pending_(device, "the pending rays", BufferUse::Storage,
-               job.scene.hasDielectric ? slotCount_ * job.scene.frame.maxDepth * sizeof(layout::PendingRay)
-                                       : 0),
       stacks_(device, "the traversal stacks", BufferUse::Storage,
-              job.scene.hasTriangles ? slotCount_ * stackSize_ * sizeof(std::uint32_t) : 0),
+              job.scene.hasTriangles && batching.traversal == Traversal::Stack
+                  ? std::size_t{slotCount_} * stackSize_ * sizeof(std::uint32_t)
+                  : 0),
       trace_(device, "the trace", BufferUse::Storage,
              job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0) {
     film_.clear();
@@ -47,65 +62,94 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
     dispatch_.tileWidth = static_cast<std::uint32_t>(tileWidth_);
     dispatch_.tileHeight = static_cast<std::uint32_t>(tileHeight_);
     dispatch_.sampleBegin = job.sampleBegin;
-    dispatch_.sampleEnd = job.sampleEnd;
     dispatch_.stepBudget = batching.steps;
-    usesExactDivision_ = batching.arithmetic == Arithmetic::Native;
     dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
     // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
     dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
     const std::uint32_t slotsPerRound =
         workgroupSize * static_cast<std::uint32_t>(batching.slotsPerInvocation) * dispatch_.interleave;
-    groupCount_ =
-        (static_cast<std::uint32_t>(slotCount_) + slotsPerRound - 1) / slotsPerRound * dispatch_.interleave;
+    groupCount_ = (slotCount_ + slotsPerRound - 1) / slotsPerRound * dispatch_.interleave;
+
+    if (batching.traversal == Traversal::Stack || job.isTraced)
+        resumable_.emplace(makeProgram(true));
+    else
+        direct_.emplace(makeProgram(false));
+    dispatch_.sampleEnd = job.sampleEnd;
 }
 
-Kernel TileRenderer::makeKernel(std::span<const std::uint32_t> spirv) const {
+TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     const PackedScene &scene = job_.scene;
+    const std::uint32_t mostPending = scene.hasDielectric ? scene.frame.maxDepth - 1 : 0;
+    const bool keepsPending = !isResumable && mostPending <= layout::mostPendingInRegisters;
+    Buffer paths(device_, "the path slots", BufferUse::Storage,
+                 isResumable ? std::size_t{slotCount_} * sizeof(layout::PathRecord) : 0);
+    Buffer pending(device_, "the pending rays", bulkUse(batching_),
+                   keepsPending ? 0 : std::size_t{slotCount_} * mostPending * sizeof(layout::PendingRay));
+
     SpecializationConstants constants{};
     constants[layout::constantWorkgroupSize] = workgroupSize;
     constants[layout::constantSphereCount] = static_cast<std::uint32_t>(scene.spheres.size());
+    constants[layout::constantLightCount] = static_cast<std::uint32_t>(scene.lights.size());
     constants[layout::constantHasTriangles] = scene.hasTriangles;
     constants[layout::constantHasSpecular] = scene.hasSpecular;
     constants[layout::constantHasDielectric] = scene.hasDielectric;
     constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
     constants[layout::constantStackSize] = stackSize_;
     constants[layout::constantIsTracing] = job_.isTraced;
-    constants[layout::constantExactDivision] = usesExactDivision_;
-    const std::array<const Buffer *, layout::bindingCount> bound{
-        &buffers_.frame,     &buffers_.spheres, &buffers_.lights, &buffers_.materials, &buffers_.nodes,
-        &buffers_.triangles, &buffers_.normals, &film_,           &progress_,          &paths_,
-        &pending_,           &stacks_,          &trace_};
-    return Kernel(device_, "whitted", spirv, constants, bound);
+    constants[layout::constantExactDivision] = batching_.arithmetic == Arithmetic::Native;
+    constants[layout::constantSamplesAbreast] = samplesAbreast_;
+    constants[layout::constantIsResumable] = isResumable;
+    constants[layout::constantPendingInRegisters] = keepsPending ? mostPending : 0;
+    const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,   &buffers_.spheres,
+                                                                 &buffers_.lights,  &buffers_.materials,
+                                                                 &buffers_.nodes,   &buffers_.triangles,
+                                                                 &buffers_.normals, &film_,
+                                                                 &progress_,        &paths,
+                                                                 &pending,          &stacks_,
+                                                                 &trace_,           &buffers_.sphereArray};
+    Kernel kernel(device_, isResumable ? "whitted, resumable" : "whitted", kernelWords(batching_), constants,
+                  bound);
+    const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
+    (void)runOnce(kernel);
+    dispatch_.sampleEnd = sampleEnd;
+    return {std::move(paths), std::move(pending), std::move(kernel)};
 }
 
-void TileRenderer::warmUp(Kernel &kernel) {
-    dispatch_.sampleEnd = dispatch_.sampleBegin;
-    runOnce(kernel);
-    dispatch_.sampleEnd = job_.sampleEnd;
+Kernel &TileRenderer::resumableKernel() {
+    if (!resumable_) {
+        const auto start = std::chrono::steady_clock::now();
+        resumable_.emplace(makeProgram(true));
+        lateBuildSeconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    return resumable_->kernel;
 }
 
-TileTotals TileRenderer::run(Kernel &kernel, const std::function<void(double)> &onProgress) {
+TileTotals TileRenderer::run(const std::function<void(double)> &onProgress) {
     const int tilesAcross = (job_.crop.width() + tileWidth_ - 1) / tileWidth_;
     const int tilesDown = (job_.crop.height() + tileHeight_ - 1) / tileHeight_;
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
     std::uint64_t samplesFinished = 0;
     TileTotals totals;
+    // Whether slots of the tile are unfinished.
+    const auto dispatch = [&](Kernel &kernel) {
+        const layout::DispatchProgress counters = runOnce(kernel);
+        samplesFinished += counters.finishedSamples;
+        totals.rays +=
+            {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays};
+        ++totals.dispatchCount;
+        if (onProgress)
+            onProgress(static_cast<double>(samplesFinished) / samplesWanted);
+        return counters.unfinishedSlots > 0;
+    };
     for (int tile = 0; tile < tilesAcross * tilesDown; ++tile) {
         dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
         dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
         dispatch_.isResumed = 0;
-        std::uint32_t unfinishedSlots = 0;
-        do {
-            const layout::DispatchProgress counters = runOnce(kernel);
-            unfinishedSlots = counters.unfinishedSlots;
-            samplesFinished += counters.finishedSamples;
-            totals.rays +=
-                {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays};
-            ++totals.dispatchCount;
+        bool isUnfinished = !direct_ || dispatch(direct_->kernel);
+        while (isUnfinished) {
+            isUnfinished = dispatch(resumableKernel());
             dispatch_.isResumed = 1;
-            if (onProgress)
-                onProgress(static_cast<double>(samplesFinished) / samplesWanted);
-        } while (unfinishedSlots > 0);
+        }
     }
     return totals;
 }

@@ -9,6 +9,7 @@
 #include "host/report/render_timing.h"
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,45 +32,58 @@ struct TileTotals {
 };
 
 /// Everything that a job needs on the device. Scene and buffers must outlive it.
+///
+/// Where most slots finish in one dispatch, as on lavapipe, the kernel that can be resumed is built only when one does
+/// not: writing down where it stands costs each slot more than following a few samples.
 class TileRenderer {
   public:
-    /// `batching` is complete. Throws as Buffer does.
+    /// `batching` is complete. Builds the kernel, and runs it once without samples, as some drivers compile only then.
+    /// Throws as Buffer and Kernel do.
     TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job);
-
-    [[nodiscard]] Kernel makeKernel(std::span<const std::uint32_t> spirv) const;
-
-    /// Runs without samples: drivers that compile at the first dispatch do it now.
-    void warmUp(Kernel &kernel);
 
     /// Runs until all samples of all tiles are in the film. `onProgress` gets the finished share, in [0, 1], after each
     /// dispatch. Throws Error{DeviceLost}.
-    [[nodiscard]] TileTotals run(Kernel &kernel, const std::function<void(double)> &onProgress);
+    [[nodiscard]] TileTotals run(const std::function<void(double)> &onProgress);
 
     void readFilm(std::span<layout::FilmPixel> pixels) const;
 
     [[nodiscard]] std::vector<layout::TraceEvent> readTrace() const;
 
+    /// Seconds that went into building kernels during `run`.
+    [[nodiscard]] double lateBuildSeconds() const { return lateBuildSeconds_; }
+
   private:
     [[nodiscard]] std::size_t filmPixelCount() const;
+    /// A kernel, and the memory of what waits in it.
+    struct Program {
+        Buffer paths;
+        Buffer pending;
+        Kernel kernel;
+    };
+    /// Builds it, and runs it over no samples.
+    [[nodiscard]] Program makeProgram(bool isResumable);
+    Kernel &resumableKernel();
     layout::DispatchProgress runOnce(Kernel &kernel);
 
     Device &device_;
+    const SceneBuffers &buffers_;
+    Batching batching_;
     Job job_;
     int tileWidth_;
     int tileHeight_;
-    std::size_t slotCount_;
-    std::uint32_t stackSize_;
-    const SceneBuffers &buffers_;
+    std::uint32_t samplesAbreast_;
+    std::uint32_t slotCount_; ///< of a tile
+    std::uint32_t stackSize_; ///< subtrees that can wait for one ray
     Buffer film_;
     Buffer progress_;
-    Buffer paths_;
-    Buffer pending_;
     Buffer stacks_;
     Buffer trace_;
     layout::DispatchConstants dispatch_{};
-    bool usesExactDivision_ = false;
     std::uint32_t groupCount_ = 0;
     std::uint32_t traceEventCount_ = 0;
+    double lateBuildSeconds_ = 0.0;
+    std::optional<Program> direct_; ///< drops what is unfinished at its end
+    std::optional<Program> resumable_;
 };
 
 } // namespace hyalite::gpu

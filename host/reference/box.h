@@ -33,7 +33,7 @@ template <class Real>
                                       const Vec3<Real> &lower, const Vec3<Real> &upper) {
     const Vec3<Real> toLower = absolute(lower - origin);
     const Vec3<Real> toUpper = absolute(upper - origin);
-    const Real reach = largestComponent(glm::max(toLower, toUpper));
+    const Real reach = largestComponent(greater(toLower, toUpper));
     // A direction of nearly 0 would give infinities and, on a face of the box, NaN. Bounded, it moves the ray by less
     // than the pad over any distance that occurs.
     const Real smallest = Real(1e-18);
@@ -50,8 +50,8 @@ template <class Real>
                                          const Vec3<Real> &upper) {
     const Vec3<Real> toLower = ((lower - ray.origin) - ray.pad) * ray.inverse;
     const Vec3<Real> toUpper = ((upper - ray.origin) + ray.pad) * ray.inverse;
-    const Real enter = glm::max(largestComponent(glm::min(toLower, toUpper)), Real(0));
-    const Real leave = smallestComponent(glm::max(toLower, toUpper));
+    const Real enter = greater(largestComponent(lesser(toLower, toUpper)), Real(0));
+    const Real leave = smallestComponent(greater(toLower, toUpper));
     return {enter, leave};
 }
 

@@ -46,9 +46,8 @@ void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &
                 boxInterval(boxRay, Vec3<Real>(node.leftLower), Vec3<Real>(node.leftUpper));
             const Interval<Real> right =
                 boxInterval(boxRay, Vec3<Real>(node.rightLower), Vec3<Real>(node.rightUpper));
-            const bool isLeftHit = node.left != layout::noNode && left.enter <= glm::min(left.leave, reach);
-            const bool isRightHit =
-                node.right != layout::noNode && right.enter <= glm::min(right.leave, reach);
+            const bool isLeftHit = node.left != layout::noNode && left.enter <= lesser(left.leave, reach);
+            const bool isRightHit = node.right != layout::noNode && right.enter <= lesser(right.leave, reach);
             const bool isRightNearer = right.enter < left.enter;
             assert(waitingCount + 2 <= waiting.size());
             if (isRightHit && !isRightNearer)

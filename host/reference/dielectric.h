@@ -23,12 +23,12 @@ template <class Real>
     const Real eta = isEntering ? Real(1) / index : index;
     const Real cosIncident = -dotProduct(direction, facing);
     const Real radicand = Real(1) - eta * eta * (Real(1) - cosIncident * cosIncident);
-    const Real cosTransmitted = std::sqrt(glm::max(radicand, Real(0)));
+    const Real cosTransmitted = std::sqrt(greater(radicand, Real(0)));
     const Real along = eta * cosIncident - cosTransmitted;
     const Vec3<Real> transmitted = direction * eta + facing * along;
     const Real ratio = (Real(1) - index) / (Real(1) + index);
     const Real normalReflectance = ratio * ratio;
-    const Real k = Real(1) - glm::min(isEntering ? cosIncident : cosTransmitted, Real(1));
+    const Real k = Real(1) - lesser(isEntering ? cosIncident : cosTransmitted, Real(1));
     const Real k2 = k * k;
     const Real reflectance = normalReflectance + (Real(1) - normalReflectance) * (k2 * k2 * k);
     return {unitVector(transmitted), reflectance, Real(1) - reflectance, radicand < 0};

@@ -22,7 +22,7 @@ template <class Real>
     const Real squaredRadius = radius * radius;
     const Real discriminant = squaredRadius - dotProduct(nearest, nearest);
     const Real c = dotProduct(f, f) - squaredRadius;
-    const Real root = std::sqrt(glm::max(discriminant, Real(0)));
+    const Real root = std::sqrt(greater(discriminant, Real(0)));
     const Real q = b >= 0 ? -b - root : root - b;
     const Real r = c / q;
     const Real chord = Real(-2) * b;

@@ -48,7 +48,7 @@ template <class Real>
     const Real e0 = r.x * q.y - r.y * q.x;
     const Real e1 = p.x * r.y - p.y * r.x;
     const Real e2 = q.x * p.y - q.y * p.x;
-    const bool isInside = glm::min(glm::min(e0, e1), e2) >= 0 || glm::max(glm::max(e0, e1), e2) <= 0;
+    const bool isInside = lesser(lesser(e0, e1), e2) >= 0 || greater(greater(e0, e1), e2) <= 0;
     const Real determinant = e0 + e1 + e2;
     const Real inverse = Real(1) / determinant;
     const Real u = e0 * inverse;
@@ -56,8 +56,8 @@ template <class Real>
     const Real w = e2 * inverse;
     const Real depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
     const Interval<Real> interval =
-        boxInterval(boxRay, glm::min(glm::min(v0, v1), v2), glm::max(glm::max(v0, v1), v2));
-    const Real distance = glm::min(glm::max(depth, interval.enter), interval.leave);
+        boxInterval(boxRay, lesser(lesser(v0, v1), v2), greater(greater(v0, v1), v2));
+    const Real distance = lesser(greater(depth, interval.enter), interval.leave);
     const bool isHit = isInside && determinant != 0 && interval.enter <= interval.leave;
     return {isHit ? distance : Real(0), u, v};
 }
@@ -77,7 +77,7 @@ template <class Real>
 [[nodiscard]] Vec3<Real> trianglePointError(const Vec3<Real> &v0, const Vec3<Real> &v1, const Vec3<Real> &v2,
                                             Real u, Real v) {
     const Real w = Real(1) - u - v;
-    const Real extent = largestComponent(glm::max(absolute(v1 - v0), absolute(v2 - v0)));
+    const Real extent = largestComponent(greater(absolute(v1 - v0), absolute(v2 - v0)));
     const Vec3<Real> size = absolute(v0 * u) + absolute(v1 * v) + absolute(v2 * w) + extent;
     return size * (Real(8) * roundingUnit<Real>);
 }

@@ -45,12 +45,26 @@ template <class Real> [[nodiscard]] Vec3<Real> absolute(const Vec3<Real> &v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
+/// The lesser of two numbers, and `b` where they are equal or one of them is NaN.
+template <class Real> [[nodiscard]] Real lesser(Real a, Real b) { return a < b ? a : b; }
+
+/// The greater of two numbers, and `b` where they are equal or one of them is NaN.
+template <class Real> [[nodiscard]] Real greater(Real a, Real b) { return a > b ? a : b; }
+
+template <class Real> [[nodiscard]] Vec3<Real> lesser(const Vec3<Real> &a, const Vec3<Real> &b) {
+    return {lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z)};
+}
+
+template <class Real> [[nodiscard]] Vec3<Real> greater(const Vec3<Real> &a, const Vec3<Real> &b) {
+    return {greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)};
+}
+
 template <class Real> [[nodiscard]] Real largestComponent(const Vec3<Real> &v) {
-    return glm::max(glm::max(v.x, v.y), v.z);
+    return greater(greater(v.x, v.y), v.z);
 }
 
 template <class Real> [[nodiscard]] Real smallestComponent(const Vec3<Real> &v) {
-    return glm::min(glm::min(v.x, v.y), v.z);
+    return lesser(lesser(v.x, v.y), v.z);
 }
 
 /// One unit of rounding: 2^-24 for float, 2^-53 for double.

@@ -88,6 +88,18 @@ TEST(Batching, ChangesNoBit) {
     expectSame({.arithmetic = gpu::Arithmetic::Own});
 }
 
+// Whatever runs side by side, and also where a dispatch ends before the round and the round is done again.
+TEST(Batching, AddsSamplesAbreastInTheirOrder) {
+    for (const int samples : {1, 2, 5, 8, 13, 16}) {
+        const Scene scene = shippedScene("spheres", 20, 12, samples);
+        for (const int abreast : {1, 2, 4, 8})
+            for (const std::uint32_t steps : {0u, 40u})
+                expectTwins(scene, {.steps = steps,
+                                    .samplesAbreast = abreast,
+                                    .traversal = gpu::Traversal::SkipList});
+    }
+}
+
 // With a budget of a few steps every ray of the cat stops in the middle of the tree, many times.
 TEST(Batching, ResumesInsideTheTree) {
     const Scene scene = shippedScene("cat", 24, 24, 2);

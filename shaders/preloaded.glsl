@@ -1,0 +1,29 @@
+// Small things of the scene that every ray meets, loaded once: lavapipe reads a uniform buffer fast only outside of all
+// loops and branches.
+
+const uint unrolledSphereCount = 16u;
+
+vec4 sphereShapes[unrolledSphereCount]; // centre and radius
+uint transmissiveSpheres = 0u;          // a bit each
+vec3 firstLightPosition;
+vec3 firstLightIntensity;
+
+vec4 sphereShape(uint index) { return vec4(spheres[index].centre, spheres[index].radius); }
+
+void preload() {
+    [[unroll]] for (uint i = 0u; i < min(sphereCount, unrolledSphereCount); ++i) {
+        sphereShapes[i] = sphereShape(i);
+        transmissiveSpheres |= spheres[i].isTransmissive << i;
+    }
+    firstLightPosition = lights[0].position;
+    firstLightIntensity = lights[0].intensity;
+}
+
+bool isSphereTransmissive(uint index) {
+    return sphereCount <= unrolledSphereCount ? (transmissiveSpheres >> index & 1u) != 0u
+                                              : spheres[index].isTransmissive != 0u;
+}
+
+vec3 lightPosition(uint index) { return lightCount == 1u ? firstLightPosition : lights[index].position; }
+
+vec3 lightIntensity(uint index) { return lightCount == 1u ? firstLightIntensity : lights[index].intensity; }
