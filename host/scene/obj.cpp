@@ -2,6 +2,7 @@
 
 #include "host/scene/obj_lines.h"
 #include "host/scene/obj_mesh.h"
+#include "host/scene/obj_plain.h"
 #include "host/scene/obj_statement.h"
 
 // Compiled in here, in double: the library that distributions build rounds each number to float before the
@@ -20,33 +21,42 @@ namespace hyalite {
 namespace {
 
 // Stands between the file and tinyobjloader, which knows no line numbers and trusts what it reads: hands on
-// one checked statement at a time, so that in a callback the current line is the statement's.
+// one checked statement at a time, so that in a callback the current line is the statement's. Statements in the
+// plainest form, nearly all of a file, do not even get there.
 class CheckedObjSource : public std::streambuf {
   public:
-    CheckedObjSource(ObjLines &objLines, MeshReport &meshReport) : lines(objLines), report(meshReport) {}
+    CheckedObjSource(ObjLines &objLines, ObjMeshBuilder &meshBuilder, std::size_t &unusedCount)
+        : lines(objLines), builder(meshBuilder), unusedStatementCount(unusedCount) {}
 
   protected:
     int_type underflow() override {
-        while (const std::optional<std::span<char>> line = lines.next()) {
+        for (;;) {
+            while (const char *nextBegin =
+                       readPlainStatement(lines.peek(), lines.peekedLineNumber(), builder))
+                lines.take(nextBegin);
+            const std::optional<std::span<char>> line = lines.next();
+            if (!line)
+                return traits_type::eof();
             const CheckedStatement statement = checkStatement(*line, lines);
             if (statement.kind == ObjStatement::Geometry) {
                 char *const begin = statement.text.data();
                 setg(begin, begin, begin + statement.text.size());
                 return traits_type::to_int_type(*begin);
             }
-            report.unusedStatementCount += statement.kind == ObjStatement::Unused;
+            unusedStatementCount += statement.kind == ObjStatement::Unused;
         }
-        return traits_type::eof();
     }
 
   private:
     ObjLines &lines;
-    MeshReport &report;
+    ObjMeshBuilder &builder;
+    std::size_t &unusedStatementCount;
 };
 
 struct CallbackData {
     const ObjLines &lines;
     ObjMeshBuilder &builder;
+    std::vector<ObjCorner> corners{}; ///< of the current face
 };
 
 CallbackData &callbackData(void *userData) { return *static_cast<CallbackData *>(userData); }
@@ -61,10 +71,11 @@ tinyobj::callback_t makeCallbacks() {
         callbackData(userData).builder.addNormal({x, y, z});
     };
     callbacks.index_cb = [](void *userData, tinyobj::index_t *indices, int count) {
-        const CallbackData &data = callbackData(userData);
-        data.builder.addFace(data.lines.lineNumber());
+        CallbackData &data = callbackData(userData);
+        data.corners.clear();
         for (int i = 0; i < count; ++i)
-            data.builder.addCorner({indices[i].vertex_index, indices[i].normal_index});
+            data.corners.push_back({indices[i].vertex_index, indices[i].normal_index});
+        data.builder.addFace(data.corners, data.lines.lineNumber());
     };
     return callbacks;
 }
@@ -74,14 +85,14 @@ tinyobj::callback_t makeCallbacks() {
 ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform) {
     ObjLines lines(file);
     ObjMeshBuilder builder(lines.fileName(), transform);
-    MeshReport skipped;
-    CheckedObjSource source(lines, skipped);
+    std::size_t unusedStatementCount = 0;
+    CheckedObjSource source(lines, builder, unusedStatementCount);
     std::istream stream(&source);
     stream.exceptions(std::ios::badbit); // so that an Error of the source passes through the stream
     CallbackData data{lines, builder};
     tinyobj::LoadObjWithCallback(stream, makeCallbacks(), &data);
     ObjMesh loaded = builder.finish();
-    loaded.report.unusedStatementCount = skipped.unusedStatementCount;
+    loaded.report.unusedStatementCount = unusedStatementCount;
     return loaded;
 }
 

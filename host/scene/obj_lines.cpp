@@ -57,6 +57,7 @@ bool ObjLines::refill() {
     if (count == 0 && std::ferror(stream.get()))
         throw Error(ExitCode::BadInput, name + ": cannot be read: " + std::generic_category().message(errno));
     filled += count;
+    buffer[filled] = '\0';
     fileBytes += count;
     if (fileBytes > maxFileBytes)
         throw Error(ExitCode::BadInput, name + ": larger than 4 GiB, the limit for OBJ files");

@@ -34,6 +34,17 @@ class ObjLines {
     /// or a file that is too long, or that cannot be read.
     [[nodiscard]] std::optional<std::span<char>> next();
 
+    /// What follows, from the beginning of a logical line on, without being taken. A zero stands behind the last
+    /// character that is in memory, wherever that is.
+    [[nodiscard]] const char *peek() const { return buffer.data() + scan; }
+    [[nodiscard]] std::size_t peekedLineNumber() const { return nextLine; }
+
+    /// Takes one line of what peek() shows, with its line end, so that `nextBegin` follows.
+    void take(const char *nextBegin) {
+        scan = static_cast<std::size_t>(nextBegin - buffer.data());
+        ++nextLine;
+    }
+
     /// Where the line that next() gave last begins, counted from 1.
     [[nodiscard]] std::size_t lineNumber() const { return line; }
 

@@ -2,7 +2,6 @@
 
 #include "host/error.h"
 #include "host/scene/obj_lines.h"
-#include "host/scene/triangulate.h"
 
 #include <algorithm>
 #include <cassert>
@@ -107,46 +106,71 @@ void ObjMeshBuilder::addNormal(const glm::dvec3 &normalObject) {
     result.mesh.normals.push_back(normal);
 }
 
-void ObjMeshBuilder::addFace(std::size_t line) {
-    faces.push_back({static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(corners.size())});
+void ObjMeshBuilder::addFace(std::span<const ObjCorner> corners, std::size_t line) {
+    ++result.report.faceCount;
+    face.clear();
+    bool isCuttable = waitingFaces.empty();
+    for (const ObjCorner &corner : corners) {
+        Corner &added = face.emplace_back(Corner{
+            resolve(corner.position, result.mesh.positions.size(), "vertex", line), MeshTriangle::noNormal});
+        if (corner.normal != 0)
+            added.normal = resolve(corner.normal, result.mesh.normals.size(), "normal", line);
+        isCuttable = isCuttable && isDefined(added);
+    }
+    if (isCuttable) {
+        cutFace(face);
+        return;
+    }
+    waitingFaces.push_back(
+        {static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(waitingCorners.size())});
+    waitingCorners.insert(waitingCorners.end(), face.begin(), face.end());
 }
 
-void ObjMeshBuilder::addCorner(const ObjCorner &corner) {
-    Corner &added = corners.emplace_back(
-        Corner{resolve(corner.position, result.mesh.positions.size(), "vertex"), MeshTriangle::noNormal});
-    if (corner.normal != 0)
-        added.normal = resolve(corner.normal, result.mesh.normals.size(), "normal");
-}
-
-std::uint32_t ObjMeshBuilder::resolve(std::int32_t index, std::size_t count, const char *what) const {
+std::uint32_t ObjMeshBuilder::resolve(std::int32_t index, std::size_t count, const char *what,
+                                      std::size_t line) const {
     if (index > 0)
         return static_cast<std::uint32_t>(index) - 1;
     const std::int64_t fromStart = static_cast<std::int64_t>(count) + index;
     if (index == 0 || fromStart < 0)
-        failAtLine(result.mesh.name, faces.back().line,
+        failAtLine(result.mesh.name, line,
                    std::string("the face has the ") + what + " index " + std::to_string(index) + "; " +
                        std::to_string(count) + " are defined before it");
     return static_cast<std::uint32_t>(fromStart);
 }
 
-ObjMeshBuilder::FaceNormals ObjMeshBuilder::checkIndices(std::span<const Corner> face,
-                                                         std::size_t line) const {
-    const auto check = [&](std::uint32_t index, std::size_t count, const char *what) {
-        if (index >= count)
-            failAtLine(result.mesh.name, line,
-                       std::string("the face has the ") + what + " index " + std::to_string(index + 1) +
-                           "; the file has " + std::to_string(count));
-    };
+bool ObjMeshBuilder::isDefined(const Corner &corner) const {
+    return corner.position < result.mesh.positions.size() &&
+           (corner.normal == MeshTriangle::noNormal || corner.normal < result.mesh.normals.size());
+}
+
+void ObjMeshBuilder::requireDefined(const Corner &corner, std::size_t line) const {
+    if (isDefined(corner))
+        return;
+    const bool isVertex = corner.position >= result.mesh.positions.size();
+    const std::uint32_t index = isVertex ? corner.position : corner.normal;
+    const std::size_t count = isVertex ? result.mesh.positions.size() : result.mesh.normals.size();
+    failAtLine(result.mesh.name, line,
+               std::string("the face has the ") + (isVertex ? "vertex" : "normal") + " index " +
+                   std::to_string(index + 1) + "; the file has " + std::to_string(count));
+}
+
+void ObjMeshBuilder::cutFace(std::span<const Corner> corners) {
     FaceNormals normals{true, false};
-    for (const Corner &corner : face) {
-        check(corner.position, result.mesh.positions.size(), "vertex");
+    for (const Corner &corner : corners) {
         const bool hasNormal = corner.normal != MeshTriangle::noNormal;
-        if (hasNormal)
-            check(corner.normal, result.mesh.normals.size(), "normal");
         normals.all = normals.all && hasNormal;
         normals.any = normals.any || hasNormal;
     }
-    return normals;
+    if (corners.size() == 3) {
+        addTriangle(corners[0], corners[1], corners[2], normals);
+        return;
+    }
+    ++result.report.polygonCount;
+    polygon.clear();
+    for (const Corner &corner : corners)
+        polygon.push_back(result.mesh.positions[corner.position]);
+    for (const glm::uvec3 &part : triangulator.triangulate(polygon))
+        addTriangle(corners[part.x], corners[part.y], corners[part.z], normals);
 }
 
 void ObjMeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals) {
@@ -173,26 +197,15 @@ void ObjMeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner 
 }
 
 ObjMesh ObjMeshBuilder::finish() {
-    MeshReport &report = result.report;
-    report.faceCount = faces.size();
-    result.mesh.triangles.reserve(corners.size() - 2 * faces.size());
-    Triangulator triangulator;
-    std::vector<glm::vec3> polygon;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        const std::size_t begin = faces[i].cornerBegin;
-        const std::size_t end = i + 1 < faces.size() ? faces[i + 1].cornerBegin : corners.size();
-        const std::span<const Corner> face(corners.data() + begin, end - begin);
-        const FaceNormals normals = checkIndices(face, faces[i].line);
-        if (face.size() == 3) {
-            addTriangle(face[0], face[1], face[2], normals);
-            continue;
-        }
-        ++report.polygonCount;
-        polygon.clear();
-        for (const Corner &corner : face)
-            polygon.push_back(result.mesh.positions[corner.position]);
-        for (const glm::uvec3 &part : triangulator.triangulate(polygon))
-            addTriangle(face[part.x], face[part.y], face[part.z], normals);
+    const MeshReport &report = result.report;
+    for (std::size_t i = 0; i < waitingFaces.size(); ++i) {
+        const std::size_t begin = waitingFaces[i].cornerBegin;
+        const std::size_t end =
+            i + 1 < waitingFaces.size() ? waitingFaces[i + 1].cornerBegin : waitingCorners.size();
+        const std::span<const Corner> corners(waitingCorners.data() + begin, end - begin);
+        for (const Corner &corner : corners)
+            requireDefined(corner, waitingFaces[i].line);
+        cutFace(corners);
     }
     if (result.mesh.triangles.empty())
         throw Error(ExitCode::BadInput, result.mesh.name + ": no triangle in " +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/obj.h"
+#include "host/scene/triangulate.h"
 
 #include <glm/mat3x3.hpp>
 
@@ -19,8 +20,8 @@ struct ObjCorner {
     std::int32_t normal;
 };
 
-/// Fed in the order of the file, at most 2^32 - 1 of each thing. Faces are kept as corners until the end,
-/// because OBJ files may name vertices before they define them; 8 bytes a corner and 8 a face.
+/// Fed in the order of the file, at most 2^32 - 1 of each thing. OBJ files may name vertices before they define them:
+/// from the first face that does, faces wait until the end, as 8 bytes a corner and 8 a face.
 class ObjMeshBuilder {
   public:
     ObjMeshBuilder(std::string file, const MeshTransform &transform);
@@ -32,14 +33,12 @@ class ObjMeshBuilder {
     /// Takes a `vn`; one that is zero or not finite is kept as lost.
     void addNormal(const glm::dvec3 &normalObject);
 
-    /// Begins a face, whose corners follow.
-    void addFace(std::size_t line);
+    /// Takes an `f` of three corners or more. Throws Error{BadInput} where a relative index leads before the first
+    /// vertex or normal.
+    void addFace(std::span<const ObjCorner> corners, std::size_t line);
 
-    /// Throws Error{BadInput} where a relative index leads before the first vertex or normal.
-    void addCorner(const ObjCorner &corner);
-
-    /// Cuts the faces into triangles and gives all away. Throws Error{BadInput} for indices past the end of
-    /// the file's vertices or normals, and when no triangle is left.
+    /// Gives the mesh away. Throws Error{BadInput} for indices past the end of the file's vertices or normals, and
+    /// when no triangle is left.
     [[nodiscard]] ObjMesh finish();
 
   private:
@@ -57,15 +56,21 @@ class ObjMeshBuilder {
         bool all, any; ///< of its corners have a normal
     };
 
-    [[nodiscard]] std::uint32_t resolve(std::int32_t index, std::size_t count, const char *what) const;
-    [[nodiscard]] FaceNormals checkIndices(std::span<const Corner> face, std::size_t line) const;
+    [[nodiscard]] std::uint32_t resolve(std::int32_t index, std::size_t count, const char *what,
+                                        std::size_t line) const;
+    [[nodiscard]] bool isDefined(const Corner &corner) const;
+    void requireDefined(const Corner &corner, std::size_t line) const;
+    void cutFace(std::span<const Corner> corners);
     void addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals);
 
     glm::dmat3 rotation;
     double scale;
     glm::dvec3 translate;
-    std::vector<Corner> corners;
-    std::vector<Face> faces;
+    std::vector<Corner> face; ///< the one that is being added
+    std::vector<Corner> waitingCorners;
+    std::vector<Face> waitingFaces;
+    std::vector<glm::vec3> polygon; ///< the positions of the face that is being cut
+    Triangulator triangulator;
     ObjMesh result;
 };
 

@@ -10,12 +10,15 @@
 
 #include <clocale>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <locale>
 #include <numbers>
+#include <random>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace hyalite {
 namespace {
@@ -170,6 +173,80 @@ TEST(Obj, LineEndsAndContinuationsMakeNoDifference) {
     expectSame(squareVertices + "f 1 \\\n2 \\\n\\\n 3 4\n", "backslash");
     expectSame(squareVertices + "f 1 \\\r\n2 3\\\r\n 4\\", "backslash and CRLF");
     expectSame("# C:\\meshes\\\n" + unixText, "backslash in a comment");
+}
+
+// Random vertices, normals and faces in every plain form, some 800 kB: longer than any buffer.
+std::vector<std::string> randomStatements() {
+    std::mt19937 random(7);
+    std::vector<std::string> lines;
+    const char *const formats[] = {"%.5f", "%.6f", "%g",    "%.9g",  "%.17g",
+                                   "%.0f", "%e",   "%.12f", "%.20f", "%.1e"};
+    const auto numbers = [&](double size) {
+        std::string text;
+        for (int i = 0; i < 3; ++i) {
+            char number[64];
+            std::snprintf(number, sizeof number, formats[random() % std::size(formats)],
+                          size * (static_cast<double>(random()) / 2147483648.0 - 1.0));
+            text += std::string(1, " \t"[random() % 2]) + number;
+        }
+        return text;
+    };
+    for (int i = 1; i <= 5000; ++i) {
+        lines.push_back("v" + numbers(std::pow(10.0, static_cast<int>(random() % 20) - 6)));
+        lines.push_back("vn" + numbers(1.0));
+        lines.push_back("vt" + numbers(1.0));
+        std::string face = "f";
+        const int form = static_cast<int>(random() % 4);
+        for (std::size_t corner = 0, count = 3 + random() % 7; corner < count; ++corner) {
+            const auto index = [&] {
+                const int fromStart = static_cast<int>(random() % static_cast<unsigned>(i)) + 1;
+                return std::to_string(random() % 2 == 0 ? fromStart : fromStart - i - 1);
+            };
+            face += " " + index();
+            face += form == 1 ? "/" + index() : form == 2 ? "//" + index() : "";
+            face += form == 3 ? "/" + index() + "/" + index() : "";
+        }
+        lines.push_back(face);
+    }
+    return lines;
+}
+
+TEST(Obj, ThePlainestStatementsReadAsAllOthers) {
+    const std::vector<std::string> lines = randomStatements();
+    const auto load = [&](const std::string &before, const std::string &after) {
+        std::string text;
+        for (const std::string &line : lines)
+            text += before + line + after;
+        return loadText(text);
+    };
+    const ObjMesh expected = load(" ", "\n"); // an indent is enough not to be plain
+    EXPECT_GT(expected.mesh.triangles.size(), 10'000u);
+    for (const std::string lineEnd : {"\n", "\r\n", " \n", "\t \r\n"}) {
+        const ObjMesh loaded = load("", lineEnd);
+        EXPECT_EQ(loaded.mesh.positions, expected.mesh.positions);
+        EXPECT_EQ(loaded.mesh.normals, expected.mesh.normals);
+        ASSERT_EQ(loaded.mesh.triangles.size(), expected.mesh.triangles.size());
+        for (std::size_t i = 0; i < loaded.mesh.triangles.size(); ++i) {
+            EXPECT_EQ(loaded.mesh.triangles[i].positions, expected.mesh.triangles[i].positions);
+            EXPECT_EQ(loaded.mesh.triangles[i].normals, expected.mesh.triangles[i].normals);
+        }
+        EXPECT_EQ(loaded.report.faceCount, expected.report.faceCount);
+        EXPECT_EQ(loaded.report.polygonCount, expected.report.polygonCount);
+        EXPECT_EQ(loaded.report.degenerateTriangleCount, expected.report.degenerateTriangleCount);
+        EXPECT_EQ(loaded.report.lostNormalCount, expected.report.lostNormalCount);
+    }
+}
+
+TEST(Obj, AFaceThatNamesAVertexTooEarlyKeepsItsPlace) {
+    const ObjMesh loaded =
+        loadText("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 2 3 1\nv 0 0 1\nf 4 3 2\n");
+    ASSERT_EQ(loaded.mesh.triangles.size(), 4u);
+    EXPECT_EQ(loaded.mesh.triangles[0].positions, glm::uvec3(0, 1, 2));
+    EXPECT_EQ(loaded.mesh.triangles[1].positions, glm::uvec3(0, 1, 3));
+    EXPECT_EQ(loaded.mesh.triangles[2].positions, glm::uvec3(1, 2, 0));
+    EXPECT_EQ(loaded.mesh.triangles[3].positions, glm::uvec3(3, 2, 1));
+    expectError(threeVertices + "f 1 2 5\nf 1 2 9\nv 0 0 1\n", ":4: the face has the vertex index 5",
+                "the file has 4");
 }
 
 TEST(Obj, LinesMayBeLongerThanTheBuffer) {

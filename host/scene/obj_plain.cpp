@@ -1,0 +1,161 @@
+#include "host/scene/obj_plain.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+namespace hyalite {
+
+namespace {
+
+// Every scan stops at the zero behind the last character, as it stops at any other that it does not expect.
+bool isBlank(char c) { return c == ' ' || c == '\t'; }
+bool isDigit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
+bool endsToken(char c) { return isBlank(c) || c == '\n' || c == '\r'; }
+
+const char *skipBlanks(const char *at) {
+    while (isBlank(*at))
+        ++at;
+    return at;
+}
+
+// Past the LF or CRLF at `at`.
+const char *skipLineEnd(const char *at) {
+    if (*at == '\r')
+        ++at;
+    return *at == '\n' ? at + 1 : nullptr;
+}
+
+// Past the line end behind text that says nothing.
+const char *skipToNextLine(const char *at) {
+    while ((*at >= ' ' && *at != '\\') || *at == '\t')
+        ++at;
+    return skipLineEnd(at);
+}
+
+// What follows the e of a number, whose digits before it are `sum`.
+const char *readExponent(const char *at, double &sum) {
+    const bool isNegative = *at == '-';
+    if (isNegative || *at == '+')
+        ++at;
+    const char *const digits = at;
+    int exponent = 0;
+    for (; isDigit(*at) && at - digits < 4; ++at)
+        exponent = exponent * 10 + (*at - '0');
+    if (at == digits || at - digits > 3)
+        return nullptr;
+    if (isNegative)
+        exponent = -exponent;
+    if (exponent != 0)
+        sum = std::ldexp(sum * std::pow(5.0, exponent), exponent);
+    return at;
+}
+
+// One number, after blanks: [-] digits [. digits] [e [sign] 1 to 3 digits], of at most 128 characters. Returns where it
+// ends. Sums up the digits as tinyobjloader does, to the same bits.
+const char *readNumber(const char *at, double &value) {
+    constexpr std::ptrdiff_t maxCharacters = 128;
+    constexpr std::array<double, 8> powersOfTen{1.0, 0.1, 0.01, 0.001, 0.0001, 0.00001, 0.000001, 0.0000001};
+    at = skipBlanks(at);
+    const char *const begin = at;
+    if (*at == '-')
+        ++at;
+    const char *const digits = at;
+    double sum = 0.0;
+    for (; isDigit(*at); ++at)
+        sum = sum * 10.0 + (*at - '0');
+    std::ptrdiff_t digitCount = at - digits;
+    if (*at == '.') {
+        const char *const point = at++;
+        for (; isDigit(*at); ++at) {
+            const auto place = static_cast<std::size_t>(at - point);
+            sum += (*at - '0') * (place < powersOfTen.size() ? powersOfTen[place]
+                                                             : std::pow(10.0, -static_cast<double>(place)));
+        }
+        digitCount += at - point - 1;
+    }
+    if (*at == 'e' || *at == 'E') {
+        at = readExponent(at + 1, sum);
+        if (!at)
+            return nullptr;
+    }
+    value = *begin == '-' ? -sum : sum;
+    return digitCount > 0 && endsToken(*at) && at - begin <= maxCharacters ? at : nullptr;
+}
+
+const char *readThreeNumbers(const char *at, glm::dvec3 &values) {
+    for (int i = 0; i < 3 && at; ++i)
+        at = readNumber(at, values[i]);
+    return at;
+}
+
+// A 1 with up to nine digits, or with as many and a sign.
+const char *readIndex(const char *at, std::int32_t &index) {
+    const bool isNegative = *at == '-';
+    if (isNegative)
+        ++at;
+    const char *const digits = at;
+    std::uint32_t value = 0;
+    for (; isDigit(*at); ++at)
+        value = value * 10 + static_cast<std::uint32_t>(*at - '0');
+    index = isNegative ? -static_cast<std::int32_t>(value) : static_cast<std::int32_t>(value);
+    return at != digits && at - digits <= 9 && value != 0 ? at : nullptr;
+}
+
+// One of v, v/vt, v//vn and v/vt/vn.
+const char *readCorner(const char *at, ObjCorner &corner) {
+    corner.normal = 0;
+    at = readIndex(at, corner.position);
+    if (!at || *at != '/')
+        return at;
+    ++at;
+    if (*at != '/') {
+        std::int32_t texture = 0;
+        at = readIndex(at, texture);
+        if (!at || *at != '/')
+            return at;
+    }
+    return readIndex(at + 1, corner.normal);
+}
+
+const char *readFace(const char *at, std::size_t lineNumber, ObjMeshBuilder &builder) {
+    std::array<ObjCorner, 8> corners;
+    std::size_t count = 0;
+    for (at = skipBlanks(at); count < corners.size() && *at >= '-'; at = skipBlanks(at)) {
+        at = readCorner(at, corners[count++]);
+        if (!at || !endsToken(*at))
+            return nullptr;
+    }
+    at = skipLineEnd(at);
+    if (at && count >= 3)
+        builder.addFace(std::span(corners).first(count), lineNumber);
+    return count >= 3 ? at : nullptr;
+}
+
+} // namespace
+
+const char *readPlainStatement(const char *line, std::size_t lineNumber, ObjMeshBuilder &builder) {
+    if (line[0] == 'f' && isBlank(line[1]))
+        return readFace(line + 2, lineNumber, builder);
+    if (line[0] != 'v')
+        return nullptr;
+    if (line[1] == 't' && isBlank(line[2]))
+        return skipToNextLine(line + 3);
+
+    const bool isNormal = line[1] == 'n';
+    const char *at = line + (isNormal ? 2 : 1);
+    glm::dvec3 values;
+    if (!isBlank(*at))
+        return nullptr;
+    at = readThreeNumbers(at, values);
+    if (at)
+        at = skipToNextLine(at);
+    if (at && isNormal)
+        builder.addNormal(values);
+    else if (at)
+        builder.addPosition(values, lineNumber);
+    return at;
+}
+
+} // namespace hyalite
