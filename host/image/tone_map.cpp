@@ -1,8 +1,10 @@
 #include "host/image/tone_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace hyalite {
@@ -45,28 +47,66 @@ const std::array<float, 255> &toneMapThresholds() {
     return thresholds;
 }
 
-std::uint8_t encodeLevel(float linear) {
-    if (!(linear > 0.0f)) { // NaN too
-        return 0;
+namespace {
+
+/// Finds levels without a search: [2^-20, 1) is cut into 32 pieces for each power of two, and few thresholds lie in one.
+class LevelFinder {
+  public:
+    LevelFinder() : thresholds_(toneMapThresholds()) {
+        assert(thresholds_.front() > std::bit_cast<float>(firstPiece << pieceShift));
+        for (std::uint32_t piece = 0; piece < pieceCount; ++piece) {
+            const float low = std::bit_cast<float>((firstPiece + piece) << pieceShift);
+            levels_[piece] = static_cast<std::uint8_t>(
+                std::upper_bound(thresholds_.begin(), thresholds_.end(), low) - thresholds_.begin());
+        }
     }
-    const std::array<float, 255> &thresholds = toneMapThresholds();
-    return static_cast<std::uint8_t>(std::upper_bound(thresholds.begin(), thresholds.end(), linear) -
-                                     thresholds.begin());
+
+    /// `linear` is in [0, infinity].
+    [[nodiscard]] std::uint8_t levelOf(float linear) const {
+        const std::uint32_t piece = (std::bit_cast<std::uint32_t>(linear) >> pieceShift) - firstPiece;
+        if (piece >= pieceCount)
+            return linear < 1.0f ? 0 : 255;
+        std::size_t level = levels_[piece];
+        while (level < thresholds_.size() && linear >= thresholds_[level])
+            ++level;
+        return static_cast<std::uint8_t>(level);
+    }
+
+  private:
+    static constexpr std::uint32_t pieceShift = 18; ///< leaves five of the 23 bits behind the exponent
+    static constexpr std::uint32_t firstPiece = std::bit_cast<std::uint32_t>(0x1p-20f) >> pieceShift;
+    static constexpr std::uint32_t pieceCount =
+        (std::bit_cast<std::uint32_t>(1.0f) >> pieceShift) - firstPiece;
+
+    const std::array<float, 255> &thresholds_;
+    std::array<std::uint8_t, pieceCount> levels_{}; ///< at the lower end of each piece
+};
+
+const LevelFinder &levelFinder() {
+    static const LevelFinder finder;
+    return finder;
+}
+
+} // namespace
+
+std::uint8_t encodeLevel(float linear) {
+    return linear > 0.0f ? levelFinder().levelOf(linear) : 0; // NaN is 0, too
 }
 
 std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops) {
     assert(std::isfinite(exposureStops));
     // 2^300 takes the smallest positive float to white and 2^-300 the largest to black: the rest changes nothing.
     const double scale = exp2Portable(std::clamp(exposureStops, -300.0, 300.0));
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(image.pixels().size() * 3);
+    const LevelFinder &finder = levelFinder();
+    std::vector<std::uint8_t> bytes(image.pixels().size() * 3);
+    std::uint8_t *next = bytes.data();
     for (const glm::vec3 &pixel : image.pixels()) {
         for (int channel = 0; channel < 3; ++channel) {
-            // 1 is white already; the bound keeps the product within the range of float.
+            // 1 is white already; the bound keeps the product within the range of float. NaN is black.
             const double exposed = static_cast<double>(pixel[channel]) * scale;
-            bytes.push_back(encodeLevel(exposed >= 1.0  ? 1.0f
-                                        : exposed > 0.0 ? static_cast<float>(exposed)
-                                                        : 0.0f));
+            *next++ = finder.levelOf(exposed >= 1.0  ? 1.0f
+                                     : exposed > 0.0 ? static_cast<float>(exposed)
+                                                     : 0.0f);
         }
     }
     return bytes;
