@@ -5,7 +5,10 @@
 #include "shaders/layout.h"
 #include "tests/unit/geometry_fixture.h"
 
+#include <omp.h>
+
 #include <array>
+#include <cstring>
 #include <functional>
 #include <numeric>
 
@@ -77,6 +80,13 @@ std::vector<Soup> hostileSoups() {
     return soups;
 }
 
+void expectSame(const Bvh &bvh, const Bvh &expected) {
+    EXPECT_EQ(bvh.order, expected.order);
+    EXPECT_EQ(bvh.depth, expected.depth);
+    ASSERT_EQ(bvh.nodes.size(), expected.nodes.size());
+    EXPECT_EQ(std::memcmp(bvh.nodes.data(), expected.nodes.data(), bvh.nodes.size() * sizeof(BvhNode)), 0);
+}
+
 /// Also checks that the tree is the same when it is built again.
 void expectValid(TreeKind kind, const std::vector<BuildTriangle> &triangles, int leafSize) {
     const Bvh bvh = buildBvh(kind, triangles, leafSize);
@@ -101,16 +111,7 @@ void expectValid(TreeKind kind, const std::vector<BuildTriangle> &triangles, int
         EXPECT_EQ(bvh.depth, 0);
     }
 
-    const Bvh again = buildBvh(kind, triangles, leafSize);
-    EXPECT_EQ(again.order, bvh.order);
-    EXPECT_EQ(again.depth, bvh.depth);
-    ASSERT_EQ(again.nodes.size(), bvh.nodes.size());
-    for (std::size_t i = 0; i < bvh.nodes.size(); ++i) {
-        EXPECT_EQ(again.nodes[i].first, bvh.nodes[i].first);
-        EXPECT_EQ(again.nodes[i].count, bvh.nodes[i].count);
-        EXPECT_EQ(again.nodes[i].box.lower, bvh.nodes[i].box.lower);
-        EXPECT_EQ(again.nodes[i].box.upper, bvh.nodes[i].box.upper);
-    }
+    expectSame(buildBvh(kind, triangles, leafSize), bvh);
 }
 
 constexpr TreeKind allKinds[] = {TreeKind::None, TreeKind::Midpoint, TreeKind::Sah};
@@ -137,6 +138,38 @@ TEST(Bvh, EveryLeafSizeFrom1To64IsKept) {
         expectValid(TreeKind::Midpoint, triangles, leafSize);
         expectValid(TreeKind::Sah, triangles, leafSize);
     }
+}
+
+TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
+    Random random(15);
+    TriangleMesh lopsided = testing::triangleSoup(random, 30'000, 0.01, 1e-4);
+    for (int i = 0; i < 300; ++i) {
+        const glm::vec3 point(random.inCube(1.0));
+        testing::addTriangle(lopsided, point, point + glm::vec3(0.01f, 0, 0), point + glm::vec3(0, 0.01f, 0));
+    }
+    TriangleMesh identical; // and zeros of both signs
+    identical.positions = {{1, 0, 3}, {2, -0.0f, 3}, {1, 0, 3.5f}};
+    identical.triangles.assign(20'000, {{0, 1, 2}});
+    for (int i = 0; i < 20'000; ++i)
+        identical.triangles.push_back(i % 2 == 0 ? MeshTriangle{{1, 2, 0}} : MeshTriangle{{2, 0, 1}});
+    const int threadCountBefore = omp_get_max_threads();
+    for (const TriangleMesh &mesh :
+         {testing::triangleSoup(random, 60'000, 1.0, 0.01), testing::icosphere(6), lopsided, identical}) {
+        const std::vector<BuildTriangle> triangles = buildTriangles(testing::sceneOf(mesh));
+        for (const TreeKind kind : allKinds) {
+            omp_set_num_threads(1);
+            const Bvh expected = buildBvh(kind, triangles, 4);
+            EXPECT_EQ(findBvhFault(expected, triangles), "");
+            for (const int threadCount : {2, 3, 8}) {
+                SCOPED_TRACE(fmt::format("{} triangles, kind {}, {} threads", triangles.size(),
+                                         static_cast<int>(kind), threadCount));
+                omp_set_num_threads(threadCount);
+                for (int repetition = 0; repetition < 3; ++repetition)
+                    expectSame(buildBvh(kind, triangles, 4), expected);
+            }
+        }
+    }
+    omp_set_num_threads(threadCountBefore);
 }
 
 TEST(Bvh, AHundredThousandIdenticalTrianglesAreHalved) {
