@@ -1,9 +1,14 @@
 #include "host/bvh/skip_list.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
 namespace hyalite {
 
@@ -11,101 +16,105 @@ namespace {
 
 constexpr double gridCells = 65535.0;
 
-/// A child of a node pair: its box and its reference.
-struct Child {
-    glm::vec3 lower;
-    glm::vec3 upper;
-    std::uint32_t reference = layout::noNode;
+/// A box in cells of the grid, an axis a word: the lower plane in the low half.
+struct GridBox {
+    std::array<std::uint32_t, 3> planes;
 };
 
-std::array<Child, 2> childrenOf(const layout::NodePair &pair) {
-    return {Child{pair.leftLower, pair.leftUpper, pair.left},
-            Child{pair.rightLower, pair.rightUpper, pair.right}};
-}
+/// What the lists of all octants have in common for the children of a node pair.
+struct PairPlan {
+    std::array<GridBox, 2> boxes; ///< of the left and the right child, if there is one
+    std::uint32_t nodeCount;      ///< list nodes of both children, all below included
+    std::uint8_t axis;            ///< on which their centres lie farthest apart
+    std::int8_t side; ///< of the right child there: 1 where it is on the upper one, 0 where none is
+};
 
-/// Writes the list of one octant.
-class OctantWriter {
+/// The grid on which planes lie: coordinates are rounded outwards.
+class Grid {
   public:
-    OctantWriter(const PackedScene &scene, const SkipList &list, std::uint32_t octant,
-                 layout::SkipNode *begin, std::uint32_t firstIndex)
-        : scene_(scene), list_(list), octant_(octant), begin_(begin), firstIndex_(firstIndex) {}
+    explicit Grid(const SkipList &list) : origin_(list.gridOrigin), scale_(list.gridScale) {}
 
-    /// Returns how many nodes were written, padding not included.
-    std::uint32_t write() {
-        // A subtree's `link` is known when everything below it is written: then the entry is met again, as an end.
-        struct Task {
-            Child child;
-            std::uint32_t endOf = layout::noNode; ///< else: the list index of the node that ends here
-        };
-        std::vector<Task> tasks;
-        const auto push = [&](const layout::NodePair &pair) {
-            std::array<Child, 2> children = childrenOf(pair);
-            if (isFirstFarther(children[0], children[1]))
-                std::swap(children[0], children[1]);
-            tasks.push_back({children[1]});
-            tasks.push_back({children[0]});
-        };
-        push(scene_.nodes.front());
-        while (!tasks.empty()) {
-            const Task task = tasks.back();
-            tasks.pop_back();
-            if (task.endOf != layout::noNode) {
-                begin_[task.endOf].link = firstIndex_ + count_;
-                continue;
-            }
-            if (task.child.reference == layout::noNode)
-                continue;
-            layout::SkipNode &node = begin_[count_];
-            node.x = planes(task.child, 0);
-            node.y = planes(task.child, 1);
-            node.z = planes(task.child, 2);
-            node.link = task.child.reference;
-            if ((task.child.reference & layout::leafFlag) == 0) {
-                tasks.push_back({{}, count_});
-                push(scene_.nodes[task.child.reference]);
-            }
-            ++count_;
+    [[nodiscard]] GridBox enclose(const glm::vec3 &lower, const glm::vec3 &upper) const {
+        GridBox box{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double low = std::floor((lower[axis] - origin_[axis]) / scale_[axis]);
+            const double high = std::ceil((upper[axis] - origin_[axis]) / scale_[axis]);
+            // The grid has room beyond all boxes; a cell more on each side makes up for the rounding of the division.
+            const auto first = static_cast<std::uint32_t>(std::clamp(low - 1.0, 0.0, gridCells));
+            const auto last = static_cast<std::uint32_t>(std::clamp(high + 1.0, 0.0, gridCells));
+            assert(origin_[axis] + scale_[axis] * first <= lower[axis] &&
+                   origin_[axis] + scale_[axis] * last >= upper[axis]);
+            box.planes[static_cast<std::size_t>(axis)] = first | last << 16;
         }
-        return count_;
+        return box;
     }
 
   private:
-    [[nodiscard]] bool isNegative(int axis) const { return (octant_ >> axis & 1u) != 0; }
-
-    /// By the centres, on the axis on which they lie farthest apart.
-    [[nodiscard]] bool isFirstFarther(const Child &a, const Child &b) const {
-        const glm::vec3 apart = (b.lower / 2.0f + b.upper / 2.0f) - (a.lower / 2.0f + a.upper / 2.0f);
-        int axis = std::abs(apart.x) > std::abs(apart.y) ? 0 : 1;
-        if (std::abs(apart.z) > std::abs(apart[axis]))
-            axis = 2;
-        return isNegative(axis) ? apart[axis] > 0.0f : apart[axis] < 0.0f;
-    }
-
-    [[nodiscard]] std::uint32_t planes(const Child &child, int axis) const {
-        const double origin = list_.gridOrigin[axis];
-        const double scale = list_.gridScale[axis];
-        const double low = std::floor((child.lower[axis] - origin) / scale);
-        const double high = std::ceil((child.upper[axis] - origin) / scale);
-        // The grid has room beyond all boxes; a cell more on each side makes up for the rounding of the division.
-        const std::uint32_t lower = static_cast<std::uint32_t>(std::clamp(low - 1.0, 0.0, gridCells));
-        const std::uint32_t upper = static_cast<std::uint32_t>(std::clamp(high + 1.0, 0.0, gridCells));
-        assert(origin + scale * lower <= child.lower[axis] && origin + scale * upper >= child.upper[axis]);
-        return isNegative(axis) ? upper | lower << 16 : lower | upper << 16;
-    }
-
-    const PackedScene &scene_;
-    const SkipList &list_;
-    std::uint32_t octant_;
-    layout::SkipNode *begin_;
-    std::uint32_t firstIndex_;
-    std::uint32_t count_ = 0;
+    glm::dvec3 origin_;
+    glm::dvec3 scale_;
 };
 
-std::uint32_t countNodes(const PackedScene &scene) {
-    std::uint32_t count = 0;
-    for (const layout::NodePair &pair : scene.nodes)
-        count += (pair.left != layout::noNode ? 1u : 0u) + (pair.right != layout::noNode ? 1u : 0u);
-    return count;
+bool isInner(std::uint32_t reference) { return (reference & layout::leafFlag) == 0; } // and not noNode
+
+PairPlan planPair(const layout::NodePair &pair, const Grid &grid) {
+    PairPlan plan{};
+    if (pair.left != layout::noNode)
+        plan.boxes[0] = grid.enclose(pair.leftLower, pair.leftUpper);
+    if (pair.right != layout::noNode)
+        plan.boxes[1] = grid.enclose(pair.rightLower, pair.rightUpper);
+    const glm::vec3 apart =
+        (pair.rightLower / 2.0f + pair.rightUpper / 2.0f) - (pair.leftLower / 2.0f + pair.leftUpper / 2.0f);
+    int axis = std::abs(apart.x) > std::abs(apart.y) ? 0 : 1;
+    if (std::abs(apart.z) > std::abs(apart[axis]))
+        axis = 2;
+    plan.axis = static_cast<std::uint8_t>(axis);
+    plan.side = static_cast<std::int8_t>((apart[axis] > 0.0f) - (apart[axis] < 0.0f));
+    return plan;
+}
+
+/// Pairs come before those below them: their counts are known when they are met from the end.
+void countNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
+    for (std::size_t i = plans.size(); i-- > 0;) {
+        for (const std::uint32_t child : {scene.nodes[i].left, scene.nodes[i].right}) {
+            if (child == layout::noNode)
+                continue;
+            assert(!isInner(child) || child > i);
+            plans[i].nodeCount += 1 + (isInner(child) ? plans[child].nodeCount : 0);
+        }
+    }
+}
+
+/// Writes the list of one octant, which begins at the index `begin`. Where a subtree begins is known before it is
+/// written, as all nodes above come first and its sibling's size is known: no stack is needed.
+/// `pairBegins` is room for an index a pair.
+void writeList(const PackedScene &scene, std::span<const PairPlan> plans, std::uint32_t octant,
+               std::uint32_t begin, std::span<std::uint32_t> pairBegins, std::span<layout::SkipNode> nodes) {
+    const std::array<int, 3> turns{(octant & 1u) != 0 ? 16 : 0, (octant & 2u) != 0 ? 16 : 0,
+                                   (octant & 4u) != 0 ? 16 : 0};
+    pairBegins[0] = begin;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const PairPlan &plan = plans[i];
+        const std::array<std::uint32_t, 2> references{scene.nodes[i].left, scene.nodes[i].right};
+        const int nearSide = (octant >> plan.axis & 1u) != 0 ? 1 : -1;
+        const std::size_t nearChild = plan.side == nearSide ? 1 : 0;
+        std::uint32_t index = pairBegins[i];
+        for (const std::size_t child : {nearChild, 1 - nearChild}) {
+            const std::uint32_t reference = references[child];
+            if (reference == layout::noNode)
+                continue;
+            const std::array<std::uint32_t, 3> &planes = plan.boxes[child].planes;
+            layout::SkipNode &node = nodes[index++];
+            node.x = std::rotl(planes[0], turns[0]);
+            node.y = std::rotl(planes[1], turns[1]);
+            node.z = std::rotl(planes[2], turns[2]);
+            node.link = reference;
+            if (isInner(reference)) {
+                pairBegins[reference] = index;
+                index += plans[reference].nodeCount;
+                node.link = index;
+            }
+        }
+    }
 }
 
 } // namespace
@@ -123,17 +132,26 @@ SkipList makeSkipList(const PackedScene &scene) {
         list.gridScale[axis] = static_cast<float>(extent / (gridCells - 32.0));
         list.gridOrigin[axis] = static_cast<float>(lower[axis] - 16.0 * list.gridScale[axis]);
     }
-    const std::uint32_t count = countNodes(scene);
-    list.length = count + layout::skipPadding;
+    const auto pairCount = static_cast<std::int64_t>(scene.nodes.size());
+    std::vector<PairPlan> plans(scene.nodes.size());
+    const Grid grid(list);
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < pairCount; ++i)
+        plans[static_cast<std::size_t>(i)] = planPair(scene.nodes[static_cast<std::size_t>(i)], grid);
+    countNodes(scene, plans);
+
+    list.length = plans.front().nodeCount + layout::skipPadding;
     // No ray meets the padding: every plane that is met first lies beyond every other.
     list.nodes.resize(std::size_t{8} * list.length,
                       {0x0000FFFFu, 0x0000FFFFu, 0x0000FFFFu, layout::leafFlag});
-    for (std::uint32_t octant = 0; octant < 8; ++octant) {
-        const std::uint32_t first = octant * list.length;
-        [[maybe_unused]] const std::uint32_t written =
-            OctantWriter(scene, list, octant, list.nodes.data() + first, first).write();
-        assert(written == count);
-    }
+    const int threadCount = std::min(omp_get_max_threads(), 8);
+    std::vector<std::uint32_t> pairBegins(plans.size() * static_cast<std::size_t>(threadCount));
+#pragma omp parallel for schedule(dynamic) num_threads(threadCount)
+    for (std::uint32_t octant = 0; octant < 8; ++octant)
+        writeList(scene, plans, octant, octant * list.length,
+                  std::span(pairBegins)
+                      .subspan(plans.size() * static_cast<std::size_t>(omp_get_thread_num()), plans.size()),
+                  list.nodes);
     return list;
 }
 
