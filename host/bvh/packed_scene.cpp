@@ -5,6 +5,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace hyalite {
@@ -44,16 +45,25 @@ layout::MaterialRecord packMaterial(const Material &material) {
     return record;
 }
 
+/// Whether a loop of so many rounds is worth waking other threads.
+bool isLong(std::int64_t count) { return count > 8192; }
+
 void packTriangles(const Scene &scene, const Bvh &bvh, PackedScene &packed) {
     std::vector<std::uint32_t> positionInTree(bvh.order.size());
-    for (std::size_t i = 0; i < bvh.order.size(); ++i)
-        positionInTree[bvh.order[i]] = static_cast<std::uint32_t>(i);
+    const auto total = static_cast<std::int64_t>(bvh.order.size());
+#pragma omp parallel for schedule(static) if (isLong(total))
+    for (std::int64_t i = 0; i < total; ++i)
+        positionInTree[bvh.order[static_cast<std::size_t>(i)]] = static_cast<std::uint32_t>(i);
     packed.triangles.resize(bvh.order.size());
     packed.normals.resize(bvh.order.size());
-    std::uint32_t inputIndex = 0;
+    std::uint32_t firstIndex = 0; // of the mesh's triangles in the input
     for (const TriangleMesh &mesh : scene.meshes) {
         const bool isTransmissive = scene.materials[mesh.materialIndex].kind == MaterialKind::Dielectric;
-        for (const MeshTriangle &corner : mesh.triangles) {
+        const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+#pragma omp parallel for schedule(static) if (isLong(count))
+        for (std::int64_t i = 0; i < count; ++i) {
+            const MeshTriangle &corner = mesh.triangles[static_cast<std::size_t>(i)];
+            const std::uint32_t inputIndex = firstIndex + static_cast<std::uint32_t>(i);
             const std::uint32_t position = positionInTree[inputIndex];
             layout::TriangleRecord &triangle = packed.triangles[position];
             triangle.v0 = mesh.positions[corner.positions.x];
@@ -67,8 +77,8 @@ void packTriangles(const Scene &scene, const Bvh &bvh, PackedScene &packed) {
             normals.n0 = hasNormals ? mesh.normals[corner.normals.x] : glm::vec3(0.0f);
             normals.n1 = hasNormals ? mesh.normals[corner.normals.y] : glm::vec3(0.0f);
             normals.n2 = hasNormals ? mesh.normals[corner.normals.z] : glm::vec3(0.0f);
-            ++inputIndex;
         }
+        firstIndex += static_cast<std::uint32_t>(count);
     }
     for (const BvhNode &node : bvh.nodes)
         if (node.isLeaf())
@@ -97,11 +107,14 @@ void packNodes(const Bvh &bvh, PackedScene &packed) {
     std::uint32_t innerCount = 0;
     for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
         reference[i] = bvh.nodes[i].isLeaf() ? layout::leafFlag | bvh.nodes[i].first : innerCount++;
-    packed.nodes.reserve(innerCount);
-    for (const BvhNode &node : bvh.nodes) {
+    packed.nodes.resize(innerCount);
+    const auto nodeCount = static_cast<std::int64_t>(bvh.nodes.size());
+#pragma omp parallel for schedule(static) if (isLong(nodeCount))
+    for (std::int64_t i = 0; i < nodeCount; ++i) {
+        const BvhNode &node = bvh.nodes[static_cast<std::size_t>(i)];
         if (node.isLeaf())
             continue;
-        layout::NodePair pair{};
+        layout::NodePair &pair = packed.nodes[reference[static_cast<std::size_t>(i)]];
         const BvhNode &left = bvh.nodes[node.first];
         const BvhNode &right = bvh.nodes[node.first + 1];
         pair.leftLower = left.box.lower;
@@ -110,7 +123,6 @@ void packNodes(const Bvh &bvh, PackedScene &packed) {
         pair.rightLower = right.box.lower;
         pair.rightUpper = right.box.upper;
         pair.right = reference[node.first + 1];
-        packed.nodes.push_back(pair);
     }
 }
 
