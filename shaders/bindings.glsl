@@ -1,12 +1,13 @@
-// What a kernel is given beside the scene (scene_data.glsl): buffers, push constants and specialization constants, as layout.h describes them.
+// What a kernel is given beside the scene (scene_data.glsl): buffers, push constants and specialization constants, as
+// layout.h describes them.
 
-layout(set = 0, binding = bindingFrame, std140) uniform FrameBuffer { FrameRecord frame; };
+layout(set = 0, binding = bindingFrame, std140) uniform FrameBuffer { FrameRecord frameConstants; };
 layout(set = 0, binding = bindingProgress, std430) buffer ProgressBuffer { DispatchProgress progress; };
 layout(set = 0, binding = bindingPaths, std430) buffer PathBuffer { PathRecord pathRecords[]; };
 layout(set = 0, binding = bindingStacks, std430) buffer StackBuffer { uint stackEntries[]; };
 layout(set = 0, binding = bindingTrace, std430) writeonly buffer TraceBuffer { TraceEvent traceEvents[]; };
 
-layout(push_constant) uniform DispatchBlock { DispatchConstants dispatch; };
+layout(push_constant) uniform DispatchBlock { DispatchConstants dispatchConstants; };
 
 layout(constant_id = constantSphereCount) const uint sphereCount = 0u;
 layout(constant_id = constantHasTriangles) const bool hasTriangles = true;
@@ -20,3 +21,13 @@ layout(constant_id = constantSamplesAbreast) const uint samplesAbreast = 1u;
 layout(constant_id = constantIsResumable) const bool isResumable = true;
 layout(constant_id = constantLightCount) const uint lightCount = 1u;
 layout(constant_id = constantPendingInRegisters) const uint pendingInRegisters = 0u;
+
+// Entry kernels begin with loadConstants(), and everything else reads these copies: inside of loops and branches
+// lavapipe loads every word of a uniform buffer and of the push constants lane by lane.
+FrameRecord frame;
+DispatchConstants dispatch;
+
+void loadConstants() {
+    frame = frameConstants;
+    dispatch = dispatchConstants;
+}

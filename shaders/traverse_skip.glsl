@@ -70,23 +70,32 @@ void traverse(uint stage, const bool isShadow) {
         isRunning = isRunning || isMine;
     }
     do {
-        isRunning = false;
-        [[unroll]] for (uint step = 0u; step < stepsAPass; ++step)
-            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        bool isSearching;
+        do {
+            isSearching = false;
+            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
                 if (path[slot].cursorNode < end[slot])
                     visitNode(slot, gridRay[slot]);
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-            if (end[slot] != 0u && path[slot].cursorTriangle != noNode) {
-                uint record = path[slot].cursorTriangle;
-                TriangleRecord triangle = fetchTriangle(record);
-                path[slot].cursorTriangle = (triangle.flags & triangleEndsLeaf) != 0u ? noNode : record + 1u;
-                if (meetTriangle(slot, record, triangle, triangleRay[slot], boxRay[slot], isShadow))
-                    stopTraversal(slot);
+                isSearching = isSearching || (path[slot].cursorNode < end[slot] && path[slot].cursorTriangle == noNode);
             }
-            bool isLeft = path[slot].cursorNode < end[slot] || (end[slot] != 0u && path[slot].cursorTriangle != noNode);
-            isRunning = isRunning || isLeft;
-        }
-        stepsTaken += 1u;
+            stepsTaken += 1u;
+        } while (isSearching && stepsTaken < dispatch.stepBudget);
+        do {
+            isRunning = false;
+            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+                if (end[slot] != 0u && path[slot].cursorTriangle != noNode) {
+                    uint record = path[slot].cursorTriangle;
+                    TriangleRecord triangle = fetchTriangle(record);
+                    path[slot].cursorTriangle = (triangle.flags & triangleEndsLeaf) != 0u ? noNode : record + 1u;
+                    if (meetTriangle(slot, record, triangle, triangleRay[slot], boxRay[slot], isShadow))
+                        stopTraversal(slot);
+                }
+                isRunning = isRunning || (end[slot] != 0u && path[slot].cursorTriangle != noNode);
+            }
+            stepsTaken += 1u;
+        } while (isRunning && stepsTaken < dispatch.stepBudget);
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            isRunning = isRunning || path[slot].cursorNode < end[slot];
     } while (isRunning && stepsTaken < dispatch.stepBudget);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (end[slot] != 0u && path[slot].cursorNode >= end[slot] && path[slot].cursorTriangle == noNode)

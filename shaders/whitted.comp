@@ -34,6 +34,7 @@ layout(local_size_x_id = 0) in;
 #include "whitted.glsl"
 
 void main() {
+    loadConstants();
     preload();
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
         placeSlot(slot);

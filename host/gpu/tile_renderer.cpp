@@ -130,7 +130,6 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress) {
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
     std::uint64_t samplesFinished = 0;
     TileTotals totals;
-    // Whether slots of the tile are unfinished.
     const auto dispatch = [&](Kernel &kernel) {
         const layout::DispatchProgress counters = runOnce(kernel);
         samplesFinished += counters.finishedSamples;
@@ -139,15 +138,21 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress) {
         ++totals.dispatchCount;
         if (onProgress)
             onProgress(static_cast<double>(samplesFinished) / samplesWanted);
-        return counters.unfinishedSlots > 0;
+        return counters;
     };
     for (int tile = 0; tile < tilesAcross * tilesDown; ++tile) {
         dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
         dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
         dispatch_.isResumed = 0;
-        bool isUnfinished = !direct_ || dispatch(direct_->kernel);
-        while (isUnfinished) {
-            isUnfinished = dispatch(resumableKernel());
+        layout::DispatchProgress last{};
+        last.unfinishedSlots = slotCount_;
+        if (direct_) {
+            do
+                last = dispatch(direct_->kernel);
+            while (last.unfinishedSlots > 0 && last.finishedSamples > 0);
+        }
+        while (last.unfinishedSlots > 0) {
+            last = dispatch(resumableKernel());
             dispatch_.isResumed = 1;
         }
     }

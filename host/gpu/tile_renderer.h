@@ -33,8 +33,9 @@ struct TileTotals {
 
 /// Everything that a job needs on the device. Scene and buffers must outlive it.
 ///
-/// Where most slots finish in one dispatch, as on lavapipe, the kernel that can be resumed is built only when one does
-/// not: writing down where it stands costs each slot more than following a few samples.
+/// Where dispatches end with whole samples in the film, as on lavapipe, the kernel that can be resumed inside a sample is
+/// built only when a dispatch does not suffice for one: writing down where it stands costs a slot more than following a
+/// few samples.
 class TileRenderer {
   public:
     /// `batching` is complete. Builds the kernel, and runs it once without samples, as some drivers compile only then.

@@ -87,6 +87,7 @@ BoxRay takeBoxRay(vec3 origin, vec3 direction) {
 }
 
 void main() {
+    loadConstants();
     inputCursor = gl_GlobalInvocationID.x * inputWordCount;
     outputCursor = gl_GlobalInvocationID.x * outputWordCount;
     switch (probedFunction) {
