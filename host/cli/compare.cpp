@@ -212,7 +212,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     if (!options.report.empty())
         reportFile.emplace(options.report);
 
-    const PreparedScene scene = prepareScene(options.scene);
+    const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
     if (heatMapFile)
         requirePngSize(options.heatMap, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, 2);

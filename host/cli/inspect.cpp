@@ -121,7 +121,7 @@ bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
 }
 
 ExitCode runInspect(const InspectOptions &options) {
-    const PreparedScene prepared = prepareScene(options.scene);
+    const PreparedScene prepared = prepareScene(options.scene, Source::Kept, false);
     const Scene &scene = prepared.loaded.scene;
     fmt::print("scene        {}\n", prepared.loaded.file.string());
     fmt::print("contents     {} in {}, {}, {}, {}\n", countText(triangleCount(scene), "triangle"),

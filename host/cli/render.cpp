@@ -45,7 +45,7 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     if (!options.report.empty())
         reportFile.emplace(options.report);
 
-    const PreparedScene scene = prepareScene(options.scene);
+    const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
     if (format == ImageFormat::Png)
         requirePngSize(options.output, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, 1);

@@ -2,6 +2,7 @@
 
 #include "host/cli/options.h"
 #include "host/error.h"
+#include "host/report/progress.h"
 #include "host/scene/framing.h"
 #include "host/scene/limits.h"
 #include "host/scene/load.h"
@@ -144,13 +145,16 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->group(tracing);
 }
 
-PreparedScene prepareScene(const SceneOptions &options) {
+PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet) {
     using Clock = std::chrono::steady_clock;
     PreparedScene prepared;
     const Clock::time_point start = Clock::now();
-    prepared.loaded = loadScene(options.scene);
+    {
+        ProgressLine progress("load", isQuiet);
+        prepared.loaded = loadScene(options.scene, [&](double share) { progress.update(share); });
+    }
     applyOverrides(options, prepared.loaded);
-    const Scene &scene = prepared.loaded.scene;
+    Scene &scene = prepared.loaded.scene;
     try {
         validateScene(scene, "--camera-position, --look-at, --up");
     } catch (const Error &error) {
@@ -161,6 +165,10 @@ PreparedScene prepareScene(const SceneOptions &options) {
     const Clock::time_point loaded = Clock::now();
     prepared.bvh = buildBvh(scene.settings.tree, buildTriangles(scene), scene.settings.leafSize);
     prepared.packed = packScene(scene, prepared.bvh);
+    if (source == Source::Dropped) {
+        scene.meshes = {};
+        prepared.bvh = {};
+    }
     prepared.loadSeconds = secondsBetween(start, loaded);
     prepared.buildSeconds = secondsBetween(loaded, Clock::now());
     return prepared;

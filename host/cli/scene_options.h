@@ -37,10 +37,14 @@ struct SceneOptions {
 /// Adds the SCENE argument and the options. `options` must outlive `command`.
 void addSceneOptions(CLI::App &command, SceneOptions &options);
 
+/// What becomes of a scene's meshes and tree once they are packed. Renderers read the packed scene alone; of a large
+/// mesh the rest takes a sixth of the memory.
+enum class Source { Kept, Dropped };
+
 /// A scene made ready for both renderers.
 struct PreparedScene {
-    LoadedScene loaded;
-    Bvh bvh;
+    LoadedScene loaded; ///< its scene without meshes if the source was dropped
+    Bvh bvh;            ///< empty if the source was dropped
     PackedScene packed;
     Crop crop;
     double loadSeconds = 0.0;
@@ -48,7 +52,7 @@ struct PreparedScene {
 };
 
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for options that do not go
-/// together, such as a crop outside of the image.
-[[nodiscard]] PreparedScene prepareScene(const SceneOptions &options);
+/// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet.
+[[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet);
 
 } // namespace hyalite

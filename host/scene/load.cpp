@@ -29,8 +29,8 @@ void requireFile(const std::filesystem::path &file) {
                             isName ? fmt::format("; did you mean the shipped scene {}?", stem) : ""));
 }
 
-LoadedScene loadBareMesh(const std::filesystem::path &file) {
-    ObjMesh mesh = loadObj(file);
+LoadedScene loadBareMesh(const std::filesystem::path &file, const OnReading &onReading) {
+    ObjMesh mesh = loadObj(file, {}, onReading);
     LoadedScene loaded;
     loaded.scene = frameMesh(std::move(mesh.mesh));
     loaded.file = file;
@@ -41,10 +41,11 @@ LoadedScene loadBareMesh(const std::filesystem::path &file) {
 
 } // namespace
 
-LoadedScene loadScene(const std::string &argument) {
+LoadedScene loadScene(const std::string &argument, const OnReading &onReading) {
     const std::filesystem::path file = resolveScene(argument);
     requireFile(file);
-    LoadedScene loaded = hasExtension(file, ".obj") ? loadBareMesh(file) : loadSceneFile(file);
+    LoadedScene loaded =
+        hasExtension(file, ".obj") ? loadBareMesh(file, onReading) : loadSceneFile(file, onReading);
     validateScene(loaded.scene, file.string());
     return loaded;
 }

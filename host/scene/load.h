@@ -9,6 +9,6 @@ namespace hyalite {
 
 /// Loads a scene file, a bare mesh (framed and lit) or a shipped scene by its name, and validates it. Throws
 /// Error{BadInput}.
-[[nodiscard]] LoadedScene loadScene(const std::string &argument);
+[[nodiscard]] LoadedScene loadScene(const std::string &argument, const OnReading &onReading = {});
 
 } // namespace hyalite

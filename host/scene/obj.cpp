@@ -25,8 +25,9 @@ namespace {
 // plainest form, nearly all of a file, do not even get there.
 class CheckedObjSource : public std::streambuf {
   public:
-    CheckedObjSource(ObjLines &objLines, ObjMeshBuilder &meshBuilder, std::size_t &unusedCount)
-        : lines(objLines), builder(meshBuilder), unusedStatementCount(unusedCount) {}
+    CheckedObjSource(ObjLines &objLines, ObjMeshBuilder &meshBuilder, std::size_t &unusedCount,
+                     const OnReading &listener)
+        : lines(objLines), builder(meshBuilder), unusedStatementCount(unusedCount), onReading(listener) {}
 
   protected:
     int_type underflow() override {
@@ -37,6 +38,7 @@ class CheckedObjSource : public std::streambuf {
             const std::optional<std::span<char>> line = lines.next();
             if (!line)
                 return traits_type::eof();
+            reportProgress();
             const CheckedStatement statement = checkStatement(*line, lines);
             if (statement.kind == ObjStatement::Geometry) {
                 char *const begin = statement.text.data();
@@ -48,9 +50,20 @@ class CheckedObjSource : public std::streambuf {
     }
 
   private:
+    static constexpr std::size_t stepBytes = std::size_t{1} << 22;
+
+    void reportProgress() {
+        if (!onReading || lines.bytesRead() < nextReportBytes)
+            return;
+        nextReportBytes = lines.bytesRead() + stepBytes;
+        onReading(lines.shareRead());
+    }
+
     ObjLines &lines;
     ObjMeshBuilder &builder;
     std::size_t &unusedStatementCount;
+    const OnReading &onReading;
+    std::size_t nextReportBytes = stepBytes;
 };
 
 struct CallbackData {
@@ -82,11 +95,12 @@ tinyobj::callback_t makeCallbacks() {
 
 } // namespace
 
-ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform) {
+ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform,
+                const OnReading &onReading) {
     ObjLines lines(file);
     ObjMeshBuilder builder(lines.fileName(), transform);
     std::size_t unusedStatementCount = 0;
-    CheckedObjSource source(lines, builder, unusedStatementCount);
+    CheckedObjSource source(lines, builder, unusedStatementCount, onReading);
     std::istream stream(&source);
     stream.exceptions(std::ios::badbit); // so that an Error of the source passes through the stream
     CallbackData data{lines, builder};

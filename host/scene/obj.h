@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 
 namespace hyalite {
 
@@ -30,6 +31,9 @@ struct MeshReport {
     std::size_t unusedStatementCount = 0; ///< `l`, `p`, unknown keywords: skipped
 };
 
+/// Told which share of a file is read, in [0, 1], ever so often: about every 4 MiB.
+using OnReading = std::function<void(double share)>;
+
 struct ObjMesh {
     TriangleMesh mesh; ///< in world space; materialIndex is left 0
     MeshReport report;
@@ -45,6 +49,7 @@ struct ObjMesh {
 /// Throws Error{BadInput}, with file and line, for what is no regular file or cannot be read, indices out of
 /// range, numbers that are no finite floats, coordinates beyond 1e15 after the transform, and faces with fewer
 /// than three corners; Error{BadInput} when there is no triangle at all.
-[[nodiscard]] ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform = {});
+[[nodiscard]] ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform = {},
+                              const OnReading &onReading = {});
 
 } // namespace hyalite

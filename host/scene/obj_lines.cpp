@@ -37,9 +37,15 @@ ObjLines::ObjLines(const std::filesystem::path &file) : name(file.string()), buf
     if (!stream)
         throw Error(ExitCode::BadInput,
                     name + ": cannot be opened: " + std::generic_category().message(errno));
+    bytesAtOpening = std::filesystem::file_size(file, error);
     std::setvbuf(stream.get(), nullptr, _IONBF, 0);
     if (refill() && filled >= 3 && std::memcmp(buffer.data(), "\xEF\xBB\xBF", 3) == 0)
         lineBegin = scan = 3;
+}
+
+double ObjLines::shareRead() const {
+    return fileBytes < bytesAtOpening ? static_cast<double>(fileBytes) / static_cast<double>(bytesAtOpening)
+                                      : 1.0;
 }
 
 // Appends to what is left of the current line, which moves to the front. False at the end of the file.

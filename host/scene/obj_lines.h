@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -50,6 +51,11 @@ class ObjLines {
 
     [[nodiscard]] const std::string &fileName() const { return name; }
 
+    [[nodiscard]] std::size_t bytesRead() const { return fileBytes; }
+
+    /// Of the file as it was when it was opened, in [0, 1].
+    [[nodiscard]] double shareRead() const;
+
     /// Throws an Error about the line that next() gave last.
     [[noreturn]] void fail(std::string_view message) const { failAtLine(name, line, message); }
 
@@ -68,6 +74,7 @@ class ObjLines {
     std::size_t scan = 0;      ///< first character of the line that has not been looked at
     std::size_t filled = 0;    ///< characters in the buffer, which has room for one more
     std::size_t fileBytes = 0; ///< read so far
+    std::uintmax_t bytesAtOpening = 0;
     std::size_t line = 0;
     std::size_t nextLine = 1;
 };

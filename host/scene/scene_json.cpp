@@ -101,7 +101,7 @@ Sphere readSphere(const JsonObject &object, const std::vector<Material> &materia
 }
 
 ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials,
-                 const std::filesystem::path &folder) {
+                 const std::filesystem::path &folder, const OnReading &onReading) {
     MeshTransform transform;
     transform.scale = object.number("scale", limits::meshScale, transform.scale);
     if (transform.scale == 0.0)
@@ -114,7 +114,7 @@ ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &material
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
         object.at("file").fail(fmt::format("{}: there is no such file", file.string()));
-    ObjMesh mesh = loadObj(file, transform);
+    ObjMesh mesh = loadObj(file, transform, onReading);
     mesh.mesh.materialIndex = materialIndex;
     return mesh;
 }
@@ -134,7 +134,7 @@ RenderSettings readSettings(const JsonObject &object) {
 
 } // namespace
 
-LoadedScene loadSceneFile(const std::filesystem::path &file) {
+LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &onReading) {
     const nlohmann::json document = readJsonFile(file);
     const std::string fileName = file.string();
     const JsonObject top({&document, &fileName}, scene_keys::top);
@@ -159,8 +159,14 @@ LoadedScene loadSceneFile(const std::filesystem::path &file) {
         scene.shadowThroughGlass = static_cast<float>(
             settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
     }
-    for (const JsonNode &node : top.elements("meshes", limits::meshCount)) {
-        ObjMesh mesh = readMesh({node, scene_keys::mesh}, scene.materials, file.parent_path());
+    const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
+    const auto onReadingMesh = [&](double share) {
+        if (onReading)
+            onReading((static_cast<double>(scene.meshes.size()) + share) /
+                      static_cast<double>(meshes.size()));
+    };
+    for (const JsonNode &node : meshes) {
+        ObjMesh mesh = readMesh({node, scene_keys::mesh}, scene.materials, file.parent_path(), onReadingMesh);
         scene.meshes.push_back(std::move(mesh.mesh));
         loaded.meshReports.push_back(mesh.report);
     }

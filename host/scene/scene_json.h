@@ -74,8 +74,8 @@ struct LoadedScene {
 /// Reads a scene file and the meshes that it names. Values are in range and names are defined; what concerns
 /// several values at once (is up parallel to the view?) is left to validateScene. Throws Error{BadInput}
 /// naming the file, the key as a JSON path such as /spheres/3/radius (a syntax error: line and column), what
-/// was found and what is allowed.
-[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file);
+/// was found and what is allowed. `onReading` is told the share of all meshes, each counting the same.
+[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &onReading = {});
 
 /// The keys of each object of a scene file.
 namespace scene_keys {
