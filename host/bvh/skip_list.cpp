@@ -84,13 +84,14 @@ void countNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
     }
 }
 
-/// Writes the list of one octant, which begins at the index `begin`. Where a subtree begins is known before it is
+/// Writes a list in the order that suits `octant`, with planes turned for `planesOctant`; it begins at the index `begin`. Where a subtree begins is known before it is
 /// written, as all nodes above come first and its sibling's size is known: no stack is needed.
 /// `pairBegins` is room for an index a pair.
 void writeList(const PackedScene &scene, std::span<const PairPlan> plans, std::uint32_t octant,
-               std::uint32_t begin, std::span<std::uint32_t> pairBegins, std::span<layout::SkipNode> nodes) {
-    const std::array<int, 3> turns{(octant & 1u) != 0 ? 16 : 0, (octant & 2u) != 0 ? 16 : 0,
-                                   (octant & 4u) != 0 ? 16 : 0};
+               std::uint32_t planesOctant, std::uint32_t begin, std::span<std::uint32_t> pairBegins,
+               std::span<layout::SkipNode> nodes) {
+    const std::array<int, 3> turns{(planesOctant & 1u) != 0 ? 16 : 0, (planesOctant & 2u) != 0 ? 16 : 0,
+                                   (planesOctant & 4u) != 0 ? 16 : 0};
     pairBegins[0] = begin;
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const PairPlan &plan = plans[i];
@@ -119,8 +120,10 @@ void writeList(const PackedScene &scene, std::span<const PairPlan> plans, std::u
 
 } // namespace
 
-SkipList makeSkipList(const PackedScene &scene) {
+SkipList makeSkipList(const PackedScene &scene, std::uint32_t orderCount) {
+    assert(orderCount == 1 || orderCount == 2 || orderCount == 8);
     SkipList list;
+    list.orderCount = orderCount;
     if (!scene.hasTriangles)
         return list;
     const glm::vec3 lower = scene.frame.boundsLower;
@@ -142,16 +145,17 @@ SkipList makeSkipList(const PackedScene &scene) {
 
     list.length = plans.front().nodeCount + layout::skipPadding;
     // No ray meets the padding: every plane that is met first lies beyond every other.
-    list.nodes.resize(std::size_t{8} * list.length,
+    list.nodes.resize(std::size_t{orderCount} * list.length,
                       {0x0000FFFFu, 0x0000FFFFu, 0x0000FFFFu, layout::leafFlag});
-    const int threadCount = std::min(omp_get_max_threads(), 8);
+    const int threadCount = std::min(omp_get_max_threads(), static_cast<int>(orderCount));
     std::vector<std::uint32_t> pairBegins(plans.size() * static_cast<std::size_t>(threadCount));
 #pragma omp parallel for schedule(dynamic) num_threads(threadCount)
-    for (std::uint32_t octant = 0; octant < 8; ++octant)
-        writeList(scene, plans, octant, octant * list.length,
-                  std::span(pairBegins)
-                      .subspan(plans.size() * static_cast<std::size_t>(omp_get_thread_num()), plans.size()),
-                  list.nodes);
+    for (std::uint32_t order = 0; order < orderCount; ++order) {
+        const std::uint32_t octant = orderCount == 8 ? order : order * 7;
+        const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+        writeList(scene, plans, octant, orderCount == 8 ? octant : 0, order * list.length,
+                  std::span(pairBegins).subspan(plans.size() * thread, plans.size()), list.nodes);
+    }
     return list;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <random>
 
 namespace hyalite {
@@ -33,7 +34,7 @@ PackedScene pack(const Scene &scene, TreeKind kind, int leafSize) {
     return packScene(scene, buildBvh(kind, buildTriangles(scene), leafSize));
 }
 
-/// The box that a node of an octant's list stands for, in double as the grid is exact there.
+/// The box that a node of a list with planes for `octant` stands for, in double as the grid is exact there.
 std::pair<glm::dvec3, glm::dvec3> boxOf(const SkipList &list, const layout::SkipNode &node,
                                         std::uint32_t octant) {
     const std::uint32_t words[3] = {node.x, node.y, node.z};
@@ -49,11 +50,13 @@ std::pair<glm::dvec3, glm::dvec3> boxOf(const SkipList &list, const layout::Skip
     return {lower, upper};
 }
 
-void expectSound(const PackedScene &scene) {
-    const SkipList list = makeSkipList(scene);
-    ASSERT_EQ(list.nodes.size(), 8u * list.length);
-    for (std::uint32_t octant = 0; octant < 8; ++octant) {
-        const std::uint32_t first = octant * list.length;
+void expectSound(const PackedScene &scene, std::uint32_t orderCount) {
+    const SkipList list = makeSkipList(scene, orderCount);
+    ASSERT_EQ(list.orderCount, orderCount);
+    ASSERT_EQ(list.nodes.size(), std::size_t{orderCount} * list.length);
+    for (std::uint32_t order = 0; order < orderCount; ++order) {
+        const std::uint32_t octant = orderCount == 8 ? order : 0;
+        const std::uint32_t first = order * list.length;
         const std::uint32_t end = first + list.length - layout::skipPadding;
         std::vector<bool> isSeen(scene.triangles.size(), false);
         std::vector<std::uint32_t> ends; // of the subtrees around the node
@@ -81,8 +84,13 @@ void expectSound(const PackedScene &scene) {
                     break;
             }
         }
-        EXPECT_TRUE(std::all_of(isSeen.begin(), isSeen.end(), [](bool seen) { return seen; })) << octant;
+        EXPECT_TRUE(std::all_of(isSeen.begin(), isSeen.end(), [](bool seen) { return seen; })) << order;
     }
+}
+
+void expectSound(const PackedScene &scene) {
+    for (const std::uint32_t orderCount : {1u, 2u, 8u})
+        expectSound(scene, orderCount);
 }
 
 TEST(SkipList, HoldsEveryTriangleOnceInEnclosingBoxes) {
@@ -104,6 +112,54 @@ TEST(SkipList, EnclosesFarSmallAndFlatMeshes) {
     for (glm::vec3 &position : flat.meshes.front().positions)
         position.y = 0.0f;
     expectSound(pack(flat, TreeKind::Midpoint, 2));
+}
+
+TEST(SkipList, FewerOrdersAreThoseOfTheOctantsThatTheyStandFor) {
+    const PackedScene scene = pack(randomScene(2000, 1.0f, glm::vec3(0.0f)), TreeKind::Sah, 4);
+    const SkipList all = makeSkipList(scene);
+    for (const std::uint32_t orderCount : {1u, 2u}) {
+        const SkipList some = makeSkipList(scene, orderCount);
+        ASSERT_EQ(some.length, all.length);
+        for (std::uint32_t order = 0; order < orderCount; ++order) {
+            const std::uint32_t first = order * 7 * all.length;
+            for (std::uint32_t i = 0; i + layout::skipPadding < all.length; ++i) {
+                const layout::SkipNode &node = some.nodes[order * all.length + i];
+                const layout::SkipNode &expected = all.nodes[first + i];
+                const int turn = order == 0 ? 0 : 16; // octant 7 meets the upper planes first
+                EXPECT_EQ(node.x, std::rotl(expected.x, turn));
+                EXPECT_EQ(node.y, std::rotl(expected.y, turn));
+                EXPECT_EQ(node.z, std::rotl(expected.z, turn));
+                const bool isLeaf = (expected.link & layout::leafFlag) != 0;
+                EXPECT_EQ(node.link, isLeaf ? expected.link : expected.link - first + order * all.length);
+            }
+        }
+    }
+}
+
+TEST(SkipList, NearerSiblingsComeFirst) {
+    // Sixteen triangles in a row on each axis, a leaf each: in all lists they come as a ray along the axis meets them.
+    for (int axis = 0; axis < 3; ++axis) {
+        Scene scene = randomScene(16, 0.0f, glm::vec3(0.0f));
+        for (std::uint32_t i = 0; i < scene.meshes[0].positions.size(); ++i) {
+            glm::vec3 &position = scene.meshes[0].positions[i];
+            position = glm::vec3(0.1f * static_cast<float>(i % 3));
+            position[axis] += static_cast<float>(i / 3);
+        }
+        const PackedScene packed = pack(scene, TreeKind::Midpoint, 1);
+        const SkipList list = makeSkipList(packed);
+        for (std::uint32_t octant = 0; octant < 8; ++octant) {
+            std::vector<std::uint32_t> met;
+            for (std::uint32_t i = 0; i + layout::skipPadding < list.length; ++i)
+                if (const std::uint32_t link = list.nodes[octant * list.length + i].link;
+                    link & layout::leafFlag)
+                    met.push_back(packed.triangles[link & ~layout::leafFlag].primitiveId);
+            ASSERT_EQ(met.size(), 16u);
+            const bool isBackwards = (octant >> axis & 1u) != 0;
+            EXPECT_TRUE(isBackwards ? std::is_sorted(met.rbegin(), met.rend())
+                                    : std::is_sorted(met.begin(), met.end()))
+                << "axis " << axis << ", octant " << octant;
+        }
+    }
 }
 
 TEST(SkipList, IsEmptyWithoutTriangles) {
