@@ -7,8 +7,8 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <array>
-#include <cstring>
 #include <functional>
 #include <numeric>
 
@@ -84,7 +84,8 @@ void expectSame(const Bvh &bvh, const Bvh &expected) {
     EXPECT_EQ(bvh.order, expected.order);
     EXPECT_EQ(bvh.depth, expected.depth);
     ASSERT_EQ(bvh.nodes.size(), expected.nodes.size());
-    EXPECT_EQ(std::memcmp(bvh.nodes.data(), expected.nodes.data(), bvh.nodes.size() * sizeof(BvhNode)), 0);
+    EXPECT_TRUE(
+        std::ranges::equal(std::as_bytes(std::span(bvh.nodes)), std::as_bytes(std::span(expected.nodes))));
 }
 
 /// Also checks that the tree is the same when it is built again.
