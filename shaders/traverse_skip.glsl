@@ -1,10 +1,9 @@
 // The traversal for lavapipe: skip lists, without a stack (layout.h: SkipNode).
 //
 // There an `if` skips no code, only the back edge of a loop branches, and a step costs the same for one lane as for
-// eight: so each pass takes a fixed number of steps and tests one triangle, for all path slots at once. It can stop
-// after any pass: the cursor and the nearest hit are all there is to keep.
-
-const uint stepsAPass = 4u;
+// eight. The lanes of a subgroup follow samples of the same pixels and find their leaves together: so all path slots step
+// until each stands at a leaf, then all test triangles until each has left its leaf. It can stop after any step: the
+// cursor and the nearest hit are all there is to keep.
 
 // Distances to the planes of the grid: q * scale + near for planes that are met first, q * scale + far for the others.
 //
@@ -24,10 +23,15 @@ GridRay makeGridRay(vec3 origin, BoxRay ray) {
     return GridRay(frame.gridScale * ray.inverse, subtract(base, outward), add(base, outward));
 }
 
+// The list in which nearer siblings come first for most of these directions.
+uint skipOrder(vec3 d) {
+    if (skipOrders == 8u)
+        return (d.x < 0.0 ? 1u : 0u) | (d.y < 0.0 ? 2u : 0u) | (d.z < 0.0 ? 4u : 0u);
+    return skipOrders == 2u && largestComponent(abs(d)) != largestComponent(d) ? 1u : 0u;
+}
+
 void enterTree(uint slot) {
-    vec3 d = path[slot].rayDirection;
-    uint octant = (d.x < 0.0 ? 1u : 0u) | (d.y < 0.0 ? 2u : 0u) | (d.z < 0.0 ? 4u : 0u);
-    path[slot].cursorNode = octant * frame.skipListLength;
+    path[slot].cursorNode = skipOrder(path[slot].rayDirection) * frame.skipListLength;
     path[slot].cursorTriangle = noNode;
 }
 
@@ -41,8 +45,15 @@ void visitNode(uint slot, GridRay ray) {
     uint cursor = path[slot].cursorNode;
     SkipNode node = fetchSkipNode(cursor);
     uvec3 planes = uvec3(node.x, node.y, node.z);
-    vec3 enter = addProduct(ray.near, vec3(planes & 0xFFFFu), ray.scale);
-    vec3 leave = addProduct(ray.far, vec3(planes >> 16u), ray.scale);
+    uvec3 first = planes & 0xFFFFu;
+    uvec3 second = planes >> 16u;
+    if (skipOrders != 8u) {
+        bvec3 isTurned = lessThan(ray.scale, vec3(0.0));
+        first = mix(planes & 0xFFFFu, planes >> 16u, isTurned);
+        second = mix(planes >> 16u, planes & 0xFFFFu, isTurned);
+    }
+    vec3 enter = addProduct(ray.near, vec3(first), ray.scale);
+    vec3 leave = addProduct(ray.far, vec3(second), ray.scale);
     bool isHit = greater(largestComponent(enter), 0.0) <= lesser(smallestComponent(leave), path[slot].rayLength);
     bool isLeaf = (node.link & leafFlag) != 0u;
     bool isWaiting = path[slot].cursorTriangle != noNode;
@@ -64,9 +75,7 @@ void traverse(uint stage, const bool isShadow) {
         triangleRay[slot] = makeTriangleRay(origin, direction);
         gridRay[slot] = makeGridRay(origin, boxRay[slot]);
         bool isMine = path[slot].stage == stage && isTraversing(slot);
-        // Padding begins here; the cursor may stand in it.
-        uint octant = path[slot].cursorNode / frame.skipListLength;
-        end[slot] = isMine ? (octant + 1u) * frame.skipListLength - skipPadding : 0u;
+        end[slot] = isMine ? (skipOrder(direction) + 1u) * frame.skipListLength : 0u;
         isRunning = isRunning || isMine;
     }
     do {

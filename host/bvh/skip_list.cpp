@@ -84,9 +84,9 @@ void countNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
     }
 }
 
-/// Writes a list in the order that suits `octant`, with planes turned for `planesOctant`; it begins at the index `begin`. Where a subtree begins is known before it is
-/// written, as all nodes above come first and its sibling's size is known: no stack is needed.
-/// `pairBegins` is room for an index a pair.
+/// Writes a list in the order that suits `octant`, with planes turned for `planesOctant`; it begins at the index
+/// `begin`. Where a subtree begins is known before it is written, as all nodes above come first and its sibling's size
+/// is known: no stack is needed. `pairBegins` is room for an index a pair.
 void writeList(const PackedScene &scene, std::span<const PairPlan> plans, std::uint32_t octant,
                std::uint32_t planesOctant, std::uint32_t begin, std::span<std::uint32_t> pairBegins,
                std::span<layout::SkipNode> nodes) {
@@ -143,10 +143,8 @@ SkipList makeSkipList(const PackedScene &scene, std::uint32_t orderCount) {
         plans[static_cast<std::size_t>(i)] = planPair(scene.nodes[static_cast<std::size_t>(i)], grid);
     countNodes(scene, plans);
 
-    list.length = plans.front().nodeCount + layout::skipPadding;
-    // No ray meets the padding: every plane that is met first lies beyond every other.
-    list.nodes.resize(std::size_t{orderCount} * list.length,
-                      {0x0000FFFFu, 0x0000FFFFu, 0x0000FFFFu, layout::leafFlag});
+    list.length = plans.front().nodeCount;
+    list.nodes.resize(std::size_t{orderCount} * list.length);
     const int threadCount = std::min(omp_get_max_threads(), static_cast<int>(orderCount));
     std::vector<std::uint32_t> pairBegins(plans.size() * static_cast<std::size_t>(threadCount));
 #pragma omp parallel for schedule(dynamic) num_threads(threadCount)

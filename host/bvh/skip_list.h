@@ -10,7 +10,7 @@ namespace hyalite {
 struct SkipList {
     std::vector<layout::SkipNode> nodes; ///< `orderCount` lists of `length`
     std::uint32_t orderCount = 8;
-    std::uint32_t length = 0; ///< of one list, padding included
+    std::uint32_t length = 0; ///< of one list
     glm::vec3 gridOrigin{0.0f};
     glm::vec3 gridScale{1.0f}; ///< > 0; a plane is at gridOrigin + gridScale * q, q in [0, 65535]
 };

@@ -33,13 +33,20 @@ layout::FrameRecord frameWith(const SkipList *list, layout::FrameRecord frame) {
     return frame;
 }
 
+/// Eight lists, or two where eight would outgrow caches and memory.
+std::uint32_t fitSkipOrders(const PackedScene &scene) {
+    constexpr std::size_t mostBytes = std::size_t{64} << 20;
+    return 8 * 2 * sizeof(layout::SkipNode) * scene.nodes.size() <= mostBytes ? 8 : 2;
+}
+
 BufferUse arrayUse(const SkipList *list) { return list != nullptr ? BufferUse::Texels : BufferUse::Storage; }
 
 } // namespace
 
 SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList)
     : SceneBuffers(device, scene,
-                   isSkipList ? std::make_unique<SkipList>(makeSkipList(scene)).get() : nullptr) {}
+                   isSkipList ? std::make_unique<SkipList>(makeSkipList(scene, fitSkipOrders(scene))).get()
+                              : nullptr) {}
 
 SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const SkipList *list)
     : frame(device, "the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord)),
@@ -52,7 +59,8 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const SkipL
       nodes(list != nullptr ? array(device, "the skip lists", arrayUse(list), list->nodes)
                             : array(device, "the nodes", arrayUse(list), scene.nodes)),
       triangles(array(device, "the triangles", arrayUse(list), scene.triangles)),
-      normals(array(device, "the normals", arrayUse(list), scene.normals)) {
+      normals(array(device, "the normals", arrayUse(list), scene.normals)),
+      skipOrders(list != nullptr ? list->orderCount : 0) {
     const layout::FrameRecord record = frameWith(list, scene.frame);
     frame.upload(std::as_bytes(std::span(&record, 1)));
 }

@@ -13,13 +13,14 @@ struct SceneBuffers {
     SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList);
 
     Buffer frame;
-    Buffer spheres; ///< room for layout::maxSphereCount
+    Buffer spheres;     ///< room for layout::maxSphereCount
     Buffer sphereArray; ///< again, as a kernel's array
-    Buffer lights;  ///< room for layout::maxLightCount
+    Buffer lights;      ///< room for layout::maxLightCount
     Buffer materials;
     Buffer nodes; ///< node pairs or skip lists
     Buffer triangles;
     Buffer normals;
+    std::uint32_t skipOrders; ///< how many skip lists there are; 0: none
 
   private:
     SceneBuffers(Device &device, const PackedScene &scene, const SkipList *list);

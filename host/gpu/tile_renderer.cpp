@@ -99,6 +99,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantExactDivision] = batching_.arithmetic == Arithmetic::Native;
     constants[layout::constantSamplesAbreast] = samplesAbreast_;
     constants[layout::constantIsResumable] = isResumable;
+    constants[layout::constantSkipOrders] = buffers_.skipOrders;
     constants[layout::constantPendingInRegisters] = keepsPending ? mostPending : 0;
     const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,   &buffers_.spheres,
                                                                  &buffers_.lights,  &buffers_.materials,

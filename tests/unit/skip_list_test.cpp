@@ -57,7 +57,7 @@ void expectSound(const PackedScene &scene, std::uint32_t orderCount) {
     for (std::uint32_t order = 0; order < orderCount; ++order) {
         const std::uint32_t octant = orderCount == 8 ? order : 0;
         const std::uint32_t first = order * list.length;
-        const std::uint32_t end = first + list.length - layout::skipPadding;
+        const std::uint32_t end = first + list.length;
         std::vector<bool> isSeen(scene.triangles.size(), false);
         std::vector<std::uint32_t> ends; // of the subtrees around the node
         for (std::uint32_t index = first; index < end; ++index) {
@@ -122,7 +122,7 @@ TEST(SkipList, FewerOrdersAreThoseOfTheOctantsThatTheyStandFor) {
         ASSERT_EQ(some.length, all.length);
         for (std::uint32_t order = 0; order < orderCount; ++order) {
             const std::uint32_t first = order * 7 * all.length;
-            for (std::uint32_t i = 0; i + layout::skipPadding < all.length; ++i) {
+            for (std::uint32_t i = 0; i < all.length; ++i) {
                 const layout::SkipNode &node = some.nodes[order * all.length + i];
                 const layout::SkipNode &expected = all.nodes[first + i];
                 const int turn = order == 0 ? 0 : 16; // octant 7 meets the upper planes first
@@ -149,7 +149,7 @@ TEST(SkipList, NearerSiblingsComeFirst) {
         const SkipList list = makeSkipList(packed);
         for (std::uint32_t octant = 0; octant < 8; ++octant) {
             std::vector<std::uint32_t> met;
-            for (std::uint32_t i = 0; i + layout::skipPadding < list.length; ++i)
+            for (std::uint32_t i = 0; i < list.length; ++i)
                 if (const std::uint32_t link = list.nodes[octant * list.length + i].link;
                     link & layout::leafFlag)
                     met.push_back(packed.triangles[link & ~layout::leafFlag].primitiveId);
