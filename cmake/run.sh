@@ -13,7 +13,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
 needed=(g++ make cmake libvulkan-dev mesa-vulkan-drivers glslang-tools libglm-dev libtinyobjloader-dev libstb-dev
         libcli11-dev nlohmann-json3-dev libfmt-dev)
-needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
+needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers spirv-tools)
 
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 
