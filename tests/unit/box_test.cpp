@@ -167,8 +167,40 @@ TEST(Box, ClosedFormsOfTheInterval) {
     EXPECT_NEAR(diagonal.leave, 4.0 * std::numbers::sqrt2, 1e-13);
 }
 
+TEST(Box, IsWiderByAllThatTheTriangleTestMayBeOff) {
+    // box.h: the triangle test and the slab test together move a plane by up to 11 u M. No smaller pad is promised to
+    // do, however rare the rays are that show it.
+    Random random(205);
+    Tally missed("boxes missed within 11 u M", random.seed());
+    for (int i = 0; i < 500'000; ++i) {
+        const double scale = random.logUniform(1e-6, 1e6);
+        const glm::vec3 half(glm::abs(random.inCube(scale)) + glm::dvec3(0.01 * scale));
+        const int axis = static_cast<int>(random.below(3));
+        const int other = (axis + 1 + static_cast<int>(random.below(2))) % 3;
+        const double side = random.coin() ? 1.0 : -1.0;
+        glm::vec3 origin(random.inCube(0.01 * scale));
+        origin[axis] = static_cast<float>((random.coin() ? 1 : -1) * scale * random.logUniform(1.0, 1e3));
+        const double reach = std::abs(static_cast<double>(origin[axis])) + static_cast<double>(half[axis]);
+        const double allowed = 11.0 * 0x1p-24 * reach;
+        origin[other] = static_cast<float>(side * (static_cast<double>(half[other]) + 0.98 * allowed));
+        const double outside =
+            std::abs(static_cast<double>(origin[other])) - static_cast<double>(half[other]);
+        if (outside > allowed || static_cast<double>(half[other]) + std::abs(origin[other]) > reach)
+            continue; // by the rounding of the origin, or another axis is the longest
+        glm::vec3 direction(0.0f);
+        direction[axis] = origin[axis] > 0 ? -1.0f : 1.0f;
+        const BoxRay<float> ray = makeBoxRay(origin, direction, -half, half);
+        const Interval<float> interval = boxInterval(ray, -half, half);
+        missed.check(interval.enter <= interval.leave, [&] {
+            return fmt::format("{}, origin {}, direction {}", text(half), text(origin), text(direction));
+        });
+    }
+    EXPECT_GT(missed.count(), 300'000u);
+    missed.expectNone();
+}
+
 TEST(Box, IsNotMuchWiderThanItIs) {
-    // The pad is 16 u (M + |o|): a ray that passes at 64 u of that distance misses.
+    // The pad is 16 u M: a ray that passes at 64 u of that distance misses.
     Random random(204);
     Tally wrong("rays that pass by but are not told so", random.seed());
     for (int i = 0; i < 500'000; ++i) {
@@ -178,7 +210,7 @@ TEST(Box, IsNotMuchWiderThanItIs) {
         const int other = (axis + 1) % 3;
         glm::vec3 origin(random.inCube(scale));
         origin[axis] = static_cast<float>(-4.0 * scale);
-        const double reach = 2.0 * (5.0 * scale);
+        const double reach = 5.0 * scale;
         origin[other] = static_cast<float>(static_cast<double>(half[other]) + 64.0 * 0x1p-24 * reach);
         glm::vec3 direction(0.0f);
         direction[axis] = 1.0f;

@@ -137,6 +137,31 @@ inline void addQuad(TriangleMesh &mesh, const glm::vec3 &corner, const glm::vec3
     return mesh;
 }
 
+/// The surface of the cube [-1, 1]^3, each face cut into cells x cells squares: all boxes are flat, and share the planes
+/// of their faces with their neighbours.
+[[nodiscard]] inline TriangleMesh gridCube(int cells) {
+    TriangleMesh mesh;
+    const auto coordinate = [&](int i) {
+        return static_cast<float>(2 * i - cells) / static_cast<float>(cells);
+    };
+    const auto corner = [&](int axis, float side, int i, int j) {
+        glm::vec3 point(side);
+        point[(axis + 1) % 3] = coordinate(i);
+        point[(axis + 2) % 3] = coordinate(j);
+        return point;
+    };
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f})
+            for (int i = 0; i < cells; ++i)
+                for (int j = 0; j < cells; ++j) {
+                    const glm::vec3 a = corner(axis, side, i, j);
+                    const glm::vec3 c = corner(axis, side, i + 1, j + 1);
+                    addTriangle(mesh, a, corner(axis, side, i + 1, j), c);
+                    addTriangle(mesh, a, c, corner(axis, side, i, j + 1));
+                }
+    return mesh;
+}
+
 /// 20 * 4^levels triangles around the unit ball.
 [[nodiscard]] inline TriangleMesh icosphere(int levels) {
     TriangleMesh mesh;

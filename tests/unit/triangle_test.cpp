@@ -173,6 +173,8 @@ TEST(Watertight, SpikyStarOfSlivers) {
     expectWatertight("a star of slivers", hyalite::testing::spikyStar(), 103);
 }
 
+TEST(Watertight, CubeOfFlatBoxes) { expectWatertight("a cube", hyalite::testing::gridCube(5), 115); }
+
 TEST(Watertight, NeighboursOfASharedEdgeSeeOppositeEdgeFunctions) {
     // Two triangles over one edge, in a plane that faces the ray: whatever the rounding, a ray at a point of the inner
     // edge hits one of them.
