@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <limits>
 
 namespace hyalite::gpu {
 
@@ -89,9 +89,10 @@ void Device::submit(const std::string &action, const std::function<void(VkComman
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commandBuffer_;
     check(vkQueueSubmit(queue_, 1, &submit, fence), "vkQueueSubmit for " + action);
-    constexpr std::chrono::nanoseconds longest = std::chrono::minutes(1);
-    check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, static_cast<std::uint64_t>(longest.count())),
-          "waiting a minute for " + action);
+    // However long it takes: a busy machine, or a program that was stopped for a while, is no lost device, and to give
+    // up would free what the work still uses. Of a device that hangs the driver tells.
+    check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
+          "waiting for " + action);
     instance_.throwOnValidationMessage();
 }
 

@@ -28,8 +28,8 @@ class Device {
     [[nodiscard]] bool isMappable(std::uint32_t memoryType) const;
     [[nodiscard]] bool isStagingPreferred() const { return isStagingPreferred_; }
 
-    /// Records commands with `record`, submits them and waits until they are finished. Throws Error{DeviceLost}
-    /// naming `action` where the device fails, or does not finish within a minute.
+    /// Records commands with `record`, submits them and waits until they are finished, however long that takes. Throws
+    /// Error{DeviceLost} naming `action` where the device fails.
     void submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record);
 
   private:
