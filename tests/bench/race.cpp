@@ -1,0 +1,42 @@
+#include "tests/bench/race.h"
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace hyalite::bench {
+
+namespace {
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+} // namespace
+
+Runner timed(std::function<void()> function) {
+    return [function = std::move(function)] {
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point start = Clock::now();
+        function();
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+}
+
+void race(benchmark::State &state, const Runner &contestant, std::span<const Rival> rivals) {
+    std::vector<double> seconds;
+    std::vector<std::vector<double>> ratios(rivals.size());
+    for ([[maybe_unused]] const auto iteration : state) {
+        seconds.push_back(contestant());
+        state.SetIterationTime(seconds.back());
+        for (std::size_t i = 0; i < rivals.size(); ++i)
+            ratios[i].push_back(rivals[i].run() / seconds.back());
+    }
+    state.counters["seconds"] = median(seconds);
+    for (std::size_t i = 0; i < rivals.size(); ++i)
+        state.counters[rivals[i].counter] = median(ratios[i]);
+}
+
+} // namespace hyalite::bench

@@ -1,0 +1,153 @@
+#include "tests/bench/meshes.h"
+#include "tests/bench/race.h"
+#include "tests/bench/subject.h"
+#include "tests/bench/suites.h"
+#include "traceRaysSkipOneSlot.h"
+#include "traceRaysSkipTwoSlots.h"
+#include "traceRaysStackOneSlot.h"
+#include "traceRaysStackTwoSlots.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace hyalite::bench {
+
+namespace {
+
+/// A kernel, and how often it is run: the slow ones are steady too.
+struct Contestant {
+    gpu::RayKernel kernel;
+    int iterations;
+};
+
+const Contestant contestants[] = {
+    {{"stack, 1 ray", false, 1, traceRaysStackOneSlot}, 3},
+    {{"stack, 2 rays", false, 2, traceRaysStackTwoSlots}, 3},
+    {{"skip list, 1 ray", true, 1, traceRaysSkipOneSlot}, 9},
+    {{"skip list, 2 rays", true, 2, traceRaysSkipTwoSlots}, 9},
+};
+constexpr int iterationsOnCpu = 9;
+
+// The rounding of two programs decides otherwise at edges of triangles, and of the whole mesh; and no more than that.
+constexpr double largestShareOfDisagreements = 1e-3;
+
+using Hits = std::vector<layout::HitRecord>;
+
+/// Embree on a set of rays, checked against the reference.
+class EmbreeRival {
+  public:
+    EmbreeRival(Subject &subject, const RaySet &set) : set_(set), rays_(subject.embree(), set) {}
+
+    /// Keeps the larger share of rays that the two disagree about. Returns what is wrong, or nothing.
+    [[nodiscard]] std::string check() {
+        Hits hits(set_.rays.size());
+        for (const bool isByEights : {false, true}) {
+            run(hits, isByEights);
+            const double share = static_cast<double>(countDisagreements(set_.goal, set_.hits, hits)) /
+                                 static_cast<double>(hits.size());
+            shareOfDisagreements_ = std::max(shareOfDisagreements_, share);
+        }
+        if (shareOfDisagreements_ > largestShareOfDisagreements)
+            return fmt::format("Embree differs in {:.3f} % of the rays", 100.0 * shareOfDisagreements_);
+        return {};
+    }
+
+    [[nodiscard]] Runner oneByOne() {
+        return timed([this] { run(scratch_, false); });
+    }
+    [[nodiscard]] Runner byEights() {
+        return timed([this] { run(scratch_, true); });
+    }
+    [[nodiscard]] double shareOfDisagreements() const { return shareOfDisagreements_; }
+
+  private:
+    void run(Hits &hits, bool isByEights) const {
+        if (isByEights)
+            rays_.traceByEights(hits);
+        else
+            rays_.traceOneByOne(hits);
+    }
+
+    const RaySet &set_;
+    EmbreeRays rays_;
+    Hits scratch_ = Hits(set_.rays.size());
+    double shareOfDisagreements_ = 0.0;
+};
+
+void raceRays(benchmark::State &state, EmbreeRival &embree, std::size_t rayCount, const Runner &contestant) {
+    const std::array<Rival, 2> rivals{Rival{"of Embree 1", embree.oneByOne()},
+                                      Rival{"of Embree 8", embree.byEights()}};
+    race(state, contestant, rivals);
+    state.counters["Mray/s"] = static_cast<double>(rayCount) / 1e6 / state.counters["seconds"].value;
+    state.counters["Embree differs"] = embree.shareOfDisagreements();
+}
+
+/// Calls measure(set, embree) once Embree's hits are known to be right.
+template <class Measure>
+void withRays(benchmark::State &state, const std::string &mesh, RayKind kind, const Measure &measure) {
+    Subject &subject = Subject::get(mesh);
+    const RaySet &set = subject.rays(kind);
+    EmbreeRival embree(subject, set);
+    if (const std::string fault = embree.check(); !fault.empty())
+        state.SkipWithError(fault.c_str());
+    else
+        measure(subject, set, embree);
+}
+
+void measureKernel(benchmark::State &state, const std::string &mesh, RayKind kind,
+                   const gpu::RayKernel &kernel) {
+    withRays(state, mesh, kind, [&](Subject &subject, const RaySet &set, EmbreeRival &embree) {
+        gpu::RayTracer tracer(subject.onDevice(kernel.isSkipList), kernel, set.goal, set.rays);
+        tracer.run();
+        if (const std::size_t count = countDifferences(tracer.hits(), set.hits); count > 0) {
+            state.SkipWithError(
+                fmt::format("{} of {} hits differ from the reference's", count, set.hits.size()).c_str());
+            return;
+        }
+        raceRays(state, embree, set.rays.size(), timed([&] { tracer.run(); }));
+    });
+}
+
+void measureReference(benchmark::State &state, const std::string &mesh, RayKind kind) {
+    withRays(state, mesh, kind, [&](Subject &subject, const RaySet &set, EmbreeRival &embree) {
+        Hits hits(set.rays.size());
+        const PackedScene &scene = subject.packed();
+        raceRays(state, embree, set.rays.size(),
+                 timed([&] { traceByReference(scene, set.goal, set.rays, hits); }));
+    });
+}
+
+void measureEmbree(benchmark::State &state, const std::string &mesh, RayKind kind, bool isByEights) {
+    withRays(state, mesh, kind, [&](Subject &, const RaySet &set, EmbreeRival &embree) {
+        raceRays(state, embree, set.rays.size(), isByEights ? embree.byEights() : embree.oneByOne());
+    });
+}
+
+void add(const std::string &name, int iterations, const std::function<void(benchmark::State &)> &measure) {
+    benchmark::RegisterBenchmark(name.c_str(), measure)
+        ->UseManualTime()
+        ->Iterations(iterations)
+        ->Unit(benchmark::kMillisecond);
+}
+
+} // namespace
+
+void registerRays() {
+    for (const std::string &mesh : meshNames()) {
+        for (const RayKind kind : rayKinds) {
+            const std::string row = fmt::format("rays/{} {}/", mesh, nameOf(kind));
+            add(row + "Embree 1", iterationsOnCpu,
+                [=](benchmark::State &state) { measureEmbree(state, mesh, kind, false); });
+            add(row + "Embree 8", iterationsOnCpu,
+                [=](benchmark::State &state) { measureEmbree(state, mesh, kind, true); });
+            for (const Contestant &contestant : contestants)
+                add(row + contestant.kernel.name, contestant.iterations,
+                    [=](benchmark::State &state) { measureKernel(state, mesh, kind, contestant.kernel); });
+            add(row + "CPU reference", iterationsOnCpu,
+                [=](benchmark::State &state) { measureReference(state, mesh, kind); });
+        }
+    }
+}
+
+} // namespace hyalite::bench
