@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12 and newer, Ubuntu 24.04 and newer), builds, and runs what follows:
 #
-#   cmake/run.sh showcase        renders spheres.png and cat.png into this folder
-#   cmake/run.sh test            builds and runs all tests
-#   cmake/run.sh build           builds only
-#   cmake/run.sh ARGUMENT...     hyalite ARGUMENT..., for instance: render cat -o cat.png
+#   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
+#   cmake/run.sh test                builds and runs all tests
+#   cmake/run.sh build               builds only
+#   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it
+#   cmake/run.sh ARGUMENT...         hyalite ARGUMENT..., for instance: render cat -o cat.png
 #
 # Where all packages are there already it needs neither root nor network. The build is in build/release.
 set -euo pipefail
@@ -14,6 +15,7 @@ build=$root/build/release
 needed=(g++ make cmake libvulkan-dev mesa-vulkan-drivers glslang-tools libglm-dev libtinyobjloader-dev libstb-dev
         libcli11-dev nlohmann-json3-dev libfmt-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers spirv-tools)
+needed_for_bench=(libbenchmark-dev libembree-dev)
 
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 
@@ -43,11 +45,12 @@ install_missing() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# $1: ON or OFF, whether tests are built. The build's output is shown only if it fails.
+# $1: ON or OFF, whether tests are built; then more options for CMake. The build's output is shown only if it fails.
 build_all() {
-    local log
+    local log tests=$1
+    shift
     log=$(mktemp)
-    if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$1" &&
+    if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$tests" "$@" &&
            cmake --build "$build" --parallel "$(nproc)"; } >"$log" 2>&1; then
         cat "$log" >&2
         rm -f "$log"
@@ -78,6 +81,11 @@ test)
     ;;
 build)
     build_all "$(tests_as_before)"
+    ;;
+bench)
+    install_missing "${needed_for_bench[@]}"
+    build_all "$(tests_as_before)" -DHYALITE_BENCH=ON
+    exec "$build/bin/hyalite_bench" "${@:2}"
     ;;
 *)
     build_all "$(tests_as_before)"

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace hyalite::bench {
 
@@ -112,12 +113,14 @@ layout::HitRecord nearestHit(unsigned geometry, unsigned triangle, float t, floa
 
 } // namespace
 
+const char *embreeVersion() { return RTC_VERSION_STRING; }
+
 struct EmbreeScene::State {
-    RTCDevice device = rtcNewDevice(nullptr);
+    RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     RTCGeometry geometry = nullptr;
 
-    State() = default;
+    explicit State(const std::string &settings) : device(rtcNewDevice(settings.c_str())) {}
     ~State() {
         if (geometry != nullptr)
             rtcReleaseGeometry(geometry);
@@ -130,7 +133,8 @@ struct EmbreeScene::State {
     State &operator=(const State &) = delete;
 };
 
-EmbreeScene::EmbreeScene(const TriangleMesh &mesh) : state_(std::make_unique<State>()) {
+EmbreeScene::EmbreeScene(const TriangleMesh &mesh, unsigned buildThreads)
+    : state_(std::make_unique<State>("threads=" + std::to_string(buildThreads))) {
     if (state_->device == nullptr)
         throw std::runtime_error("rtcNewDevice failed");
     state_->scene = rtcNewScene(state_->device);

@@ -11,13 +11,17 @@
 
 namespace hyalite::bench {
 
+/// "3.13.5"
+[[nodiscard]] const char *embreeVersion();
+
 class EmbreeScene {
   public:
-    /// Copies the mesh; commit() builds the tree. Throws std::runtime_error where Embree fails.
-    explicit EmbreeScene(const TriangleMesh &mesh);
+    /// Copies the mesh; commit() builds the tree, on so many threads, or all of them for 0. Throws std::runtime_error
+    /// where Embree fails.
+    explicit EmbreeScene(const TriangleMesh &mesh, unsigned buildThreads = 0);
     ~EmbreeScene();
 
-    /// Builds the tree, anew each time, on as many threads as Embree likes: all. Throws std::runtime_error.
+    /// Builds the tree, anew each time. Throws std::runtime_error.
     void commit();
 
   private:

@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <vector>
+#include <exception>
 
 namespace hyalite::bench {
-
-namespace {
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
-
-} // namespace
 
 Runner timed(std::function<void()> function) {
     return [function = std::move(function)] {
@@ -37,6 +33,21 @@ void race(benchmark::State &state, const Runner &contestant, std::span<const Riv
     state.counters["seconds"] = median(seconds);
     for (std::size_t i = 0; i < rivals.size(); ++i)
         state.counters[rivals[i].counter] = median(ratios[i]);
+}
+
+void addBenchmark(const std::string &name, int iterations,
+                  const std::function<void(benchmark::State &)> &measure) {
+    const auto guarded = [measure](benchmark::State &state) {
+        try {
+            measure(state);
+        } catch (const std::exception &error) {
+            state.SkipWithError(error.what());
+        }
+    };
+    benchmark::RegisterBenchmark(name.c_str(), guarded)
+        ->UseManualTime()
+        ->Iterations(iterations)
+        ->Unit(benchmark::kMillisecond);
 }
 
 } // namespace hyalite::bench

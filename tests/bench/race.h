@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace hyalite::bench {
 
@@ -22,8 +23,15 @@ struct Rival {
     Runner run;
 };
 
+/// Of at least one value.
+[[nodiscard]] double median(std::vector<double> values);
+
 /// Runs the contestant and then each rival, for each iteration of `state`, which uses manual time. Counters get medians:
 /// "seconds" and the rivals'. Nothing is run before to warm up: who checks results has done that.
 void race(benchmark::State &state, const Runner &contestant, std::span<const Rival> rivals);
+
+/// Registers a benchmark that uses manual time. What `measure` throws is shown as its error.
+void addBenchmark(const std::string &name, int iterations,
+                  const std::function<void(benchmark::State &)> &measure);
 
 } // namespace hyalite::bench

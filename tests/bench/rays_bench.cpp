@@ -75,15 +75,21 @@ class EmbreeRival {
     double shareOfDisagreements_ = 0.0;
 };
 
-void raceRays(benchmark::State &state, EmbreeRival &embree, std::size_t rayCount, const Runner &contestant) {
-    const std::array<Rival, 2> rivals{Rival{"of Embree 1", embree.oneByOne()},
-                                      Rival{"of Embree 8", embree.byEights()}};
+void raceRays(benchmark::State &state, const EmbreeRival &embree, std::size_t rayCount,
+              const Runner &contestant, std::span<const Rival> rivals) {
     race(state, contestant, rivals);
     state.counters["Mray/s"] = static_cast<double>(rayCount) / 1e6 / state.counters["seconds"].value;
     state.counters["Embree differs"] = embree.shareOfDisagreements();
 }
 
-/// Calls measure(set, embree) once Embree's hits are known to be right.
+void raceWithEmbree(benchmark::State &state, EmbreeRival &embree, std::size_t rayCount,
+                    const Runner &contestant) {
+    const std::array<Rival, 2> rivals{Rival{"of Embree 1", embree.oneByOne()},
+                                      Rival{"of Embree 8", embree.byEights()}};
+    raceRays(state, embree, rayCount, contestant, rivals);
+}
+
+/// Calls measure(subject, set, embree) once Embree's hits are known to be right.
 template <class Measure>
 void withRays(benchmark::State &state, const std::string &mesh, RayKind kind, const Measure &measure) {
     Subject &subject = Subject::get(mesh);
@@ -105,7 +111,7 @@ void measureKernel(benchmark::State &state, const std::string &mesh, RayKind kin
                 fmt::format("{} of {} hits differ from the reference's", count, set.hits.size()).c_str());
             return;
         }
-        raceRays(state, embree, set.rays.size(), timed([&] { tracer.run(); }));
+        raceWithEmbree(state, embree, set.rays.size(), timed([&] { tracer.run(); }));
     });
 }
 
@@ -113,22 +119,22 @@ void measureReference(benchmark::State &state, const std::string &mesh, RayKind 
     withRays(state, mesh, kind, [&](Subject &subject, const RaySet &set, EmbreeRival &embree) {
         Hits hits(set.rays.size());
         const PackedScene &scene = subject.packed();
-        raceRays(state, embree, set.rays.size(),
-                 timed([&] { traceByReference(scene, set.goal, set.rays, hits); }));
+        raceWithEmbree(state, embree, set.rays.size(),
+                       timed([&] { traceByReference(scene, set.goal, set.rays, hits); }));
     });
 }
 
-void measureEmbree(benchmark::State &state, const std::string &mesh, RayKind kind, bool isByEights) {
+void measureEmbreeOneByOne(benchmark::State &state, const std::string &mesh, RayKind kind) {
     withRays(state, mesh, kind, [&](Subject &, const RaySet &set, EmbreeRival &embree) {
-        raceRays(state, embree, set.rays.size(), isByEights ? embree.byEights() : embree.oneByOne());
+        raceRays(state, embree, set.rays.size(), embree.oneByOne(), {});
     });
 }
 
-void add(const std::string &name, int iterations, const std::function<void(benchmark::State &)> &measure) {
-    benchmark::RegisterBenchmark(name.c_str(), measure)
-        ->UseManualTime()
-        ->Iterations(iterations)
-        ->Unit(benchmark::kMillisecond);
+void measureEmbreeByEights(benchmark::State &state, const std::string &mesh, RayKind kind) {
+    withRays(state, mesh, kind, [&](Subject &, const RaySet &set, EmbreeRival &embree) {
+        const std::array<Rival, 1> rivals{Rival{"of Embree 1", embree.oneByOne()}};
+        raceRays(state, embree, set.rays.size(), embree.byEights(), rivals);
+    });
 }
 
 } // namespace
@@ -137,15 +143,16 @@ void registerRays() {
     for (const std::string &mesh : meshNames()) {
         for (const RayKind kind : rayKinds) {
             const std::string row = fmt::format("rays/{} {}/", mesh, nameOf(kind));
-            add(row + "Embree 1", iterationsOnCpu,
-                [=](benchmark::State &state) { measureEmbree(state, mesh, kind, false); });
-            add(row + "Embree 8", iterationsOnCpu,
-                [=](benchmark::State &state) { measureEmbree(state, mesh, kind, true); });
+            addBenchmark(row + "Embree 1", iterationsOnCpu,
+                         [=](benchmark::State &state) { measureEmbreeOneByOne(state, mesh, kind); });
+            addBenchmark(row + "Embree 8", iterationsOnCpu,
+                         [=](benchmark::State &state) { measureEmbreeByEights(state, mesh, kind); });
             for (const Contestant &contestant : contestants)
-                add(row + contestant.kernel.name, contestant.iterations,
+                addBenchmark(
+                    row + contestant.kernel.name, contestant.iterations,
                     [=](benchmark::State &state) { measureKernel(state, mesh, kind, contestant.kernel); });
-            add(row + "CPU reference", iterationsOnCpu,
-                [=](benchmark::State &state) { measureReference(state, mesh, kind); });
+            addBenchmark(row + "CPU reference", iterationsOnCpu,
+                         [=](benchmark::State &state) { measureReference(state, mesh, kind); });
         }
     }
 }

@@ -1,0 +1,117 @@
+#include "host/error.h"
+#include "tests/bench/process.h"
+#include "tests/bench/race.h"
+#include "tests/bench/subject.h"
+#include "tests/bench/suites.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
+
+namespace hyalite::bench {
+
+namespace {
+
+struct Frame {
+    const char *name;
+    std::string scene; ///< as `hyalite render` takes it
+};
+
+std::string contentsOf(const std::filesystem::path &file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// `hyalite render` of one frame on one device, again and again, to a file that is overwritten.
+class Rendering {
+  public:
+    Rendering(const Frame &frame, std::string deviceName)
+        : scene_(frame.scene), deviceName_(std::move(deviceName)) {}
+
+    /// Returns the seconds of all dispatches, or of the reference renderer. Keeps those of the whole process.
+    double run() {
+        processSeconds_.push_back(runHyalite({"render", scene_, "--quiet", "--device", deviceName_,
+                                              "--output", image().string(), "--report", report().string()}));
+        return nlohmann::json::parse(contentsOf(report())).at("seconds").at("render").get<double>();
+    }
+
+    [[nodiscard]] std::string png() const { return contentsOf(image()); }
+    [[nodiscard]] const std::vector<double> &processSeconds() const { return processSeconds_; }
+
+  private:
+    [[nodiscard]] std::filesystem::path image() const { return folder_.path() / "image.png"; }
+    [[nodiscard]] std::filesystem::path report() const { return folder_.path() / "report.json"; }
+
+    std::string scene_;
+    std::string deviceName_;
+    TemporaryFolder folder_;
+    std::vector<double> processSeconds_;
+};
+
+/// By its index: names of devices may be alike.
+std::string deviceArgument() { return std::to_string(device().index); }
+
+void measureFrame(benchmark::State &state, Rendering &rendering) {
+    race(state, [&] { return rendering.run(); }, {});
+    state.counters["seconds in all"] = median(rendering.processSeconds());
+}
+
+void measureFrameOnDevice(benchmark::State &state, const Frame &frame) {
+    Rendering onDevice(frame, deviceArgument());
+    Rendering onCpu(frame, "cpu");
+    onDevice.run();
+    onCpu.run();
+    if (onDevice.png() != onCpu.png())
+        state.SkipWithError("the image differs from the reference's");
+    else
+        measureFrame(state, onDevice);
+}
+
+void measureFrameOnCpu(benchmark::State &state, const Frame &frame) {
+    Rendering onCpu(frame, "cpu");
+    measureFrame(state, onCpu);
+}
+
+enum class ShaderCache { Warm, Cold };
+
+/// The least that a render can take.
+void measureStartUp(benchmark::State &state, const std::string &deviceName, ShaderCache cache) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments{"render",   "spheres",  "--spp",
+                                             "1",        "--quiet",  "--device",
+                                             deviceName, "--output", folder.path() / "image.png"};
+    const auto run = [&] {
+        const TemporaryFolder empty;
+        return cache == ShaderCache::Warm
+                   ? runHyalite(arguments)
+                   : runHyalite(arguments, {"MESA_SHADER_CACHE_DIR=" + empty.path().string()});
+    };
+    run();
+    race(state, run, {});
+}
+
+} // namespace
+
+void registerFrames() {
+    const Frame frames[] = {{"spheres", "spheres"}, {"cat", "cat"}, {"cat of 4k", HYALITE_CAT_4K_SCENE}};
+    for (const Frame &frame : frames) {
+        const std::string row = fmt::format("frames/{}/", frame.name);
+        addBenchmark(row + "device", 3, [=](benchmark::State &state) { measureFrameOnDevice(state, frame); });
+        addBenchmark(row + "CPU reference", 2,
+                     [=](benchmark::State &state) { measureFrameOnCpu(state, frame); });
+    }
+}
+
+void registerStartUp() {
+    const std::string row = "start-up/spheres at 1 spp/";
+    addBenchmark(row + "device", 5,
+                 [](benchmark::State &state) { measureStartUp(state, deviceArgument(), ShaderCache::Warm); });
+    addBenchmark(row + "device, cold shader cache", 3,
+                 [](benchmark::State &state) { measureStartUp(state, deviceArgument(), ShaderCache::Cold); });
+    addBenchmark(row + "CPU reference", 5,
+                 [](benchmark::State &state) { measureStartUp(state, "cpu", ShaderCache::Warm); });
+}
+
+} // namespace hyalite::bench
