@@ -58,8 +58,9 @@ struct RayTracer::State {
     State(RayScene::State &scene, const RayKernel &code, RayGoal goal,
           std::span<const layout::RayRecord> wanted)
         : rayCount(static_cast<std::uint32_t>(wanted.size())),
-          rays(scene.device, "the rays", use(code), wanted.size_bytes()),
-          hits(scene.device, "the hits", use(code), wanted.size() * sizeof(layout::HitRecord)),
+          rays(scene.device, "the rays", code.isSkipList ? BufferUse::Texels : BufferUse::Storage,
+               wanted.size_bytes()),
+          hits(scene.device, "the hits", BufferUse::Storage, wanted.size() * sizeof(layout::HitRecord)),
           stacks(scene.device, "the traversal stacks", BufferUse::Storage,
                  code.isSkipList ? 0 : wanted.size() * scene.stackSize * sizeof(std::uint32_t)),
           unused(scene.device, "nothing", BufferUse::Storage, 0), kernel(makeKernel(scene, code, goal)) {
@@ -72,10 +73,6 @@ struct RayTracer::State {
         const std::uint32_t raysPerRound =
             workgroupSize * static_cast<std::uint32_t>(code.raysPerInvocation) * dispatch.interleave;
         groupCount = (rayCount + raysPerRound - 1) / raysPerRound * dispatch.interleave;
-    }
-
-    [[nodiscard]] static BufferUse use(const RayKernel &code) {
-        return code.isSkipList ? BufferUse::Texels : BufferUse::Storage;
     }
 
     [[nodiscard]] Kernel makeKernel(RayScene::State &scene, const RayKernel &code, RayGoal goal) const {

@@ -1,6 +1,8 @@
-// hyalite_bench [--device=NAME] [--benchmark_filter=...] [--benchmark_out=FILE.json]...
+// hyalite_bench [--device=NAME] [--cpu-time] [--benchmark_filter=...] [--benchmark_out=FILE.json]...
 //
-// Verifies, measures, and prints tables in the end. Exit code 1: a result was wrong or something was missing.
+// Verifies, measures, and prints tables in the end. --cpu-time counts processor seconds in place of time: for machines
+// that do other things meanwhile, and for devices that compute on the CPU. Exit code 1: a result was wrong or something was missing.
+#include "tests/bench/race.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"
 #include "tests/bench/table.h"
@@ -10,14 +12,14 @@
 
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace {
 
-/// The value of an argument such as --device=llvmpipe, which is taken away; "auto" without one.
-std::string takeDevice(int &argumentCount, char **arguments) {
-    constexpr std::string_view option = "--device=";
+/// What begins with `option` is taken away; returns the rest of it, or nothing without one.
+std::optional<std::string> takeOption(std::string_view option, int &argumentCount, char **arguments) {
     for (int i = 1; i < argumentCount; ++i) {
         const std::string argument = arguments[i];
         if (!argument.starts_with(option))
@@ -27,7 +29,7 @@ std::string takeDevice(int &argumentCount, char **arguments) {
         --argumentCount;
         return argument.substr(option.size());
     }
-    return "auto";
+    return std::nullopt;
 }
 
 } // namespace
@@ -35,7 +37,9 @@ std::string takeDevice(int &argumentCount, char **arguments) {
 int main(int argumentCount, char **arguments) {
     using namespace hyalite;
     try {
-        const std::string deviceName = takeDevice(argumentCount, arguments);
+        const std::string deviceName = takeOption("--device=", argumentCount, arguments).value_or("auto");
+        if (takeOption("--cpu-time", argumentCount, arguments))
+            bench::countProcessorSeconds();
         benchmark::Initialize(&argumentCount, arguments);
         if (benchmark::ReportUnrecognizedArguments(argumentCount, arguments))
             return 2;

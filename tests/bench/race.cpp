@@ -1,10 +1,22 @@
 #include "tests/bench/race.h"
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <exception>
 
 namespace hyalite::bench {
+
+namespace {
+
+clockid_t clockInUse = CLOCK_MONOTONIC;
+
+double now() {
+    timespec time{};
+    clock_gettime(clockInUse, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+} // namespace
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -12,12 +24,15 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
+void countProcessorSeconds() { clockInUse = CLOCK_PROCESS_CPUTIME_ID; }
+
+bool areProcessorSecondsCounted() { return clockInUse == CLOCK_PROCESS_CPUTIME_ID; }
+
 Runner timed(std::function<void()> function) {
     return [function = std::move(function)] {
-        using Clock = std::chrono::steady_clock;
-        const Clock::time_point start = Clock::now();
+        const double start = now();
         function();
-        return std::chrono::duration<double>(Clock::now() - start).count();
+        return now() - start;
     };
 }
 

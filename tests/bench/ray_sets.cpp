@@ -119,7 +119,8 @@ RaySet makeRays(const PackedScene &scene, RayKind kind) {
     else
         set.rays = kind == RayKind::Shadow ? shadowRays(scene) : bounceRays(scene);
     set.goal = kind == RayKind::Shadow ? gpu::RayGoal::AnyHit : gpu::RayGoal::NearestHit;
-    set.isCoherent = kind != RayKind::Bounce;
+    // Embree is faster if this is left unsaid of shadow rays, except on the smallest mesh.
+    set.isCoherent = kind == RayKind::Primary;
     set.hits.resize(set.rays.size());
     traceByReference(scene, set.goal, set.rays, set.hits);
     return set;

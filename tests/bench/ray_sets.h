@@ -20,7 +20,7 @@ constexpr RayKind rayKinds[] = {RayKind::Primary, RayKind::Shadow, RayKind::Boun
 
 struct RaySet {
     gpu::RayGoal goal = gpu::RayGoal::NearestHit; ///< any hit for shadow rays
-    bool isCoherent = true;                       ///< neighbours have almost one origin or one aim
+    bool isCoherent = true;                       ///< neighbours go the same way: primary rays
     std::vector<layout::RayRecord> rays;
     std::vector<layout::HitRecord> hits; ///< of the reference
 };
