@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t raysAPart = 1024; // one ray of so many goes past all triangles, which takes long
 
 /// The reference renderer's tree against all triangles one by one, on all threads.
-void measureTree(benchmark::State &state) {
-    Subject &subject = Subject::get("cat_144k");
+void measureTree(benchmark::State &state, Context &context) {
+    Subject &subject = context.subject("cat_144k");
     const RaySet &set = subject.rays(RayKind::Primary);
     const PackedScene brute =
         packScene(subject.scene(), buildBvh(TreeKind::None, buildTriangles(subject.scene()), 1));
@@ -42,6 +42,9 @@ void measureTree(benchmark::State &state) {
 
 } // namespace
 
-void registerBruteForce() { addBenchmark("brute force/cat_144k primary/CPU reference", 3, measureTree); }
+void registerBruteForce(Context &context) {
+    addBenchmark("brute force/cat_144k primary/CPU reference", 3,
+                 [&context](benchmark::State &state) { measureTree(state, context); });
+}
 
 } // namespace hyalite::bench

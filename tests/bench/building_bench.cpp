@@ -55,8 +55,8 @@ class OpenMpThreads {
     int before_;
 };
 
-void measureBuild(benchmark::State &state, const std::string &mesh, const Build &build) {
-    const Subject &subject = Subject::get(mesh);
+void measureBuild(benchmark::State &state, Context &context, const std::string &mesh, const Build &build) {
+    const Subject &subject = context.subject(mesh);
     const Scene &scene = subject.scene();
     if (const std::string fault = findBvhFault(
             buildBvh(build.tree, buildTriangles(scene), scene.settings.leafSize), buildTriangles(scene));
@@ -70,8 +70,9 @@ void measureBuild(benchmark::State &state, const std::string &mesh, const Build 
     race(state, timed([&] { buildOnce(scene, build); }), rivals);
 }
 
-void measureEmbreeBuild(benchmark::State &state, const std::string &mesh, unsigned buildThreads) {
-    EmbreeScene embree(Subject::get(mesh).mesh(), buildThreads);
+void measureEmbreeBuild(benchmark::State &state, Context &context, const std::string &mesh,
+                        unsigned buildThreads) {
+    EmbreeScene embree(context.subject(mesh).mesh(), buildThreads);
     embree.commit();
     race(state, timed([&] { embree.commit(); }), {});
 }
@@ -95,16 +96,17 @@ void measureTinyObj(benchmark::State &state, const std::string &mesh) {
 
 } // namespace
 
-void registerBuilding() {
+void registerBuilding(Context &context) {
     for (const char *mesh : {"cat_144k", "noise_144k", "cat_1m"}) {
         const std::string row = fmt::format("trees/{}/", mesh);
         for (const Build &build : builds)
-            addBenchmark(row + build.name, iterations,
-                         [=](benchmark::State &state) { measureBuild(state, mesh, build); });
+            addBenchmark(row + build.name, iterations, [=, &context](benchmark::State &state) {
+                measureBuild(state, context, mesh, build);
+            });
         addBenchmark(row + "Embree, 1 thread", iterations,
-                     [=](benchmark::State &state) { measureEmbreeBuild(state, mesh, 1); });
+                     [=, &context](benchmark::State &state) { measureEmbreeBuild(state, context, mesh, 1); });
         addBenchmark(row + "Embree", iterations,
-                     [=](benchmark::State &state) { measureEmbreeBuild(state, mesh, 0); });
+                     [=, &context](benchmark::State &state) { measureEmbreeBuild(state, context, mesh, 0); });
     }
 }
 

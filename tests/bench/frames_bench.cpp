@@ -51,15 +51,15 @@ class Rendering {
 };
 
 /// By its index: names of devices may be alike.
-std::string deviceArgument() { return std::to_string(device().index); }
+std::string deviceArgument(const Context &context) { return std::to_string(context.device().index); }
 
 void measureFrame(benchmark::State &state, Rendering &rendering) {
     race(state, [&] { return rendering.run(); }, {});
     state.counters["seconds in all"] = median(rendering.processSeconds());
 }
 
-void measureFrameOnDevice(benchmark::State &state, const Frame &frame) {
-    Rendering onDevice(frame, deviceArgument());
+void measureFrameOnDevice(benchmark::State &state, const Context &context, const Frame &frame) {
+    Rendering onDevice(frame, deviceArgument(context));
     Rendering onCpu(frame, "cpu");
     onDevice.run();
     onCpu.run();
@@ -94,22 +94,25 @@ void measureStartUp(benchmark::State &state, const std::string &deviceName, Shad
 
 } // namespace
 
-void registerFrames() {
+void registerFrames(Context &context) {
     const Frame frames[] = {{"spheres", "spheres"}, {"cat", "cat"}, {"cat of 4k", HYALITE_CAT_4K_SCENE}};
     for (const Frame &frame : frames) {
         const std::string row = fmt::format("frames/{}/", frame.name);
-        addBenchmark(row + "device", 3, [=](benchmark::State &state) { measureFrameOnDevice(state, frame); });
+        addBenchmark(row + "device", 3,
+                     [=, &context](benchmark::State &state) { measureFrameOnDevice(state, context, frame); });
         addBenchmark(row + "CPU reference", 2,
                      [=](benchmark::State &state) { measureFrameOnCpu(state, frame); });
     }
 }
 
-void registerStartUp() {
+void registerStartUp(Context &context) {
     const std::string row = "start-up/spheres at 1 spp/";
-    addBenchmark(row + "device", 5,
-                 [](benchmark::State &state) { measureStartUp(state, deviceArgument(), ShaderCache::Warm); });
-    addBenchmark(row + "device, cold shader cache", 3,
-                 [](benchmark::State &state) { measureStartUp(state, deviceArgument(), ShaderCache::Cold); });
+    addBenchmark(row + "device", 5, [&context](benchmark::State &state) {
+        measureStartUp(state, deviceArgument(context), ShaderCache::Warm);
+    });
+    addBenchmark(row + "device, cold shader cache", 3, [&context](benchmark::State &state) {
+        measureStartUp(state, deviceArgument(context), ShaderCache::Cold);
+    });
     addBenchmark(row + "CPU reference", 5,
                  [](benchmark::State &state) { measureStartUp(state, "cpu", ShaderCache::Warm); });
 }

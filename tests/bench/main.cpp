@@ -43,18 +43,18 @@ int main(int argumentCount, char **arguments) {
         benchmark::Initialize(&argumentCount, arguments);
         if (benchmark::ReportUnrecognizedArguments(argumentCount, arguments))
             return 2;
-        bench::chooseBenchDevice(deviceName);
-        benchmark::AddCustomContext("device", bench::device().name);
-        benchmark::AddCustomContext("driver", bench::device().driver);
-        bench::registerRays();
-        bench::registerBruteForce();
-        bench::registerBuilding();
+        bench::Context context(gpu::chooseDevice(gpu::listDevices(), deviceName));
+        benchmark::AddCustomContext("device", context.device().name);
+        benchmark::AddCustomContext("driver", context.device().driver);
+        bench::registerRays(context);
+        bench::registerBruteForce(context);
+        bench::registerBuilding(context);
         bench::registerReading();
-        bench::registerFrames();
-        bench::registerStartUp();
+        bench::registerFrames(context);
+        bench::registerStartUp(context);
         bench::TableReporter reporter;
         benchmark::RunSpecifiedBenchmarks(&reporter);
-        fmt::print("\n{}", reporter.markdown());
+        fmt::print("\n{}", reporter.markdown(context.device()));
         return reporter.hasFailures() ? 1 : 0;
     } catch (const std::exception &error) {
         fmt::print(stderr, "hyalite_bench: {}\n", error.what());

@@ -91,8 +91,9 @@ void raceWithEmbree(benchmark::State &state, EmbreeRival &embree, std::size_t ra
 
 /// Calls measure(subject, set, embree) once Embree's hits are known to be right.
 template <class Measure>
-void withRays(benchmark::State &state, const std::string &mesh, RayKind kind, const Measure &measure) {
-    Subject &subject = Subject::get(mesh);
+void withRays(benchmark::State &state, Context &context, const std::string &mesh, RayKind kind,
+              const Measure &measure) {
+    Subject &subject = context.subject(mesh);
     const RaySet &set = subject.rays(kind);
     EmbreeRival embree(subject, set);
     if (const std::string fault = embree.check(); !fault.empty())
@@ -101,9 +102,9 @@ void withRays(benchmark::State &state, const std::string &mesh, RayKind kind, co
         measure(subject, set, embree);
 }
 
-void measureKernel(benchmark::State &state, const std::string &mesh, RayKind kind,
+void measureKernel(benchmark::State &state, Context &context, const std::string &mesh, RayKind kind,
                    const gpu::RayKernel &kernel) {
-    withRays(state, mesh, kind, [&](Subject &subject, const RaySet &set, EmbreeRival &embree) {
+    withRays(state, context, mesh, kind, [&](Subject &subject, const RaySet &set, EmbreeRival &embree) {
         gpu::RayTracer tracer(subject.onDevice(kernel.isSkipList), kernel, set.goal, set.rays);
         tracer.run();
         if (const std::size_t count = countDifferences(tracer.hits(), set.hits); count > 0) {
@@ -115,8 +116,8 @@ void measureKernel(benchmark::State &state, const std::string &mesh, RayKind kin
     });
 }
 
-void measureReference(benchmark::State &state, const std::string &mesh, RayKind kind) {
-    withRays(state, mesh, kind, [&](Subject &subject, const RaySet &set, EmbreeRival &embree) {
+void measureReference(benchmark::State &state, Context &context, const std::string &mesh, RayKind kind) {
+    withRays(state, context, mesh, kind, [&](Subject &subject, const RaySet &set, EmbreeRival &embree) {
         Hits hits(set.rays.size());
         const PackedScene &scene = subject.packed();
         raceWithEmbree(state, embree, set.rays.size(),
@@ -124,14 +125,14 @@ void measureReference(benchmark::State &state, const std::string &mesh, RayKind 
     });
 }
 
-void measureEmbreeOneByOne(benchmark::State &state, const std::string &mesh, RayKind kind) {
-    withRays(state, mesh, kind, [&](Subject &, const RaySet &set, EmbreeRival &embree) {
+void measureEmbreeOneByOne(benchmark::State &state, Context &context, const std::string &mesh, RayKind kind) {
+    withRays(state, context, mesh, kind, [&](Subject &, const RaySet &set, EmbreeRival &embree) {
         raceRays(state, embree, set.rays.size(), embree.oneByOne(), {});
     });
 }
 
-void measureEmbreeByEights(benchmark::State &state, const std::string &mesh, RayKind kind) {
-    withRays(state, mesh, kind, [&](Subject &, const RaySet &set, EmbreeRival &embree) {
+void measureEmbreeByEights(benchmark::State &state, Context &context, const std::string &mesh, RayKind kind) {
+    withRays(state, context, mesh, kind, [&](Subject &, const RaySet &set, EmbreeRival &embree) {
         const std::array<Rival, 1> rivals{Rival{"of Embree 1", embree.oneByOne()}};
         raceRays(state, embree, set.rays.size(), embree.byEights(), rivals);
     });
@@ -139,20 +140,24 @@ void measureEmbreeByEights(benchmark::State &state, const std::string &mesh, Ray
 
 } // namespace
 
-void registerRays() {
+void registerRays(Context &context) {
     for (const std::string &mesh : meshNames()) {
         for (const RayKind kind : rayKinds) {
             const std::string row = fmt::format("rays/{} {}/", mesh, nameOf(kind));
-            addBenchmark(row + "Embree 1", iterationsOnCpu,
-                         [=](benchmark::State &state) { measureEmbreeOneByOne(state, mesh, kind); });
-            addBenchmark(row + "Embree 8", iterationsOnCpu,
-                         [=](benchmark::State &state) { measureEmbreeByEights(state, mesh, kind); });
+            addBenchmark(row + "Embree 1", iterationsOnCpu, [=, &context](benchmark::State &state) {
+                measureEmbreeOneByOne(state, context, mesh, kind);
+            });
+            addBenchmark(row + "Embree 8", iterationsOnCpu, [=, &context](benchmark::State &state) {
+                measureEmbreeByEights(state, context, mesh, kind);
+            });
             for (const Contestant &contestant : contestants)
-                addBenchmark(
-                    row + contestant.kernel.name, contestant.iterations,
-                    [=](benchmark::State &state) { measureKernel(state, mesh, kind, contestant.kernel); });
-            addBenchmark(row + "CPU reference", iterationsOnCpu,
-                         [=](benchmark::State &state) { measureReference(state, mesh, kind); });
+                addBenchmark(row + contestant.kernel.name, contestant.iterations,
+                             [=, &context](benchmark::State &state) {
+                                 measureKernel(state, context, mesh, kind, contestant.kernel);
+                             });
+            addBenchmark(row + "CPU reference", iterationsOnCpu, [=, &context](benchmark::State &state) {
+                measureReference(state, context, mesh, kind);
+            });
         }
     }
 }

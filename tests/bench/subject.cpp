@@ -5,30 +5,17 @@
 
 namespace hyalite::bench {
 
-namespace {
-
-gpu::DeviceInfo chosenDevice;
-
-} // namespace
-
-const gpu::DeviceInfo &device() { return chosenDevice; }
-
-void chooseBenchDevice(const std::string &name) {
-    chosenDevice = gpu::chooseDevice(gpu::listDevices(), name);
-}
-
-Subject &Subject::get(const std::string &meshName) {
-    static std::string keptName;
-    static std::unique_ptr<Subject> kept;
-    if (keptName != meshName) {
-        kept.reset();
-        kept = std::make_unique<Subject>(meshName);
-        keptName = meshName;
+Subject &Context::subject(const std::string &meshName) {
+    if (subjectName_ != meshName) {
+        subject_.reset(); // before the next one is made
+        subject_ = std::make_unique<Subject>(meshName, device_);
+        subjectName_ = meshName;
     }
-    return *kept;
+    return *subject_;
 }
 
-Subject::Subject(const std::string &meshName) : scene_(frameMesh(loadMesh(meshName))) {}
+Subject::Subject(const std::string &meshName, const gpu::DeviceInfo &device)
+    : device_(device), scene_(frameMesh(loadMesh(meshName))) {}
 
 const PackedScene &Subject::packed() {
     if (!packed_)
@@ -43,7 +30,7 @@ const RaySet &Subject::rays(RayKind kind) {
 }
 
 gpu::RayScene &Subject::onDevice(bool isSkipList) {
-    return onDevice_.try_emplace(isSkipList, device(), packed(), isSkipList).first->second;
+    return onDevice_.try_emplace(isSkipList, device_, packed(), isSkipList).first->second;
 }
 
 const EmbreeScene &Subject::embree() {

@@ -13,10 +13,8 @@ namespace hyalite::bench {
 
 class Subject {
   public:
-    /// The subject of this name. Only the last one is kept: a large mesh in all its forms takes a gigabyte.
-    [[nodiscard]] static Subject &get(const std::string &meshName);
-
-    explicit Subject(const std::string &meshName);
+    /// `device` outlives the subject.
+    Subject(const std::string &meshName, const gpu::DeviceInfo &device);
 
     [[nodiscard]] const TriangleMesh &mesh() const { return scene_.meshes.front(); }
     /// The mesh as `hyalite` frames and lights a bare one, at 512x512.
@@ -28,6 +26,7 @@ class Subject {
     [[nodiscard]] const EmbreeScene &embree();
 
   private:
+    const gpu::DeviceInfo &device_;
     Scene scene_;
     std::optional<PackedScene> packed_;
     std::map<RayKind, RaySet> rays_;
@@ -35,9 +34,19 @@ class Subject {
     std::unique_ptr<EmbreeScene> embree_;
 };
 
-/// The device that all benchmarks use: the program's --device.
-[[nodiscard]] const gpu::DeviceInfo &device();
-/// Before all benchmarks. Throws Error{NoDevice}.
-void chooseBenchDevice(const std::string &name);
+/// What the benchmarks share. It has to be gone before the program ends: drivers tidy up for themselves then.
+class Context {
+  public:
+    explicit Context(gpu::DeviceInfo device) : device_(std::move(device)) {}
+
+    [[nodiscard]] const gpu::DeviceInfo &device() const { return device_; }
+    /// Only the last one is kept: a large mesh in all its forms takes a gigabyte.
+    [[nodiscard]] Subject &subject(const std::string &meshName);
+
+  private:
+    gpu::DeviceInfo device_;
+    std::string subjectName_;
+    std::unique_ptr<Subject> subject_;
+};
 
 } // namespace hyalite::bench

@@ -3,11 +3,16 @@
 
 namespace hyalite::bench {
 
-void registerRays();       ///< rays a second of each kernel, of the reference and of Embree, on the same rays
-void registerFrames();     ///< whole images, on the device and on the CPU
-void registerStartUp();    ///< the smallest of images
-void registerBuilding();   ///< trees, beside Embree's
-void registerReading();    ///< OBJ files, beside tinyobjloader
-void registerBruteForce(); ///< the tree against no tree
+class Context;
+
+// The context outlives the runs of the benchmarks.
+
+void registerRays(
+    Context &context); ///< rays a second of each kernel, of the reference and of Embree, on the same rays
+void registerFrames(Context &context);     ///< whole images, on the device and on the CPU
+void registerStartUp(Context &context);    ///< the smallest of images
+void registerBuilding(Context &context);   ///< trees, beside Embree's
+void registerReading();                    ///< OBJ files, beside tinyobjloader
+void registerBruteForce(Context &context); ///< the tree against no tree
 
 } // namespace hyalite::bench

@@ -3,7 +3,6 @@
 #include "tests/bench/embree.h"
 #include "tests/bench/parallel.h"
 #include "tests/bench/race.h"
-#include "tests/bench/subject.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -95,13 +94,14 @@ void TableReporter::ReportRuns(const std::vector<Run> &runs) {
     }
 }
 
-std::string TableReporter::markdown() const {
+std::string TableReporter::markdown(const gpu::DeviceInfo &device) const {
     std::string text = fmt::format("{:%Y-%m-%d}, {}, {} threads; {}, driver {}; Embree {}.\n",
-                                   fmt::localtime(std::time(nullptr)), cpuName(), threadCount(),
-                                   device().name, device().driver, embreeVersion());
+                                   fmt::localtime(std::time(nullptr)), cpuName(), threadCount(), device.name,
+                                   device.driver, embreeVersion());
     if (areProcessorSecondsCounted())
-        text += "Seconds are the processor's on all threads together, and rates those of one thread; only whole "
-                "processes are timed by the clock.\n";
+        text +=
+            "Seconds are the processor's on all threads together, and rates those of one thread; only whole "
+            "processes are timed by the clock.\n";
     for (const Table &table : tables_) {
         text += format(table);
         if (table.name == "rays")

@@ -1,6 +1,8 @@
 // The figures as Markdown, in the form in which the README holds them.
 #pragma once
 
+#include "host/gpu/devices.h"
+
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -19,7 +21,7 @@ class TableReporter : public benchmark::ConsoleReporter {
     void ReportRuns(const std::vector<Run> &runs) override;
 
     /// Machine and date, and all tables.
-    [[nodiscard]] std::string markdown() const;
+    [[nodiscard]] std::string markdown(const gpu::DeviceInfo &device) const;
     /// Whether a benchmark was given up, as its results were wrong or something was missing.
     [[nodiscard]] bool hasFailures() const { return hasFailures_; }
 
