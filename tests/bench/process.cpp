@@ -1,9 +1,12 @@
 #include "tests/bench/process.h"
 
+#include "tests/bench/race.h"
+
 #include <fmt/format.h>
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +18,10 @@
 namespace hyalite::bench {
 
 namespace {
+
+double secondsOf(const timeval &time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
 
 /// As posix_spawn takes them. `texts` outlives the pointers.
 std::vector<char *> pointersTo(std::vector<std::string> &texts) {
@@ -59,11 +66,12 @@ double runHyalite(const std::vector<std::string> &arguments, const std::vector<s
     if (error != 0)
         throw std::system_error(error, std::generic_category(), "starting " HYALITE_PROGRAM);
     int status = 0;
-    waitpid(process, &status, 0);
+    rusage usage{};
+    wait4(process, &status, 0, &usage);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         throw std::runtime_error(fmt::format("hyalite {} failed", fmt::join(arguments, " ")));
-    return seconds;
+    return areProcessorSecondsCounted() ? secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime) : seconds;
 }
 
 } // namespace hyalite::bench

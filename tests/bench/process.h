@@ -23,7 +23,8 @@ class TemporaryFolder {
 };
 
 /// Runs the program without output and waits for it. `variables`, such as "NAME=value", are added to this process'
-/// environment. Returns the seconds from start to end. Throws std::runtime_error where it fails.
+/// environment. Returns the seconds from start to end, or those of
+/// the processor (race.h). Throws std::runtime_error where it fails.
 double runHyalite(const std::vector<std::string> &arguments, const std::vector<std::string> &variables = {});
 
 } // namespace hyalite::bench

@@ -70,7 +70,7 @@ TableReporter::Table &TableReporter::findTable(const std::string &name) {
         std::find_if(tables_.begin(), tables_.end(), [&](const Table &table) { return table.name == name; });
     if (found != tables_.end())
         return *found;
-    tables_.push_back({name, {}, {}, {}});
+    tables_.push_back({name, {}, {}, {}, false});
     return tables_.back();
 }
 
@@ -88,7 +88,7 @@ void TableReporter::ReportRuns(const std::vector<Run> &runs) {
         addOnce(table.rows, row);
         addOnce(table.columns, column);
         table.cells[{row, column}] = run.error_occurred ? "failed" : cellText(run.counters);
-        hasFailures_ = hasFailures_ || run.error_occurred;
+        table.hasFailures = table.hasFailures || run.error_occurred;
         if (const auto share = run.counters.find("Embree differs"); share != run.counters.end())
             largestEmbreeDifference_ = std::max(largestEmbreeDifference_, share->second.value);
     }
@@ -99,18 +99,23 @@ std::string TableReporter::markdown(const gpu::DeviceInfo &device) const {
                                    fmt::localtime(std::time(nullptr)), cpuName(), threadCount(), device.name,
                                    device.driver, embreeVersion());
     if (areProcessorSecondsCounted())
-        text +=
-            "Seconds are the processor's on all threads together, and rates those of one thread; only whole "
-            "processes are timed by the clock.\n";
+        text += "Seconds are the processor's on all threads together, of images those of the whole process; "
+                "rates are those of one thread.\n";
     for (const Table &table : tables_) {
         text += format(table);
-        if (table.name == "rays")
+        if (table.name == "rays" && !table.hasFailures)
             text +=
                 fmt::format("\nNo hit differs from the reference's in any bit, and {:.0f} in a million from "
                             "Embree's.\n",
                             1e6 * largestEmbreeDifference_);
     }
+    if (hasFailures())
+        text += "\nWhat failed says why where it was measured.\n";
     return text;
+}
+
+bool TableReporter::hasFailures() const {
+    return std::any_of(tables_.begin(), tables_.end(), [](const Table &table) { return table.hasFailures; });
 }
 
 std::string TableReporter::format(const Table &table) {

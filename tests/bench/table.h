@@ -23,7 +23,7 @@ class TableReporter : public benchmark::ConsoleReporter {
     /// Machine and date, and all tables.
     [[nodiscard]] std::string markdown(const gpu::DeviceInfo &device) const;
     /// Whether a benchmark was given up, as its results were wrong or something was missing.
-    [[nodiscard]] bool hasFailures() const { return hasFailures_; }
+    [[nodiscard]] bool hasFailures() const;
 
   private:
     struct Table {
@@ -31,6 +31,7 @@ class TableReporter : public benchmark::ConsoleReporter {
         std::vector<std::string> rows;    ///< in the order in which they came
         std::vector<std::string> columns; ///< likewise
         std::map<std::pair<std::string, std::string>, std::string> cells;
+        bool hasFailures = false;
     };
 
     [[nodiscard]] Table &findTable(const std::string &name);
@@ -38,7 +39,6 @@ class TableReporter : public benchmark::ConsoleReporter {
 
     std::vector<Table> tables_;
     double largestEmbreeDifference_ = 0.0;
-    bool hasFailures_ = false;
 };
 
 } // namespace hyalite::bench
