@@ -94,6 +94,7 @@ ExitCode run(std::span<char *> arguments) {
     context.commandLine = shellLine(arguments);
     addRenderCommand(app, context);
     addCompareCommand(app, context);
+    addProfileCommand(app, context);
     addDevicesCommand(app, context);
     addInspectCommand(app, context);
     addDiffCommand(app, context);

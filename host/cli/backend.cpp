@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <new>
@@ -44,13 +43,20 @@ class CpuBackend : public Backend {
                    : "cpu-double, the reference renderer in double precision";
     }
     [[nodiscard]] BackendResult render(const PreparedScene &scene,
-                                       const std::function<void(double)> &onProgress) override {
-        using Clock = std::chrono::steady_clock;
-        const Clock::time_point start = Clock::now();
-        reference::Result result = reference::render(scene.packed, scene.loaded.scene.settings, scene.crop,
-                                                     {precision_, threadCount_, onProgress});
+                                       const std::function<void(double)> &onProgress,
+                                       Timeline *timeline) override {
+        const RenderSettings &settings = scene.loaded.scene.settings;
+        Stopwatch watch;
+        reference::Result result =
+            reference::render(scene.packed, settings, scene.crop, {precision_, threadCount_, onProgress});
+        const Span span = watch.lap();
+        if (timeline != nullptr) {
+            timeline->clock = "the host's clock, from call to return";
+            timeline->stages.push_back({"dispatches", span});
+            timeline->dispatches.push_back(describeCall(scene, result.rays, span));
+        }
         RenderTiming timing;
-        timing.renderSeconds = std::chrono::duration<double>(Clock::now() - start).count();
+        timing.renderSeconds = span.seconds();
         return {std::move(result.film), result.rays, timing};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
@@ -59,6 +65,23 @@ class CpuBackend : public Backend {
     }
 
   private:
+    /// The whole render as one dispatch of one tile.
+    [[nodiscard]] DispatchRecord describeCall(const PreparedScene &scene, const RayCounts &rays,
+                                              const Span &span) const {
+        DispatchRecord record;
+        record.kernel = name();
+        record.tileX = scene.crop.x0;
+        record.tileY = scene.crop.y0;
+        record.tileWidth = scene.crop.width();
+        record.tileHeight = scene.crop.height();
+        record.sampleEnd = static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel);
+        record.rays = rays;
+        record.invocations =
+            static_cast<std::uint64_t>(record.tileWidth) * static_cast<std::uint64_t>(record.tileHeight);
+        record.times.host = span;
+        return record;
+    }
+
     reference::Precision precision_;
     int threadCount_;
 };
@@ -81,9 +104,10 @@ class DeviceBackend : public Backend {
                            device_.isSoftware() ? ": software, computes on the CPU" : "");
     }
     [[nodiscard]] BackendResult render(const PreparedScene &scene,
-                                       const std::function<void(double)> &onProgress) override {
+                                       const std::function<void(double)> &onProgress,
+                                       Timeline *timeline) override {
         gpu::Result result =
-            renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop, onProgress);
+            renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop, onProgress, timeline);
         return {std::move(result.film), result.rays, result.timing};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
@@ -139,10 +163,11 @@ void requireFilmMemory(const Crop &crop, unsigned filmCount) {
 }
 
 BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, const std::string &task,
-                                 bool isQuiet) {
+                                 bool isQuiet, Timeline *timeline) {
     ProgressLine progress(task, isQuiet);
     try {
-        return backend.render(scene, [&](double share) { progress.update(share); });
+        return backend.render(
+            scene, [&](double share) { progress.update(share); }, timeline);
     } catch (const std::bad_alloc &) {
         refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
     }

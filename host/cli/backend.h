@@ -4,6 +4,7 @@
 #include "host/cli/scene_options.h"
 #include "host/gpu/renderer.h"
 #include "host/report/ray_counts.h"
+#include "host/report/timeline.h"
 
 #include <functional>
 #include <memory>
@@ -28,8 +29,9 @@ class Backend {
     [[nodiscard]] virtual std::string arithmetic() const = 0;  ///< which / and sqrt run, and why
     /// Why images may differ from the CPU twin's in their bits, or empty where they may not.
     [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
-    [[nodiscard]] virtual BackendResult render(const PreparedScene &scene,
-                                               const std::function<void(double)> &onProgress) = 0;
+    /// `timeline`, where there is one, gets what was done when.
+    [[nodiscard]] virtual BackendResult
+    render(const PreparedScene &scene, const std::function<void(double)> &onProgress, Timeline *timeline) = 0;
     /// What one sample of one pixel of the whole image does.
     [[nodiscard]] virtual std::vector<layout::TraceEvent>
     trace(const PreparedScene &scene, const glm::uvec2 &pixel, std::uint32_t sampleIndex) = 0;
@@ -38,7 +40,8 @@ class Backend {
 /// Renders with a progress line that `task` begins. Throws Error{LimitExceeded} with the film's size where there is not
 /// the memory for it.
 [[nodiscard]] BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene,
-                                               const std::string &task, bool isQuiet);
+                                               const std::string &task, bool isQuiet,
+                                               Timeline *timeline = nullptr);
 
 /// Throws Error{LimitExceeded} where memory cannot hold so many films of the crop and the images made of them.
 void requireFilmMemory(const Crop &crop, unsigned filmCount);

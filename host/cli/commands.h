@@ -18,5 +18,6 @@ void addCompareCommand(CLI::App &app, CommandContext &context);
 void addDevicesCommand(CLI::App &app, CommandContext &context);
 void addDiffCommand(CLI::App &app, CommandContext &context);
 void addInspectCommand(CLI::App &app, CommandContext &context);
+void addProfileCommand(CLI::App &app, CommandContext &context);
 
 } // namespace hyalite

@@ -5,6 +5,8 @@
 #include "whittedStackOneSlot.h"
 #include "whittedStackTwoSlots.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -46,6 +48,11 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching) {
     if (batching.traversal == Traversal::SkipList)
         return batching.slotsPerInvocation == 2 ? Words(whittedSkipTwoSlots) : Words(whittedSkipOneSlot);
     return batching.slotsPerInvocation == 2 ? Words(whittedStackTwoSlots) : Words(whittedStackOneSlot);
+}
+
+std::string kernelName(const Batching &batching) {
+    return fmt::format("whitted {}{}", batching.traversal == Traversal::SkipList ? "skip list" : "stack",
+                       batching.slotsPerInvocation == 2 ? " x2" : "");
 }
 
 } // namespace hyalite::gpu

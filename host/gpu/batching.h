@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace hyalite::gpu {
 
@@ -33,5 +34,8 @@ struct Batching {
 
 /// The kernel that a complete `batching` names, as SPIR-V.
 [[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching);
+
+/// Its name, as reports and other tools show it.
+[[nodiscard]] std::string kernelName(const Batching &batching);
 
 } // namespace hyalite::gpu

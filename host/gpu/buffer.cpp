@@ -88,6 +88,9 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check(vkAllocateMemory(device.get(), &allocate, nullptr, &memory), "vkAllocateMemory for " + what);
     memory_ = MemoryHandle(device.get(), memory);
+    claim_ = MemoryClaim(device.allocatedBytes(), requirements.size);
+    device.debugUtils().name(VK_OBJECT_TYPE_BUFFER, buffer, name_);
+    device.debugUtils().name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, "memory of " + name_);
     check(vkBindBufferMemory(device.get(), buffer, memory, 0), "vkBindBufferMemory for " + what);
     if (use == BufferUse::Texels) {
         VkBufferViewCreateInfo viewInfo{};
@@ -98,6 +101,7 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
         VkBufferView view = VK_NULL_HANDLE;
         check(vkCreateBufferView(device.get(), &viewInfo, nullptr, &view), "vkCreateBufferView for " + what);
         view_ = BufferViewHandle(device.get(), view);
+        device.debugUtils().name(VK_OBJECT_TYPE_BUFFER_VIEW, view, "texels of " + name_);
     }
     if (device.isMappable(type) &&
         (!device.isStagingPreferred() || use == BufferUse::Counters || use == BufferUse::Staging)) {

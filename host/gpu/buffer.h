@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/gpu/device.h"
+#include "host/gpu/memory_claim.h"
 
 #include <cstddef>
 #include <span>
@@ -43,6 +44,7 @@ class Buffer {
     BufferUse use_;
     std::size_t sizeBytes_;
     MemoryHandle memory_; ///< before the buffer, to outlive it
+    MemoryClaim claim_;
     BufferHandle buffer_;
     BufferViewHandle view_;       ///< after the buffer, to be gone before it
     std::byte *mapped_ = nullptr; ///< null where the host cannot see the memory

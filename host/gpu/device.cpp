@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <limits>
+#include <vector>
 
 namespace hyalite::gpu {
 
@@ -30,11 +32,13 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
-    const char *const floatControls = VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME;
-    if (info.canRoundToNearestEven || info.canPreserveSignedZeroInfNan) {
-        create.enabledExtensionCount = 1;
-        create.ppEnabledExtensionNames = &floatControls;
-    }
+    std::vector<const char *> extensions;
+    if (info.canRoundToNearestEven || info.canPreserveSignedZeroInfNan)
+        extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
+    if (info.hasCalibratedTimestamps)
+        extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+    create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    create.ppEnabledExtensionNames = extensions.data();
     VkDevice device = VK_NULL_HANDLE;
     check(vkCreateDevice(physical_, &create, nullptr, &device),
           fmt::format("vkCreateDevice for {}", info.name));
@@ -61,6 +65,14 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     VkFence fence = VK_NULL_HANDLE;
     check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "vkCreateFence");
     fence_ = FenceHandle(device, fence);
+
+    timestamps_ = Timestamps(instance_.get(), physical_, device, family, info.hasCalibratedTimestamps);
+    debugUtils_ = DebugUtils(instance_, device);
+    debugUtils_.name(VK_OBJECT_TYPE_DEVICE, device, "the device");
+    debugUtils_.name(VK_OBJECT_TYPE_QUEUE, queue_, "the queue");
+    debugUtils_.name(VK_OBJECT_TYPE_COMMAND_POOL, commandPool, "the command pool");
+    debugUtils_.name(VK_OBJECT_TYPE_COMMAND_BUFFER, commandBuffer_, "the command buffer");
+    debugUtils_.name(VK_OBJECT_TYPE_FENCE, fence, "the fence");
 }
 
 std::uint32_t Device::findMemoryType(std::uint32_t typeBits, VkMemoryPropertyFlags flags) const {
@@ -79,7 +91,9 @@ void Device::submit(const std::string &action, const std::function<void(VkComman
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(commandBuffer_, &begin), "vkBeginCommandBuffer for " + action);
+    debugUtils_.beginLabel(commandBuffer_, action);
     record(commandBuffer_);
+    debugUtils_.endLabel(commandBuffer_);
     check(vkEndCommandBuffer(commandBuffer_), "vkEndCommandBuffer for " + action);
 
     const VkFence fence = fence_.get();

@@ -1,9 +1,12 @@
 // A logical device with one compute queue, and work submitted to it.
 #pragma once
 
+#include "host/gpu/debug_utils.h"
 #include "host/gpu/devices.h"
 #include "host/gpu/instance.h"
+#include "host/gpu/timestamps.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -28,6 +31,11 @@ class Device {
     [[nodiscard]] bool isMappable(std::uint32_t memoryType) const;
     [[nodiscard]] bool isStagingPreferred() const { return isStagingPreferred_; }
 
+    [[nodiscard]] Timestamps &timestamps() { return timestamps_; }
+    [[nodiscard]] const DebugUtils &debugUtils() const { return debugUtils_; }
+    /// Of all buffers that are alive.
+    [[nodiscard]] std::uint64_t &allocatedBytes() { return allocatedBytes_; }
+
     /// Records commands with `record`, submits them and waits until they are finished, however long that takes. Throws
     /// Error{DeviceLost} naming `action` where the device fails.
     void submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record);
@@ -43,6 +51,9 @@ class Device {
     CommandPoolHandle commandPool_;
     VkCommandBuffer commandBuffer_ = VK_NULL_HANDLE; ///< freed with its pool
     FenceHandle fence_;
+    DebugUtils debugUtils_;
+    Timestamps timestamps_;
+    std::uint64_t allocatedBytes_ = 0;
 };
 
 } // namespace hyalite::gpu

@@ -27,6 +27,7 @@ struct DeviceInfo {
     std::uint32_t maxStorageBuffersPerStage = 0;
     std::uint64_t deviceMemoryBytes = 0; ///< largest device-local heap
     bool hasTimestamps = false;
+    bool hasCalibratedTimestamps = false;
     std::uint32_t driverId = 0; ///< VkDriverId; 0: not told
     bool hasExactDivisionListed =
         false; ///< its / and sqrt are known to be correctly rounded: see arithmetic.h

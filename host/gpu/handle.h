@@ -51,5 +51,6 @@ using PipelineHandle = Handle<VkPipeline, vkDestroyPipeline>;
 using DescriptorPoolHandle = Handle<VkDescriptorPool, vkDestroyDescriptorPool>;
 using CommandPoolHandle = Handle<VkCommandPool, vkDestroyCommandPool>;
 using FenceHandle = Handle<VkFence, vkDestroyFence>;
+using QueryPoolHandle = Handle<VkQueryPool, vkDestroyQueryPool>;
 
 } // namespace hyalite::gpu

@@ -30,6 +30,19 @@ bool isLayerPresent(const char *name) {
     });
 }
 
+/// Of the loader and the drivers together.
+bool isExtensionPresent(const char *name) {
+    std::uint32_t count = 0;
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr),
+          "vkEnumerateInstanceExtensionProperties");
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()),
+          "vkEnumerateInstanceExtensionProperties");
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties &extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                            VkDebugUtilsMessageTypeFlagsEXT,
                                            const VkDebugUtilsMessengerCallbackDataEXT *data, void *user) {
@@ -78,6 +91,9 @@ Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &validationLayer;
+    }
+    hasDebugUtils_ = isValidated || isExtensionPresent(extension);
+    if (hasDebugUtils_) {
         info.enabledExtensionCount = 1;
         info.ppEnabledExtensionNames = &extension;
     }

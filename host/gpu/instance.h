@@ -21,12 +21,15 @@ class Instance {
 
     [[nodiscard]] VkInstance get() const { return handle_.get(); }
     [[nodiscard]] std::vector<VkPhysicalDevice> physicalDevices() const;
+    /// Whether VK_EXT_debug_utils is enabled.
+    [[nodiscard]] bool hasDebugUtils() const { return hasDebugUtils_; }
 
     /// Throws Error{DeviceLost} with the first message, if the validation layer has had anything to say.
     void throwOnValidationMessage() const;
 
   private:
     InstanceHandle handle_;
+    bool hasDebugUtils_ = false;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     std::unique_ptr<std::string> firstMessage_; ///< filled by the layer's callback
 };

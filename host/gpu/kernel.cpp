@@ -3,6 +3,8 @@
 #include "host/gpu/check.h"
 #include "host/gpu/float_controls.h"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 namespace hyalite::gpu {
@@ -18,6 +20,15 @@ VkDescriptorType descriptorType(const Buffer &buffer) {
     default:
         return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     }
+}
+
+/// Which part of the image a dispatch works on, for labels and messages.
+std::string describeTile(const layout::DispatchConstants &dispatch) {
+    if (dispatch.tileWidth == 0)
+        return {};
+    return fmt::format(", tile ({}, {}), samples {} to {}{}", dispatch.cropX + dispatch.tileX,
+                       dispatch.cropY + dispatch.tileY, dispatch.sampleBegin, dispatch.sampleEnd,
+                       dispatch.isResumed != 0 ? ", resumed" : "");
 }
 
 } // namespace
@@ -48,6 +59,7 @@ void Kernel::makeLayouts(std::span<const Buffer *const> buffers) {
     check(vkCreateDescriptorSetLayout(device_.get(), &setInfo, nullptr, &setLayout),
           "vkCreateDescriptorSetLayout for " + name_);
     setLayout_ = SetLayoutHandle(device_.get(), setLayout);
+    device_.debugUtils().name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, setLayout, "bindings of " + name_);
 
     const VkPushConstantRange pushRange{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(layout::DispatchConstants)};
     VkPipelineLayoutCreateInfo layoutInfo{};
@@ -60,6 +72,7 @@ void Kernel::makeLayouts(std::span<const Buffer *const> buffers) {
     check(vkCreatePipelineLayout(device_.get(), &layoutInfo, nullptr, &pipelineLayout),
           "vkCreatePipelineLayout for " + name_);
     pipelineLayout_ = PipelineLayoutHandle(device_.get(), pipelineLayout);
+    device_.debugUtils().name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, pipelineLayout, "layout of " + name_);
 }
 
 void Kernel::makePipeline(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants) {
@@ -73,6 +86,7 @@ void Kernel::makePipeline(std::span<const std::uint32_t> spirv, std::span<const 
     check(vkCreateShaderModule(device_.get(), &moduleInfo, nullptr, &module),
           "vkCreateShaderModule for " + name_);
     const ShaderModuleHandle moduleOwner(device_.get(), module);
+    device_.debugUtils().name(VK_OBJECT_TYPE_SHADER_MODULE, module, name_);
 
     std::vector<VkSpecializationMapEntry> entries;
     for (std::uint32_t id = 0; id < constants.size(); ++id)
@@ -94,6 +108,7 @@ void Kernel::makePipeline(std::span<const std::uint32_t> spirv, std::span<const 
     check(vkCreateComputePipelines(device_.get(), VK_NULL_HANDLE, 1, &pipelineInfo, nullptr, &pipeline),
           "vkCreateComputePipelines for " + name_);
     pipeline_ = PipelineHandle(device_.get(), pipeline);
+    device_.debugUtils().name(VK_OBJECT_TYPE_PIPELINE, pipeline, name_);
 }
 
 void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
@@ -109,6 +124,7 @@ void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
     check(vkCreateDescriptorPool(device_.get(), &poolInfo, nullptr, &pool),
           "vkCreateDescriptorPool for " + name_);
     descriptorPool_ = DescriptorPoolHandle(device_.get(), pool);
+    device_.debugUtils().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "descriptors of " + name_);
 
     const VkDescriptorSetLayout setLayout = setLayout_.get();
     VkDescriptorSetAllocateInfo allocate{};
@@ -118,6 +134,7 @@ void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
     allocate.pSetLayouts = &setLayout;
     check(vkAllocateDescriptorSets(device_.get(), &allocate, &descriptorSet_),
           "vkAllocateDescriptorSets for " + name_);
+    device_.debugUtils().name(VK_OBJECT_TYPE_DESCRIPTOR_SET, descriptorSet_, "buffers of " + name_);
 
     std::vector<VkDescriptorBufferInfo> infos(buffers.size());
     std::vector<VkBufferView> views(buffers.size());
@@ -140,14 +157,18 @@ void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
                            nullptr);
 }
 
-void Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount) {
-    device_.submit("kernel " + name_, [&](VkCommandBuffer commands) {
+RunTimes Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount) {
+    Timestamps &timestamps = device_.timestamps();
+    Stopwatch watch;
+    device_.submit("kernel " + name_ + describeTile(constants), [&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelineLayout_.get(), 0, 1,
                                 &descriptorSet_, 0, nullptr);
         vkCmdPushConstants(commands, pipelineLayout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
                            &constants);
+        timestamps.writeBegin(commands);
         vkCmdDispatch(commands, workgroupCount, 1, 1);
+        timestamps.writeEnd(commands);
         VkMemoryBarrier barrier{};
         barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
         barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
@@ -157,6 +178,8 @@ void Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workg
                              VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                              &barrier, 0, nullptr, 0, nullptr);
     });
+    const Span host = watch.lap();
+    return {host, timestamps.read(host)};
 }
 
 } // namespace hyalite::gpu

@@ -20,8 +20,10 @@ class Kernel {
     Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
            std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers);
 
+    [[nodiscard]] const std::string &name() const { return name_; }
+
     /// Runs the kernel with these push constants, waits, and makes what it wrote visible to the host.
-    void run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);
+    RunTimes run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);
 
   private:
     void makeLayouts(std::span<const Buffer *const> buffers);

@@ -107,6 +107,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
         vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
         info.hasTimestamps = families[family].timestampValidBits > 0;
     }
+    info.hasCalibratedTimestamps = hasExtension(device, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     if (properties.apiVersion < VK_API_VERSION_1_1)
         return info;
 

@@ -3,17 +3,12 @@
 #include "host/gpu/tile_renderer.h"
 
 #include <algorithm>
-#include <chrono>
+#include <string>
+#include <utility>
 
 namespace hyalite::gpu {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Bands of whole rows whose films fit into a storage buffer of the device, from top to bottom.
 std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
@@ -53,33 +48,47 @@ Renderer &Renderer::operator=(Renderer &&) noexcept = default;
 const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                        const std::function<void(double)> &onProgress) {
+                        const std::function<void(double)> &onProgress, Timeline *timeline) {
     Result result{Film(crop), {}, {}};
-    Clock::time_point start = Clock::now();
+    Stopwatch watch;
+    // Ends a stage and returns how long it took.
+    const auto endStage = [&](const char *name) {
+        const Span span = watch.lap();
+        if (timeline != nullptr)
+            timeline->stages.push_back({name, span, state_->device.allocatedBytes()});
+        return span.seconds();
+    };
+    if (timeline != nullptr)
+        timeline->clock = state_->device.timestamps().describe();
     const SceneBuffers buffers = state_->upload(scene);
-    result.timing.uploadSeconds = secondsSince(start);
+    result.timing.uploadSeconds = endStage("upload");
 
     for (const Crop &band : cutIntoBands(crop, state_->device.info())) {
-        start = Clock::now();
         const Job job{scene, band, settings.sampler, 0, static_cast<std::uint32_t>(settings.samplesPerPixel),
                       false};
         TileRenderer tiles(state_->device, buffers, state_->batching, job);
-        result.timing.pipelineSeconds += secondsSince(start);
+        result.timing.pipelineSeconds += endStage("buffers");
+        tiles.makeKernel();
+        result.timing.pipelineSeconds += endStage("pipeline");
+        tiles.warmUp();
+        result.timing.pipelineSeconds += endStage("first dispatch");
 
-        start = Clock::now();
         const double rowsBefore = band.y0 - crop.y0;
-        const TileTotals totals = tiles.run([&](double share) {
-            if (onProgress)
-                onProgress((rowsBefore + share * band.height()) / crop.height());
-        });
+        const TileTotals totals = tiles.run(
+            [&](double share) {
+                if (onProgress)
+                    onProgress((rowsBefore + share * band.height()) / crop.height());
+            },
+            timeline);
         result.rays += totals.rays;
         result.timing.dispatchCount += totals.dispatchCount;
         result.timing.pipelineSeconds += tiles.lateBuildSeconds();
-        result.timing.renderSeconds += secondsSince(start) - tiles.lateBuildSeconds();
+        result.timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();
         const std::size_t width = static_cast<std::size_t>(crop.width());
         tiles.readFilm(std::span(result.film.pixels)
                            .subspan(static_cast<std::size_t>(band.y0 - crop.y0) * width,
                                     static_cast<std::size_t>(band.height()) * width));
+        endStage("readback");
     }
     return result;
 }
@@ -91,6 +100,7 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     const Job job{scene, {x, x + 1, y, y + 1}, settings.sampler, sampleIndex, sampleIndex + 1, true};
     const SceneBuffers buffers = state_->upload(scene);
     TileRenderer tiles(state_->device, buffers, state_->batching, job);
+    tiles.makeKernel();
     (void)tiles.run({});
     return tiles.readTrace();
 }

@@ -6,6 +6,7 @@
 #include "host/image/film.h"
 #include "host/report/ray_counts.h"
 #include "host/report/render_timing.h"
+#include "host/report/timeline.h"
 
 #include <functional>
 #include <memory>
@@ -31,9 +32,11 @@ class Renderer {
     [[nodiscard]] const ArithmeticChoice &arithmetic() const;
 
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
-    /// dispatch. Throws Error{LimitExceeded} where the scene is too large for the device, Error{DeviceLost}.
+    /// dispatch, and `timeline`, where there is one, what was done when. Throws Error{LimitExceeded} where the scene is
+    /// too large for the device, Error{DeviceLost}.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                                const std::function<void(double)> &onProgress = {});
+                                const std::function<void(double)> &onProgress = {},
+                                Timeline *timeline = nullptr);
 
     /// What one sample of one pixel of the whole image does, step by step; at most 2^17 steps are kept.
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <utility>
 
 namespace hyalite::gpu {
@@ -31,6 +30,10 @@ std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
 /// Storage that a kernel over texel buffers sees as texels.
 BufferUse bulkUse(const Batching &batching) {
     return batching.traversal == Traversal::SkipList ? BufferUse::Texels : BufferUse::Storage;
+}
+
+RayCounts raysOf(const layout::DispatchProgress &counters) {
+    return {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays};
 }
 
 } // namespace
@@ -69,12 +72,22 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
     const std::uint32_t slotsPerRound =
         workgroupSize * static_cast<std::uint32_t>(batching.slotsPerInvocation) * dispatch_.interleave;
     groupCount_ = (slotCount_ + slotsPerRound - 1) / slotsPerRound * dispatch_.interleave;
+    dispatch_.sampleEnd = job.sampleEnd;
+}
 
-    if (batching.traversal == Traversal::Stack || job.isTraced)
+void TileRenderer::makeKernel() {
+    if (batching_.traversal == Traversal::Stack || job_.isTraced)
         resumable_.emplace(makeProgram(true));
     else
         direct_.emplace(makeProgram(false));
-    dispatch_.sampleEnd = job.sampleEnd;
+}
+
+void TileRenderer::warmUp() { warmUp(direct_ ? direct_->kernel : resumable_->kernel); }
+
+void TileRenderer::warmUp(Kernel &kernel) {
+    const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
+    (void)runOnce(kernel);
+    dispatch_.sampleEnd = sampleEnd;
 }
 
 TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
@@ -108,38 +121,42 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
                                                                  &progress_,        &paths,
                                                                  &pending,          &stacks_,
                                                                  &trace_,           &buffers_.sphereArray};
-    Kernel kernel(device_, isResumable ? "whitted, resumable" : "whitted", kernelWords(batching_), constants,
-                  bound);
-    const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
-    (void)runOnce(kernel);
-    dispatch_.sampleEnd = sampleEnd;
+    Kernel kernel(device_,
+                  kernelName(batching_) +
+                      (isResumable && batching_.traversal == Traversal::SkipList ? ", resumable" : ""),
+                  kernelWords(batching_), constants, bound);
     return {std::move(paths), std::move(pending), std::move(kernel)};
 }
 
-Kernel &TileRenderer::resumableKernel() {
+Kernel &TileRenderer::resumableKernel(Timeline *timeline) {
     if (!resumable_) {
-        const auto start = std::chrono::steady_clock::now();
+        Stopwatch watch;
         resumable_.emplace(makeProgram(true));
-        lateBuildSeconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        warmUp(resumable_->kernel);
+        const Span span = watch.lap();
+        lateBuildSeconds_ += span.seconds();
+        if (timeline != nullptr)
+            timeline->stages.push_back({"resumable kernel", span, device_.allocatedBytes()});
     }
     return resumable_->kernel;
 }
 
-TileTotals TileRenderer::run(const std::function<void(double)> &onProgress) {
+TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Timeline *timeline) {
     const int tilesAcross = (job_.crop.width() + tileWidth_ - 1) / tileWidth_;
     const int tilesDown = (job_.crop.height() + tileHeight_ - 1) / tileHeight_;
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
     std::uint64_t samplesFinished = 0;
     TileTotals totals;
     const auto dispatch = [&](Kernel &kernel) {
-        const layout::DispatchProgress counters = runOnce(kernel);
-        samplesFinished += counters.finishedSamples;
-        totals.rays +=
-            {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays};
+        const Step step = runOnce(kernel);
+        samplesFinished += step.counters.finishedSamples;
+        totals.rays += raysOf(step.counters);
+        if (timeline != nullptr)
+            timeline->dispatches.push_back(describe(kernel, step));
         ++totals.dispatchCount;
         if (onProgress)
             onProgress(static_cast<double>(samplesFinished) / samplesWanted);
-        return counters;
+        return step.counters;
     };
     for (int tile = 0; tile < tilesAcross * tilesDown; ++tile) {
         dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
@@ -153,7 +170,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress) {
             while (last.unfinishedSlots > 0 && last.finishedSamples > 0);
         }
         while (last.unfinishedSlots > 0) {
-            last = dispatch(resumableKernel());
+            last = dispatch(resumableKernel(timeline));
             dispatch_.isResumed = 1;
         }
     }
@@ -174,11 +191,11 @@ std::size_t TileRenderer::filmPixelCount() const {
     return static_cast<std::size_t>(job_.crop.width()) * static_cast<std::size_t>(job_.crop.height());
 }
 
-layout::DispatchProgress TileRenderer::runOnce(Kernel &kernel) {
+TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     layout::DispatchProgress counters{};
     counters.traceEvents = traceEventCount_;
     progress_.upload(std::as_bytes(std::span(&counters, 1)));
-    kernel.run(dispatch_, groupCount_);
+    const RunTimes times = kernel.run(dispatch_, groupCount_);
     progress_.download(std::as_writable_bytes(std::span(&counters, 1)));
     traceEventCount_ = counters.traceEvents;
     if (counters.stackOverflows > 0)
@@ -186,7 +203,23 @@ layout::DispatchProgress TileRenderer::runOnce(Kernel &kernel) {
             ExitCode::LimitExceeded,
             fmt::format("the traversal stack of {} entries overflowed: the tree of depth {} is damaged",
                         stackSize_, job_.scene.treeDepth));
-    return counters;
+    return {counters, times};
+}
+
+DispatchRecord TileRenderer::describe(const Kernel &kernel, const Step &step) const {
+    DispatchRecord record;
+    record.kernel = kernel.name();
+    record.tileX = job_.crop.x0 + static_cast<int>(dispatch_.tileX);
+    record.tileY = job_.crop.y0 + static_cast<int>(dispatch_.tileY);
+    record.tileWidth = std::min(tileWidth_, job_.crop.x1 - record.tileX);
+    record.tileHeight = std::min(tileHeight_, job_.crop.y1 - record.tileY);
+    record.sampleBegin = dispatch_.sampleBegin;
+    record.sampleEnd = dispatch_.sampleEnd;
+    record.isResumed = dispatch_.isResumed != 0;
+    record.rays = raysOf(step.counters);
+    record.invocations = std::uint64_t{groupCount_} * workgroupSize;
+    record.times = step.times;
+    return record;
 }
 
 } // namespace hyalite::gpu

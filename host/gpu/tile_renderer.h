@@ -6,7 +6,7 @@
 #include "host/gpu/scene_buffers.h"
 #include "host/image/film.h"
 #include "host/report/ray_counts.h"
-#include "host/report/render_timing.h"
+#include "host/report/timeline.h"
 
 #include <functional>
 #include <optional>
@@ -38,13 +38,18 @@ struct TileTotals {
 /// few samples.
 class TileRenderer {
   public:
-    /// `batching` is complete. Builds the kernel, and runs it once without samples, as some drivers compile only then.
-    /// Throws as Buffer and Kernel do.
+    /// `batching` is complete. Throws as Buffer does.
     TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job);
 
+    /// Builds the kernel. Throws as Kernel does.
+    void makeKernel();
+
+    /// Runs the kernel without samples: drivers that compile at the first dispatch do it now.
+    void warmUp();
+
     /// Runs until all samples of all tiles are in the film. `onProgress` gets the finished share, in [0, 1], after each
-    /// dispatch. Throws Error{DeviceLost}.
-    [[nodiscard]] TileTotals run(const std::function<void(double)> &onProgress);
+    /// dispatch, and `timeline`, where there is one, a record of each. Throws Error{DeviceLost}.
+    [[nodiscard]] TileTotals run(const std::function<void(double)> &onProgress, Timeline *timeline = nullptr);
 
     void readFilm(std::span<layout::FilmPixel> pixels) const;
 
@@ -54,17 +59,25 @@ class TileRenderer {
     [[nodiscard]] double lateBuildSeconds() const { return lateBuildSeconds_; }
 
   private:
-    [[nodiscard]] std::size_t filmPixelCount() const;
     /// A kernel, and the memory of what waits in it.
     struct Program {
         Buffer paths;
         Buffer pending;
         Kernel kernel;
     };
-    /// Builds it, and runs it over no samples.
+    /// What one dispatch came to.
+    struct Step {
+        layout::DispatchProgress counters;
+        RunTimes times;
+    };
+
+    [[nodiscard]] std::size_t filmPixelCount() const;
     [[nodiscard]] Program makeProgram(bool isResumable);
-    Kernel &resumableKernel();
-    layout::DispatchProgress runOnce(Kernel &kernel);
+    Kernel &resumableKernel(Timeline *timeline);
+    Step runOnce(Kernel &kernel);
+    /// Runs `kernel` over no samples.
+    void warmUp(Kernel &kernel);
+    [[nodiscard]] DispatchRecord describe(const Kernel &kernel, const Step &step) const;
 
     Device &device_;
     const SceneBuffers &buffers_;

@@ -1,6 +1,7 @@
 // How many rays a render traced, by kind.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace hyalite {
@@ -21,5 +22,15 @@ struct RayCounts {
     }
     bool operator==(const RayCounts &) const = default;
 };
+
+struct RayKind {
+    const char *name;
+    std::uint64_t RayCounts::*count;
+};
+
+inline constexpr std::array<RayKind, 4> rayKinds{{{"primary", &RayCounts::primary},
+                                                  {"shadow", &RayCounts::shadow},
+                                                  {"reflection", &RayCounts::reflection},
+                                                  {"refraction", &RayCounts::refraction}}};
 
 } // namespace hyalite

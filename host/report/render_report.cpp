@@ -6,6 +6,25 @@
 
 namespace hyalite {
 
+nlohmann::ordered_json settingsToJson(const RenderSettings &settings) {
+    return {{"integrator", nameOf(settings.integrator)},
+            {"spp", settings.samplesPerPixel},
+            {"maxDepth", settings.maxDepth},
+            {"bvh", nameOf(settings.tree)},
+            {"leafSize", settings.leafSize},
+            {"sampler", nameOf(settings.sampler)},
+            {"seed", settings.seed},
+            {"exposure", settings.exposureStops}};
+}
+
+nlohmann::ordered_json raysToJson(const RayCounts &rays) {
+    nlohmann::ordered_json json;
+    for (const RayKind &kind : rayKinds)
+        json[kind.name] = rays.*kind.count;
+    json["total"] = rays.total();
+    return json;
+}
+
 std::string formatReport(const RenderReport &report) {
     nlohmann::ordered_json json;
     json["program"] = "hyalite " HYALITE_VERSION;
@@ -15,21 +34,9 @@ std::string formatReport(const RenderReport &report) {
     json["device"] = {
         {"name", report.deviceName}, {"driver", report.deviceDriver}, {"arithmetic", report.arithmetic}};
     json["image"] = {{"width", report.width}, {"height", report.height}};
-    const RenderSettings &settings = report.settings;
-    json["settings"] = {{"integrator", nameOf(settings.integrator)},
-                        {"spp", settings.samplesPerPixel},
-                        {"maxDepth", settings.maxDepth},
-                        {"bvh", nameOf(settings.tree)},
-                        {"leafSize", settings.leafSize},
-                        {"sampler", nameOf(settings.sampler)},
-                        {"seed", settings.seed},
-                        {"exposure", settings.exposureStops}};
+    json["settings"] = settingsToJson(report.settings);
     json["triangles"] = report.triangleCount;
-    json["rays"] = {{"primary", report.rays.primary},
-                    {"shadow", report.rays.shadow},
-                    {"reflection", report.rays.reflection},
-                    {"refraction", report.rays.refraction},
-                    {"total", report.rays.total()}};
+    json["rays"] = raysToJson(report.rays);
     json["dispatches"] = report.timing.dispatchCount;
     json["seconds"] = {{"load", report.loadSeconds},
                        {"build", report.buildSeconds},

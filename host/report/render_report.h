@@ -5,6 +5,8 @@
 #include "host/report/render_timing.h"
 #include "host/scene/scene.h"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 
 namespace hyalite {
@@ -16,7 +18,7 @@ struct RenderReport {
     std::string deviceName;
     std::string deviceDriver;
     std::string arithmetic; ///< which / and sqrt ran
-    int width = 0; ///< of the output, pixels
+    int width = 0;          ///< of the output, pixels
     int height = 0;
     RenderSettings settings;
     std::size_t triangleCount = 0;
@@ -27,6 +29,10 @@ struct RenderReport {
     double writeSeconds = 0.0;
     double totalSeconds = 0.0;
 };
+
+/// As all reports write them.
+[[nodiscard]] nlohmann::ordered_json settingsToJson(const RenderSettings &settings);
+[[nodiscard]] nlohmann::ordered_json raysToJson(const RayCounts &rays);
 
 [[nodiscard]] std::string formatReport(const RenderReport &report);
 

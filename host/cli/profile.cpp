@@ -1,0 +1,280 @@
+#include "host/report/profile.h"
+#include "host/cli/backend.h"
+#include "host/cli/commands.h"
+#include "host/cli/options.h"
+#include "host/image/image_file.h"
+#include "host/image/png.h"
+#include "host/report/baseline.h"
+#include "host/report/json_text.h"
+#include "host/report/message.h"
+#include "host/report/profile_csv.h"
+#include "host/report/profile_json.h"
+#include "host/report/profile_table.h"
+#include "host/report/quantities.h"
+#include "host/report/trace_json.h"
+#include "host/scene/assets.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hyalite {
+
+namespace {
+
+struct ProfileOptions {
+    SceneOptions scene;
+    std::string device = "auto";
+    int threads = 0;
+    int warmupCount = 1;
+    int repeatCount = 5;
+    bool isUnverified = false;
+    std::string output;
+    std::string report;
+    std::string csv;
+    std::string trace;
+    std::string baseline;
+    std::string maxRegression = "5%";
+    std::optional<Gate> gate;
+    bool isQuiet = false;
+};
+
+constexpr Interval warmupCounts{0, 1000};
+constexpr Interval repeatCounts{1, 10'000};
+constexpr Interval regressionPercents{0.0, 1e6};
+constexpr std::array<Name<Gate>, 3> gateNames{
+    {{"all", Gate::All}, {"times", Gate::Times}, {"work", Gate::Work}}};
+
+/// "5%" as 0.05. Throws Error{Usage}.
+double parsePercent(const std::string &option, const std::string &text) {
+    if (!text.ends_with('%'))
+        refuseValue(option, text, "a percentage such as 5%");
+    return readNumber(option, std::string_view(text).substr(0, text.size() - 1), regressionPercents) / 100.0;
+}
+
+/// The files that a profile is written to. They are opened before the work begins, so that one that cannot be written
+/// is known then, and appear when all is done.
+struct Outputs {
+    std::optional<AtomicFile> image;
+    std::optional<AtomicFile> report;
+    std::optional<AtomicFile> csv;
+    std::optional<AtomicFile> trace;
+
+    explicit Outputs(const ProfileOptions &options) {
+        requireDistinctFiles({{"--output", options.output},
+                              {"--report", options.report},
+                              {"--csv", options.csv},
+                              {"--trace", options.trace}},
+                             {resolveScene(options.scene.scene).string(), options.baseline});
+        open(image, options.output);
+        open(report, options.report);
+        open(csv, options.csv);
+        open(trace, options.trace);
+    }
+
+  private:
+    static void open(std::optional<AtomicFile> &file, const std::string &path) {
+        if (!path.empty())
+            file.emplace(path);
+    }
+};
+
+void store(std::optional<AtomicFile> &file, const std::string &text) {
+    if (!file)
+        return;
+    file->write(text);
+    file->commit();
+}
+
+/// One render, with all that it did.
+Film renderFrame(Backend &backend, const PreparedScene &scene, const std::string &label, bool isMeasured,
+                 Profile &profile, bool isQuiet) {
+    Frame frame;
+    frame.label = label;
+    frame.isMeasured = isMeasured;
+    Stopwatch watch;
+    BackendResult result = renderWithProgress(backend, scene, label, isQuiet, &frame.timeline);
+    frame.span = watch.lap();
+    profile.frames.push_back(std::move(frame));
+    return std::move(result.film);
+}
+
+RayCounts raysOf(const Frame &frame) {
+    RayCounts rays;
+    for (const DispatchRecord &dispatch : frame.timeline.dispatches)
+        rays += dispatch.rays;
+    return rays;
+}
+
+std::size_t differingPixelCount(const Film &a, const Film &b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
+    return count;
+}
+
+/// Renders a first frame and compares it with the CPU twin's. Returns why nothing should be measured, or nothing.
+std::optional<std::string> verify(Backend &backend, const PreparedScene &scene, Profile &profile,
+                                  bool isQuiet) {
+    const Film film = renderFrame(backend, scene, "verification", false, profile, isQuiet);
+    const std::unique_ptr<Backend> twin = openBackend("cpu", 0);
+    Stopwatch watch;
+    const BackendResult wanted = renderWithProgress(*twin, scene, "the CPU twin", isQuiet);
+    profile.hostStages.push_back({"the CPU twin", watch.lap()});
+    if (const std::size_t count = differingPixelCount(film, wanted.film); count > 0)
+        return fmt::format("{} of {} pixels differ from the CPU twin's", count, film.pixels.size());
+    if (const RayCounts rays = raysOf(profile.frames.back()); rays != wanted.rays)
+        return fmt::format("{} rays were traced, and {} by the CPU twin", rays.total(), wanted.rays.total());
+    profile.isVerified = true;
+    profile.verification = "equal to the CPU twin, bit for bit, ray counts too";
+    return std::nullopt;
+}
+
+/// Loads the scene and opens the device, and writes both down.
+PreparedScene prepare(const ProfileOptions &options, std::unique_ptr<Backend> &backend, Profile &profile) {
+    Stopwatch watch;
+    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    const Span prepared = watch.lap();
+    const auto nanos = [](double seconds) { return std::llround(seconds * 1e9); };
+    const std::int64_t loaded = prepared.beginNanos + nanos(scene.loadSeconds);
+    profile.hostStages.push_back({"load", {prepared.beginNanos, loaded}});
+    profile.hostStages.push_back({"build", {loaded, loaded + nanos(scene.buildSeconds)}});
+    requireFilmMemory(scene.crop, 2);
+    watch = {};
+    backend = openBackend(options.device, options.threads);
+    profile.hostStages.push_back({"open the device", watch.lap()});
+    profile.scene = scene.loaded.file.string();
+    profile.deviceName = backend->name();
+    profile.deviceDriver = backend->driver();
+    profile.arithmetic = backend->arithmetic();
+    profile.width = scene.crop.width();
+    profile.height = scene.crop.height();
+    profile.settings = scene.loaded.scene.settings;
+    profile.triangleCount = scene.packed.triangles.size();
+    profile.sceneBytes = scene.packed.sizeBytes();
+    return scene;
+}
+
+void printHead(const Profile &profile, const Backend &backend) {
+    fmt::print("scene        {}: {}x{}, {} spp, {}, {} of scene data\n", profile.scene, profile.width,
+               profile.height, profile.settings.samplesPerPixel, countText(profile.triangleCount, "triangle"),
+               sizeText(profile.sceneBytes));
+    fmt::print("device       {}\n", backend.description());
+}
+
+void printMeasured(const Profile &profile) {
+    std::size_t measured = 0;
+    for (const Frame &frame : profile.frames)
+        measured += frame.isMeasured ? 1u : 0u;
+    fmt::print("verified     {}\n", profile.verification);
+    fmt::print("clock        {}\n", profile.frames.back().timeline.clock);
+    fmt::print("measured     {}, after {} that {} not\n", countText(measured, "frame"),
+               profile.frames.size() - measured, profile.frames.size() - measured == 1 ? "is" : "are");
+    if (const std::uint64_t bytes = mostDeviceBytes(profile); bytes > 0)
+        fmt::print("memory       {} in buffers on the device\n", sizeText(bytes));
+    fmt::print("\n{}", profileTable(profile));
+}
+
+ExitCode runProfile(const ProfileOptions &options, const std::string &commandLine) {
+    const ImageFormat format = options.output.empty() ? ImageFormat::Png : imageFormatOf(options.output);
+    const double maxRegression = parsePercent("--max-regression", options.maxRegression);
+    std::optional<ProfileFigures> baseline;
+    if (!options.baseline.empty())
+        baseline = readFigures(options.baseline);
+    Outputs outputs(options);
+    Profile profile;
+    profile.commandLine = commandLine;
+    std::unique_ptr<Backend> backend;
+    const PreparedScene scene = prepare(options, backend, profile);
+    if (outputs.image && format == ImageFormat::Png)
+        requirePngSize(options.output, profile.width, profile.height);
+    if (baseline)
+        requireSameJob(*baseline, profile);
+    printHead(profile, *backend);
+
+    const bool isReference = options.device == "cpu" || options.device == "cpu-double";
+    if (isReference || options.isUnverified) {
+        profile.verification =
+            options.isUnverified ? "not verified, as asked" : "not verified: it is the reference itself";
+    } else if (const auto fault = verify(*backend, scene, profile, options.isQuiet)) {
+        fmt::print(
+            "NOT verified: {}. Nothing is measured: `hyalite compare` tells more, --no-verify measures "
+            "all the same{}\n",
+            *fault,
+            backend->unpromisedBits().empty()
+                ? ""
+                : fmt::format(" (bits are not promised here: {})", backend->unpromisedBits()));
+        return ExitCode::AnswerIsNo;
+    }
+    for (int i = 1; i <= options.warmupCount; ++i)
+        (void)renderFrame(*backend, scene, fmt::format("warm-up {}", i), false, profile, options.isQuiet);
+    std::optional<Film> film;
+    for (int i = 1; i <= options.repeatCount; ++i)
+        film = renderFrame(*backend, scene, fmt::format("repeat {}", i), true, profile, options.isQuiet);
+    if (outputs.image) {
+        Stopwatch watch;
+        writeImage(*outputs.image, format, film->toImage(), profile.settings.exposureStops);
+        outputs.image->commit();
+        profile.hostStages.push_back({"write", watch.lap()});
+    }
+    printMeasured(profile);
+    store(outputs.report, jsonText(profileToJson(profile)));
+    store(outputs.csv, profileCsv(profile));
+    store(outputs.trace, jsonText(profileToTrace(profile)));
+    if (!baseline)
+        return ExitCode::Ok;
+    const Gate gate = options.gate.value_or(Gate::All);
+    const BaselineComparison comparison =
+        compareWithBaseline(*baseline, figuresOf(profile), maxRegression, gate);
+    fmt::print("\n{}", comparisonTable(comparison, maxRegression, gate));
+    return comparison.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
+} // namespace
+
+void addProfileCommand(CLI::App &app, CommandContext &context) {
+    CLI::App *command =
+        app.add_subcommand("profile", "render a scene again and again, and tell where the time goes");
+    const auto options = std::make_shared<ProfileOptions>();
+    addSceneOptions(*command, options->scene);
+    command->add_option("--device", options->device, "what to measure: as for `hyalite render`")
+        ->type_name("DEVICE")
+        ->capture_default_str();
+    addThreadsOption(*command, options->threads);
+    addNumber(*command, "--warmup", options->warmupCount, warmupCounts,
+              "renders before those that are measured")
+        ->default_str("1");
+    addNumber(*command, "--repeat", options->repeatCount, repeatCounts, "renders that are measured")
+        ->default_str("5");
+    command->add_flag("--no-verify", options->isUnverified,
+                      "do not compare the image with the CPU twin's first");
+    addFile(*command, "-o,--output", options->output, "FILE", "write the image, too, and time that");
+    addFile(*command, "--report", options->report, "FILE.json",
+            "write all figures, as --baseline reads them");
+    addFile(*command, "--csv", options->csv, "FILE.csv", "write a line for each dispatch");
+    addFile(*command, "--trace", options->trace, "FILE.json",
+            "write a timeline that ui.perfetto.dev and chrome://tracing open");
+    addFile(*command, "--baseline", options->baseline, "FILE.json",
+            "compare with an older --report; a regression is exit code 1");
+    command
+        ->add_option(
+            "--max-regression", options->maxRegression,
+            "how much slower a kernel may be than in the baseline, beyond the noise, and how much more "
+            "work may be done")
+        ->type_name("PERCENT%")
+        ->capture_default_str();
+    addChoice(*command, "--gate", options->gate, gateNames,
+              "what fails: times and work counts (all, the default), or one of them; counts do not jitter");
+    command->add_flag("--quiet", options->isQuiet, "show no progress");
+    command->callback([options, &context] {
+        context.exitCode = static_cast<int>(runProfile(*options, context.commandLine));
+    });
+}
+
+} // namespace hyalite

@@ -1,0 +1,33 @@
+// Arithmetic on the ticks of a device's clock, a counter of 36 to 64 bits that wraps around.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+
+namespace hyalite::gpu {
+
+/// The bits of a timestamp that mean anything. `validBits` is in [1, 64].
+[[nodiscard]] inline std::uint64_t validTicks(std::uint64_t ticks, std::uint32_t validBits) {
+    assert(validBits >= 1 && validBits <= 64);
+    return validBits >= 64 ? ticks : ticks & ((std::uint64_t{1} << validBits) - 1);
+}
+
+/// Ticks from one timestamp to a later one. The counter may have wrapped around in between, even several times: of all
+/// durations that end on these bits it is the longest of at most `mostTicks`, or the shortest, if none is so short.
+[[nodiscard]] inline std::uint64_t elapsedTicks(std::uint64_t begin, std::uint64_t end,
+                                                std::uint32_t validBits, std::uint64_t mostTicks) {
+    const std::uint64_t shortest = validTicks(end - begin, validBits);
+    if (validBits >= 64 || mostTicks < shortest)
+        return shortest;
+    return shortest + ((mostTicks - shortest) >> validBits << validBits);
+}
+
+/// Ticks from a reference to a timestamp, which may lie before it: the smallest of all differences that fit these bits.
+[[nodiscard]] inline std::int64_t signedTicks(std::uint64_t reference, std::uint64_t ticks,
+                                              std::uint32_t validBits) {
+    const std::uint64_t forward = validTicks(ticks - reference, validBits);
+    const std::uint64_t backward = validTicks(reference - ticks, validBits);
+    return forward <= backward ? static_cast<std::int64_t>(forward) : -static_cast<std::int64_t>(backward);
+}
+
+} // namespace hyalite::gpu

@@ -1,0 +1,175 @@
+#include "host/report/baseline.h"
+
+#include "host/error.h"
+#include "host/report/profile_json.h"
+#include "host/report/render_report.h"
+#include "host/scene/json_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyalite {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Adds all whole numbers below `json`, by their paths: "rays.primary".
+void addCounts(const Json &json, const std::string &path, std::vector<ProfileFigures::Count> &counts) {
+    if (json.is_number_unsigned()) {
+        counts.push_back({path, json.get<std::uint64_t>()});
+        return;
+    }
+    if (!json.is_object())
+        throw Error(ExitCode::BadInput, "what is below \"work\" is no count");
+    for (const auto &[key, value] : json.items())
+        addCounts(value, path.empty() ? key : path + "." + key, counts);
+}
+
+ProfileFigures::Times timesOf(const std::string &name, const Json &frameMillis) {
+    ProfileFigures::Times times{name, frameMillis.get<std::vector<double>>()};
+    if (times.frameMillis.empty() ||
+        *std::min_element(times.frameMillis.begin(), times.frameMillis.end()) < 0)
+        throw Error(ExitCode::BadInput, "frameMillis holds no times");
+    return times;
+}
+
+/// The exposure is left out, as it costs nothing.
+std::string jobText(const std::filesystem::path &scene, int width, int height, Json settings) {
+    settings.erase("exposure");
+    return fmt::format("{}, {}x{}, {}", scene.filename().string(), width, height, settings.dump());
+}
+
+/// Throws what nlohmann::json throws, or Error, where something is missing.
+ProfileFigures figuresOf(const Json &json) {
+    ProfileFigures figures;
+    const Json &device = json.at("device");
+    figures.device = device.at("name").get<std::string>() + ", " + device.at("driver").get<std::string>();
+    const Json &image = json.at("image");
+    figures.job = jobText(json.at("scene").get<std::string>(), image.at("width").get<int>(),
+                          image.at("height").get<int>(), json.at("settings"));
+    for (const Json &kernel : json.at("kernels")) {
+        const std::string name = kernel.at("name").get<std::string>();
+        figures.kernels.push_back(timesOf(name, kernel.at("frameMillis")));
+        figures.work.push_back({"launches of " + name, kernel.at("launches").get<std::uint64_t>()});
+        figures.work.push_back({"invocations of " + name, kernel.at("invocations").get<std::uint64_t>()});
+    }
+    figures.frame = timesOf("frame", json.at("frameMillis"));
+    addCounts(json.at("work"), "", figures.work);
+    return figures;
+}
+
+template <class Entry> const Entry *findNamed(const std::vector<Entry> &entries, const std::string &name) {
+    const auto found =
+        std::find_if(entries.begin(), entries.end(), [&](const Entry &entry) { return entry.name == name; });
+    return found == entries.end() ? nullptr : &*found;
+}
+
+/// Calls onBoth(old, now) for what has the same name on both sides, and lists what has not.
+template <class Entry, class OnBoth>
+void match(const std::vector<Entry> &old, const std::vector<Entry> &now, std::vector<std::string> &unmatched,
+           OnBoth &&onBoth) {
+    for (const Entry &entry : old)
+        if (const Entry *other = findNamed(now, entry.name))
+            onBoth(entry, *other);
+        else
+            unmatched.push_back(entry.name + " (only in the baseline)");
+    for (const Entry &entry : now)
+        if (findNamed(old, entry.name) == nullptr)
+            unmatched.push_back(entry.name + " (not in the baseline)");
+}
+
+TimeChange compareTimes(const ProfileFigures::Times &old, const ProfileFigures::Times &now,
+                        double maxRegression) {
+    TimeChange change;
+    change.name = now.name;
+    change.oldMillis = quantile(old.frameMillis, 0.5);
+    change.newMillis = quantile(now.frameMillis, 0.5);
+    if (change.oldMillis > 0.0)
+        change.ratio = change.newMillis / change.oldMillis;
+    if (old.frameMillis.size() > 1 && now.frameMillis.size() > 1)
+        change.noise = std::hypot(relativeSpread(old.frameMillis), relativeSpread(now.frameMillis));
+    change.isRegression = change.ratio * (1.0 - change.noise.value_or(0.0)) > 1.0 + maxRegression;
+    return change;
+}
+
+std::string timeRow(const TimeChange &change, const std::string &verdict) {
+    return fmt::format("{:<32}{:>12.3f}{:>12.3f}{:>9.3f}{:>10}  {}\n", change.name, change.oldMillis,
+                       change.newMillis, change.ratio,
+                       change.noise ? fmt::format("{:.1f} %", *change.noise * 100.0) : "unknown", verdict);
+}
+
+} // namespace
+
+ProfileFigures figuresOf(const Profile &profile) { return figuresOf(Json(profileToJson(profile))); }
+
+ProfileFigures readFigures(const std::filesystem::path &file) {
+    const Json json = readJsonFile(file);
+    try {
+        return figuresOf(json);
+    } catch (const std::exception &error) {
+        throw Error(ExitCode::BadInput, fmt::format("{}: this is no report of `hyalite profile`: {}",
+                                                    file.string(), printable(error.what())));
+    }
+}
+
+void requireSameJob(const ProfileFigures &baseline, const Profile &profile) {
+    const std::string job =
+        jobText(profile.scene, profile.width, profile.height, Json(settingsToJson(profile.settings)));
+    if (baseline.job != job)
+        throw Error(ExitCode::BadInput,
+                    fmt::format("the baseline is of another job: it measured\n  {}\nand this is\n  {}",
+                                printable(baseline.job, 400), job));
+}
+
+BaselineComparison compareWithBaseline(const ProfileFigures &baseline, const ProfileFigures &now,
+                                       double maxRegression, Gate gate) {
+    BaselineComparison comparison;
+    comparison.isSameDevice = baseline.device == now.device;
+    match(baseline.kernels, now.kernels, comparison.unmatched, [&](const auto &old, const auto &other) {
+        const TimeChange change = compareTimes(old, other, maxRegression);
+        if (change.isRegression && comparison.isSameDevice && gate != Gate::Work)
+            comparison.isPassed = false;
+        comparison.kernels.push_back(change);
+    });
+    comparison.frame = compareTimes(baseline.frame, now.frame, maxRegression);
+    match(baseline.work, now.work, comparison.unmatched, [&](const auto &old, const auto &other) {
+        ++comparison.comparedCounts;
+        if (old.count == other.count)
+            return;
+        const bool isRegression =
+            static_cast<double>(other.count) > static_cast<double>(old.count) * (1.0 + maxRegression);
+        if (isRegression && gate != Gate::Times)
+            comparison.isPassed = false;
+        comparison.work.push_back({other.name, old.count, other.count, isRegression});
+    });
+    return comparison;
+}
+
+std::string comparisonTable(const BaselineComparison &comparison, double maxRegression, Gate gate) {
+    std::string text = fmt::format("{:<32}{:>12}{:>12}{:>9}{:>10}\n", "against the baseline", "old ms",
+                                   "new ms", "ratio", "noise");
+    const bool areTimesGated = comparison.isSameDevice && gate != Gate::Work;
+    for (const TimeChange &change : comparison.kernels)
+        text += timeRow(change, !change.isRegression ? ""
+                                : areTimesGated      ? "SLOWER"
+                                                     : "slower, which is not asked");
+    text += timeRow(comparison.frame, "not gated");
+    for (const CountChange &change : comparison.work)
+        text += fmt::format("{:<32}{:>12}{:>12}{:>9.3f}{:>10}  {}\n", change.name, change.oldCount,
+                            change.newCount,
+                            static_cast<double>(change.newCount) / static_cast<double>(change.oldCount), "",
+                            change.isRegression && gate != Gate::Times ? "MORE WORK" : "work changed");
+    text += fmt::format("work         {} of {} counts are equal\n",
+                        comparison.comparedCounts - comparison.work.size(), comparison.comparedCounts);
+    for (const std::string &name : comparison.unmatched)
+        text += fmt::format("not compared {}\n", name);
+    if (!comparison.isSameDevice)
+        text += "note         the baseline is of another device or driver: times fail nothing\n";
+    return text + fmt::format("{} (limit {:g} %, beyond the noise)\n",
+                              comparison.isPassed ? "no regression" : "REGRESSION", maxRegression * 100.0);
+}
+
+} // namespace hyalite

@@ -1,0 +1,143 @@
+#include "host/report/profile.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace hyalite {
+
+namespace {
+
+struct NamedSpan {
+    const std::string *name;
+    Span span;
+};
+
+std::vector<NamedSpan> stageSpans(const Frame &frame) {
+    std::vector<NamedSpan> spans;
+    for (const StageRecord &stage : frame.timeline.stages)
+        spans.push_back({&stage.name, stage.span});
+    return spans;
+}
+
+std::vector<NamedSpan> kernelSpans(const Frame &frame) {
+    std::vector<NamedSpan> spans;
+    for (const DispatchRecord &dispatch : frame.timeline.dispatches)
+        spans.push_back({&dispatch.kernel, dispatch.times.best()});
+    return spans;
+}
+
+/// What goes by one name in the frames.
+StageSummary summariseSpans(const Profile &profile, const std::string &name,
+                            const std::function<std::vector<NamedSpan>(const Frame &)> &spansOf) {
+    StageSummary summary;
+    summary.name = name;
+    summary.isInFrame = true;
+    std::vector<double> launches;
+    double frameTotal = 0.0;
+    for (const Frame &frame : profile.frames) {
+        const bool isFirst = &frame == &profile.frames.front() && !frame.isMeasured;
+        if (!frame.isMeasured && !isFirst)
+            continue;
+        std::vector<double> ofFrame;
+        for (const NamedSpan &named : spansOf(frame))
+            if (*named.name == name)
+                ofFrame.push_back(named.span.millis());
+        const double total = std::accumulate(ofFrame.begin(), ofFrame.end(), 0.0);
+        if (isFirst) {
+            summary.firstMillis = total;
+            continue;
+        }
+        summary.launchCount = ofFrame.size();
+        summary.frameMillis.push_back(total);
+        launches.insert(launches.end(), ofFrame.begin(), ofFrame.end());
+        frameTotal += frame.span.millis();
+    }
+    summary.launch = summarise(launches);
+    summary.share = frameTotal > 0.0 ? summary.launch.total / frameTotal : 0.0;
+    return summary;
+}
+
+/// Names in the order in which they first occur.
+std::vector<std::string> namesIn(const Profile &profile,
+                                 const std::function<std::vector<NamedSpan>(const Frame &)> &spansOf) {
+    std::vector<std::string> names;
+    for (const Frame &frame : profile.frames)
+        for (const NamedSpan &named : spansOf(frame))
+            if (std::find(names.begin(), names.end(), *named.name) == names.end())
+                names.push_back(*named.name);
+    return names;
+}
+
+StageSummary summariseHostStage(const StageRecord &stage) {
+    StageSummary summary;
+    summary.name = stage.name;
+    summary.launchCount = 1;
+    summary.frameMillis = {stage.span.millis()};
+    summary.launch = summarise(summary.frameMillis);
+    return summary;
+}
+
+} // namespace
+
+double KernelSummary::megaraysPerSecond(std::uint64_t rayCount) const {
+    const double seconds = times.medianFrameMillis() * 1e-3;
+    return seconds > 0.0 ? static_cast<double>(rayCount) / 1e6 / seconds : 0.0;
+}
+
+std::vector<StageSummary> summariseStages(const Profile &profile) {
+    std::vector<StageSummary> stages;
+    const std::int64_t framesBegin = profile.frames.front().span.beginNanos;
+    for (const StageRecord &stage : profile.hostStages)
+        if (stage.span.beginNanos < framesBegin)
+            stages.push_back(summariseHostStage(stage));
+    for (const std::string &name : namesIn(profile, stageSpans))
+        stages.push_back(summariseSpans(profile, name, stageSpans));
+    for (const StageRecord &stage : profile.hostStages)
+        if (stage.span.beginNanos >= framesBegin)
+            stages.push_back(summariseHostStage(stage));
+    return stages;
+}
+
+std::vector<KernelSummary> summariseKernels(const Profile &profile) {
+    std::vector<KernelSummary> kernels;
+    const auto lastFrame = std::find_if(profile.frames.rbegin(), profile.frames.rend(),
+                                        [](const Frame &frame) { return frame.isMeasured; });
+    for (const std::string &name : namesIn(profile, kernelSpans)) {
+        KernelSummary kernel;
+        kernel.times = summariseSpans(profile, name, kernelSpans);
+        for (const DispatchRecord &dispatch : lastFrame->timeline.dispatches) {
+            if (dispatch.kernel != name)
+                continue;
+            kernel.invocations += dispatch.invocations;
+            kernel.rays += dispatch.rays;
+        }
+        kernels.push_back(std::move(kernel));
+    }
+    return kernels;
+}
+
+std::vector<double> frameMillis(const Profile &profile) {
+    std::vector<double> millis;
+    for (const Frame &frame : profile.frames)
+        if (frame.isMeasured)
+            millis.push_back(frame.span.millis());
+    return millis;
+}
+
+double stageShare(const std::vector<StageSummary> &stages) {
+    double share = 0.0;
+    for (const StageSummary &stage : stages)
+        share += stage.share;
+    return share;
+}
+
+std::uint64_t mostDeviceBytes(const Profile &profile) {
+    std::uint64_t most = 0;
+    for (const Frame &frame : profile.frames)
+        for (const StageRecord &stage : frame.timeline.stages)
+            most = std::max(most, stage.deviceBytes);
+    return most;
+}
+
+} // namespace hyalite

@@ -1,0 +1,74 @@
+#include "host/report/profile_json.h"
+
+#include "host/report/render_report.h"
+#include "host/version.h"
+
+namespace hyalite {
+
+namespace {
+
+nlohmann::ordered_json summaryToJson(const StageSummary &stage) {
+    nlohmann::ordered_json json;
+    json["name"] = stage.name;
+    json["isInFrame"] = stage.isInFrame;
+    json["launches"] = stage.launchCount;
+    if (stage.firstMillis)
+        json["firstMillis"] = *stage.firstMillis;
+    json["totalMillis"] = stage.medianFrameMillis();
+    if (stage.isInFrame)
+        json["share"] = stage.share;
+    json["minMillis"] = stage.launch.min;
+    json["medianMillis"] = stage.launch.median;
+    json["p95Millis"] = stage.launch.p95;
+    json["maxMillis"] = stage.launch.max;
+    json["frameMillis"] = stage.frameMillis;
+    return json;
+}
+
+nlohmann::ordered_json kernelToJson(const KernelSummary &kernel) {
+    nlohmann::ordered_json json = summaryToJson(kernel.times);
+    json["invocations"] = kernel.invocations;
+    json["rays"] = raysToJson(kernel.rays);
+    nlohmann::ordered_json &speeds = json["megaraysPerSecond"];
+    for (const RayKind &kind : rayKinds)
+        speeds[kind.name] = kernel.megaraysPerSecond(kernel.rays.*kind.count);
+    speeds["total"] = kernel.megaraysPerSecond(kernel.rays.total());
+    return json;
+}
+
+} // namespace
+
+nlohmann::ordered_json profileToJson(const Profile &profile) {
+    const std::vector<KernelSummary> kernels = summariseKernels(profile);
+    const std::vector<double> frames = frameMillis(profile);
+    nlohmann::ordered_json json;
+    json["program"] = "hyalite " HYALITE_VERSION;
+    json["commandLine"] = profile.commandLine;
+    json["scene"] = profile.scene;
+    json["device"] = {{"name", profile.deviceName},
+                      {"driver", profile.deviceDriver},
+                      {"arithmetic", profile.arithmetic},
+                      {"clock", profile.frames.back().timeline.clock}};
+    json["image"] = {{"width", profile.width}, {"height", profile.height}};
+    json["settings"] = settingsToJson(profile.settings);
+    json["triangles"] = profile.triangleCount;
+    json["sceneBytes"] = profile.sceneBytes;
+    if (const std::uint64_t bytes = mostDeviceBytes(profile); bytes > 0)
+        json["deviceBytes"] = bytes;
+    json["verification"] = profile.verification;
+    json["isVerified"] = profile.isVerified;
+    json["repeats"] = frames.size();
+    json["frameMillis"] = frames;
+    json["stageShare"] = stageShare(summariseStages(profile));
+    for (const StageSummary &stage : summariseStages(profile))
+        json["stages"].push_back(summaryToJson(stage));
+    RayCounts rays;
+    for (const KernelSummary &kernel : kernels) {
+        json["kernels"].push_back(kernelToJson(kernel));
+        rays += kernel.rays;
+    }
+    json["work"]["rays"] = raysToJson(rays);
+    return json;
+}
+
+} // namespace hyalite

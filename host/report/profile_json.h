@@ -1,0 +1,13 @@
+// A profile as JSON: what --report writes and --baseline reads.
+#pragma once
+
+#include "host/report/profile.h"
+
+#include <nlohmann/json.hpp>
+
+namespace hyalite {
+
+/// All times are in milliseconds.
+[[nodiscard]] nlohmann::ordered_json profileToJson(const Profile &profile);
+
+} // namespace hyalite

@@ -1,0 +1,82 @@
+#include "host/report/profile_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hyalite {
+
+namespace {
+
+/// Four digits at least, whatever the size: "0.012", "12.3", "1234".
+std::string millisText(double millis) {
+    return fmt::format("{:.{}f}", millis, millis < 10.0 ? 3 : millis < 1000.0 ? 1 : 0);
+}
+
+std::string speedText(double megaraysPerSecond) {
+    return fmt::format("{:.{}f}", megaraysPerSecond, megaraysPerSecond < 10.0 ? 3 : 1);
+}
+
+std::string shareText(double share) { return fmt::format("{:.1f} %", share * 100.0); }
+
+std::string headline(const char *subject) {
+    return fmt::format("{:<24}{:>9}{:>10}{:>9}{:>10}{:>10}{:>10}{:>10}{:>10}\n", subject, "launches",
+                       "total ms", "share", "min", "median", "p95", "max", "first");
+}
+
+std::string row(const StageSummary &stage) {
+    return fmt::format(
+        "{:<24}{:>9}{:>10}{:>9}{:>10}{:>10}{:>10}{:>10}{:>10}\n", stage.name, stage.launchCount,
+        millisText(stage.medianFrameMillis()), stage.isInFrame ? shareText(stage.share) : "-",
+        millisText(stage.launch.min), millisText(stage.launch.median), millisText(stage.launch.p95),
+        millisText(stage.launch.max), stage.firstMillis ? millisText(*stage.firstMillis) : "-");
+}
+
+/// The frame as a row: it is no stage, but the sum of them should come to it.
+StageSummary frameRow(const Profile &profile) {
+    StageSummary frame;
+    frame.name = "frame";
+    frame.isInFrame = true;
+    frame.launchCount = 1;
+    frame.frameMillis = frameMillis(profile);
+    frame.launch = summarise(frame.frameMillis);
+    frame.share = 1.0;
+    if (!profile.frames.front().isMeasured)
+        frame.firstMillis = profile.frames.front().span.millis();
+    return frame;
+}
+
+} // namespace
+
+std::string profileTable(const Profile &profile) {
+    const std::vector<StageSummary> stages = summariseStages(profile);
+    const std::vector<KernelSummary> kernels = summariseKernels(profile);
+    std::string text = headline("stage");
+    for (const StageSummary &stage : stages)
+        text += row(stage);
+    text += row(frameRow(profile));
+    text += fmt::format("{:<24}{:>28}\n\n", "sum of stages", shareText(stageShare(stages)));
+
+    text += headline("kernel");
+    for (const KernelSummary &kernel : kernels)
+        text += row(kernel.times);
+
+    text += fmt::format("\n{:<24}{:>12}", "Mray/s", "invocations");
+    for (const RayKind &kind : rayKinds)
+        text += fmt::format("{:>13}", kind.name);
+    text += fmt::format("{:>13}\n", "total");
+    RayCounts rays;
+    for (const KernelSummary &kernel : kernels) {
+        rays += kernel.rays;
+        text += fmt::format("{:<24}{:>12}", kernel.times.name, kernel.invocations);
+        for (const RayKind &kind : rayKinds)
+            text += fmt::format("{:>13}", speedText(kernel.megaraysPerSecond(kernel.rays.*kind.count)));
+        text += fmt::format("{:>13}\n", speedText(kernel.megaraysPerSecond(kernel.rays.total())));
+    }
+    text += fmt::format("{:<36}", "rays in a frame");
+    for (const RayKind &kind : rayKinds)
+        text += fmt::format("{:>13}", rays.*kind.count);
+    return text + fmt::format("{:>13}\n", rays.total());
+}
+
+} // namespace hyalite

@@ -1,0 +1,152 @@
+#include "host/report/trace_json.h"
+
+#include "host/report/render_report.h"
+#include "host/version.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+
+namespace hyalite {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A process of the trace, which has one thread.
+enum class Track { Host = 1, Device = 2 };
+
+/// Collects events in the order in which the format wants them.
+class TraceEvents {
+  public:
+    explicit TraceEvents(std::int64_t epochNanos) : epochNanos_(epochNanos) {}
+
+    void nameTrack(Track track, const std::string &process, const std::string &thread) {
+        names_.push_back(event("M", track, "process_name", {{"args", {{"name", process}}}}));
+        names_.push_back(event("M", track, "thread_name", {{"args", {{"name", thread}}}}));
+        names_.push_back(
+            event("M", track, "process_sort_index", {{"args", {{"sort_index", static_cast<int>(track)}}}}));
+    }
+
+    void addSlice(Track track, const std::string &category, const std::string &name, const Span &span,
+                  const Json &args = Json::object()) {
+        add(span, event("X", track, name,
+                        {{"cat", category},
+                         {"ts", micros(span.beginNanos)},
+                         {"dur", static_cast<double>(span.endNanos - span.beginNanos) / 1e3},
+                         {"args", args}}));
+    }
+
+    void addCounter(Track track, const std::string &name, std::int64_t nanos, const Json &values) {
+        add({nanos, nanos}, event("C", track, name, {{"ts", micros(nanos)}, {"args", values}}));
+    }
+
+    /// By time, and what contains others before them.
+    [[nodiscard]] Json take() {
+        std::stable_sort(timed_.begin(), timed_.end(), [](const Timed &a, const Timed &b) {
+            return std::tuple(a.span.beginNanos, -a.span.endNanos) <
+                   std::tuple(b.span.beginNanos, -b.span.endNanos);
+        });
+        Json all = std::move(names_);
+        for (Timed &timed : timed_)
+            all.push_back(std::move(timed.json));
+        return all;
+    }
+
+  private:
+    struct Timed {
+        Span span;
+        Json json;
+    };
+
+    static Json event(const char *phase, Track track, const std::string &name, const Json &rest) {
+        Json json{{"name", name}, {"ph", phase}, {"pid", static_cast<int>(track)}, {"tid", 1}};
+        json.update(rest);
+        return json;
+    }
+
+    void add(const Span &span, Json json) { timed_.push_back({span, std::move(json)}); }
+
+    [[nodiscard]] double micros(std::int64_t nanos) const {
+        return static_cast<double>(nanos - epochNanos_) / 1e3;
+    }
+
+    std::int64_t epochNanos_;
+    Json names_ = Json::array();
+    std::vector<Timed> timed_;
+};
+
+/// Of each kind, by the time of the dispatch.
+Json megaraysPerSecond(const DispatchRecord &dispatch) {
+    const double seconds = dispatch.times.best().seconds();
+    Json json;
+    for (const RayKind &kind : rayKinds)
+        json[kind.name] =
+            seconds > 0.0 ? static_cast<double>(dispatch.rays.*kind.count) / 1e6 / seconds : 0.0;
+    return json;
+}
+
+Json dispatchArguments(const DispatchRecord &dispatch) {
+    return {{"tile", fmt::format("{}x{} at ({}, {})", dispatch.tileWidth, dispatch.tileHeight, dispatch.tileX,
+                                 dispatch.tileY)},
+            {"samples", fmt::format("{} to {}", dispatch.sampleBegin, dispatch.sampleEnd)},
+            {"resumed", dispatch.isResumed},
+            {"invocations", dispatch.invocations},
+            {"rays", raysToJson(dispatch.rays)}};
+}
+
+void addDispatch(TraceEvents &events, const DispatchRecord &dispatch) {
+    const Span &best = dispatch.times.best();
+    events.addSlice(Track::Host, "submission", "submit and wait", dispatch.times.host);
+    events.addSlice(Track::Device, "dispatch", dispatch.kernel, best, dispatchArguments(dispatch));
+    events.addCounter(Track::Device, "Mray/s", best.beginNanos, megaraysPerSecond(dispatch));
+}
+
+void addFrame(TraceEvents &events, const Frame &frame) {
+    events.addSlice(Track::Host, "frame", frame.label, frame.span, {{"measured", frame.isMeasured}});
+    for (const StageRecord &stage : frame.timeline.stages) {
+        events.addSlice(Track::Host, "stage", stage.name, stage.span);
+        events.addCounter(Track::Device, "memory (bytes)", stage.span.endNanos,
+                          {{"buffers", stage.deviceBytes}});
+    }
+    for (const DispatchRecord &dispatch : frame.timeline.dispatches)
+        addDispatch(events, dispatch);
+    // Nothing is traced until the next frame's first dispatch, and the frame's buffers are gone.
+    if (!frame.timeline.dispatches.empty())
+        events.addCounter(Track::Device, "Mray/s", frame.timeline.dispatches.back().times.best().endNanos,
+                          megaraysPerSecond({}));
+    events.addCounter(Track::Device, "memory (bytes)", frame.span.endNanos, {{"buffers", 0}});
+}
+
+std::int64_t beginOf(const Profile &profile) {
+    std::int64_t begin = profile.frames.front().span.beginNanos;
+    for (const StageRecord &stage : profile.hostStages)
+        begin = std::min(begin, stage.span.beginNanos);
+    return begin;
+}
+
+} // namespace
+
+Json profileToTrace(const Profile &profile) {
+    const std::string &clock = profile.frames.back().timeline.clock;
+    TraceEvents events(beginOf(profile));
+    events.nameTrack(Track::Host, "hyalite", "host");
+    events.nameTrack(Track::Device, profile.deviceName, "kernels, by " + clock);
+    for (const StageRecord &stage : profile.hostStages)
+        events.addSlice(Track::Host, "stage", stage.name, stage.span);
+    for (const Frame &frame : profile.frames)
+        addFrame(events, frame);
+    return {{"traceEvents", events.take()},
+            {"displayTimeUnit", "ms"},
+            {"otherData",
+             {{"program", "hyalite " HYALITE_VERSION},
+              {"commandLine", profile.commandLine},
+              {"scene", profile.scene},
+              {"device", profile.deviceName},
+              {"driver", profile.deviceDriver},
+              {"clock", clock}}}};
+}
+
+} // namespace hyalite

@@ -1,0 +1,163 @@
+// `hyalite profile` as a user types it.
+#include "tests/cli/command_line.h"
+#include "tests/unit/trace_rules.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+class ProfileCommand : public CommandLine {
+  protected:
+    [[nodiscard]] nlohmann::json profile(const std::string &line) const {
+        const Outcome outcome = run("profile " + line + " --report profile.json");
+        EXPECT_EQ(outcome.exitCode, 0) << outcome;
+        return nlohmann::json::parse(load("profile.json"));
+    }
+};
+
+const std::string small = " --width 32 --height 24 --spp 2 --repeat 2 --warmup 0";
+
+TEST_F(ProfileCommand, VerifiesThenMeasures) {
+    const Outcome outcome = run("profile spheres --device " + softwareDevice() + small);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    for (const char *part : {"verified     equal to the CPU twin, bit for bit", "clock        timestamps",
+                             "measured     2 frames, after 1 that is not", "\nupload ", "\npipeline ",
+                             "\nfirst dispatch ", "\ndispatches ", "\nreadback ", "\nwhitted skip list x2 "})
+        EXPECT_TRUE(contains(outcome.output, part)) << part << '\n' << outcome;
+}
+
+TEST_F(ProfileCommand, SaysThatNothingWasVerified) {
+    const std::string line = "profile spheres" + small + " --device ";
+    const Outcome unverified = run(line + softwareDevice() + " --no-verify");
+    EXPECT_EQ(unverified.exitCode, 0) << unverified;
+    EXPECT_TRUE(contains(unverified.output, "verified     not verified, as asked")) << unverified;
+    EXPECT_TRUE(contains(unverified.output, "2 frames, after 0 that are not")) << unverified;
+    const Outcome reference = run(line + "cpu");
+    EXPECT_EQ(reference.exitCode, 0) << reference;
+    EXPECT_TRUE(contains(reference.output, "it is the reference itself")) << reference;
+    EXPECT_TRUE(contains(reference.output, "clock        the host's clock")) << reference;
+}
+
+TEST_F(ProfileCommand, StagesFillTheFrame) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const nlohmann::json report = profile("spheres --device " + device + small);
+        // Structure, not speed: what is not in any stage is bookkeeping, and bad luck of short frames on a busy machine.
+        EXPECT_GT(report.at("stageShare").get<double>(), 0.5);
+        EXPECT_LE(report.at("stageShare").get<double>(), 1.0 + 1e-9);
+        EXPECT_EQ(report.at("frameMillis").size(), 2u);
+        for (const nlohmann::json &stage : report.at("stages")) {
+            EXPECT_LE(stage.at("minMillis"), stage.at("medianMillis")) << stage;
+            EXPECT_LE(stage.at("medianMillis"), stage.at("p95Millis")) << stage;
+            EXPECT_LE(stage.at("p95Millis"), stage.at("maxMillis")) << stage;
+        }
+    }
+}
+
+TEST_F(ProfileCommand, WorkIsEqualOnTwoRunsAndOnTheCpu) {
+    const nlohmann::json first = profile("spheres --device " + softwareDevice() + small);
+    const nlohmann::json second = profile("spheres --device " + softwareDevice() + small);
+    const nlohmann::json onCpu = profile("spheres --device cpu" + small);
+    EXPECT_EQ(first.at("work"), second.at("work"));
+    EXPECT_EQ(first.at("work").at("rays"), onCpu.at("work").at("rays"));
+    EXPECT_EQ(first.at("work").at("rays").at("primary"), 32 * 24 * 2);
+}
+
+TEST_F(ProfileCommand, CountsTheWarmUp) {
+    const nlohmann::json report = profile("spheres --device cpu --width 8 --height 8 --warmup 2 --repeat 3");
+    EXPECT_EQ(report.at("frameMillis").size(), 3u);
+    EXPECT_EQ(report.at("repeats"), 3);
+    const auto &stages = report.at("stages");
+    const auto dispatches = std::find_if(stages.begin(), stages.end(), [](const nlohmann::json &stage) {
+        return stage.at("name") == "dispatches";
+    });
+    EXPECT_TRUE(dispatches->contains("firstMillis"));
+}
+
+TEST_F(ProfileCommand, WritesTheImageAndTimesThat) {
+    const nlohmann::json report = profile("spheres --device cpu -o profiled.pfm" + small);
+    EXPECT_EQ(report.at("stages").back().at("name"), "write");
+    EXPECT_EQ(load("profiled.pfm"), renderPfm("spheres --device cpu --width 32 --height 24 --spp 2"));
+}
+
+TEST_F(ProfileCommand, WritesALineForEachDispatch) {
+    const Outcome outcome = run("profile spheres --csv dispatches.csv --width 200 --height 24 --spp 1 "
+                                "--repeat 2 --warmup 0 --device " +
+                                softwareDevice());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    const std::string csv = load("dispatches.csv");
+    EXPECT_TRUE(csv.starts_with("frame,measured,dispatch,kernel,"));
+    // Two tiles, in three frames.
+    EXPECT_GE(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 3);
+    EXPECT_TRUE(contains(csv, "\r\nrepeat 2,1,1,whitted skip list x2,128,0,72,24,0,1,0,")) << csv;
+}
+
+TEST_F(ProfileCommand, WritesATimelineThatKeepsTheRulesOfItsFormat) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const Outcome outcome =
+            run("profile spheres --trace trace.json -o image.png" + small + " --device " + device);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome;
+        const nlohmann::json trace = nlohmann::json::parse(load("trace.json"));
+        expectTrace(trace);
+        const std::vector<nlohmann::json> dispatches = traceSlices(trace, "dispatch");
+        ASSERT_GE(dispatches.size(), 2u);
+        EXPECT_EQ(dispatches.front().at("args").at("tile"), "32x24 at (0, 0)");
+        // Of the repeats, and of the verification where there is one.
+        EXPECT_EQ(traceSlices(trace, "frame").size(), device == "cpu" ? 2u : 3u);
+    }
+}
+
+TEST_F(ProfileCommand, ABaselineCatchesASlowerKernelAndMoreWork) {
+    const std::string line = "profile spheres --device cpu --no-verify" + small;
+    ASSERT_EQ(run(line + " --report old.json").exitCode, 0);
+    nlohmann::json old = nlohmann::json::parse(load("old.json"));
+    // As if it had taken hours: whatever this machine does now is faster.
+    const auto storeOld = [&](const std::string &name, double millis, double rays) {
+        nlohmann::json changed = old;
+        changed["kernels"][0]["frameMillis"] = {millis, millis};
+        changed["work"]["rays"]["shadow"] =
+            static_cast<std::uint64_t>(changed["work"]["rays"]["shadow"].get<double>() * rays);
+        store(name, changed.dump());
+    };
+    storeOld("slow.json", 1e7, 1.0);
+    storeOld("fast.json", 1e-7, 1.0);
+    storeOld("less.json", 1e7, 0.5);
+
+    const Outcome faster = run(line + " --baseline slow.json");
+    EXPECT_EQ(faster.exitCode, 0) << faster;
+    EXPECT_TRUE(contains(faster.output, "no regression")) << faster;
+    const Outcome slower = run(line + " --baseline fast.json --max-regression 50%");
+    EXPECT_EQ(slower.exitCode, 1) << slower;
+    EXPECT_TRUE(contains(slower.output, "SLOWER")) << slower;
+    EXPECT_EQ(run(line + " --baseline fast.json --gate work").exitCode, 0);
+    const Outcome more = run(line + " --baseline less.json --gate work");
+    EXPECT_EQ(more.exitCode, 1) << more;
+    EXPECT_TRUE(contains(more.output, "MORE WORK")) << more;
+}
+
+TEST_F(ProfileCommand, RefusesABaselineThatIsNone) {
+    const std::string line = "profile spheres --device cpu" + small;
+    ASSERT_EQ(run(line + " --report old.json").exitCode, 0);
+    store("none.json", "{}");
+    expectFailure(line + " --baseline none.json", 3, {"none.json", "no report of `hyalite profile`"});
+    expectFailure(line + " --baseline missing.json", 3, {"missing.json"});
+    expectFailure(line + " --baseline old.json --max-regression 5", 2, {"--max-regression", "a percentage"});
+    expectFailure(line + " --baseline old.json --max-regression -1%", 2, {"--max-regression"});
+    expectFailure(line + " --baseline old.json --report old.json", 2, {"would replace"});
+    expectFailure("profile spheres --device cpu --width 16 --baseline old.json", 3, {"another job"});
+}
+
+TEST_F(ProfileCommand, RefusesWhatMakesNoSense) {
+    expectFailure("profile spheres --repeat 0", 2, {"--repeat", "from 1 to 10000"});
+    expectFailure("profile spheres --warmup -1", 2, {"--warmup"});
+    expectFailure("profile spheres --report a.json --csv a.json", 2, {"name the same file"});
+    expectFailure("profile spheres --device nonesuch" + small, 4);
+    expectFailure("profile spheres --csv missing/a.csv", 7);
+    EXPECT_TRUE(entries().empty());
+}
+
+} // namespace
+} // namespace hyalite::testing

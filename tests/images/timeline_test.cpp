@@ -1,0 +1,113 @@
+// What a render on the device writes down of itself.
+#include "tests/images/rendering.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+namespace {
+
+struct Recorded {
+    Timeline timeline;
+    gpu::Result result;
+    Span frame; ///< the whole call
+};
+
+Recorded record(const Scene &scene, const Crop &crop, const gpu::Batching &batching = {}) {
+    gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), batching);
+    const PackedScene packed = testing::pack(scene);
+    Timeline timeline;
+    Stopwatch watch;
+    gpu::Result result = renderer.render(packed, scene.settings, crop, {}, &timeline);
+    return {std::move(timeline), std::move(result), watch.lap()};
+}
+
+TEST(Timeline, HasARecordOfEachDispatch) {
+    const Crop crop{8, 50, 5, 40};
+    const Recorded all = record(testing::shippedScene("spheres", 64, 48, 3), crop,
+                                {.tileWidth = 16, .tileHeight = 16, .steps = 60});
+    EXPECT_EQ(all.timeline.dispatches.size(), all.result.timing.dispatchCount);
+    RayCounts rays;
+    int freshPixelCount = 0;
+    std::set<std::pair<int, int>> tiles;
+    for (const DispatchRecord &dispatch : all.timeline.dispatches) {
+        rays += dispatch.rays;
+        // A tile is begun once, and resumed until it is finished.
+        EXPECT_EQ(tiles.insert({dispatch.tileX, dispatch.tileY}).second, !dispatch.isResumed);
+        if (!dispatch.isResumed)
+            freshPixelCount += dispatch.tileWidth * dispatch.tileHeight;
+        EXPECT_GE(dispatch.tileX, crop.x0);
+        EXPECT_LE(dispatch.tileX + dispatch.tileWidth, crop.x1);
+        EXPECT_GE(dispatch.tileY, crop.y0);
+        EXPECT_LE(dispatch.tileY + dispatch.tileHeight, crop.y1);
+        EXPECT_EQ(dispatch.sampleBegin, 0u);
+        EXPECT_EQ(dispatch.sampleEnd, 3u);
+        EXPECT_GE(dispatch.invocations * 2, 16u * 16u) << "two slots an invocation";
+        EXPECT_EQ(dispatch.kernel, "whitted skip list x2");
+    }
+    EXPECT_EQ(rays, all.result.rays);
+    EXPECT_EQ(freshPixelCount, crop.width() * crop.height());
+    EXPECT_GT(all.timeline.dispatches.size(), tiles.size()) << "nothing was resumed";
+}
+
+TEST(Timeline, NamesTheKernelThatRan) {
+    const Recorded all = record(testing::shippedScene("spheres", 8, 8, 1), {0, 8, 0, 8},
+                                {.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack});
+    EXPECT_EQ(all.timeline.dispatches.front().kernel, "whitted stack");
+}
+
+TEST(Timeline, DeviceTimesLieInsideOfTheHostsAndFollowEachOther) {
+    const Recorded all = record(testing::shippedScene("cat", 96, 96, 2), {0, 96, 0, 96},
+                                {.tileWidth = 32, .tileHeight = 32, .steps = 500});
+    EXPECT_NE(all.timeline.clock.find("timestamps of the device, 64 bits, 1 ns a tick"), std::string::npos)
+        << all.timeline.clock;
+    std::int64_t last = all.frame.beginNanos;
+    std::int64_t deviceTotal = 0;
+    std::int64_t hostTotal = 0;
+    for (const DispatchRecord &dispatch : all.timeline.dispatches) {
+        const Span &host = dispatch.times.host;
+        ASSERT_TRUE(dispatch.times.device);
+        const Span &device = *dispatch.times.device;
+        EXPECT_LE(last, host.beginNanos);
+        EXPECT_LE(host.beginNanos, device.beginNanos);
+        EXPECT_LT(device.beginNanos, device.endNanos);
+        EXPECT_LE(device.endNanos, host.endNanos);
+        EXPECT_EQ(&dispatch.times.best(), &*dispatch.times.device);
+        last = host.endNanos;
+        deviceTotal += device.endNanos - device.beginNanos;
+        hostTotal += host.endNanos - host.beginNanos;
+    }
+    EXPECT_LE(last, all.frame.endNanos);
+    // Whoever counts in another unit, or only a part, is off by more.
+    EXPECT_GT(deviceTotal, hostTotal / 5);
+}
+
+TEST(Timeline, StagesFollowEachOtherAndFillTheFrame) {
+    const Recorded all = record(testing::shippedScene("spheres", 64, 64, 2), {0, 64, 0, 64});
+    const std::vector<std::string> names{"upload",         "buffers",    "pipeline",
+                                         "first dispatch", "dispatches", "readback"};
+    ASSERT_EQ(all.timeline.stages.size(), names.size());
+    std::int64_t last = all.frame.beginNanos;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const StageRecord &stage = all.timeline.stages[i];
+        EXPECT_EQ(stage.name, names[i]);
+        EXPECT_LE(last, stage.span.beginNanos);
+        EXPECT_LE(stage.span.beginNanos, stage.span.endNanos);
+        EXPECT_GT(stage.deviceBytes, 0u);
+        last = stage.span.endNanos;
+    }
+    EXPECT_LE(last, all.frame.endNanos);
+    const Span &dispatches = all.timeline.stages[4].span;
+    EXPECT_LE(dispatches.beginNanos, all.timeline.dispatches.front().times.host.beginNanos);
+    EXPECT_GE(dispatches.endNanos, all.timeline.dispatches.back().times.host.endNanos);
+    EXPECT_DOUBLE_EQ(dispatches.seconds(), all.result.timing.renderSeconds);
+    // The film alone has that many bytes.
+    EXPECT_GT(all.timeline.stages[1].deviceBytes,
+              all.timeline.stages[0].deviceBytes + 64 * 64 * sizeof(layout::FilmPixel));
+}
+
+} // namespace
+} // namespace hyalite
