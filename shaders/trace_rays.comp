@@ -92,6 +92,7 @@ void endRay(uint slot) {
 }
 
 void main() {
+    loadConstants();
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         beginRay(slot);
     if (isAnyHit)

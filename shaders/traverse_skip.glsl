@@ -105,6 +105,7 @@ void traverse(uint stage, const bool isShadow) {
         } while (isRunning && stepsTaken < dispatch.stepBudget);
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
             isRunning = isRunning || path[slot].cursorNode < end[slot];
+        stepsTaken += 1u;
     } while (isRunning && stepsTaken < dispatch.stepBudget);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (end[slot] != 0u && path[slot].cursorNode >= end[slot] && path[slot].cursorTriangle == noNode)
