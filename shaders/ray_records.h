@@ -10,9 +10,9 @@ namespace hyalite::layout {
 
 struct RayRecord {
     vec3 origin;
-    float maxDistance;   // hits at this distance and beyond do not count
-    vec3 direction; // unit length
-    uint excluded;  // the primitive that the ray starts on, or noPrimitive
+    float maxDistance; // hits at this distance and beyond do not count
+    vec3 direction;    // unit length
+    uint excluded;     // the primitive that the ray starts on, or noPrimitive
 };
 
 struct HitRecord {
