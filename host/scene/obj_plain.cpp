@@ -90,7 +90,7 @@ const char *readThreeNumbers(const char *at, glm::dvec3 &values) {
     return at;
 }
 
-// A 1 with up to nine digits, or with as many and a sign.
+// An index of up to nine digits, which fit any int, and perhaps a minus sign; not 0.
 const char *readIndex(const char *at, std::int32_t &index) {
     const bool isNegative = *at == '-';
     if (isNegative)
@@ -99,8 +99,10 @@ const char *readIndex(const char *at, std::int32_t &index) {
     std::uint32_t value = 0;
     for (; isDigit(*at); ++at)
         value = value * 10 + static_cast<std::uint32_t>(*at - '0');
+    if (at - digits > 9 || value == 0) // no digits are 0, too
+        return nullptr;
     index = isNegative ? -static_cast<std::int32_t>(value) : static_cast<std::int32_t>(value);
-    return at != digits && at - digits <= 9 && value != 0 ? at : nullptr;
+    return at;
 }
 
 // One of v, v/vt, v//vn and v/vt/vn.
