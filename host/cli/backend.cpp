@@ -178,8 +178,28 @@ void addThreadsOption(CLI::App &command, int &threadCount) {
               "of the reference renderer and of lavapipe; default: all");
 }
 
+bool isReference(const std::string &name) { return name == "cpu" || name == "cpu-double"; }
+
+void addKernelOption(CLI::App &command, std::optional<gpu::KernelChoice> &kernel) {
+    addChoice(command, "--kernel", kernel, gpu::kernelNames,
+              "how rays go through the tree on a Vulkan device; auto: as `hyalite devices` says. The image "
+              "is the same");
+}
+
+gpu::Batching batchingFor(const std::optional<gpu::KernelChoice> &kernel) {
+    gpu::Batching batching;
+    if (kernel) {
+        batching.traversal = kernel->traversal;
+        batching.slotsPerInvocation = kernel->slotsPerInvocation;
+    }
+    return batching;
+}
+
 std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
                                      const gpu::Batching &batching) {
+    if (isReference(name) && batching.traversal != gpu::Traversal::Automatic)
+        throw Error(ExitCode::Usage,
+                    fmt::format("--kernel is for Vulkan devices: --device {} has none to choose from", name));
     if (name == "cpu")
         return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
     if (name == "cpu-double")

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,8 +50,18 @@ void requireFilmMemory(const Crop &crop, unsigned filmCount);
 /// Adds --threads, for openBackend. `threadCount` must outlive the command.
 void addThreadsOption(CLI::App &command, int &threadCount);
 
+/// Whether openBackend opens the reference renderer by this name.
+[[nodiscard]] bool isReference(const std::string &name);
+
+/// Adds --kernel, for openBackend. `kernel` must outlive the command.
+void addKernelOption(CLI::App &command, std::optional<gpu::KernelChoice> &kernel);
+
+/// What openBackend takes of it.
+[[nodiscard]] gpu::Batching batchingFor(const std::optional<gpu::KernelChoice> &kernel);
+
 /// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. `threadCount` of 0 means all; on
-/// lavapipe it holds for the first device that is opened. Throws Error{NoDevice}.
+/// lavapipe it holds for the first device that is opened. Throws Error{NoDevice}, and Error{Usage} where the reference
+/// renderer is asked for a kernel.
 [[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
                                                    const gpu::Batching &batching = {});
 

@@ -30,6 +30,7 @@ struct CompareOptions {
     std::string tolerance = "0";
     double maxOutliers = 0.0;
     int threads = 0;
+    std::optional<gpu::KernelChoice> kernel;
     std::string heatMap;
     std::string report;
     bool isQuiet = false;
@@ -216,8 +217,11 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     if (heatMapFile)
         requirePngSize(options.heatMap, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, 2);
-    const std::unique_ptr<Backend> first = openBackend(options.device, options.threads);
-    const std::unique_ptr<Backend> second = openBackend(options.against, options.threads);
+    const std::unique_ptr<Backend> first =
+        openBackend(options.device, options.threads, batchingFor(options.kernel));
+    const std::unique_ptr<Backend> second =
+        openBackend(options.against, options.threads,
+                    isReference(options.against) ? gpu::Batching{} : batchingFor(options.kernel));
     const bool isAgainstOracle = options.against == "cpu-double";
     if (!options.isQuiet) {
         fmt::print("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
@@ -313,6 +317,7 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
               "share of pixels that may be further off")
         ->default_str("0");
     addThreadsOption(*command, options->threads);
+    addKernelOption(*command, options->kernel);
     addFile(*command, "--diff", options->heatMap, "FILE.png",
             "write a heat map of the difference (HDR-FLIP)");
     addFile(*command, "--report", options->report, "FILE.json", "write all metrics");

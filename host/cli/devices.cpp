@@ -1,6 +1,7 @@
 #include "host/gpu/devices.h"
 #include "host/cli/commands.h"
 #include "host/gpu/arithmetic.h"
+#include "host/gpu/batching.h"
 #include "host/report/json_text.h"
 #include "host/version.h"
 
@@ -29,6 +30,8 @@ void printTable(const std::vector<gpu::DeviceInfo> &devices) {
                    device.canRoundToNearestEven ? "yes" : "not offered",
                    device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
         fmt::print("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
+        fmt::print("   kernel      {}, unless --kernel names another\n",
+                   gpu::kernelName(gpu::completed({}, device)));
         const std::string unpromised = gpu::explainUnpromisedBits(device);
         fmt::print("   equal bits  {}\n", unpromised.empty() ? "promised" : "not promised: " + unpromised);
         fmt::print("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
@@ -57,6 +60,7 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
         entry["canRoundToNearestEven"] = device.canRoundToNearestEven;
         entry["canPreserveSignedZeroInfNan"] = device.canPreserveSignedZeroInfNan;
         entry["hasExactDivisionListed"] = device.hasExactDivisionListed;
+        entry["kernel"] = gpu::kernelName(gpu::completed({}, device));
         entry["areBitsPromised"] = device.areBitsPromised();
         entry["isUsable"] = device.isUsable();
         if (!device.isUsable())

@@ -32,6 +32,7 @@ struct ProfileOptions {
     SceneOptions scene;
     std::string device = "auto";
     int threads = 0;
+    std::optional<gpu::KernelChoice> kernel;
     int warmupCount = 1;
     int repeatCount = 5;
     bool isUnverified = false;
@@ -147,7 +148,7 @@ PreparedScene prepare(const ProfileOptions &options, std::unique_ptr<Backend> &b
     profile.hostStages.push_back({"build", {loaded, loaded + nanos(scene.buildSeconds)}});
     requireFilmMemory(scene.crop, 2);
     watch = {};
-    backend = openBackend(options.device, options.threads);
+    backend = openBackend(options.device, options.threads, batchingFor(options.kernel));
     profile.hostStages.push_back({"open the device", watch.lap()});
     profile.scene = scene.loaded.file.string();
     profile.deviceName = backend->name();
@@ -247,6 +248,7 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
         ->type_name("DEVICE")
         ->capture_default_str();
     addThreadsOption(*command, options->threads);
+    addKernelOption(*command, options->kernel);
     addNumber(*command, "--warmup", options->warmupCount, warmupCounts,
               "renders before those that are measured")
         ->default_str("1");

@@ -24,6 +24,7 @@ struct RenderOptions {
     std::string output;
     std::string device = "auto";
     int threads = 0;
+    std::optional<gpu::KernelChoice> kernel;
     std::string report;
     bool isQuiet = false;
 };
@@ -61,7 +62,8 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     report.loadSeconds = scene.loadSeconds;
     report.buildSeconds = scene.buildSeconds;
 
-    const std::unique_ptr<Backend> backend = openBackend(options.device, options.threads);
+    const std::unique_ptr<Backend> backend =
+        openBackend(options.device, options.threads, batchingFor(options.kernel));
     report.deviceName = backend->name();
     report.deviceDriver = backend->driver();
     report.arithmetic = backend->arithmetic();
@@ -109,6 +111,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
         ->type_name("DEVICE")
         ->capture_default_str();
     addThreadsOption(*command, options->threads);
+    addKernelOption(*command, options->kernel);
     addFile(*command, "--report", options->report, "FILE.json", "write what was done and how long it took");
     command->add_flag("--quiet", options->isQuiet, "print errors only");
     command->callback([options, &context] { runRender(*options, context.commandLine); });

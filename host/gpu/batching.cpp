@@ -5,8 +5,6 @@
 #include "whittedStackOneSlot.h"
 #include "whittedStackTwoSlots.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 
@@ -50,9 +48,12 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching) {
     return batching.slotsPerInvocation == 2 ? Words(whittedStackTwoSlots) : Words(whittedStackOneSlot);
 }
 
-std::string kernelName(const Batching &batching) {
-    return fmt::format("whitted {}{}", batching.traversal == Traversal::SkipList ? "skip list" : "stack",
-                       batching.slotsPerInvocation == 2 ? " x2" : "");
+std::string_view kernelName(const Batching &batching) {
+    for (const auto &[name, choice] : kernelNames)
+        if (choice.traversal == batching.traversal &&
+            choice.slotsPerInvocation == batching.slotsPerInvocation)
+            return name;
+    return "auto";
 }
 
 } // namespace hyalite::gpu

@@ -4,9 +4,12 @@
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/devices.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace hyalite::gpu {
 
@@ -35,7 +38,21 @@ struct Batching {
 /// The kernel that a complete `batching` names, as SPIR-V.
 [[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching);
 
-/// Its name, as reports and other tools show it.
-[[nodiscard]] std::string kernelName(const Batching &batching);
+/// A kernel that can be asked for.
+struct KernelChoice {
+    Traversal traversal = Traversal::Automatic;
+    int slotsPerInvocation = 0;
+};
+
+/// By the words that command lines use.
+inline constexpr std::array<std::pair<std::string_view, KernelChoice>, 5> kernelNames{
+    {{"auto", {}},
+     {"stack", {Traversal::Stack, 1}},
+     {"stack-x2", {Traversal::Stack, 2}},
+     {"skip-list", {Traversal::SkipList, 1}},
+     {"skip-list-x2", {Traversal::SkipList, 2}}}};
+
+/// The word for the kernel of a complete `batching`.
+[[nodiscard]] std::string_view kernelName(const Batching &batching);
 
 } // namespace hyalite::gpu

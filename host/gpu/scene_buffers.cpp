@@ -1,7 +1,9 @@
 #include "host/gpu/scene_buffers.h"
 
-#include <memory>
+#include "host/bvh/skip_list.h"
+
 #include <span>
+#include <utility>
 
 namespace hyalite::gpu {
 
@@ -23,46 +25,55 @@ Buffer array(Device &device, const char *name, BufferUse use, const std::vector<
     return uploaded(device, name, use, bytesOf(records), bytesOf(records).size());
 }
 
-/// The frame constants, with what kernels need to know of the skip lists.
-layout::FrameRecord frameWith(const SkipList *list, layout::FrameRecord frame) {
-    if (list != nullptr) {
-        frame.gridOrigin = list->gridOrigin;
-        frame.gridScale = list->gridScale;
-        frame.skipListLength = list->length;
-    }
-    return frame;
-}
-
 /// Eight lists, or two where eight would outgrow caches and memory.
 std::uint32_t fitSkipOrders(const PackedScene &scene) {
     constexpr std::size_t mostBytes = std::size_t{64} << 20;
     return 8 * 2 * sizeof(layout::SkipNode) * scene.nodes.size() <= mostBytes ? 8 : 2;
 }
 
-BufferUse arrayUse(const SkipList *list) { return list != nullptr ? BufferUse::Texels : BufferUse::Storage; }
+BufferUse arrayUse(bool isSkipList) { return isSkipList ? BufferUse::Texels : BufferUse::Storage; }
+
+struct Tree {
+    Buffer nodes;
+    layout::FrameRecord frame;
+    std::uint32_t skipOrders;
+};
+
+/// Uploads the tree, and adds to the frame constants what kernels need to know of skip lists. The lists on the host are
+/// gone when this returns: they are the largest part of a large scene.
+Tree uploadTree(Device &device, const PackedScene &scene, bool isSkipList) {
+    if (!isSkipList)
+        return {array(device, "the nodes", BufferUse::Storage, scene.nodes), scene.frame, 0};
+    const SkipList list = makeSkipList(scene, fitSkipOrders(scene));
+    layout::FrameRecord frame = scene.frame;
+    frame.gridOrigin = list.gridOrigin;
+    frame.gridScale = list.gridScale;
+    frame.skipListLength = list.length;
+    return {array(device, "the skip lists", BufferUse::Texels, list.nodes), frame, list.orderCount};
+}
+
+Buffer uploadFrame(Device &device, const layout::FrameRecord &frame) {
+    return uploaded(device, "the frame constants", BufferUse::Uniform, std::as_bytes(std::span(&frame, 1)),
+                    sizeof frame);
+}
 
 } // namespace
 
 SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList)
-    : SceneBuffers(device, scene,
-                   isSkipList ? std::make_unique<SkipList>(makeSkipList(scene, fitSkipOrders(scene))).get()
-                              : nullptr) {}
+    : SceneBuffers(device, scene, isSkipList, uploadTree(device, scene, isSkipList)) {}
 
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const SkipList *list)
-    : frame(device, "the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord)),
+template <class Tree>
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList, Tree tree)
+    : frame(uploadFrame(device, tree.frame)),
       spheres(uploaded(device, "the spheres", BufferUse::Uniform, bytesOf(scene.spheres),
                        sizeof(layout::SphereRecord) * layout::maxSphereCount)),
-      sphereArray(array(device, "the spheres", arrayUse(list), scene.spheres)),
+      sphereArray(array(device, "the spheres", arrayUse(isSkipList), scene.spheres)),
       lights(uploaded(device, "the lights", BufferUse::Uniform, bytesOf(scene.lights),
                       sizeof(layout::LightRecord) * layout::maxLightCount)),
-      materials(array(device, "the materials", arrayUse(list), scene.materials)),
-      nodes(list != nullptr ? array(device, "the skip lists", arrayUse(list), list->nodes)
-                            : array(device, "the nodes", arrayUse(list), scene.nodes)),
-      triangles(array(device, "the triangles", arrayUse(list), scene.triangles)),
-      normals(array(device, "the normals", arrayUse(list), scene.normals)),
-      skipOrders(list != nullptr ? list->orderCount : 0) {
-    const layout::FrameRecord record = frameWith(list, scene.frame);
-    frame.upload(std::as_bytes(std::span(&record, 1)));
-}
+      materials(array(device, "the materials", arrayUse(isSkipList), scene.materials)),
+      nodes(std::move(tree.nodes)),
+      triangles(array(device, "the triangles", arrayUse(isSkipList), scene.triangles)),
+      normals(array(device, "the normals", arrayUse(isSkipList), scene.normals)),
+      skipOrders(tree.skipOrders) {}
 
 } // namespace hyalite::gpu

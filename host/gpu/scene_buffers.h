@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/bvh/packed_scene.h"
-#include "host/bvh/skip_list.h"
 #include "host/gpu/buffer.h"
 
 namespace hyalite::gpu {
@@ -23,7 +22,7 @@ struct SceneBuffers {
     std::uint32_t skipOrders; ///< how many skip lists there are; 0: none
 
   private:
-    SceneBuffers(Device &device, const PackedScene &scene, const SkipList *list);
+    template <class Tree> SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList, Tree tree);
 };
 
 } // namespace hyalite::gpu

@@ -121,10 +121,10 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
                                                                  &progress_,        &paths,
                                                                  &pending,          &stacks_,
                                                                  &trace_,           &buffers_.sphereArray};
-    Kernel kernel(device_,
-                  kernelName(batching_) +
-                      (isResumable && batching_.traversal == Traversal::SkipList ? ", resumable" : ""),
-                  kernelWords(batching_), constants, bound);
+    const std::string name =
+        fmt::format("whitted {}{}", kernelName(batching_),
+                    isResumable && batching_.traversal == Traversal::SkipList ? ", resumable" : "");
+    Kernel kernel(device_, name, kernelWords(batching_), constants, bound);
     return {std::move(paths), std::move(pending), std::move(kernel)};
 }
 

@@ -21,7 +21,7 @@ TEST_F(DevicesCommand, JsonDescribesEachDevice) {
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const nlohmann::json &device = devices[i];
         EXPECT_EQ(device.at("index"), i);
-        for (const char *key : {"name", "type", "driver"})
+        for (const char *key : {"name", "type", "driver", "kernel"})
             EXPECT_NE(device.at(key).get<std::string>(), "") << key;
         EXPECT_TRUE(std::regex_match(device.at("apiVersion").get<std::string>(),
                                      std::regex("[0-9]+\\.[0-9]+\\.[0-9]+")));
@@ -50,7 +50,7 @@ TEST_F(DevicesCommand, TheTableSaysTheSame) {
         const std::string title = std::to_string(device.at("index").get<int>()) + "  " +
                                   device.at("name").get<std::string>() + "\n";
         EXPECT_TRUE(contains(outcome.output, title)) << title << outcome;
-        for (const char *key : {"type", "driver", "apiVersion"})
+        for (const char *key : {"type", "driver", "apiVersion", "kernel"})
             EXPECT_TRUE(contains(outcome.output, device.at(key))) << key << '\n' << outcome;
         if (device.contains("rejection")) {
             EXPECT_TRUE(contains(outcome.output, device.at("rejection"))) << outcome;

@@ -126,6 +126,21 @@ TEST_F(RenderDevice, TheNumberOfThreadsDoesNotChangeTheImage) {
                 << device << ", " << threads;
 }
 
+TEST_F(RenderDevice, TheKernelDoesNotChangeTheImage) {
+    store("sheet.obj", wavySheetObj(12));
+    store("sheet.json", wavySheetScene());
+    const std::string wanted = renderPfm("sheet.json" + small + " --device cpu");
+    for (const char *kernel : {"auto", "stack", "stack-x2", "skip-list", "skip-list-x2"})
+        EXPECT_EQ(renderPfm("sheet.json" + small + " --device " + softwareDevice() + " --kernel " + kernel),
+                  wanted)
+            << kernel;
+}
+
+TEST_F(RenderDevice, OnlyVulkanDevicesHaveKernels) {
+    expectFailure("render spheres -o a.png --device cpu --kernel stack", 2, {"--kernel", "cpu"});
+    expectFailure("render spheres -o a.png --kernel heap", 2, {"--kernel", "heap", "skip-list-x2"});
+}
+
 TEST_F(RenderDevice, RepeatedRendersAreEqual) {
     const std::string line = "spheres --device " + softwareDevice() + small;
     EXPECT_EQ(renderPfm(line), renderPfm(line));
