@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <future>
 #include <new>
 #include <optional>
 
@@ -142,6 +143,12 @@ std::uint64_t filmBytes(const Crop &crop) {
                             crop.width(), crop.height(), sizeText(neededBytes), available));
 }
 
+/// lavapipe reads the number of its threads when its driver is loaded.
+void limitDriverThreads(int threadCount) {
+    if (threadCount > 0)
+        setenv("LP_NUM_THREADS", std::to_string(threadCount).c_str(), 1);
+}
+
 std::vector<gpu::DeviceInfo> listDevices() {
     try {
         return gpu::listDevices();
@@ -151,6 +158,17 @@ std::vector<gpu::DeviceInfo> listDevices() {
         throw Error(error.exitCode,
                     fmt::format("{}; --device cpu renders without Vulkan, to the same bits", error.what()));
     }
+}
+
+std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::Batching &batching) {
+    if (isReference(name) && batching.traversal != gpu::Traversal::Automatic)
+        throw Error(ExitCode::Usage,
+                    fmt::format("--kernel is for Vulkan devices: --device {} has none to choose from", name));
+    if (name == "cpu")
+        return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
+    if (name == "cpu-double")
+        return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
+    return std::make_unique<DeviceBackend>(gpu::chooseDevice(listDevices(), name), batching);
 }
 
 } // namespace
@@ -197,17 +215,14 @@ gpu::Batching batchingFor(const std::optional<gpu::KernelChoice> &kernel) {
 
 std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
                                      const gpu::Batching &batching) {
-    if (isReference(name) && batching.traversal != gpu::Traversal::Automatic)
-        throw Error(ExitCode::Usage,
-                    fmt::format("--kernel is for Vulkan devices: --device {} has none to choose from", name));
-    if (name == "cpu")
-        return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
-    if (name == "cpu-double")
-        return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
-    // lavapipe reads the number of its threads when its driver is loaded.
-    if (threadCount > 0)
-        setenv("LP_NUM_THREADS", std::to_string(threadCount).c_str(), 1);
-    return std::make_unique<DeviceBackend>(gpu::chooseDevice(listDevices(), name), batching);
+    limitDriverThreads(threadCount);
+    return open(name, threadCount, batching);
+}
+
+std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name, int threadCount,
+                                                          const gpu::Batching &batching) {
+    limitDriverThreads(threadCount); // here, as other threads may read the environment from now on
+    return std::async(std::launch::async, [=] { return open(name, threadCount, batching); });
 }
 
 } // namespace hyalite

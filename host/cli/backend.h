@@ -7,6 +7,7 @@
 #include "host/report/timeline.h"
 
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,5 +65,9 @@ void addKernelOption(CLI::App &command, std::optional<gpu::KernelChoice> &kernel
 /// renderer is asked for a kernel.
 [[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
                                                    const gpu::Batching &batching = {});
+
+/// The same, while the caller does something else. A batching's kernel must outlive the opening.
+[[nodiscard]] std::future<std::unique_ptr<Backend>>
+beginOpeningBackend(const std::string &name, int threadCount, const gpu::Batching &batching = {});
 
 } // namespace hyalite

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +47,8 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     if (!options.report.empty())
         reportFile.emplace(options.report);
 
+    std::future<std::unique_ptr<Backend>> opening =
+        beginOpeningBackend(options.device, options.threads, batchingFor(options.kernel));
     const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
     if (format == ImageFormat::Png)
         requirePngSize(options.output, scene.crop.width(), scene.crop.height());
@@ -62,8 +65,7 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     report.loadSeconds = scene.loadSeconds;
     report.buildSeconds = scene.buildSeconds;
 
-    const std::unique_ptr<Backend> backend =
-        openBackend(options.device, options.threads, batchingFor(options.kernel));
+    const std::unique_ptr<Backend> backend = opening.get();
     report.deviceName = backend->name();
     report.deviceDriver = backend->driver();
     report.arithmetic = backend->arithmetic();

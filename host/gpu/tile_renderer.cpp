@@ -147,12 +147,14 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
     std::uint64_t samplesFinished = 0;
     TileTotals totals;
+    bool isTileBegun = false;
     const auto dispatch = [&](Kernel &kernel) {
         const Step step = runOnce(kernel);
         samplesFinished += step.counters.finishedSamples;
         totals.rays += raysOf(step.counters);
         if (timeline != nullptr)
-            timeline->dispatches.push_back(describe(kernel, step));
+            timeline->dispatches.push_back(describe(kernel, step, isTileBegun));
+        isTileBegun = true;
         ++totals.dispatchCount;
         if (onProgress)
             onProgress(static_cast<double>(samplesFinished) / samplesWanted);
@@ -162,6 +164,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
         dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
         dispatch_.isResumed = 0;
+        isTileBegun = false;
         layout::DispatchProgress last{};
         last.unfinishedSlots = slotCount_;
         if (direct_) {
@@ -206,7 +209,7 @@ TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     return {counters, times};
 }
 
-DispatchRecord TileRenderer::describe(const Kernel &kernel, const Step &step) const {
+DispatchRecord TileRenderer::describe(const Kernel &kernel, const Step &step, bool isResumed) const {
     DispatchRecord record;
     record.kernel = kernel.name();
     record.tileX = job_.crop.x0 + static_cast<int>(dispatch_.tileX);
@@ -215,7 +218,7 @@ DispatchRecord TileRenderer::describe(const Kernel &kernel, const Step &step) co
     record.tileHeight = std::min(tileHeight_, job_.crop.y1 - record.tileY);
     record.sampleBegin = dispatch_.sampleBegin;
     record.sampleEnd = dispatch_.sampleEnd;
-    record.isResumed = dispatch_.isResumed != 0;
+    record.isResumed = isResumed;
     record.rays = raysOf(step.counters);
     record.invocations = std::uint64_t{groupCount_} * workgroupSize;
     record.times = step.times;

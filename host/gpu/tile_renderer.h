@@ -77,7 +77,7 @@ class TileRenderer {
     Step runOnce(Kernel &kernel);
     /// Runs `kernel` over no samples.
     void warmUp(Kernel &kernel);
-    [[nodiscard]] DispatchRecord describe(const Kernel &kernel, const Step &step) const;
+    [[nodiscard]] DispatchRecord describe(const Kernel &kernel, const Step &step, bool isResumed) const;
 
     Device &device_;
     const SceneBuffers &buffers_;

@@ -26,7 +26,7 @@ TEST_F(ProfileCommand, VerifiesThenMeasures) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     for (const char *part : {"verified     equal to the CPU twin, bit for bit", "clock        timestamps",
                              "measured     2 frames, after 1 that is not", "\nupload ", "\npipeline ",
-                             "\nfirst dispatch ", "\ndispatches ", "\nreadback ", "\nwhitted skip list x2 "})
+                             "\nfirst dispatch ", "\ndispatches ", "\nreadback ", "\nwhitted skip-list-x2 "})
         EXPECT_TRUE(contains(outcome.output, part)) << part << '\n' << outcome;
 }
 
@@ -84,7 +84,7 @@ TEST_F(ProfileCommand, WritesTheImageAndTimesThat) {
 }
 
 TEST_F(ProfileCommand, WritesALineForEachDispatch) {
-    const Outcome outcome = run("profile spheres --csv dispatches.csv --width 200 --height 24 --spp 1 "
+    const Outcome outcome = run("profile spheres --csv dispatches.csv --width 300 --height 24 --spp 1 "
                                 "--repeat 2 --warmup 0 --device " +
                                 softwareDevice());
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
@@ -92,7 +92,7 @@ TEST_F(ProfileCommand, WritesALineForEachDispatch) {
     EXPECT_TRUE(csv.starts_with("frame,measured,dispatch,kernel,"));
     // Two tiles, in three frames.
     EXPECT_GE(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 3);
-    EXPECT_TRUE(contains(csv, "\r\nrepeat 2,1,1,whitted skip list x2,128,0,72,24,0,1,0,")) << csv;
+    EXPECT_TRUE(contains(csv, "\r\nrepeat 2,1,1,whitted skip-list-x2,256,0,44,24,0,1,0,")) << csv;
 }
 
 TEST_F(ProfileCommand, WritesATimelineThatKeepsTheRulesOfItsFormat) {
