@@ -4,10 +4,12 @@
 #include "host/cli/options.h"
 #include "host/image/image_file.h"
 #include "host/image/png.h"
+#include "host/image/tone_map.h"
 #include "host/report/baseline.h"
 #include "host/report/json_text.h"
 #include "host/report/message.h"
 #include "host/report/profile_csv.h"
+#include "host/report/profile_html.h"
 #include "host/report/profile_json.h"
 #include "host/report/profile_table.h"
 #include "host/report/quantities.h"
@@ -40,6 +42,7 @@ struct ProfileOptions {
     std::string report;
     std::string csv;
     std::string trace;
+    std::string html;
     std::string baseline;
     std::string maxRegression = "5%";
     std::optional<Gate> gate;
@@ -66,17 +69,20 @@ struct Outputs {
     std::optional<AtomicFile> report;
     std::optional<AtomicFile> csv;
     std::optional<AtomicFile> trace;
+    std::optional<AtomicFile> html;
 
     explicit Outputs(const ProfileOptions &options) {
         requireDistinctFiles({{"--output", options.output},
                               {"--report", options.report},
                               {"--csv", options.csv},
-                              {"--trace", options.trace}},
+                              {"--trace", options.trace},
+                              {"--html", options.html}},
                              {resolveScene(options.scene.scene).string(), options.baseline});
         open(image, options.output);
         open(report, options.report);
         open(csv, options.csv);
         open(trace, options.trace);
+        open(html, options.html);
     }
 
   private:
@@ -104,6 +110,10 @@ Film renderFrame(Backend &backend, const PreparedScene &scene, const std::string
     frame.span = watch.lap();
     profile.frames.push_back(std::move(frame));
     return std::move(result.film);
+}
+
+std::vector<std::byte> pngOf(const Image &image, double exposureStops) {
+    return encodePng(image.width(), image.height(), toneMap(image, exposureStops));
 }
 
 RayCounts raysOf(const Frame &frame) {
@@ -195,6 +205,8 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     const PreparedScene scene = prepare(options, backend, profile);
     if (outputs.image && format == ImageFormat::Png)
         requirePngSize(options.output, profile.width, profile.height);
+    if (outputs.html)
+        requirePngSize(options.html, profile.width, profile.height);
     if (baseline)
         requireSameJob(*baseline, profile);
     printHead(profile, *backend);
@@ -228,6 +240,8 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     store(outputs.report, jsonText(profileToJson(profile)));
     store(outputs.csv, profileCsv(profile));
     store(outputs.trace, jsonText(profileToTrace(profile)));
+    if (outputs.html)
+        store(outputs.html, profileHtml(profile, pngOf(film->toImage(), profile.settings.exposureStops)));
     if (!baseline)
         return ExitCode::Ok;
     const Gate gate = options.gate.value_or(Gate::All);
@@ -262,6 +276,8 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     addFile(*command, "--csv", options->csv, "FILE.csv", "write a line for each dispatch");
     addFile(*command, "--trace", options->trace, "FILE.json",
             "write a timeline that ui.perfetto.dev and chrome://tracing open");
+    addFile(*command, "--html", options->html, "FILE.html",
+            "write a page with the image, the figures and where they come from");
     addFile(*command, "--baseline", options->baseline, "FILE.json",
             "compare with an older --report; a regression is exit code 1");
     command

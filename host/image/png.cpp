@@ -134,6 +134,21 @@ void writePng(AtomicFile &file, int width, int height, std::span<const std::uint
     }
 }
 
+std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb) {
+    assert(rgb.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    requirePngSize("the image", width, height);
+    std::vector<std::byte> bytes;
+    const auto append = [](void *context, void *data, int size) {
+        const auto *begin = static_cast<const std::byte *>(data);
+        auto &all = *static_cast<std::vector<std::byte> *>(context);
+        all.insert(all.end(), begin, begin + size);
+    };
+    if (stbi_write_png_to_func(append, &bytes, width, height, 3, rgb.data(), width * 3) == 0)
+        throw Error(ExitCode::LimitExceeded,
+                    fmt::format("no memory to pack a PNG of {} x {} pixels", width, height));
+    return bytes;
+}
+
 Image readPng(const InputFile &file) {
     const PngChunks chunks = readPngChunks(file);
     requireWholeStream(file, chunks);

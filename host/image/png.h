@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <vector>
 
 namespace hyalite {
 
@@ -21,6 +22,9 @@ void requirePngSize(const std::filesystem::path &name, int width, int height);
 /// Writes 8-bit RGB: three bytes a pixel, row by row from the top left. Throws Error{LimitExceeded} where the image
 /// has more than imagePixelCountMax pixels, or memory is short, and Error{OutputNotWritten}.
 void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb);
+
+/// The bytes of such a file. Throws Error{LimitExceeded} likewise.
+[[nodiscard]] std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb);
 
 /// Reads every kind of PNG (1 to 16 bits, grey, RGB, palette, interlaced) as display-encoded values in [0, 1]: level /
 /// 255, or / 65535 for 16 bits. Alpha is dropped and the colours stay as stored; colour profiles and gamma chunks are

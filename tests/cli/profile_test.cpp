@@ -150,6 +150,16 @@ TEST_F(ProfileCommand, RefusesABaselineThatIsNone) {
     expectFailure("profile spheres --device cpu --width 16 --baseline old.json", 3, {"another job"});
 }
 
+TEST_F(ProfileCommand, WritesAPageWithTheImageInIt) {
+    const Outcome outcome = run("profile spheres --html profile.html --device cpu -o image.png" + small);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    const std::string page = load("profile.html");
+    EXPECT_TRUE(page.ends_with("</html>\n"));
+    // "\x89PNG\r\n" in base64.
+    EXPECT_TRUE(contains(page, "data:image/png;base64,iVBORw0K"));
+    EXPECT_TRUE(contains(page, "profile spheres --html profile.html"));
+}
+
 TEST_F(ProfileCommand, RefusesWhatMakesNoSense) {
     expectFailure("profile spheres --repeat 0", 2, {"--repeat", "from 1 to 10000"});
     expectFailure("profile spheres --warmup -1", 2, {"--warmup"});

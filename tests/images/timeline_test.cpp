@@ -32,13 +32,15 @@ TEST(Timeline, HasARecordOfEachDispatch) {
     EXPECT_EQ(all.timeline.dispatches.size(), all.result.timing.dispatchCount);
     RayCounts rays;
     int freshPixelCount = 0;
+    int resumedCount = 0;
     std::set<std::pair<int, int>> tiles;
     for (const DispatchRecord &dispatch : all.timeline.dispatches) {
         rays += dispatch.rays;
-        // A tile is begun once, and resumed until it is finished.
-        EXPECT_EQ(tiles.insert({dispatch.tileX, dispatch.tileY}).second, !dispatch.isResumed);
-        if (!dispatch.isResumed)
+        if (tiles.insert({dispatch.tileX, dispatch.tileY}).second) {
+            EXPECT_FALSE(dispatch.isResumed) << "nothing waits of a tile that was not begun";
             freshPixelCount += dispatch.tileWidth * dispatch.tileHeight;
+        }
+        resumedCount += dispatch.isResumed ? 1 : 0;
         EXPECT_GE(dispatch.tileX, crop.x0);
         EXPECT_LE(dispatch.tileX + dispatch.tileWidth, crop.x1);
         EXPECT_GE(dispatch.tileY, crop.y0);
@@ -50,13 +52,14 @@ TEST(Timeline, HasARecordOfEachDispatch) {
     }
     EXPECT_EQ(rays, all.result.rays);
     EXPECT_EQ(freshPixelCount, crop.width() * crop.height());
-    EXPECT_GT(all.timeline.dispatches.size(), tiles.size()) << "nothing was resumed";
+    EXPECT_GT(resumedCount, 0);
 }
 
 TEST(Timeline, NamesTheKernelThatRan) {
     const Recorded all = record(testing::shippedScene("spheres", 8, 8, 1), {0, 8, 0, 8},
                                 {.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack});
-    EXPECT_EQ(all.timeline.dispatches.front().kernel, "whitted stack");
+    const std::string kernel = all.timeline.dispatches.front().kernel;
+    EXPECT_TRUE(kernel.starts_with("whitted stack")) << kernel;
 }
 
 TEST(Timeline, DeviceTimesLieInsideOfTheHostsAndFollowEachOther) {

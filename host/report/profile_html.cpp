@@ -1,0 +1,282 @@
+#include "host/report/profile_html.h"
+
+#include "host/report/quantities.h"
+#include "host/scene/names.h"
+#include "host/version.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+namespace hyalite {
+
+namespace {
+
+/// Narrow pages have one column; tables scroll on their own, so that the page does not.
+constexpr std::string_view style = R"(
+:root { color-scheme: light dark; --ink: #1d2129; --dim: #5f6673; --line: #d9dce3; --page: #f6f7f9; --card: #fff; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e7e9ee; --dim: #9aa1ae; --line: #353a45; --page: #15171c; --card: #1e2128; }
+}
+* { box-sizing: border-box; }
+body { margin: 0; padding: 24px 16px; background: var(--page); color: var(--ink);
+       font: 15px/1.5 system-ui, sans-serif; overflow-wrap: anywhere; }
+main { max-width: 1100px; margin: 0 auto; }
+h1 { font-size: 24px; line-height: 1.25; margin: 0 0 4px; }
+h2 { font-size: 17px; margin: 32px 0 8px; }
+p { margin: 0 0 12px; color: var(--dim); }
+p.note { margin-top: 8px; font-size: 13px; }
+.top { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 16px; align-items: start; }
+.top img { width: 100%; height: auto; display: block; border-radius: 6px; background: #000; }
+.figures { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 12px; }
+.figure, .card { background: var(--card); border: 1px solid var(--line); border-radius: 6px; padding: 12px 14px; }
+.figure b { display: block; font-size: 22px; font-weight: 600; font-variant-numeric: tabular-nums; }
+.figure span { color: var(--dim); font-size: 13px; }
+.bar { display: flex; height: 28px; border-radius: 6px; overflow: hidden; background: var(--line); }
+.bar div { min-width: 0; }
+.key { list-style: none; display: flex; flex-wrap: wrap; gap: 4px 18px; margin: 10px 0 0; padding: 0;
+       font-variant-numeric: tabular-nums; }
+.key i { display: inline-block; width: 11px; height: 11px; border-radius: 2px; margin-right: 6px; }
+.table { overflow-x: auto; background: var(--card); border: 1px solid var(--line); border-radius: 6px; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
+th, td { padding: 6px 12px; text-align: right; white-space: nowrap; }
+th { color: var(--dim); font-weight: 500; border-bottom: 1px solid var(--line); }
+th:first-child, td:first-child { text-align: left; }
+tr.sum td { border-top: 1px solid var(--line); font-weight: 600; }
+dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: 4px 16px; margin: 0; }
+dt { color: var(--dim); }
+dd { margin: 0; }
+code { font: 13px/1.5 ui-monospace, monospace; }
+@media (max-width: 700px) {
+  .top { grid-template-columns: minmax(0, 1fr); }
+  dl { grid-template-columns: minmax(0, 1fr); gap: 0; }
+  dd { margin-bottom: 8px; }
+}
+)";
+
+/// Of the bar's parts, in order; told apart by those who see no red or no green too (P. Tol, "Colour Schemes", bright).
+constexpr std::array<const char *, 7> partColours{"#4477aa", "#66ccee", "#228833", "#ccbb44",
+                                                  "#ee6677", "#aa3377", "#bbbbbb"};
+
+std::string millisText(double millis) {
+    return fmt::format("{:.{}f}", millis, millis < 10.0 ? 3 : millis < 1000.0 ? 1 : 0);
+}
+
+std::string shareText(double share) { return fmt::format("{:.1f} %", share * 100.0); }
+
+std::string figure(const std::string &value, const std::string &meaning) {
+    return fmt::format("<div class=\"figure\"><b>{}</b><span>{}</span></div>\n", htmlText(value),
+                       htmlText(meaning));
+}
+
+/// A row of cells; the first one names it.
+std::string row(const char *cell, std::span<const std::string> texts, const char *rowClass = "") {
+    std::string html = fmt::format("<tr{}>", *rowClass == '\0' ? "" : fmt::format(" class=\"{}\"", rowClass));
+    for (const std::string &text : texts)
+        html += fmt::format("<{0}>{1}</{0}>", cell, htmlText(text));
+    return html + "</tr>\n";
+}
+
+std::string tableOf(const std::string &rows) {
+    return "<div class=\"table\"><table>\n" + rows + "</table></div>\n";
+}
+
+std::string headline(const std::string &subject) {
+    const std::array<std::string, 9> cells{subject,  "launches", "total ms", "share", "min",
+                                           "median", "p95",      "max",      "first"};
+    return row("th", cells);
+}
+
+std::string timesRow(const StageSummary &stage) {
+    const std::array<std::string, 9> cells{stage.name,
+                                           std::to_string(stage.launchCount),
+                                           millisText(stage.medianFrameMillis()),
+                                           stage.isInFrame ? shareText(stage.share) : "–",
+                                           millisText(stage.launch.min),
+                                           millisText(stage.launch.median),
+                                           millisText(stage.launch.p95),
+                                           millisText(stage.launch.max),
+                                           stage.firstMillis ? millisText(*stage.firstMillis) : "–"};
+    return row("td", cells);
+}
+
+/// The stages of a frame side by side, as wide as their shares.
+std::string phaseBar(const std::vector<StageSummary> &stages) {
+    std::string bar;
+    std::string key;
+    std::size_t index = 0;
+    for (const StageSummary &stage : stages) {
+        if (!stage.isInFrame)
+            continue;
+        const char *colour = partColours[index++ % partColours.size()];
+        bar += fmt::format("<div style=\"width:{:.3f}%;background:{}\" title=\"{}\"></div>",
+                           stage.share * 100.0, colour, htmlText(stage.name));
+        key += fmt::format("<li><i style=\"background:{}\"></i>{} {}</li>\n", colour, htmlText(stage.name),
+                           shareText(stage.share));
+    }
+    return fmt::format("<div class=\"bar\">{}</div>\n<ul class=\"key\">\n{}</ul>\n", bar, key);
+}
+
+std::string rayTable(const std::vector<KernelSummary> &kernels) {
+    std::vector<std::string> head{"kernel", "invocations"};
+    for (const RayKind &kind : rayKinds)
+        head.push_back(kind.name);
+    head.push_back("total");
+    std::string rows = row("th", head);
+    for (const KernelSummary &kernel : kernels) {
+        std::vector<std::string> counts{kernel.times.name + ": rays", std::to_string(kernel.invocations)};
+        std::vector<std::string> speeds{"Mray/s", ""};
+        for (const RayKind &kind : rayKinds) {
+            counts.push_back(std::to_string(kernel.rays.*kind.count));
+            speeds.push_back(fmt::format("{:.2f}", kernel.megaraysPerSecond(kernel.rays.*kind.count)));
+        }
+        counts.push_back(std::to_string(kernel.rays.total()));
+        speeds.push_back(fmt::format("{:.2f}", kernel.megaraysPerSecond(kernel.rays.total())));
+        rows += row("td", counts) + row("td", speeds);
+    }
+    return tableOf(rows);
+}
+
+std::string provenance(const Profile &profile) {
+    const RenderSettings &settings = profile.settings;
+    std::string html = "<dl class=\"card\">\n";
+    const auto add = [&](const char *term, const std::string &text) {
+        html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, htmlText(text));
+    };
+    html += fmt::format("<dt>Command line</dt><dd><code>{}</code></dd>\n", htmlText(profile.commandLine));
+    add("Program", "hyalite " HYALITE_VERSION);
+    add("Scene", fmt::format("{}, {}, {}", profile.scene, countText(profile.triangleCount, "triangle"),
+                             sizeText(profile.sceneBytes)));
+    add("Settings",
+        fmt::format("{} by {}, {} spp, depth {}, tree {}, leaves of {}, sampler {}, seed {}", profile.width,
+                    profile.height, settings.samplesPerPixel, settings.maxDepth, nameOf(settings.tree),
+                    settings.leafSize, nameOf(settings.sampler), settings.seed));
+    add("Device", profile.deviceName);
+    add("Driver", profile.deviceDriver);
+    add("Arithmetic", profile.arithmetic);
+    add("Clock", profile.frames.back().timeline.clock);
+    add("Verified", profile.verification);
+    return html + "</dl>\n";
+}
+
+/// The frame as a row, and what it is the sum of.
+StageSummary frameSummary(const Profile &profile) {
+    StageSummary frame;
+    frame.name = "frame";
+    frame.isInFrame = true;
+    frame.launchCount = 1;
+    frame.frameMillis = frameMillis(profile);
+    frame.launch = summarise(frame.frameMillis);
+    frame.share = 1.0;
+    if (!profile.frames.front().isMeasured)
+        frame.firstMillis = profile.frames.front().span.millis();
+    return frame;
+}
+
+} // namespace
+
+std::string htmlText(std::string_view text) {
+    std::string escaped;
+    for (const char letter : text) {
+        switch (letter) {
+        case '&':
+            escaped += "&amp;";
+            break;
+        case '<':
+            escaped += "&lt;";
+            break;
+        case '>':
+            escaped += "&gt;";
+            break;
+        case '"':
+            escaped += "&quot;";
+            break;
+        default:
+            escaped += letter;
+        }
+    }
+    return escaped;
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+std::string profileHtml(const Profile &profile, std::span<const std::byte> png) {
+    const std::vector<StageSummary> stages = summariseStages(profile);
+    const std::vector<KernelSummary> kernels = summariseKernels(profile);
+    const StageSummary frame = frameSummary(profile);
+    const std::string sceneName = std::filesystem::path(profile.scene).filename().string();
+    RayCounts rays;
+    double kernelSeconds = 0.0;
+    std::size_t launchCount = 0;
+    for (const KernelSummary &kernel : kernels) {
+        rays += kernel.rays;
+        kernelSeconds += kernel.times.medianFrameMillis() * 1e-3;
+        launchCount += kernel.times.launchCount;
+    }
+
+    std::string html =
+        fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                    "<title>{} on {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
+                    htmlText(sceneName), htmlText(profile.deviceName), style);
+    html += fmt::format("<h1>{} on {}</h1>\n<p>{} by {} pixels, {}; {}</p>\n", htmlText(sceneName),
+                        htmlText(profile.deviceName), profile.width, profile.height,
+                        countText(static_cast<std::uint64_t>(profile.settings.samplesPerPixel), "sample") +
+                            " per pixel",
+                        htmlText(profile.verification));
+    html += fmt::format(
+        "<div class=\"top\">\n<img alt=\"The image that was rendered\" width=\"{}\" height=\"{}\" "
+        "src=\"data:image/png;base64,{}\">\n<div class=\"figures\">\n",
+        profile.width, profile.height, base64(png));
+    html += figure(millisText(frame.launch.median) + " ms",
+                   fmt::format("a frame, median of {}", frame.launch.count));
+    html += figure(fmt::format("{:.2f} Mray/s", kernelSeconds > 0.0
+                                                    ? static_cast<double>(rays.total()) / 1e6 / kernelSeconds
+                                                    : 0.0),
+                   "while kernels run");
+    html += figure(roundedText(rays.total(), "rays"), "in a frame");
+    html += figure(countText(launchCount, "dispatch", "dispatches"), "in a frame");
+    html += figure(sizeText(profile.sceneBytes), "of scene data");
+    if (const std::uint64_t bytes = mostDeviceBytes(profile); bytes > 0)
+        html += figure(sizeText(bytes), "in buffers on the device");
+    html += "</div>\n</div>\n";
+
+    html += "<h2>Where a frame's time goes</h2>\n" + phaseBar(stages);
+    std::string rows = headline("stage");
+    for (const StageSummary &stage : stages)
+        rows += timesRow(stage);
+    const std::array<std::string, 9> sums{"frame",
+                                          "1",
+                                          millisText(frame.medianFrameMillis()),
+                                          shareText(frame.share),
+                                          millisText(frame.launch.min),
+                                          millisText(frame.launch.median),
+                                          millisText(frame.launch.p95),
+                                          millisText(frame.launch.max),
+                                          ""};
+    html += "<h2>Stages</h2>\n" + tableOf(rows + row("td", sums, "sum"));
+    html += fmt::format("<p class=\"note\">Stages come to {} of the frames' time.</p>\n",
+                        shareText(stageShare(stages)));
+    rows = headline("kernel");
+    for (const KernelSummary &kernel : kernels)
+        rows += timesRow(kernel.times);
+    html += "<h2>Kernels</h2>\n" + tableOf(rows);
+    html += "<h2>Rays of a frame</h2>\n" + rayTable(kernels);
+    html += "<h2>What was measured, and how</h2>\n" + provenance(profile);
+    return html + "</main>\n</body>\n</html>\n";
+}
+
+} // namespace hyalite
