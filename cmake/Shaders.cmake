@@ -3,7 +3,8 @@
 # Compiles shaders/KERNEL.comp to SPIR-V 1.3 at build time and embeds it into TARGET: a header VARIABLE.h with the
 # array `VARIABLE`. It is optimised (-Os), as drivers otherwise take up to twice as long to build a pipeline. KERNEL may
 # also be a path ending in .comp, from the source folder. Dependency files follow every include, so an edited shader is
-# always built anew. The target property HYALITE_KERNELS lists all variables.
+# always built anew. The target property HYALITE_KERNELS lists all variables. With UNOPTIMISED among the DEFINITIONS
+# functions stay as they are written, for tests that look at them.
 find_program(GLSLANG_VALIDATOR glslangValidator)
 if(NOT GLSLANG_VALIDATOR)
     message(FATAL_ERROR "glslangValidator is missing: install the package glslang-tools")
@@ -20,10 +21,16 @@ function(hyalite_kernel target kernel variable)
     set(folder ${PROJECT_BINARY_DIR}/kernels)
     set(header ${folder}/${variable}.h)
     file(MAKE_DIRECTORY ${folder})
-    list(TRANSFORM ARGN PREPEND -D OUTPUT_VARIABLE definitions)
+    set(definitions ${ARGN})
+    set(optimise -Os)
+    if("UNOPTIMISED" IN_LIST definitions)
+        list(REMOVE_ITEM definitions UNOPTIMISED)
+        set(optimise)
+    endif()
+    list(TRANSFORM definitions PREPEND -D)
     add_custom_command(
         OUTPUT ${header}
-        COMMAND ${GLSLANG_BOUNDED} --quiet -Os -V --target-env vulkan1.1 ${definitions} -I${PROJECT_SOURCE_DIR} -I${folder}
+        COMMAND ${GLSLANG_BOUNDED} --quiet ${optimise} -V --target-env vulkan1.1 ${definitions} -I${PROJECT_SOURCE_DIR} -I${folder}
                 --depfile ${header}.d --vn ${variable} -o ${header} ${source}
         DEPENDS ${source}
         DEPFILE ${header}.d
