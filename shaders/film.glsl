@@ -1,22 +1,44 @@
 // The film, and how samples come there: in the order of their indices, whichever slots they come from.
 
 #if SKIP_LIST
-layout(set = 0, binding = bindingFilm, rgba32ui) uniform restrict uimageBuffer filmTexels;
+layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
-FilmPixel loadFilmPixel(uint index) {
-    uvec4 a = imageLoad(filmTexels, int(index) * 2);
-    uvec4 b = imageLoad(filmTexels, int(index) * 2 + 1);
-    return FilmPixel(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w));
+const uint filmPixelWords = 8u;
+
+uint firstLaneAbreast() { return gl_SubgroupInvocationID & ~(samplesAbreast - 1u); }
+
+uint laneAbreast() { return gl_SubgroupInvocationID & (samplesAbreast - 1u); }
+
+// All slots of a pixel load and store its words together, as lavapipe goes from lane to lane and word to word. Where the
+// pixel is not `isUsed` nothing is stored, and what is loaded is that of another.
+FilmPixel loadFilmPixel(uint index, bool isUsed) {
+    uint words[filmPixelWords];
+    [[unroll]] for (uint begin = 0u; begin < filmPixelWords; begin += samplesAbreast) {
+        uint mine = filmWords[(isUsed ? index : 0u) * filmPixelWords + begin + laneAbreast()];
+        [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
+            words[begin + lane] = subgroupShuffle(mine, firstLaneAbreast() + lane);
+    }
+    return FilmPixel(uintBitsToFloat(uvec3(words[0], words[1], words[2])), words[3],
+                     uintBitsToFloat(uvec3(words[4], words[5], words[6])), uintBitsToFloat(words[7]));
 }
 
-void storeFilmPixel(uint index, FilmPixel pixel) {
-    imageStore(filmTexels, int(index) * 2, uvec4(floatBitsToUint(pixel.sum), pixel.sampleCount));
-    imageStore(filmTexels, int(index) * 2 + 1, uvec4(floatBitsToUint(pixel.sumOfSquares), floatBitsToUint(pixel.pad0)));
+void storeFilmPixel(uint index, bool isUsed, FilmPixel pixel) {
+    uvec3 sum = floatBitsToUint(pixel.sum);
+    uvec3 squares = floatBitsToUint(pixel.sumOfSquares);
+    uint words[filmPixelWords] = uint[](sum.x, sum.y, sum.z, pixel.sampleCount, squares.x, squares.y, squares.z,
+                                        floatBitsToUint(pixel.pad0));
+    [[unroll]] for (uint begin = 0u; begin < filmPixelWords; begin += samplesAbreast) {
+        uint mine = words[begin];
+        [[unroll]] for (uint lane = 1u; lane < samplesAbreast; ++lane)
+            mine = laneAbreast() == lane ? words[begin + lane] : mine;
+        if (isUsed)
+            filmWords[index * filmPixelWords + begin + laneAbreast()] = mine;
+    }
 }
 
 // What the slot at this place among the samples abreast holds.
 vec3 radianceOfSample(uint slot, uint lane) {
-    return subgroupShuffle(path[slot].sampleRadiance, (gl_SubgroupInvocationID & ~(samplesAbreast - 1u)) + lane);
+    return subgroupShuffle(path[slot].sampleRadiance, firstLaneAbreast() + lane);
 }
 
 bool isTrueForAllAbreast(bool value) {
@@ -29,9 +51,12 @@ bool isTrueForAllAbreast(bool value) {
 #else
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
 
-FilmPixel loadFilmPixel(uint index) { return filmPixels[index]; }
+FilmPixel loadFilmPixel(uint index, bool isUsed) { return filmPixels[isUsed ? index : 0u]; }
 
-void storeFilmPixel(uint index, FilmPixel pixel) { filmPixels[index] = pixel; }
+void storeFilmPixel(uint index, bool isUsed, FilmPixel pixel) {
+    if (isUsed)
+        filmPixels[index] = pixel;
+}
 
 vec3 radianceOfSample(uint slot, uint lane) { return path[slot].sampleRadiance; }
 
@@ -40,16 +65,9 @@ bool isTrueForAllAbreast(bool value) { return value; }
 
 FilmPixel film[RAYS]; // the same in all slots of a pixel
 
-void loadFilm(uint slot) {
-    film[slot] = FilmPixel(vec3(0.0), 0u, vec3(0.0), 0.0);
-    if (isSlotUsed[slot])
-        film[slot] = loadFilmPixel(filmIndex[slot]);
-}
+void loadFilm(uint slot) { film[slot] = loadFilmPixel(filmIndex[slot], isSlotUsed[slot]); }
 
-void storeFilm(uint slot) {
-    if (isSlotUsed[slot] && sampleLane(slot) == 0u)
-        storeFilmPixel(filmIndex[slot], film[slot]);
-}
+void storeFilm(uint slot) { storeFilmPixel(filmIndex[slot], isSlotUsed[slot], film[slot]); }
 
 // Ends a round, if the samples of all slots of the pixel are finished.
 void addRoundToFilm(uint slot) {

@@ -24,6 +24,14 @@ uint slotCount() { return dispatch.tileWidth * dispatch.tileHeight * samplesAbre
 // Which of the samples abreast the slot works on.
 uint sampleLane(uint slot) { return slotIndex[slot] & (samplesAbreast - 1u); }
 
+// Quotient and remainder, for a < 2^24 and b > 0: CPUs divide vectors of floats, but integers one by one.
+uvec2 divideSmall(uint a, uint b) {
+    uint quotient = uint(float(a) / float(b));
+    quotient -= quotient * b > a ? 1u : 0u;
+    quotient += a - quotient * b >= b ? 1u : 0u;
+    return uvec2(quotient, a - quotient * b);
+}
+
 // Neighbouring slots are neighbouring samples or pixels: 8 pixels are a block of 4x2, 64 of 8x8, as coherent rays take
 // the same way through the tree.
 uvec2 pixelOfSlot(uint index) {
@@ -32,13 +40,13 @@ uvec2 pixelOfSlot(uint index) {
     uint k = pixel & 63u;
     uint blocksAcross = dispatch.tileWidth >> 3u;
     uvec2 inBlock = uvec2((k & 3u) | ((k >> 1u) & 4u), ((k >> 2u) & 1u) | ((k >> 3u) & 6u));
-    return uvec2(block % blocksAcross, block / blocksAcross) * 8u + inBlock;
+    return divideSmall(block, blocksAcross).yx * 8u + inBlock;
 }
 
 // Finds the slot's place. With several slots an invocation, the slots of 8 lanes lie side by side.
 void placeSlot(uint slot) {
-    uint groupsPerPart = gl_NumWorkGroups.x / dispatch.interleave;
-    uint group = gl_WorkGroupID.x % groupsPerPart * dispatch.interleave + gl_WorkGroupID.x / groupsPerPart;
+    uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
+    uint group = part.y * dispatch.interleave + part.x;
     uint lanes = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     slotIndex[slot] = (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u);
     uvec2 filmPixel = uvec2(dispatch.tileX, dispatch.tileY) + pixelOfSlot(slotIndex[slot]);
@@ -72,22 +80,47 @@ void storeSlot(uint slot) {
         pathRecords[slotIndex[slot]] = path[slot];
 }
 
+// The sum over all lanes of a subgroup, which all of them get, and whether the lane is the one that speaks for it: on
+// lavapipe an atomic operation for each lane would take longer than a sample.
+#if SKIP_LIST
+uint sumOfLanes(uint x) {
+    x += gl_SubgroupSize > 1u ? subgroupShuffleXor(x, 1u) : 0u;
+    x += gl_SubgroupSize > 2u ? subgroupShuffleXor(x, 2u) : 0u;
+    x += gl_SubgroupSize > 4u ? subgroupShuffleXor(x, 4u) : 0u;
+    x += gl_SubgroupSize > 8u ? subgroupShuffleXor(x, 8u) : 0u;
+    x += gl_SubgroupSize > 16u ? subgroupShuffleXor(x, 16u) : 0u;
+    return x;
+}
+
+bool isSpeaker() { return gl_SubgroupInvocationID == 0u; }
+#else
+uint sumOfLanes(uint x) { return x; }
+
+bool isSpeaker() { return true; }
+#endif
+
 void addProgress() {
     uint unfinished = 0u;
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         unfinished += path[slot].stage != stageDone ? 1u : 0u;
+    unfinished = sumOfLanes(unfinished);
+    uint overflows = sumOfLanes(stackOverflowCount);
+    uint samples = sumOfLanes(finishedSampleCount);
+    uvec4 rays = uvec4(sumOfLanes(finishedRayCounts.x), sumOfLanes(finishedRayCounts.y),
+                       sumOfLanes(finishedRayCounts.z), sumOfLanes(finishedRayCounts.w));
+    if (!isSpeaker())
+        return;
     if (unfinished != 0u)
         atomicAdd(progress.unfinishedSlots, unfinished);
-    if (stackOverflowCount != 0u)
-        atomicAdd(progress.stackOverflows, stackOverflowCount);
-    if (finishedSampleCount != 0u)
-        atomicAdd(progress.finishedSamples, finishedSampleCount);
-    atomicAdd(progress.primaryRays, finishedRayCounts.x);
-    atomicAdd(progress.shadowRays, finishedRayCounts.y);
+    if (overflows != 0u)
+        atomicAdd(progress.stackOverflows, overflows);
+    atomicAdd(progress.finishedSamples, samples);
+    atomicAdd(progress.primaryRays, rays.x);
+    atomicAdd(progress.shadowRays, rays.y);
     if (hasSpecular)
-        atomicAdd(progress.reflectionRays, finishedRayCounts.z);
+        atomicAdd(progress.reflectionRays, rays.z);
     if (hasDielectric)
-        atomicAdd(progress.refractionRays, finishedRayCounts.w);
+        atomicAdd(progress.refractionRays, rays.w);
 }
 
 // Keeps what a path did, for those who search for a difference.

@@ -49,14 +49,15 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
       // One subtree waits for each level at most; kernels of a few sizes are enough.
       stackSize_(std::bit_ceil(
           std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth))),
-      film_(device, "the film", bulkUse(batching), filmPixelCount() * sizeof(layout::FilmPixel)),
+      film_(device, "the film", BufferUse::Storage, filmPixelCount() * sizeof(layout::FilmPixel)),
       progress_(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress)),
       stacks_(device, "the traversal stacks", BufferUse::Storage,
               job.scene.hasTriangles && batching.traversal == Traversal::Stack
                   ? std::size_t{slotCount_} * stackSize_ * sizeof(std::uint32_t)
                   : 0),
       trace_(device, "the trace", BufferUse::Storage,
-             job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0) {
+             job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0),
+      pace_(batching.dispatchSeconds, samplesAbreast_, batching.steps) {
     film_.clear();
     dispatch_.cropX = static_cast<std::uint32_t>(job.crop.x0);
     dispatch_.cropY = static_cast<std::uint32_t>(job.crop.y0);
@@ -147,14 +148,16 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
     std::uint64_t samplesFinished = 0;
     TileTotals totals;
-    bool isTileBegun = false;
+    bool isResumed = false;
     const auto dispatch = [&](Kernel &kernel) {
+        dispatch_.stepBudget = pace_.steps();
         const Step step = runOnce(kernel);
+        pace_.learn(step.times.best().seconds());
         samplesFinished += step.counters.finishedSamples;
         totals.rays += raysOf(step.counters);
         if (timeline != nullptr)
-            timeline->dispatches.push_back(describe(kernel, step, isTileBegun));
-        isTileBegun = true;
+            timeline->dispatches.push_back(describe(kernel, step, isResumed));
+        isResumed = true;
         ++totals.dispatchCount;
         if (onProgress)
             onProgress(static_cast<double>(samplesFinished) / samplesWanted);
@@ -163,18 +166,23 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     for (int tile = 0; tile < tilesAcross * tilesDown; ++tile) {
         dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
         dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
-        dispatch_.isResumed = 0;
-        isTileBegun = false;
-        layout::DispatchProgress last{};
-        last.unfinishedSlots = slotCount_;
-        if (direct_) {
-            do
-                last = dispatch(direct_->kernel);
-            while (last.unfinishedSlots > 0 && last.finishedSamples > 0);
-        }
-        while (last.unfinishedSlots > 0) {
-            last = dispatch(resumableKernel(timeline));
-            dispatch_.isResumed = 1;
+        // The film says where each pixel stands: samples up to `sampleEnd` are wanted.
+        dispatch_.sampleEnd = job_.sampleBegin;
+        while (dispatch_.sampleEnd < job_.sampleEnd) {
+            dispatch_.sampleEnd += std::min(pace_.samples(), job_.sampleEnd - dispatch_.sampleEnd);
+            dispatch_.isResumed = 0;
+            isResumed = false;
+            layout::DispatchProgress last{};
+            last.unfinishedSlots = slotCount_;
+            if (direct_) {
+                do
+                    last = dispatch(direct_->kernel);
+                while (last.unfinishedSlots > 0 && last.finishedSamples > 0);
+            }
+            while (last.unfinishedSlots > 0) {
+                last = dispatch(resumableKernel(timeline));
+                dispatch_.isResumed = 1;
+            }
         }
     }
     return totals;

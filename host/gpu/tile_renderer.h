@@ -3,6 +3,7 @@
 
 #include "host/gpu/batching.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/pace.h"
 #include "host/gpu/scene_buffers.h"
 #include "host/image/film.h"
 #include "host/report/ray_counts.h"
@@ -95,6 +96,7 @@ class TileRenderer {
     layout::DispatchConstants dispatch_{};
     std::uint32_t groupCount_ = 0;
     std::uint32_t traceEventCount_ = 0;
+    Pace pace_;
     double lateBuildSeconds_ = 0.0;
     std::optional<Program> direct_; ///< drops what is unfinished at its end
     std::optional<Program> resumable_;
