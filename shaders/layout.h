@@ -191,6 +191,11 @@ struct DispatchProgress {
     uint shadowRays;
     uint reflectionRays;
     uint refractionRays;
+    // Only where constantIsCounting is set, by the kernels over a stack.
+    uint nodesVisited;
+    uint boxesTested;
+    uint trianglesTested;
+    uint deepestStack; // the most of any slot, not a sum
 };
 
 // ---- What a path did, step by step: written only where a difference is searched
@@ -306,7 +311,8 @@ const uint constantIsResumable = 10u;   // unfinished slots wait in the path buf
 const uint constantLightCount = 11u;
 const uint constantPendingInRegisters = 12u; // how many; 0: they are in the buffer
 const uint constantSkipOrders = 13u;         // skip lists: 8, 2 or 1
-const uint constantCount = 14u;
+const uint constantIsCounting = 14u;         // count the work of the traversal
+const uint constantCount = 15u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);
@@ -319,7 +325,7 @@ static_assert(sizeof(LightRecord) == 32 && offsetof(LightRecord, intensity) == 1
 static_assert(sizeof(FrameRecord) == 144 && offsetof(FrameRecord, boundsUpper) == 96);
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
-static_assert(sizeof(DispatchProgress) == 32);
+static_assert(sizeof(DispatchProgress) == 48);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
 static_assert(sizeof(PathRecord) == 176 && offsetof(PathRecord, cursorNode) == 160);
 static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);

@@ -18,13 +18,15 @@ uint stackOverflowCount = 0u;
 uint finishedSampleCount = 0u;
 uvec4 rayCounts[RAYS];               // of unfinished samples: primary, shadow, reflection, refraction
 uvec4 finishedRayCounts = uvec4(0u); // of all others
+uvec4 workCounts = uvec4(0u);         // nodes, boxes, triangles, deepest stack: only where isCounting
 
 uint slotCount() { return dispatch.tileWidth * dispatch.tileHeight * samplesAbreast; }
 
 // Which of the samples abreast the slot works on.
 uint sampleLane(uint slot) { return slotIndex[slot] & (samplesAbreast - 1u); }
 
-// Quotient and remainder, for a < 2^24 and b > 0: CPUs divide vectors of floats, but integers one by one.
+// Quotient and remainder, for a < 2^24, b > 0 and a quotient below 2^20, where the device's own division is off by less
+// than 1: CPUs divide vectors of floats at once, but integers one by one.
 uvec2 divideSmall(uint a, uint b) {
     uint quotient = uint(float(a) / float(b));
     quotient -= quotient * b > a ? 1u : 0u;
@@ -121,6 +123,12 @@ void addProgress() {
         atomicAdd(progress.reflectionRays, rays.z);
     if (hasDielectric)
         atomicAdd(progress.refractionRays, rays.w);
+    if (isCounting) {
+        atomicAdd(progress.nodesVisited, workCounts.x);
+        atomicAdd(progress.boxesTested, workCounts.y);
+        atomicAdd(progress.trianglesTested, workCounts.z);
+        atomicMax(progress.deepestStack, workCounts.w);
+    }
 }
 
 // Keeps what a path did, for those who search for a difference.

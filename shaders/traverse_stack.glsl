@@ -9,6 +9,8 @@ void pushSubtree(uint slot, uint subtree) {
     if (size < stackSize) {
         stackEntries[size * slotCount() + slotIndex[slot]] = subtree;
         path[slot].stackSize = size + 1u;
+        if (isCounting)
+            workCounts.w = max(workCounts.w, size + 1u);
     } else {
         stackOverflowCount += 1u;
     }
@@ -38,6 +40,8 @@ void stopTraversal(uint slot) {
 
 void visitNode(uint slot, BoxRay ray) {
     NodePair node = fetchNode(path[slot].cursorNode);
+    if (isCounting)
+        workCounts.xy += uvec2(1u, (node.left != noNode ? 1u : 0u) + (node.right != noNode ? 1u : 0u));
     vec2 left = boxInterval(ray, node.leftLower, node.leftUpper);
     vec2 right = boxInterval(ray, node.rightLower, node.rightUpper);
     bool isLeftHit = node.left != noNode && left.x <= lesser(left.y, path[slot].rayLength);
@@ -54,6 +58,8 @@ void visitNode(uint slot, BoxRay ray) {
 void visitTriangle(uint slot, TriangleRay ray, BoxRay boxRay, const bool isShadow) {
     uint record = path[slot].cursorTriangle;
     TriangleRecord triangle = fetchTriangle(record);
+    if (isCounting)
+        workCounts.z += 1u;
     bool isLast = (triangle.flags & triangleEndsLeaf) != 0u;
     uint next = record + 1u;
     if (isLast)

@@ -30,8 +30,8 @@ std::string driverBesideName(const std::string &driver, const std::string &name)
 
 class CpuBackend : public Backend {
   public:
-    CpuBackend(reference::Precision precision, int threadCount)
-        : precision_(precision), threadCount_(threadCount) {}
+    CpuBackend(reference::Precision precision, int threadCount, bool isCounting)
+        : precision_(precision), threadCount_(threadCount), isCounting_(isCounting) {}
 
     [[nodiscard]] std::string name() const override {
         return precision_ == reference::Precision::Float32 ? "cpu" : "cpu-double";
@@ -48,8 +48,8 @@ class CpuBackend : public Backend {
                                        Timeline *timeline) override {
         const RenderSettings &settings = scene.loaded.scene.settings;
         Stopwatch watch;
-        reference::Result result =
-            reference::render(scene.packed, settings, scene.crop, {precision_, threadCount_, onProgress});
+        reference::Result result = reference::render(scene.packed, settings, scene.crop,
+                                                     {precision_, threadCount_, onProgress, isCounting_});
         const Span span = watch.lap();
         if (timeline != nullptr) {
             timeline->clock = "the host's clock, from call to return";
@@ -58,7 +58,7 @@ class CpuBackend : public Backend {
         }
         RenderTiming timing;
         timing.renderSeconds = span.seconds();
-        return {std::move(result.film), result.rays, timing};
+        return {std::move(result.film), result.rays, timing, result.work};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
@@ -85,6 +85,7 @@ class CpuBackend : public Backend {
 
     reference::Precision precision_;
     int threadCount_;
+    bool isCounting_;
 };
 
 class DeviceBackend : public Backend {
@@ -109,7 +110,7 @@ class DeviceBackend : public Backend {
                                        Timeline *timeline) override {
         gpu::Result result =
             renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop, onProgress, timeline);
-        return {std::move(result.film), result.rays, result.timing};
+        return {std::move(result.film), result.rays, result.timing, result.work};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
@@ -165,9 +166,9 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
         throw Error(ExitCode::Usage,
                     fmt::format("--kernel is for Vulkan devices: --device {} has none to choose from", name));
     if (name == "cpu")
-        return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
+        return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount, batching.isCounting);
     if (name == "cpu-double")
-        return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
+        return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount, batching.isCounting);
     return std::make_unique<DeviceBackend>(gpu::chooseDevice(listDevices(), name), batching);
 }
 

@@ -5,6 +5,7 @@
 #include "host/gpu/renderer.h"
 #include "host/report/ray_counts.h"
 #include "host/report/timeline.h"
+#include "host/report/work_counts.h"
 
 #include <functional>
 #include <future>
@@ -19,6 +20,7 @@ struct BackendResult {
     Film film;
     RayCounts rays;
     RenderTiming timing; ///< only renderSeconds on the CPU
+    WorkCounts work;     ///< all 0 unless the batching asked for counting
 };
 
 class Backend {

@@ -38,6 +38,7 @@ struct ProfileOptions {
     int warmupCount = 1;
     int repeatCount = 5;
     bool isUnverified = false;
+    bool isCounting = false;
     std::string output;
     std::string report;
     std::string csv;
@@ -230,6 +231,12 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     std::optional<Film> film;
     for (int i = 1; i <= options.repeatCount; ++i)
         film = renderFrame(*backend, scene, fmt::format("repeat {}", i), true, profile, options.isQuiet);
+    if (options.isCounting) {
+        gpu::Batching counting;
+        counting.isCounting = true;
+        const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads, counting);
+        profile.work = renderWithProgress(*counter, scene, "counting", options.isQuiet).work;
+    }
     if (outputs.image) {
         Stopwatch watch;
         writeImage(*outputs.image, format, film->toImage(), profile.settings.exposureStops);
@@ -276,6 +283,8 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     addFile(*command, "--csv", options->csv, "FILE.csv", "write a line for each dispatch");
     addFile(*command, "--trace", options->trace, "FILE.json",
             "write a timeline that ui.perfetto.dev and chrome://tracing open");
+    command->add_flag("--counts", options->isCounting,
+                      "render once more and count nodes, boxes and triangles of a traversal with a stack");
     addFile(*command, "--html", options->html, "FILE.html",
             "write a page with the image, the figures and where they come from");
     addFile(*command, "--baseline", options->baseline, "FILE.json",

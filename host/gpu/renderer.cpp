@@ -49,7 +49,7 @@ const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                         const std::function<void(double)> &onProgress, Timeline *timeline) {
-    Result result{Film(crop), {}, {}};
+    Result result{Film(crop), {}, {}, {}};
     Stopwatch watch;
     // Ends a stage and returns how long it took.
     const auto endStage = [&](const char *name) {
@@ -81,6 +81,7 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
             },
             timeline);
         result.rays += totals.rays;
+        result.work += totals.work;
         result.timing.dispatchCount += totals.dispatchCount;
         result.timing.pipelineSeconds += tiles.lateBuildSeconds();
         result.timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();

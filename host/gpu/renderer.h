@@ -7,6 +7,7 @@
 #include "host/report/ray_counts.h"
 #include "host/report/render_timing.h"
 #include "host/report/timeline.h"
+#include "host/report/work_counts.h"
 
 #include <functional>
 #include <memory>
@@ -18,6 +19,7 @@ struct Result {
     Film film;
     RayCounts rays;
     RenderTiming timing;
+    WorkCounts work; ///< all 0 unless the batching asks for counting
 };
 
 /// Renders scenes on one device, opened once.

@@ -36,6 +36,10 @@ RayCounts raysOf(const layout::DispatchProgress &counters) {
     return {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays};
 }
 
+WorkCounts workOf(const layout::DispatchProgress &counters) {
+    return {counters.nodesVisited, counters.boxesTested, counters.trianglesTested, counters.deepestStack};
+}
+
 } // namespace
 
 TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching,
@@ -114,6 +118,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantSamplesAbreast] = samplesAbreast_;
     constants[layout::constantIsResumable] = isResumable;
     constants[layout::constantSkipOrders] = buffers_.skipOrders;
+    constants[layout::constantIsCounting] = batching_.isCounting;
     constants[layout::constantPendingInRegisters] = keepsPending ? mostPending : 0;
     const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,   &buffers_.spheres,
                                                                  &buffers_.lights,  &buffers_.materials,
@@ -155,6 +160,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         pace_.learn(step.times.best().seconds());
         samplesFinished += step.counters.finishedSamples;
         totals.rays += raysOf(step.counters);
+        totals.work += workOf(step.counters);
         if (timeline != nullptr)
             timeline->dispatches.push_back(describe(kernel, step, isResumed));
         isResumed = true;

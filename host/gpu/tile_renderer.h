@@ -8,6 +8,7 @@
 #include "host/image/film.h"
 #include "host/report/ray_counts.h"
 #include "host/report/timeline.h"
+#include "host/report/work_counts.h"
 
 #include <functional>
 #include <optional>
@@ -29,6 +30,7 @@ struct Job {
 /// What the tiles of a job came to.
 struct TileTotals {
     RayCounts rays;
+    WorkCounts work; ///< all 0 unless counting was asked for
     std::uint64_t dispatchCount = 0;
 };
 

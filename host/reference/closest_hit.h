@@ -4,6 +4,7 @@
 #pragma once
 
 #include "host/bvh/packed_scene.h"
+#include "host/reference/counting.h"
 #include "host/reference/sphere.h"
 #include "host/reference/triangle.h"
 
@@ -27,9 +28,10 @@ template <class Real> struct Hit {
 };
 
 /// Calls visit(record, hit) for every triangle that the ray meets in a subtree whose box it enters at or before
-/// `reach` (read anew at each node). `visit` returns false to stop.
-template <class Real, class Visitor>
-void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &reach, Visitor &&visit) {
+/// `reach` (read anew at each node). `visit` returns false to stop. `counter` is told what is done.
+template <class Real, class Counter, class Visitor>
+void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
+                    Visitor &&visit) {
     if (!scene.hasTriangles)
         return;
     const BoxRay<Real> boxRay = makeBoxRay(ray.origin, ray.direction, Vec3<Real>(scene.frame.boundsLower),
@@ -42,6 +44,7 @@ void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &
         const std::uint32_t subtree = waiting[--waitingCount];
         if ((subtree & layout::leafFlag) == 0) {
             const layout::NodePair &node = scene.nodes[subtree];
+            counter.visitNode(node);
             const Interval<Real> left =
                 boxInterval(boxRay, Vec3<Real>(node.leftLower), Vec3<Real>(node.leftUpper));
             const Interval<Real> right =
@@ -56,10 +59,13 @@ void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &
                 waiting[waitingCount++] = node.left;
             if (isRightHit && isRightNearer)
                 waiting[waitingCount++] = node.right;
+            if (isLeftHit && isRightHit)
+                counter.waitSubtrees(waitingCount - 1);
             continue;
         }
         for (std::uint32_t record = subtree & ~layout::leafFlag;; ++record) {
             const layout::TriangleRecord &triangle = scene.triangles[record];
+            counter.testTriangle();
             const TriangleHit<Real> hit = intersectTriangle(triangleRay, boxRay, Vec3<Real>(triangle.v0),
                                                             Vec3<Real>(triangle.v1), Vec3<Real>(triangle.v2));
             if (hit.distance > 0 && triangle.primitiveId != ray.excluded && !visit(record, hit))
@@ -70,7 +76,8 @@ void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &
     }
 }
 
-template <class Real> [[nodiscard]] Hit<Real> closestHit(const PackedScene &scene, const Ray<Real> &ray) {
+template <class Real, class Counter>
+[[nodiscard]] Hit<Real> closestHit(const PackedScene &scene, const Ray<Real> &ray, Counter &counter) {
     Hit<Real> nearest;
     for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
         const layout::SphereRecord &sphere = scene.spheres[i];
@@ -79,13 +86,20 @@ template <class Real> [[nodiscard]] Hit<Real> closestHit(const PackedScene &scen
         if (distance > 0 && distance < nearest.distance)
             nearest = {distance, i, i};
     }
-    visitTriangles(scene, ray, nearest.distance, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
-        const std::uint32_t id = scene.triangles[record].primitiveId;
-        if (hit.distance < nearest.distance || (hit.distance == nearest.distance && id < nearest.primitive))
-            nearest = {hit.distance, id, record, hit.u, hit.v};
-        return true;
-    });
+    visitTriangles(scene, ray, nearest.distance, counter,
+                   [&](std::uint32_t record, const TriangleHit<Real> &hit) {
+                       const std::uint32_t id = scene.triangles[record].primitiveId;
+                       if (hit.distance < nearest.distance ||
+                           (hit.distance == nearest.distance && id < nearest.primitive))
+                           nearest = {hit.distance, id, record, hit.u, hit.v};
+                       return true;
+                   });
     return nearest;
+}
+
+template <class Real> [[nodiscard]] Hit<Real> closestHit(const PackedScene &scene, const Ray<Real> &ray) {
+    NoCounter counter;
+    return closestHit(scene, ray, counter);
 }
 
 /// What light meets on its way.
@@ -95,8 +109,9 @@ struct Shadow {
 };
 
 /// What lies between the ray's origin and `length` along it.
-template <class Real>
-[[nodiscard]] Shadow castShadowRay(const PackedScene &scene, const Ray<Real> &ray, const Real &length) {
+template <class Real, class Counter>
+[[nodiscard]] Shadow castShadowRay(const PackedScene &scene, const Ray<Real> &ray, const Real &length,
+                                   Counter &counter) {
     Shadow shadow;
     for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
         const layout::SphereRecord &sphere = scene.spheres[i];
@@ -111,7 +126,7 @@ template <class Real>
     }
     if (shadow.isBlocked)
         return shadow;
-    visitTriangles(scene, ray, length, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
+    visitTriangles(scene, ray, length, counter, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
         if (!(hit.distance < length))
             return true;
         if ((scene.triangles[record].flags & layout::triangleIsTransmissive) != 0)
@@ -121,6 +136,12 @@ template <class Real>
         return !shadow.isBlocked;
     });
     return shadow;
+}
+
+template <class Real>
+[[nodiscard]] Shadow castShadowRay(const PackedScene &scene, const Ray<Real> &ray, const Real &length) {
+    NoCounter counter;
+    return castShadowRay(scene, ray, length, counter);
 }
 
 } // namespace hyalite::reference

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 namespace hyalite::reference {
 
 namespace {
 
-template <class Real>
-layout::FilmPixel renderPixel(WhittedIntegrator<Real> &integrator, const glm::uvec2 &pixel,
+template <class Real, class Counter>
+layout::FilmPixel renderPixel(WhittedIntegrator<Real, Counter> &integrator, const glm::uvec2 &pixel,
                               std::uint32_t sampleCount) {
     Vec3<Real> sum(Real(0));
     Vec3<Real> sumOfSquares(Real(0));
@@ -24,10 +25,10 @@ layout::FilmPixel renderPixel(WhittedIntegrator<Real> &integrator, const glm::uv
     return {glm::vec3(sum), sampleCount, glm::vec3(sumOfSquares), 0.0f};
 }
 
-template <class Real>
+template <class Real, class Counter = NoCounter>
 Result renderAs(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                 const Options &options) {
-    Result result{Film(crop), {}};
+    Result result{Film(crop), {}, {}};
     // Short runs of pixels: some pixels cost a hundred times more than others.
     constexpr std::int64_t runLength = 32;
     const std::int64_t pixelCount = static_cast<std::int64_t>(result.film.pixels.size());
@@ -36,7 +37,7 @@ Result renderAs(const PackedScene &scene, const RenderSettings &settings, const 
     std::int64_t finishedRuns = 0;
 #pragma omp parallel num_threads(threadCount)
     {
-        WhittedIntegrator<Real> integrator(scene, static_cast<std::uint32_t>(settings.sampler));
+        WhittedIntegrator<Real, Counter> integrator(scene, static_cast<std::uint32_t>(settings.sampler));
 #pragma omp for schedule(dynamic)
         for (std::int64_t run = 0; run < runCount; ++run) {
             const std::int64_t end = std::min((run + 1) * runLength, pixelCount);
@@ -54,7 +55,11 @@ Result renderAs(const PackedScene &scene, const RenderSettings &settings, const 
             }
         }
 #pragma omp critical(hyaliteReferenceCounts)
-        result.rays += integrator.counts();
+        {
+            result.rays += integrator.counts();
+            if constexpr (std::is_same_v<Counter, WorkCounter>)
+                result.work += integrator.counter().counts;
+        }
     }
     return result;
 }
@@ -74,6 +79,10 @@ std::vector<layout::TraceEvent> traceAs(const PackedScene &scene, const RenderSe
 
 Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
               const Options &options) {
+    if (options.isCounting && options.precision == Precision::Float64)
+        return renderAs<double, WorkCounter>(scene, settings, crop, options);
+    if (options.isCounting)
+        return renderAs<float, WorkCounter>(scene, settings, crop, options);
     if (options.precision == Precision::Float64)
         return renderAs<double>(scene, settings, crop, options);
     return renderAs<float>(scene, settings, crop, options);

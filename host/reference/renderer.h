@@ -4,6 +4,7 @@
 #include "host/bvh/packed_scene.h"
 #include "host/image/film.h"
 #include "host/report/ray_counts.h"
+#include "host/report/work_counts.h"
 
 #include <functional>
 
@@ -17,11 +18,13 @@ struct Options {
     int threadCount = 0;    ///< 0: as many as OpenMP likes
     /// Called now and then, never by two threads at once, with the finished share of the work in [0, 1].
     std::function<void(double)> onProgress;
+    bool isCounting = false; ///< count the work of the traversal
 };
 
 struct Result {
     Film film;
     RayCounts rays;
+    WorkCounts work; ///< all 0 unless counting was asked for
 };
 
 /// Renders `crop` of the scene's image. The result does not depend on the number of threads.

@@ -15,7 +15,7 @@
 namespace hyalite::reference {
 
 /// Follows camera samples through the scene. One instance a thread: it keeps the rays that wait and the counts.
-template <class Real> class WhittedIntegrator {
+template <class Real, class Counter = NoCounter> class WhittedIntegrator {
   public:
     WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind)
         : scene_(scene), samplerKind_(samplerKind) {}
@@ -42,6 +42,8 @@ template <class Real> class WhittedIntegrator {
     }
 
     [[nodiscard]] const RayCounts &counts() const { return counts_; }
+    /// Of the traversal.
+    [[nodiscard]] const Counter &counter() const { return counter_; }
 
     /// From now on, what the paths do is appended to `events`, which must outlive the integrator.
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
@@ -65,7 +67,7 @@ template <class Real> class WhittedIntegrator {
         depth_ = segment.depth;
         traceEvent(layout::traceRayOrigin, 0, segment.ray.origin);
         traceEvent(layout::traceRayDirection, 0, segment.ray.direction);
-        const Hit<Real> hit = closestHit(scene_, segment.ray);
+        const Hit<Real> hit = closestHit(scene_, segment.ray, counter_);
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         if (hit.primitive == layout::noPrimitive) {
             if (segment.medium != layout::noMaterial)
@@ -124,7 +126,7 @@ template <class Real> class WhittedIntegrator {
             }
             ++counts_.shadow;
             const Ray<Real> ray{spawnPoint(surface, direction), direction, primitive};
-            const Shadow shadow = castShadowRay(scene_, ray, distance);
+            const Shadow shadow = castShadowRay(scene_, ray, distance, counter_);
             traceEvent(layout::traceVisibility,
                        shadow.isBlocked  ? layout::visibilityBlocked
                        : shadow.isDimmed ? layout::visibilityDimmed
@@ -176,6 +178,7 @@ template <class Real> class WhittedIntegrator {
     std::vector<Segment> pending_;
     Vec3<Real> radiance_{Real(0)};
     RayCounts counts_;
+    Counter counter_;
     std::vector<layout::TraceEvent> *events_ = nullptr;
     std::uint32_t sampleIndex_ = 0; ///< and the depth of the segment that is followed: for trace events only
     std::uint32_t depth_ = 0;

@@ -3,6 +3,7 @@
 
 #include "host/report/statistics.h"
 #include "host/report/timeline.h"
+#include "host/report/work_counts.h"
 #include "host/scene/scene.h"
 
 #include <cstdint>
@@ -32,6 +33,7 @@ struct Profile {
     int height = 0;
     RenderSettings settings;
     std::size_t triangleCount = 0;
+    std::optional<WorkCounts> work;      ///< of a frame; nothing where nobody asked
     std::uint64_t sceneBytes = 0;        ///< of the scene's arrays
     std::vector<StageRecord> hostStages; ///< outside of frames: load, build, open, write
     std::vector<Frame> frames; ///< in the order in which they were rendered; at least one is measured

@@ -68,6 +68,9 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
         rays += kernel.rays;
     }
     json["work"]["rays"] = raysToJson(rays);
+    if (profile.work)
+        for (const WorkKind &kind : workKinds)
+            json["work"]["stackTraversal"][kind.name] = *profile.work.*kind.count;
     return json;
 }
 

@@ -76,7 +76,12 @@ std::string profileTable(const Profile &profile) {
     text += fmt::format("{:<36}", "rays in a frame");
     for (const RayKind &kind : rayKinds)
         text += fmt::format("{:>13}", rays.*kind.count);
-    return text + fmt::format("{:>13}\n", rays.total());
+    text += fmt::format("{:>13}\n", rays.total());
+    if (profile.work)
+        text += fmt::format("work of a stack traversal: {} nodes, {} boxes, {} triangles, deepest stack {}\n",
+                            profile.work->nodesVisited, profile.work->boxesTested,
+                            profile.work->trianglesTested, profile.work->deepestStack);
+    return text;
 }
 
 } // namespace hyalite

@@ -66,6 +66,17 @@ TEST_F(ProfileCommand, WorkIsEqualOnTwoRunsAndOnTheCpu) {
     EXPECT_EQ(first.at("work").at("rays").at("primary"), 32 * 24 * 2);
 }
 
+TEST_F(ProfileCommand, CountsTheSameWorkOnDeviceAndCpu) {
+    const std::string line =
+        "cat --counts --no-verify --width 32 --height 24 --spp 1 --repeat 1 --warmup 0 --device ";
+    const nlohmann::json onDevice = profile(line + softwareDevice()).at("work");
+    const nlohmann::json onCpu = profile(line + "cpu").at("work");
+    EXPECT_EQ(onDevice, onCpu);
+    EXPECT_GT(onCpu.at("stackTraversal").at("nodesVisited").get<int>(), 32 * 24);
+    EXPECT_GT(onCpu.at("stackTraversal").at("deepestStack").get<int>(), 1);
+    EXPECT_FALSE(profile("spheres --device cpu" + small).at("work").contains("stackTraversal"));
+}
+
 TEST_F(ProfileCommand, CountsTheWarmUp) {
     const nlohmann::json report = profile("spheres --device cpu --width 8 --height 8 --warmup 2 --repeat 3");
     EXPECT_EQ(report.at("frameMillis").size(), 3u);
