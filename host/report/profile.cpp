@@ -140,4 +140,17 @@ std::uint64_t mostDeviceBytes(const Profile &profile) {
     return most;
 }
 
+StageSummary summariseFrame(const Profile &profile) {
+    StageSummary frame;
+    frame.name = "frame";
+    frame.isInFrame = true;
+    frame.launchCount = 1;
+    frame.frameMillis = frameMillis(profile);
+    frame.launch = summarise(frame.frameMillis);
+    frame.share = 1.0;
+    if (!profile.frames.front().isMeasured)
+        frame.firstMillis = profile.frames.front().span.millis();
+    return frame;
+}
+
 } // namespace hyalite

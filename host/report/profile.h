@@ -67,6 +67,9 @@ struct KernelSummary {
 [[nodiscard]] std::vector<StageSummary> summariseStages(const Profile &profile);
 [[nodiscard]] std::vector<KernelSummary> summariseKernels(const Profile &profile);
 
+/// The frame as a row: it is no stage, but the sum of them should come to it.
+[[nodiscard]] StageSummary summariseFrame(const Profile &profile);
+
 /// Milliseconds of each measured frame.
 [[nodiscard]] std::vector<double> frameMillis(const Profile &profile);
 

@@ -160,20 +160,6 @@ std::string provenance(const Profile &profile) {
     return html + "</dl>\n";
 }
 
-/// The frame as a row, and what it is the sum of.
-StageSummary frameSummary(const Profile &profile) {
-    StageSummary frame;
-    frame.name = "frame";
-    frame.isInFrame = true;
-    frame.launchCount = 1;
-    frame.frameMillis = frameMillis(profile);
-    frame.launch = summarise(frame.frameMillis);
-    frame.share = 1.0;
-    if (!profile.frames.front().isMeasured)
-        frame.firstMillis = profile.frames.front().span.millis();
-    return frame;
-}
-
 } // namespace
 
 std::string htmlText(std::string_view text) {
@@ -216,7 +202,7 @@ std::string base64(std::span<const std::byte> bytes) {
 std::string profileHtml(const Profile &profile, std::span<const std::byte> png) {
     const std::vector<StageSummary> stages = summariseStages(profile);
     const std::vector<KernelSummary> kernels = summariseKernels(profile);
-    const StageSummary frame = frameSummary(profile);
+    const StageSummary frame = summariseFrame(profile);
     const std::string sceneName = std::filesystem::path(profile.scene).filename().string();
     RayCounts rays;
     double kernelSeconds = 0.0;

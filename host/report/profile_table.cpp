@@ -32,20 +32,6 @@ std::string row(const StageSummary &stage) {
         millisText(stage.launch.max), stage.firstMillis ? millisText(*stage.firstMillis) : "-");
 }
 
-/// The frame as a row: it is no stage, but the sum of them should come to it.
-StageSummary frameRow(const Profile &profile) {
-    StageSummary frame;
-    frame.name = "frame";
-    frame.isInFrame = true;
-    frame.launchCount = 1;
-    frame.frameMillis = frameMillis(profile);
-    frame.launch = summarise(frame.frameMillis);
-    frame.share = 1.0;
-    if (!profile.frames.front().isMeasured)
-        frame.firstMillis = profile.frames.front().span.millis();
-    return frame;
-}
-
 } // namespace
 
 std::string profileTable(const Profile &profile) {
@@ -54,7 +40,7 @@ std::string profileTable(const Profile &profile) {
     std::string text = headline("stage");
     for (const StageSummary &stage : stages)
         text += row(stage);
-    text += row(frameRow(profile));
+    text += row(summariseFrame(profile));
     text += fmt::format("{:<24}{:>28}\n\n", "sum of stages", shareText(stageShare(stages)));
 
     text += headline("kernel");
