@@ -64,6 +64,22 @@ TEST(Twins, AgreeWithACameraInsideGlass) {
     expectTwins(scene);
 }
 
+// More spheres than kernels unroll, and more than one light.
+TEST(Twins, AgreeOnManySpheresAndLights) {
+    Scene scene = shippedScene("spheres", 64, 48, 2);
+    const std::vector<Sphere> balls(scene.spheres.end() - 4, scene.spheres.end());
+    for (int i = 0; i < 24; ++i) {
+        Sphere ball = balls[static_cast<std::size_t>(i) % balls.size()];
+        ball.radius = 1.5f;
+        ball.centre = {static_cast<float>(i % 8) * 5.0f - 18.0f, static_cast<float>(i / 8) * 5.0f - 6.0f, 12.0f};
+        scene.spheres.push_back(ball);
+    }
+    scene.lights.push_back(scene.lights.front());
+    scene.lights.back().position.x += 30.0f;
+    for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+        expectTwins(scene, {.traversal = traversal});
+}
+
 TEST(Twins, AgreeOnAnEmptyScene) {
     Scene scene;
     scene.camera.width = 20;
