@@ -5,17 +5,20 @@
 #   cmake/run.sh test                builds and runs all tests
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it
+#   cmake/run.sh fuzz SECONDS        feeds each reader of files with inputs made up by libFuzzer, for so many seconds
 #   cmake/run.sh ARGUMENT...         hyalite ARGUMENT..., for instance: render cat -o cat.png
 #
-# Where all packages are there already it needs neither root nor network. The build is in build/release.
+# Where all packages are there already it needs neither root nor network. The build is in build/release, of fuzz in build/fuzz.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
+target=all
 needed=(g++ make cmake libvulkan-dev mesa-vulkan-drivers glslang-tools libglm-dev libtinyobjloader-dev libstb-dev
         libcli11-dev nlohmann-json3-dev libfmt-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers spirv-tools)
 needed_for_bench=(libbenchmark-dev libembree-dev)
+needed_for_fuzz=(clang-14 libclang-rt-14-dev libomp-14-dev)
 
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 
@@ -45,13 +48,14 @@ install_missing() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# $1: ON or OFF, whether tests are built; then more options for CMake. The build's output is shown only if it fails.
+# $1: ON or OFF, whether tests are built; then more options for CMake. Builds $target, in $build. The build's output is
+# shown only if it fails.
 build_all() {
     local log tests=$1
     shift
     log=$(mktemp)
     if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$tests" "$@" &&
-           cmake --build "$build" --parallel "$(nproc)"; } >"$log" 2>&1; then
+           cmake --build "$build" --target "$target" --parallel "$(nproc)"; } >"$log" 2>&1; then
         cat "$log" >&2
         rm -f "$log"
         echo "run.sh: the build failed" >&2
@@ -86,6 +90,14 @@ bench)
     install_missing "${needed_for_bench[@]}"
     build_all "$(tests_as_before)" -DHYALITE_BENCH=ON
     exec "$build/bin/hyalite_bench" "${@:2}"
+    ;;
+fuzz)
+    [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || { usage >&2; exit 2; }
+    install_missing "${needed_for_fuzz[@]}"
+    build=$root/build/fuzz
+    target=fuzzers
+    build_all OFF --preset fuzz -DCMAKE_BUILD_TYPE=Debug
+    exec "$root/tests/fuzz/run.sh" "$build" "$2"
     ;;
 *)
     build_all "$(tests_as_before)"

@@ -1,0 +1,116 @@
+// OBJ meshes: the reader's promises, its two ways of reading a statement, and a bare mesh's way into a scene.
+#include "host/scene/framing.h"
+#include "host/scene/obj.h"
+#include "host/scene/validate.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/heap_peak.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hyalite::fuzz {
+namespace {
+
+struct Outcome {
+    std::optional<std::string> refusal;
+    ObjMesh loaded; ///< where it is not refused
+};
+
+Outcome load(const std::filesystem::path &file) {
+    Outcome outcome;
+    outcome.refusal = refusalOf([&] { outcome.loaded = loadObj(file); });
+    return outcome;
+}
+
+/// The reader promises 64 MiB + 64 times the file's size. So that a small file can break the promise at all, less is
+/// allowed here: what is taken for any file is far below.
+void requireBoundedMemory(const HeapPeak &peak, std::size_t fileBytes) {
+    constexpr std::size_t anyFileBytes = std::size_t{1} << 20;
+    require(peak.bytes() <= anyFileBytes + 64 * fileBytes, "reading took " + std::to_string(peak.bytes()) +
+                                                               " bytes for a file of " +
+                                                               std::to_string(fileBytes));
+}
+
+void requireSound(const TriangleMesh &mesh) {
+    require(!mesh.triangles.empty(), "a mesh without triangles");
+    for (const glm::vec3 &position : mesh.positions)
+        require(std::abs(position.x) <= 1.001e15f && std::abs(position.y) <= 1.001e15f &&
+                    std::abs(position.z) <= 1.001e15f,
+                "a position beyond 1e15");
+    for (const MeshTriangle &triangle : mesh.triangles) {
+        const bool isFlat = triangle.normals == glm::uvec3(MeshTriangle::noNormal);
+        for (glm::length_t corner = 0; corner < 3; ++corner) {
+            require(triangle.positions[corner] < mesh.positions.size(), "an undefined vertex");
+            require(isFlat || triangle.normals[corner] < mesh.normals.size(), "an undefined normal");
+        }
+    }
+}
+
+/// The same text with a blank in front of each line. It means the same, and no statement is plain any more.
+std::string indented(std::string_view text) {
+    constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
+    std::string result;
+    if (text.starts_with(byteOrderMark)) {
+        result = byteOrderMark;
+        text.remove_prefix(byteOrderMark.size());
+    }
+    bool beginsLine = true;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (beginsLine)
+            result += ' ';
+        result += text[i];
+        beginsLine = text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'));
+    }
+    return result;
+}
+
+template <class T> bool haveSameBits(const std::vector<T> &a, const std::vector<T> &b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+void requireSame(const Outcome &a, const Outcome &b) {
+    require(a.refusal == b.refusal, "refused otherwise when indented:\n" + a.refusal.value_or("taken") +
+                                        '\n' + b.refusal.value_or("taken"));
+    const TriangleMesh &meshA = a.loaded.mesh;
+    const TriangleMesh &meshB = b.loaded.mesh;
+    require(haveSameBits(meshA.positions, meshB.positions), "other positions when indented");
+    require(haveSameBits(meshA.normals, meshB.normals), "other normals when indented");
+    require(haveSameBits(meshA.triangles, meshB.triangles), "other triangles when indented");
+    const MeshReport &reportA = a.loaded.report;
+    const MeshReport &reportB = b.loaded.report;
+    require(reportA.faceCount == reportB.faceCount && reportA.polygonCount == reportB.polygonCount &&
+                reportA.degenerateTriangleCount == reportB.degenerateTriangleCount &&
+                reportA.lostNormalCount == reportB.lostNormalCount &&
+                reportA.unusedStatementCount == reportB.unusedStatementCount,
+            "another report when indented");
+}
+
+void run(std::string_view text) {
+    static const TemporaryFolder folder;
+    const std::filesystem::path file = folder.write("input.obj", text);
+    Outcome outcome;
+    {
+        const HeapPeak peak;
+        outcome = load(file);
+        requireBoundedMemory(peak, text.size());
+    }
+    requireSame(outcome, load(folder.write("input.obj", indented(text))));
+    if (outcome.refusal)
+        return;
+    requireSound(outcome.loaded.mesh);
+    (void)refusalOf([&] { validateScene(frameMesh(std::move(outcome.loaded.mesh)), "input.obj"); });
+}
+
+} // namespace
+} // namespace hyalite::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
+    hyalite::fuzz::run(hyalite::fuzz::textOf(data, sizeBytes));
+    return 0;
+}
