@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <charconv>
@@ -53,7 +54,8 @@ class HeaderWords {
         Number value{};
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         if (error != std::errc() || end != digits.data() + digits.size()) {
-            throw file_.bad(fmt::format("the {} in its PFM header is '{}', not a number", what, word));
+            throw file_.bad(
+                fmt::format("the {} in its PFM header is '{}', not a number", what, printable(word)));
         }
         return value;
     }
@@ -61,6 +63,14 @@ class HeaderWords {
     [[nodiscard]] std::size_t position() const { return position_; }
 
   private:
+    /// Whatever the file holds, a terminal must not obey it.
+    [[nodiscard]] static std::string printable(std::string_view word) {
+        std::string text(word.substr(0, 40));
+        std::replace_if(
+            text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+        return text;
+    }
+
     const InputFile &file_;
     std::string_view text_;
     std::size_t position_ = 0;

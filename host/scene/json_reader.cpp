@@ -167,14 +167,15 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
             leastDistance = distance;
         }
     }
-    return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest);
+    return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", printable(std::string(nearest)));
 }
 
 std::string quotedList(std::span<const std::string_view> words) {
+    constexpr std::size_t maxListed = 32; // a scene may define thousands of materials
     std::string list;
-    for (const std::string_view word : words)
-        list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", word);
-    return list;
+    for (const std::string_view word : words.first(std::min(words.size(), maxListed)))
+        list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", printable(std::string(word)));
+    return words.size() > maxListed ? list + ", ..." : list;
 }
 
 } // namespace hyalite

@@ -110,7 +110,7 @@ class JsonObject {
 /// `; did you mean "centre"?` for the candidate nearest to `word`, or nothing where none is near.
 [[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> candidates);
 
-/// `"a", "b", "c"`
+/// `"a", "b", "c"`, fit for a terminal; `...` stands for what follows the 32nd.
 [[nodiscard]] std::string quotedList(std::span<const std::string_view> words);
 
 } // namespace hyalite

@@ -113,7 +113,7 @@ ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &material
     const std::filesystem::path file = folder / object.text("file");
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
-        object.at("file").fail(fmt::format("{}: there is no such file", file.string()));
+        object.at("file").fail(fmt::format("{}: there is no such file", printable(file.string(), 1000)));
     ObjMesh mesh = loadObj(file, transform, onReading);
     mesh.mesh.materialIndex = materialIndex;
     return mesh;

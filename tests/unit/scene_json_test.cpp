@@ -181,9 +181,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{R"({"materials": {"glass": {"type": "mirror"}},
                     "spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "glas"}]})",
                 " /spheres/0/material: ", "did you mean \"glass\"?"},
+        Refusal{R"({"materials": {"\u001b[31m": {"type": "mirror"}},
+                    "spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "[31m"}]})",
+                " /spheres/0/material: ", "in /materials: \"?[31m\"; did you mean \"?[31m\"?"},
         Refusal{
             R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "no.obj", "material": "m"}]})",
             " /meshes/0/file: ", "no.obj"},
+        Refusal{
+            R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "\u001b[31m", "material": "m"}]})",
+            " /meshes/0/file: ", "/?[31m: there is no such file"},
         Refusal{R"({"materials": {"m": {"type": "mirror"}},
                     "meshes": [{"file": "triangle.obj\u0000x", "material": "m"}]})",
                 " /meshes/0/file: ", "NUL"}));
@@ -204,6 +210,16 @@ TEST_F(SceneJson, NestingIsBounded) {
     EXPECT_NE(refusal(nested(31)).find("unknown key"), std::string::npos);
     EXPECT_NE(refusal(nested(32)).find("nested deeper than 32 levels"), std::string::npos);
     EXPECT_NE(refusal(std::string(10'000'000, '[')).find("nested deeper"), std::string::npos);
+}
+
+TEST_F(SceneJson, ALongListOfMaterialsIsCutInTheMessage) {
+    json scene = completeScene();
+    for (int i = 0; i < 1000; ++i)
+        scene["materials"]["m" + std::to_string(i)] = {{"type", "mirror"}};
+    scene["spheres"][0]["material"] = "nothing like it";
+    const std::string message = refusal(scene.dump());
+    EXPECT_LT(message.size(), 500u);
+    EXPECT_TRUE(message.ends_with(", ...")) << message;
 }
 
 TEST_F(SceneJson, ALongValueIsCutInTheMessage) {
