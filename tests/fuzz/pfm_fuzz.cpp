@@ -1,6 +1,8 @@
 // PFM pictures as `hyalite diff` reads them; small ones are compared as well, since their floats may be anything.
+// HDR-FLIP takes its time, up to hundreds of exposures, and so is for tiny ones.
 #include "host/image/comparison.h"
 #include "host/image/heat_map.h"
+#include "host/image/ssim.h"
 #include "host/image/tone_map.h"
 #include "tests/fuzz/harness.h"
 
@@ -10,11 +12,15 @@
 namespace hyalite::fuzz {
 namespace {
 
-/// With the same image upside down: the same numbers, in other places.
-void compareWithItself(const LoadedImage &loaded) {
-    Image turned = loaded.image;
+/// The same numbers in other places.
+Image upsideDown(const Image &image) {
+    Image turned = image;
     std::reverse(turned.pixels().begin(), turned.pixels().end());
-    const ImageComparison comparison = compareImages(loaded.image, turned, loaded.encoding);
+    return turned;
+}
+
+void compareTiny(const LoadedImage &loaded) {
+    const ImageComparison comparison = compareImages(loaded.image, upsideDown(loaded.image), loaded.encoding);
     (void)comparison.pixels.psnrDecibels();
     for (const float error : comparison.flipMap.errors)
         require(error >= 0.0f && error <= 1.0f, "an error of FLIP out of range");
@@ -23,14 +29,18 @@ void compareWithItself(const LoadedImage &loaded) {
 }
 
 void run(std::string_view content) {
-    constexpr std::size_t comparedPixelCount = 128; // FLIP takes its time
+    constexpr std::size_t tinyPixelCount = 9;
+    constexpr std::size_t smallPixelCount = 144; // SSIM looks at windows of 11 x 11
     static const TemporaryFolder folder;
     const std::filesystem::path file = folder.write("input.pfm", content);
     LoadedImage loaded;
     if (refusalOf([&] { loaded = readImage(file); }))
         return;
-    if (loaded.image.pixels().size() <= comparedPixelCount)
-        compareWithItself(loaded);
+    const std::size_t pixelCount = loaded.image.pixels().size();
+    if (pixelCount <= tinyPixelCount)
+        compareTiny(loaded);
+    if (pixelCount <= smallPixelCount)
+        (void)meanSsim(loaded.image, upsideDown(loaded.image));
 }
 
 } // namespace

@@ -17,8 +17,8 @@ if [ ${#formats[@]} -eq 0 ]; then
     done
 fi
 
-# In memory where there is such a folder: files are most of a harness's work. One that is stopped by a find leaves its
-# own behind.
+# In memory where there is such a folder: files are most of a harness's work. A harness that is stopped by a find leaves
+# its own behind.
 memory=/dev/shm
 TMPDIR=$([ -w $memory ] && mktemp -d -p $memory || mktemp -d)
 export TMPDIR
@@ -26,14 +26,20 @@ trap 'rm -rf "$TMPDIR"' EXIT
 
 # Freed memory is used again soon, or each input would touch new pages.
 export ASAN_OPTIONS=quarantine_size_mb=16${ASAN_OPTIONS:+:$ASAN_OPTIONS}
+export UBSAN_OPTIONS=print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}
 
 found=0
 mkdir -p "$build/finds"
 for format in "${formats[@]}"; do
     log=$build/finds/$format.log
     mkdir -p "$build/corpus/$format"
-    if "$build/bin/fuzz_$format" -max_total_time="$seconds" -rss_limit_mb=1024 -timeout=10 -max_len=4096 \
-        -print_final_stats=1 -artifact_prefix="$build/finds/$format-" \
+    words=()
+    case $format in
+    obj) words=("-dict=$here/obj.words") ;;
+    baseline | scene) words=("-dict=$here/json.words") ;;
+    esac
+    if "$build/bin/fuzz_$format" -max_total_time="$seconds" -rss_limit_mb=1024 -timeout=30 -max_len=4096 \
+        -print_final_stats=1 -artifact_prefix="$build/finds/$format-" "${words[@]}" \
         "$build/corpus/$format" "$here/corpus/$format" >"$log" 2>&1; then
         inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
         echo "$format: nothing found in $seconds s, $inputs inputs"
