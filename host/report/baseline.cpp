@@ -9,12 +9,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <utility>
 
 namespace hyalite {
 
 namespace {
 
 using Json = nlohmann::json;
+
+/// nlohmann::json converts any number to any other, and what does not fit is undefined.
+template <std::integral Whole> Whole wholeNumber(const Json &json) {
+    const bool fits = json.is_number_unsigned()
+                          ? std::in_range<Whole>(json.get<std::uint64_t>())
+                          : json.is_number_integer() && std::in_range<Whole>(json.get<std::int64_t>());
+    if (!fits)
+        throw Error(ExitCode::BadInput,
+                    "found " + printable(json.dump()) + " where a whole number is needed");
+    return json.get<Whole>();
+}
 
 /// Adds all whole numbers below `json`, by their paths: "rays.primary".
 void addCounts(const Json &json, const std::string &path, std::vector<ProfileFigures::Count> &counts) {
@@ -48,13 +61,14 @@ ProfileFigures figuresOf(const Json &json) {
     const Json &device = json.at("device");
     figures.device = device.at("name").get<std::string>() + ", " + device.at("driver").get<std::string>();
     const Json &image = json.at("image");
-    figures.job = jobText(json.at("scene").get<std::string>(), image.at("width").get<int>(),
-                          image.at("height").get<int>(), json.at("settings"));
+    figures.job = jobText(json.at("scene").get<std::string>(), wholeNumber<int>(image.at("width")),
+                          wholeNumber<int>(image.at("height")), json.at("settings"));
     for (const Json &kernel : json.at("kernels")) {
         const std::string name = kernel.at("name").get<std::string>();
         figures.kernels.push_back(timesOf(name, kernel.at("frameMillis")));
-        figures.work.push_back({"launches of " + name, kernel.at("launches").get<std::uint64_t>()});
-        figures.work.push_back({"invocations of " + name, kernel.at("invocations").get<std::uint64_t>()});
+        figures.work.push_back({"launches of " + name, wholeNumber<std::uint64_t>(kernel.at("launches"))});
+        figures.work.push_back(
+            {"invocations of " + name, wholeNumber<std::uint64_t>(kernel.at("invocations"))});
     }
     figures.frame = timesOf("frame", json.at("frameMillis"));
     addCounts(json.at("work"), "", figures.work);
@@ -165,7 +179,7 @@ std::string comparisonTable(const BaselineComparison &comparison, double maxRegr
     text += fmt::format("work         {} of {} counts are equal\n",
                         comparison.comparedCounts - comparison.work.size(), comparison.comparedCounts);
     for (const std::string &name : comparison.unmatched)
-        text += fmt::format("not compared {}\n", name);
+        text += fmt::format("not compared {}\n", printable(name));
     if (!comparison.isSameDevice)
         text += "note         the baseline is of another device or driver: times fail nothing\n";
     return text + fmt::format("{} (limit {:g} %, beyond the noise)\n",

@@ -172,5 +172,28 @@ TEST(Baseline, IsReadFromAReport) {
     std::filesystem::remove(file);
 }
 
+TEST(Baseline, NumbersThatDoNotFitAreRefused) {
+    const std::filesystem::path file =
+        std::filesystem::path(::testing::TempDir()) / "baseline_numbers_test.json";
+    for (const char *key :
+         {"/image/width", "/image/height", "/kernels/0/launches", "/kernels/1/invocations"}) {
+        for (const nlohmann::json &value :
+             {nlohmann::json(1e300), nlohmann::json(-1e19), nlohmann::json(2.5), nlohmann::json("5")}) {
+            nlohmann::json damaged = profileToJson(handMadeProfile(calm));
+            damaged.at(nlohmann::json::json_pointer(key)) = value;
+            std::ofstream(file) << damaged.dump();
+            EXPECT_THROW(static_cast<void>(readFigures(file)), Error) << key << ": " << value;
+        }
+    }
+    std::filesystem::remove(file);
+}
+
+TEST(Baseline, NamesInItAreFitForATerminal) {
+    BaselineComparison comparison;
+    comparison.unmatched = {"\x1b[31m (only in the baseline)"};
+    const std::string table = comparisonTable(comparison, limit, Gate::All);
+    EXPECT_NE(table.find("not compared ?[31m (only in the baseline)"), std::string::npos) << table;
+}
+
 } // namespace
 } // namespace hyalite
