@@ -101,7 +101,8 @@ ExitCode run(std::span<char *> arguments) {
     // After the commands, which would take it over.
     app.footer(
         "`hyalite COMMAND --help` explains a command. Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad "
-        "input, 4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written.");
+        "input, 4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written, "
+        "130 and 143 stopped by SIGINT and SIGTERM.");
     app.set_version_flag("--version", "hyalite " HYALITE_VERSION, "print the version");
     for (CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
         command->set_version_flag("--version", "hyalite " HYALITE_VERSION)->group("");

@@ -44,12 +44,13 @@ class CpuBackend : public Backend {
                    : "cpu-double, the reference renderer in double precision";
     }
     [[nodiscard]] BackendResult render(const PreparedScene &scene,
-                                       const std::function<void(double)> &onProgress,
-                                       Timeline *timeline) override {
+                                       const std::function<void(double)> &onProgress, Timeline *timeline,
+                                       const std::function<bool()> &shouldStop) override {
         const RenderSettings &settings = scene.loaded.scene.settings;
         Stopwatch watch;
-        reference::Result result = reference::render(scene.packed, settings, scene.crop,
-                                                     {precision_, threadCount_, onProgress, isCounting_});
+        reference::Result result =
+            reference::render(scene.packed, settings, scene.crop,
+                              {precision_, threadCount_, onProgress, isCounting_, shouldStop});
         const Span span = watch.lap();
         if (timeline != nullptr) {
             timeline->clock = "the host's clock, from call to return";
@@ -106,10 +107,10 @@ class DeviceBackend : public Backend {
                            device_.isSoftware() ? ": software, computes on the CPU" : "");
     }
     [[nodiscard]] BackendResult render(const PreparedScene &scene,
-                                       const std::function<void(double)> &onProgress,
-                                       Timeline *timeline) override {
-        gpu::Result result =
-            renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop, onProgress, timeline);
+                                       const std::function<void(double)> &onProgress, Timeline *timeline,
+                                       const std::function<bool()> &shouldStop) override {
+        gpu::Result result = renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop,
+                                              onProgress, timeline, shouldStop);
         return {std::move(result.film), result.rays, result.timing, result.work};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
@@ -182,11 +183,11 @@ void requireFilmMemory(const Crop &crop, unsigned filmCount) {
 }
 
 BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, const std::string &task,
-                                 bool isQuiet, Timeline *timeline) {
+                                 bool isQuiet, Timeline *timeline, const std::function<bool()> &shouldStop) {
     ProgressLine progress(task, isQuiet);
     try {
         return backend.render(
-            scene, [&](double share) { progress.update(share); }, timeline);
+            scene, [&](double share) { progress.update(share); }, timeline, shouldStop);
     } catch (const std::bad_alloc &) {
         refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
     }

@@ -33,9 +33,12 @@ class Backend {
     [[nodiscard]] virtual std::string arithmetic() const = 0;  ///< which / and sqrt run, and why
     /// Why images may differ from the CPU twin's in their bits, or empty where they may not.
     [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
-    /// `timeline`, where there is one, gets what was done when.
-    [[nodiscard]] virtual BackendResult
-    render(const PreparedScene &scene, const std::function<void(double)> &onProgress, Timeline *timeline) = 0;
+    /// `timeline`, where there is one, gets what was done when. Where `shouldStop`, which several threads may ask at
+    /// once, says so, the film has the samples that are finished by then.
+    [[nodiscard]] virtual BackendResult render(const PreparedScene &scene,
+                                               const std::function<void(double)> &onProgress,
+                                               Timeline *timeline,
+                                               const std::function<bool()> &shouldStop) = 0;
     /// What one sample of one pixel of the whole image does.
     [[nodiscard]] virtual std::vector<layout::TraceEvent>
     trace(const PreparedScene &scene, const glm::uvec2 &pixel, std::uint32_t sampleIndex) = 0;
@@ -45,7 +48,8 @@ class Backend {
 /// the memory for it.
 [[nodiscard]] BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene,
                                                const std::string &task, bool isQuiet,
-                                               Timeline *timeline = nullptr);
+                                               Timeline *timeline = nullptr,
+                                               const std::function<bool()> &shouldStop = {});
 
 /// Throws Error{LimitExceeded} where memory cannot hold so many films of the crop and the images made of them.
 void requireFilmMemory(const Crop &crop, unsigned filmCount);

@@ -1,6 +1,7 @@
 #include "host/cli/backend.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
+#include "host/cli/stop.h"
 #include "host/image/image_file.h"
 #include "host/image/png.h"
 #include "host/report/message.h"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <memory>
 #include <optional>
@@ -27,8 +29,11 @@ struct RenderOptions {
     int threads = 0;
     std::optional<gpu::KernelChoice> kernel;
     std::string report;
+    std::optional<double> timeLimitSeconds;
     bool isQuiet = false;
 };
+
+constexpr Interval timeLimits{0.0, 1e9, false}; // seconds
 
 using Clock = std::chrono::steady_clock;
 
@@ -36,7 +41,30 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void runRender(const RenderOptions &options, const std::string &commandLine) {
+/// What there is of an image that is not complete, and where it is.
+void tellWhatIsFinished(const RenderReport &report) {
+    const std::uint64_t pixelCount =
+        static_cast<std::uint64_t>(report.width) * static_cast<std::uint64_t>(report.height);
+    const double sampleShare = static_cast<double>(report.finished.sampleCount) /
+                               static_cast<double>(pixelCount) / report.settings.samplesPerPixel;
+    // Rounded down: what is not complete is never 100 %.
+    printMessage("stopped by {}: {} of {} pixels are finished, {:.1f} % of the samples; {} has them\n",
+                 report.stoppedBy, report.finished.pixelCount, pixelCount,
+                 std::floor(sampleShare * 1000.0) / 10.0, report.output);
+}
+
+/// The closing line.
+void tellSpeed(const RenderReport &report) {
+    const double megaraysPerSecond =
+        static_cast<double>(report.rays.total()) / 1e6 / report.timing.renderSeconds;
+    fmt::print("{}: {}x{}, {}{} spp, {} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
+               report.width, report.height, report.finished.isComplete ? "" : "up to ",
+               report.settings.samplesPerPixel, roundedText(report.rays.total(), "rays"),
+               report.timing.renderSeconds, megaraysPerSecond, megaraysPerSecond < 1.0 ? 3 : 1,
+               report.totalSeconds);
+}
+
+ExitCode runRender(const RenderOptions &options, const std::string &commandLine) {
     const Clock::time_point start = Clock::now();
     const ImageFormat format = imageFormatOf(options.output);
     requireDistinctFiles({{"--output", options.output}, {"--report", options.report}},
@@ -69,12 +97,28 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
     report.deviceName = backend->name();
     report.deviceDriver = backend->driver();
     report.arithmetic = backend->arithmetic();
+    // Until all is written: at the last moment, most would be lost.
+    const CaughtSignals signals(options.isQuiet);
     if (!options.isQuiet) {
         printMessage("device: {}\n", backend->description());
         if (!backend->unpromisedBits().empty())
             printMessage("note: bits may differ from the CPU twin's: {}\n", backend->unpromisedBits());
     }
-    const BackendResult result = renderWithProgress(*backend, scene, "render", options.isQuiet);
+    const Clock::time_point renderStart = Clock::now();
+    const auto shouldStop = [&] {
+        return signals.first() != 0 ||
+               (options.timeLimitSeconds && secondsSince(renderStart) >= *options.timeLimitSeconds);
+    };
+    const BackendResult result =
+        renderWithProgress(*backend, scene, "render", options.isQuiet, nullptr, shouldStop);
+    const int stoppingSignal = signals.first();
+    report.finished = finishedWork(result.film, settings.samplesPerPixel);
+    if (stoppingSignal != 0 && report.finished.sampleCount == 0)
+        throw Error(exitCodeFor(stoppingSignal),
+                    fmt::format("stopped by {} before the first sample was finished: nothing is written",
+                                signalName(stoppingSignal)));
+    if (!report.finished.isComplete)
+        report.stoppedBy = stoppingSignal != 0 ? signalName(stoppingSignal) : "the time limit";
     report.timing = result.timing;
     report.rays = result.rays;
     const Clock::time_point writeStart = Clock::now();
@@ -86,14 +130,11 @@ void runRender(const RenderOptions &options, const std::string &commandLine) {
         reportFile->write(formatReport(report));
         reportFile->commit();
     }
-    if (options.isQuiet)
-        return;
-    const double megaraysPerSecond =
-        static_cast<double>(report.rays.total()) / 1e6 / report.timing.renderSeconds;
-    fmt::print("{}: {}x{}, {} spp, {} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", options.output,
-               report.width, report.height, settings.samplesPerPixel,
-               roundedText(report.rays.total(), "rays"), report.timing.renderSeconds, megaraysPerSecond,
-               megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
+    if (!report.finished.isComplete && (stoppingSignal != 0 || !options.isQuiet))
+        tellWhatIsFinished(report);
+    if (!options.isQuiet)
+        tellSpeed(report);
+    return signals.first() != 0 ? exitCodeFor(signals.first()) : ExitCode::Ok;
 }
 
 } // namespace
@@ -115,8 +156,13 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     addThreadsOption(*command, options->threads);
     addKernelOption(*command, options->kernel);
     addFile(*command, "--report", options->report, "FILE.json", "write what was done and how long it took");
+    addNumber(*command, "--time-limit", options->timeLimitSeconds, timeLimits,
+              "stop then, and write what is finished; loading and building do not count")
+        ->type_name("SECONDS");
     command->add_flag("--quiet", options->isQuiet, "print errors only");
-    command->callback([options, &context] { runRender(*options, context.commandLine); });
+    command->callback([options, &context] {
+        context.exitCode = static_cast<int>(runRender(*options, context.commandLine));
+    });
 }
 
 } // namespace hyalite

@@ -48,7 +48,8 @@ Renderer &Renderer::operator=(Renderer &&) noexcept = default;
 const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                        const std::function<void(double)> &onProgress, Timeline *timeline) {
+                        const std::function<void(double)> &onProgress, Timeline *timeline,
+                        const std::function<bool()> &shouldStop) {
     Result result{Film(crop), {}, {}, {}};
     Stopwatch watch;
     // Ends a stage and returns how long it took.
@@ -79,7 +80,7 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                 if (onProgress)
                     onProgress((rowsBefore + share * band.height()) / crop.height());
             },
-            timeline);
+            timeline, shouldStop);
         result.rays += totals.rays;
         result.work += totals.work;
         result.timing.dispatchCount += totals.dispatchCount;
@@ -90,6 +91,8 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                            .subspan(static_cast<std::size_t>(band.y0 - crop.y0) * width,
                                     static_cast<std::size_t>(band.height()) * width));
         endStage("readback");
+        if (totals.isStopped)
+            break;
     }
     return result;
 }

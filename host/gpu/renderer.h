@@ -34,11 +34,12 @@ class Renderer {
     [[nodiscard]] const ArithmeticChoice &arithmetic() const;
 
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
-    /// dispatch, and `timeline`, where there is one, what was done when. Throws Error{LimitExceeded} where the scene is
-    /// too large for the device, Error{DeviceLost}.
+    /// dispatch, and `timeline`, where there is one, what was done when. `shouldStop` is asked after each dispatch:
+    /// where it says so, the film has the samples that are finished by then, tile after tile, and no others. Throws
+    /// Error{LimitExceeded} where the scene is too large for the device, Error{DeviceLost}.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                                 const std::function<void(double)> &onProgress = {},
-                                Timeline *timeline = nullptr);
+                                Timeline *timeline = nullptr, const std::function<bool()> &shouldStop = {});
 
     /// What one sample of one pixel of the whole image does, step by step; at most 2^17 steps are kept.
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,

@@ -147,7 +147,8 @@ Kernel &TileRenderer::resumableKernel(Timeline *timeline) {
     return resumable_->kernel;
 }
 
-TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Timeline *timeline) {
+TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Timeline *timeline,
+                             const std::function<bool()> &shouldStop) {
     const int tilesAcross = (job_.crop.width() + tileWidth_ - 1) / tileWidth_;
     const int tilesDown = (job_.crop.height() + tileHeight_ - 1) / tileHeight_;
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
@@ -167,14 +168,15 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         ++totals.dispatchCount;
         if (onProgress)
             onProgress(static_cast<double>(samplesFinished) / samplesWanted);
+        totals.isStopped = shouldStop && shouldStop();
         return step.counters;
     };
-    for (int tile = 0; tile < tilesAcross * tilesDown; ++tile) {
+    for (int tile = 0; tile < tilesAcross * tilesDown && !totals.isStopped; ++tile) {
         dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
         dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
         // The film says where each pixel stands: samples up to `sampleEnd` are wanted.
         dispatch_.sampleEnd = job_.sampleBegin;
-        while (dispatch_.sampleEnd < job_.sampleEnd) {
+        while (dispatch_.sampleEnd < job_.sampleEnd && !totals.isStopped) {
             dispatch_.sampleEnd += std::min(pace_.samples(), job_.sampleEnd - dispatch_.sampleEnd);
             dispatch_.isResumed = 0;
             isResumed = false;
@@ -183,9 +185,9 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
             if (direct_) {
                 do
                     last = dispatch(direct_->kernel);
-                while (last.unfinishedSlots > 0 && last.finishedSamples > 0);
+                while (last.unfinishedSlots > 0 && last.finishedSamples > 0 && !totals.isStopped);
             }
-            while (last.unfinishedSlots > 0) {
+            while (last.unfinishedSlots > 0 && !totals.isStopped) {
                 last = dispatch(resumableKernel(timeline));
                 dispatch_.isResumed = 1;
             }

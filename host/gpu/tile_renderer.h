@@ -32,6 +32,7 @@ struct TileTotals {
     RayCounts rays;
     WorkCounts work; ///< all 0 unless counting was asked for
     std::uint64_t dispatchCount = 0;
+    bool isStopped = false; ///< as was asked for after the last dispatch
 };
 
 /// Everything that a job needs on the device. Scene and buffers must outlive it.
@@ -50,9 +51,12 @@ class TileRenderer {
     /// Runs the kernel without samples: drivers that compile at the first dispatch do it now.
     void warmUp();
 
-    /// Runs until all samples of all tiles are in the film. `onProgress` gets the finished share, in [0, 1], after each
+    /// Runs until all samples of all tiles are in the film, or until `shouldStop`, which is asked after each dispatch,
+    /// says so: the film then has what is finished. It is not long until it is asked: with it, no dispatch adds more than
+    /// 64 samples to a pixel. `onProgress` gets the finished share, in [0, 1], after each
     /// dispatch, and `timeline`, where there is one, a record of each. Throws Error{DeviceLost}.
-    [[nodiscard]] TileTotals run(const std::function<void(double)> &onProgress, Timeline *timeline = nullptr);
+    [[nodiscard]] TileTotals run(const std::function<void(double)> &onProgress, Timeline *timeline = nullptr,
+                                 const std::function<bool()> &shouldStop = {});
 
     void readFilm(std::span<layout::FilmPixel> pixels) const;
 

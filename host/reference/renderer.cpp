@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <type_traits>
 
@@ -12,17 +13,22 @@ namespace hyalite::reference {
 
 namespace {
 
-template <class Real, class Counter>
+/// At most `sampleCount` samples: `isLast` is asked after each.
+template <class Real, class Counter, class IsLast>
 layout::FilmPixel renderPixel(WhittedIntegrator<Real, Counter> &integrator, const glm::uvec2 &pixel,
-                              std::uint32_t sampleCount) {
+                              std::uint32_t sampleCount, const IsLast &isLast) {
     Vec3<Real> sum(Real(0));
     Vec3<Real> sumOfSquares(Real(0));
-    for (std::uint32_t sample = 0; sample < sampleCount; ++sample) {
-        const Vec3<Real> radiance = integrator.sampleRadiance(pixel, sample);
+    std::uint32_t finishedCount = 0;
+    bool isStopped = false;
+    while (finishedCount < sampleCount && !isStopped) {
+        const Vec3<Real> radiance = integrator.sampleRadiance(pixel, finishedCount);
         sum = sum + radiance;
         sumOfSquares = sumOfSquares + radiance * radiance;
+        ++finishedCount;
+        isStopped = isLast();
     }
-    return {glm::vec3(sum), sampleCount, glm::vec3(sumOfSquares), 0.0f};
+    return {glm::vec3(sum), finishedCount, glm::vec3(sumOfSquares), 0.0f};
 }
 
 template <class Real, class Counter = NoCounter>
@@ -35,18 +41,27 @@ Result renderAs(const PackedScene &scene, const RenderSettings &settings, const 
     const std::int64_t runCount = (pixelCount + runLength - 1) / runLength;
     const int threadCount = options.threadCount > 0 ? options.threadCount : omp_get_max_threads();
     std::int64_t finishedRuns = 0;
+    std::atomic<bool> isStopped = false;
+    const auto askWhetherToStop = [&] {
+        if (options.shouldStop && options.shouldStop())
+            isStopped = true;
+        return isStopped.load();
+    };
 #pragma omp parallel num_threads(threadCount)
     {
         WhittedIntegrator<Real, Counter> integrator(scene, static_cast<std::uint32_t>(settings.sampler));
 #pragma omp for schedule(dynamic)
         for (std::int64_t run = 0; run < runCount; ++run) {
             const std::int64_t end = std::min((run + 1) * runLength, pixelCount);
-            for (std::int64_t i = run * runLength; i < end; ++i) {
+            for (std::int64_t i = run * runLength; i < end && !isStopped; ++i) {
                 const glm::uvec2 pixel(static_cast<std::uint32_t>(crop.x0 + i % crop.width()),
                                        static_cast<std::uint32_t>(crop.y0 + i / crop.width()));
                 result.film.pixels[static_cast<std::size_t>(i)] =
-                    renderPixel(integrator, pixel, static_cast<std::uint32_t>(settings.samplesPerPixel));
+                    renderPixel(integrator, pixel, static_cast<std::uint32_t>(settings.samplesPerPixel),
+                                askWhetherToStop);
             }
+            if (isStopped) // a loop of OpenMP cannot be left: what remains of it is skipped
+                continue;
 #pragma omp critical(hyaliteReferenceProgress)
             {
                 ++finishedRuns;

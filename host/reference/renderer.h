@@ -19,6 +19,9 @@ struct Options {
     /// Called now and then, never by two threads at once, with the finished share of the work in [0, 1].
     std::function<void(double)> onProgress;
     bool isCounting = false; ///< count the work of the traversal
+    /// Asked by each thread after each sample, by several at once: where it says so, the film has the samples that are
+    /// finished by then, and no others.
+    std::function<bool()> shouldStop;
 };
 
 struct Result {

@@ -25,6 +25,16 @@ nlohmann::ordered_json raysToJson(const RayCounts &rays) {
     return json;
 }
 
+FinishedWork finishedWork(const Film &film, int samplesPerPixel) {
+    FinishedWork finished;
+    for (const layout::FilmPixel &pixel : film.pixels) {
+        finished.pixelCount += pixel.sampleCount == static_cast<std::uint32_t>(samplesPerPixel);
+        finished.sampleCount += pixel.sampleCount;
+    }
+    finished.isComplete = finished.pixelCount == film.pixels.size();
+    return finished;
+}
+
 std::string formatReport(const RenderReport &report) {
     nlohmann::ordered_json json;
     json["program"] = "hyalite " HYALITE_VERSION;
@@ -36,6 +46,13 @@ std::string formatReport(const RenderReport &report) {
     json["image"] = {{"width", report.width}, {"height", report.height}};
     json["settings"] = settingsToJson(report.settings);
     json["triangles"] = report.triangleCount;
+    nlohmann::ordered_json &finished = json["finished"];
+    finished = {{"isComplete", report.finished.isComplete},
+                {"pixels", report.finished.pixelCount},
+                {"samples", report.finished.sampleCount},
+                {"stoppedBy", nullptr}};
+    if (!report.stoppedBy.empty())
+        finished["stoppedBy"] = report.stoppedBy;
     json["rays"] = raysToJson(report.rays);
     json["dispatches"] = report.timing.dispatchCount;
     json["seconds"] = {{"load", report.loadSeconds},

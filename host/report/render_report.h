@@ -1,15 +1,27 @@
 // What a render did and how long it took, as JSON.
 #pragma once
 
+#include "host/image/film.h"
 #include "host/report/ray_counts.h"
 #include "host/report/render_timing.h"
 #include "host/scene/scene.h"
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <string>
 
 namespace hyalite {
+
+/// How much of an image is finished.
+struct FinishedWork {
+    std::uint64_t pixelCount = 0; ///< with all of their samples
+    std::uint64_t sampleCount = 0;
+    bool isComplete = false; ///< all samples of all pixels are
+};
+
+/// What `film` has of `samplesPerPixel` samples in each pixel.
+[[nodiscard]] FinishedWork finishedWork(const Film &film, int samplesPerPixel);
 
 struct RenderReport {
     std::string commandLine;
@@ -22,6 +34,8 @@ struct RenderReport {
     int height = 0;
     RenderSettings settings;
     std::size_t triangleCount = 0;
+    FinishedWork finished;
+    std::string stoppedBy; ///< what ended the render before all was finished; empty: nothing did
     RayCounts rays;
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;

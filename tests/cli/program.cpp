@@ -175,11 +175,34 @@ std::vector<char *> pointersTo(std::vector<std::string> &texts) {
     return pointers;
 }
 
+/// Signals as a user's shell leaves them, whatever runs the tests: what runs in the background may ignore some.
+class SpawnAttributes {
+  public:
+    SpawnAttributes() {
+        posix_spawnattr_init(&attributes_);
+        sigset_t signals;
+        sigemptyset(&signals);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+            sigaddset(&signals, signal);
+        posix_spawnattr_setsigdefault(&attributes_, &signals);
+        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF);
+    }
+    ~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
+    SpawnAttributes(const SpawnAttributes &) = delete;
+    SpawnAttributes &operator=(const SpawnAttributes &) = delete;
+
+    [[nodiscard]] const posix_spawnattr_t *get() const { return &attributes_; }
+
+  private:
+    posix_spawnattr_t attributes_{};
+};
+
 pid_t start(const std::vector<std::string> &arguments, const Surroundings &surroundings,
             const Channel &output, const Channel &errors) {
     std::vector<std::string> words{HYALITE_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<std::string> variables = makeEnvironment(surroundings.environment);
+    const SpawnAttributes attributes;
     FileActions actions;
     actions.enterFolder(surroundings.folder);
     actions.readNothing();
@@ -187,7 +210,7 @@ pid_t start(const std::vector<std::string> &arguments, const Surroundings &surro
     actions.connect(errors, STDERR_FILENO);
     const FileSizeLimit limit(surroundings.fileSizeLimitBytes);
     pid_t process = -1;
-    const int errorNumber = posix_spawn(&process, HYALITE_PROGRAM, actions.get(), nullptr,
+    const int errorNumber = posix_spawn(&process, HYALITE_PROGRAM, actions.get(), attributes.get(),
                                         pointersTo(words).data(), pointersTo(variables).data());
     if (errorNumber != 0)
         failWithErrno("starting " HYALITE_PROGRAM, errorNumber);
@@ -223,6 +246,7 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
 
     Outcome outcome;
     bool isSignalSent = false;
+    Clock::time_point lastSignal;
     bool isKilled = false;
     int status = 0;
     bool isRunning = true;
@@ -238,11 +262,15 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
             readSome(errors.ours, outcome.errors);
         if (!isRunning)
             continue;
-        const bool isWanted = !surroundings.signalAfter.empty() && !isSignalSent &&
-                              outcome.errors.find(surroundings.signalAfter) != std::string::npos;
+        const bool isWanted = isSignalSent
+                                  ? surroundings.signalAgainSeconds > 0.0 &&
+                                        secondsSince(lastSignal) > surroundings.signalAgainSeconds
+                                  : !surroundings.signalAfter.empty() &&
+                                        outcome.errors.find(surroundings.signalAfter) != std::string::npos;
         if (isWanted) {
             kill(process, surroundings.signal);
             isSignalSent = true;
+            lastSignal = Clock::now();
         }
         if (!isKilled && secondsSince(begin) > surroundings.timeoutSeconds) {
             kill(process, SIGKILL);

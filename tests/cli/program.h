@@ -30,6 +30,8 @@ struct Surroundings {
     double timeoutSeconds = 60.0; ///< after which the program is killed and the test fails
     std::string signalAfter;      ///< if set: `signal` is sent once, when standard error contains this
     int signal = 0;               ///< sent once and not before the program has said something
+    double signalAgainSeconds =
+        0.0; ///< if not 0: `signal` is sent again and again, so long after the last time
     std::size_t fileSizeLimitBytes =
         0; ///< if not 0: larger files fail with EFBIG, standing in for a full disk
 };

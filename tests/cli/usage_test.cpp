@@ -22,7 +22,8 @@ const std::vector<std::string> sceneOptions{"--width", "--height",          "--s
 TEST_F(Usage, HelpMentionsEveryOption) {
     std::map<std::string, std::vector<std::string>> optionsOf{
         {"render", sceneOptions}, {"inspect", {"--rays"}}, {"devices", {"--json"}}};
-    for (const char *option : {"-o", "--output", "--device", "--threads", "--kernel", "--report", "--quiet"})
+    for (const char *option :
+         {"-o", "--output", "--device", "--threads", "--kernel", "--report", "--time-limit", "--quiet"})
         optionsOf["render"].emplace_back(option);
     for (const char *option : {"--bvh", "--leaf-size"})
         optionsOf["inspect"].emplace_back(option);

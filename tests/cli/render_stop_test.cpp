@@ -1,0 +1,166 @@
+// Renders that are stopped, by signals and by --time-limit: what is finished is written, whole.
+//
+// No test waits for a moment: whatever ends a render is there before its first dispatch ends, and there is far more work
+// than one dispatch.
+#include "host/image/image_file.h"
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+class RenderStop : public CommandLine {
+  protected:
+    /// Expects the picture of a render that was stopped early, a report that says so, and nothing else in the folder.
+    /// Returns what the report says is finished.
+    nlohmann::json expectPart(const std::string &picture, int side, const std::string &stoppedBy) const {
+        EXPECT_EQ(entries(), (std::set<std::string>{picture, "report.json"}));
+        const Image image = readImage(folder / picture).image;
+        EXPECT_EQ(image.width(), side);
+        EXPECT_EQ(image.height(), side);
+        EXPECT_GT(litPixelCount(image), 0);
+        const Outcome diff = run("diff " + picture + " " + picture);
+        EXPECT_EQ(diff.exitCode, 0) << diff;
+        const nlohmann::json finished = nlohmann::json::parse(load("report.json")).at("finished");
+        EXPECT_EQ(finished.at("isComplete"), false);
+        EXPECT_EQ(finished.at("stoppedBy"), stoppedBy);
+        EXPECT_LT(finished.at("pixels"), side * side);
+        EXPECT_GT(finished.at("samples"), 0);
+        return finished;
+    }
+};
+
+Surroundings signalled(int signal) {
+    Surroundings surroundings;
+    surroundings.signalAfter = "device:";
+    surroundings.signal = signal;
+    return surroundings;
+}
+
+const char *nameOf(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
+
+/// Sixty-four tiles of a software device.
+const std::string manyTiles = " --width 2048 --height 2048 --spp 4";
+/// Hours of work.
+const std::string endless = " --width 512 --height 512 --spp 65536 --device cpu";
+/// Too short for any work, and so the render ends with the least that it can do.
+const std::string atOnce = " --time-limit 1e-6";
+
+TEST_F(RenderStop, ASignalWritesWhatTheDeviceHasFinished) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Outcome outcome =
+            runIn(signalled(signal),
+                  "render spheres -o a.png --report report.json --device " + softwareDevice() + manyTiles);
+        EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome;
+        const nlohmann::json finished = expectPart("a.png", 2048, nameOf(signal));
+        for (const std::string &part :
+             {std::string("stopping"), std::string("stopped by ") + nameOf(signal),
+              std::to_string(finished.at("pixels").get<long>()) + " of 4194304 pixels", std::string("a.png")})
+            EXPECT_TRUE(contains(outcome.errors, part)) << part << '\n' << outcome;
+        EXPECT_TRUE(contains(outcome.output, "up to 4 spp")) << outcome;
+        std::filesystem::remove(folder / "report.json");
+    }
+}
+
+TEST_F(RenderStop, ASignalWritesWhatTheReferenceHasFinished) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Outcome outcome =
+            runIn(signalled(signal), "render spheres -o a.pfm --report report.json" + endless);
+        EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome;
+        EXPECT_LT(outcome.seconds, 20.0);
+        expectPart("a.pfm", 512, nameOf(signal));
+        std::filesystem::remove(folder / "report.json");
+    }
+}
+
+TEST_F(RenderStop, AnotherSignalEndsItAtOnce) {
+    // Each sample is a tree of 2^32 rays: nothing comes to its end, and the first signal has to wait.
+    nlohmann::json scene = {{"materials", {{"glass", {{"type", "dielectric"}, {"index", 1.5}}}}}};
+    for (int i = 0; i < 32; ++i)
+        scene["spheres"].push_back({{"centre", {0, 0, 0}}, {"radius", 1.0 + 0.2 * i}, {"material", "glass"}});
+    scene["camera"] = {{"position", {0.3, 0.2, 0.1}}, {"target", {0, 0, -5}}};
+    store("glass.json", scene.dump());
+    store("a.png", "old");
+    for (const int signal : {SIGINT, SIGTERM}) {
+        Surroundings surroundings = signalled(signal);
+        surroundings.signalAgainSeconds = 1.0;
+        const Outcome outcome = runIn(surroundings, "render glass.json -o a.png --report report.json "
+                                                    "--max-depth 32 --width 64 --height 64 --device cpu");
+        EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome;
+        EXPECT_GT(outcome.seconds, 1.0) << outcome;
+        EXPECT_FALSE(contains(outcome.errors, "stopped by")) << outcome;
+        EXPECT_EQ(entries(), (std::set<std::string>{"a.png", "glass.json"}));
+        EXPECT_EQ(load("a.png"), "old");
+    }
+}
+
+TEST_F(RenderStop, QuietSaysOnlyWhatIsMissing) {
+    const std::string line = "render spheres -o a.png --report report.json --quiet" + endless + atOnce;
+    const Outcome outcome = run(line);
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.output + outcome.errors, "");
+    expectPart("a.png", 512, "the time limit");
+}
+
+TEST_F(RenderStop, TilesThatADeviceHasFinishedAreThoseOfTheWholeRender) {
+    const std::string device = " --device " + softwareDevice() + manyTiles;
+    const std::string firstTile = renderPfm("spheres --crop 0,256,0,256" + device);
+    const Image wanted = readImage(folder / "rendered.pfm").image;
+    std::filesystem::remove(folder / "rendered.pfm");
+    for (const char *kernel : {"auto", "stack"}) {
+        const Outcome outcome = run("render spheres -o a.pfm --report report.json --kernel " +
+                                    std::string(kernel) + device + atOnce);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "stopped by the time limit")) << outcome;
+        const nlohmann::json finished = expectPart("a.pfm", 2048, "the time limit");
+        EXPECT_EQ(finished.at("pixels"), 256 * 256);
+        EXPECT_EQ(finished.at("samples"), 256 * 256 * 4);
+        const Image image = readImage(folder / "a.pfm").image;
+        int differentCount = 0;
+        for (int y = 0; y < 256; ++y)
+            for (int x = 0; x < 256; ++x)
+                differentCount += image.at(x, y) != wanted.at(x, y);
+        EXPECT_EQ(differentCount, 0) << kernel;
+        EXPECT_EQ(litPixelCount(image), litPixelCount(wanted)) << "elsewhere it is black";
+    }
+}
+
+TEST_F(RenderStop, SamplesThatTheReferenceHasFinishedAreThoseOfTheWholeRender) {
+    // With one sample a pixel, each is finished or black.
+    const std::string line = "spheres --width 512 --height 512 --spp 1 --device cpu";
+    const Image whole = renderImage(line);
+    std::filesystem::remove(folder / "rendered.pfm");
+    const Outcome outcome = run("render -o a.pfm --report report.json " + line + atOnce);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    const nlohmann::json finished = expectPart("a.pfm", 512, "the time limit");
+    EXPECT_EQ(finished.at("pixels"), finished.at("samples"));
+    const Image image = readImage(folder / "a.pfm").image;
+    int differentCount = 0;
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+        differentCount += image.pixels()[i] != glm::vec3(0.0f) && image.pixels()[i] != whole.pixels()[i];
+    EXPECT_EQ(differentCount, 0);
+    EXPECT_LE(litPixelCount(image), finished.at("pixels"));
+}
+
+TEST_F(RenderStop, ATimeLimitThatSufficesChangesNothing) {
+    const std::string line = "spheres --width 32 --height 24 --spp 2";
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const nlohmann::json report = renderReport(line + " --time-limit 1e6 --device " + device);
+        EXPECT_EQ(report.at("finished").at("isComplete"), true);
+        EXPECT_EQ(report.at("finished").at("stoppedBy"), nullptr);
+        EXPECT_EQ(load("reported.pfm"), renderPfm(line + " --device " + device)) << device;
+    }
+}
+
+TEST_F(RenderStop, TimeLimitsArePositive) {
+    for (const char *limit : {"0", "-1", "nan", "x", "1e10"})
+        expectFailure("render spheres -o a.png --time-limit " + std::string(limit), 2, {"--time-limit"});
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+} // namespace
+} // namespace hyalite::testing
