@@ -14,6 +14,7 @@ namespace hyalite::gpu {
 namespace {
 
 constexpr std::uint32_t workgroupSize = 64;
+constexpr std::uint32_t samplesInPass = 64; // of each pixel, before any gets more
 constexpr std::uint32_t traceCapacity = 1u << 17;
 
 /// A tile is a whole number of blocks of 8x8 pixels, which are 64 slots.
@@ -171,13 +172,11 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         totals.isStopped = shouldStop && shouldStop();
         return step.counters;
     };
-    for (int tile = 0; tile < tilesAcross * tilesDown && !totals.isStopped; ++tile) {
-        dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
-        dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
-        // The film says where each pixel stands: samples up to `sampleEnd` are wanted.
-        dispatch_.sampleEnd = job_.sampleBegin;
-        while (dispatch_.sampleEnd < job_.sampleEnd && !totals.isStopped) {
-            dispatch_.sampleEnd += std::min(pace_.samples(), job_.sampleEnd - dispatch_.sampleEnd);
+    // The film says where each pixel stands: the samples of the tile up to `end` are wanted.
+    const auto fillTile = [&](std::uint32_t begin, std::uint32_t end) {
+        dispatch_.sampleEnd = begin;
+        while (dispatch_.sampleEnd < end && !totals.isStopped) {
+            dispatch_.sampleEnd += std::min(pace_.samples(), end - dispatch_.sampleEnd);
             dispatch_.isResumed = 0;
             isResumed = false;
             layout::DispatchProgress last{};
@@ -192,6 +191,16 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
                 dispatch_.isResumed = 1;
             }
         }
+    };
+    // Pass after pass over the whole image, so that one that is stopped early has samples everywhere.
+    for (std::uint32_t begin = job_.sampleBegin; begin < job_.sampleEnd && !totals.isStopped;) {
+        const std::uint32_t end = begin + std::min(samplesInPass, job_.sampleEnd - begin);
+        for (int tile = 0; tile < tilesAcross * tilesDown && !totals.isStopped; ++tile) {
+            dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
+            dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
+            fillTile(begin, end);
+        }
+        begin = end;
     }
     return totals;
 }

@@ -17,11 +17,11 @@ struct Options {
         Precision::Float32; ///< Float64 results are rounded to float when they reach the film
     int threadCount = 0;    ///< 0: as many as OpenMP likes
     /// Called now and then, never by two threads at once, with the finished share of the work in [0, 1].
-    std::function<void(double)> onProgress;
+    std::function<void(double)> onProgress = {};
     bool isCounting = false; ///< count the work of the traversal
     /// Asked by each thread after each sample, by several at once: where it says so, the film has the samples that are
     /// finished by then, and no others.
-    std::function<bool()> shouldStop;
+    std::function<bool()> shouldStop = {};
 };
 
 struct Result {

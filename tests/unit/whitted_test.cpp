@@ -50,7 +50,7 @@ void addWallFacingUs(Scene &scene, std::uint32_t material, float z) {
 
 Result renderAll(const Scene &scene, Precision precision = Precision::Float32, int threadCount = 1) {
     const Crop crop{0, scene.camera.width, 0, scene.camera.height};
-    return render(packed(scene), scene.settings, crop, {precision, threadCount, {}});
+    return render(packed(scene), scene.settings, crop, {.precision = precision, .threadCount = threadCount});
 }
 
 /// The only pixel, in both precisions, against the closed form.
