@@ -235,13 +235,14 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
 void addDiffCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("diff", "compare two image files, and gate on how they differ");
     const auto options = std::make_shared<DiffOptions>();
-    command->footer("Values are compared as the files have them: PNG in [0, 1], PFM linear; PSNR and SSIM "
-                    "take a range of 1. "
-                    "The exit code is 0 if all gates are passed, or, without a gate (--min-..., --max-...), "
-                    "if the images "
-                    "are identical to the bit; and 1 if not.");
-    command->add_option("A", options->reference, "the reference: PNG or PFM")->required();
-    command->add_option("B", options->test, "the image to judge: PNG or PFM")->required();
+    command->footer(
+        "Values are compared as the files have them: PNG in [0, 1], EXR, HDR and PFM linear; PSNR "
+        "and SSIM take a range of 1. "
+        "The exit code is 0 if all gates are passed, or, without a gate (--min-..., --max-...), "
+        "if the images "
+        "are identical to the bit; and 1 if not.");
+    command->add_option("A", options->reference, "the reference: PNG, EXR, HDR or PFM")->required();
+    command->add_option("B", options->test, "the image to judge: likewise")->required();
     addFile(*command, "--mask", options->mask, "FILE", "compare only where this image is white");
     addFile(*command, "--diff", options->heatMap, "FILE.png",
             "write the FLIP error of each pixel as a heat map");

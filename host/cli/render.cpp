@@ -8,6 +8,7 @@
 #include "host/report/quantities.h"
 #include "host/report/render_report.h"
 #include "host/scene/assets.h"
+#include "host/version.h"
 
 #include <fmt/format.h>
 
@@ -62,6 +63,20 @@ void tellSpeed(const RenderReport &report) {
                report.settings.samplesPerPixel, roundedText(report.rays.total(), "rays"),
                report.timing.renderSeconds, megaraysPerSecond, megaraysPerSecond < 1.0 ? 3 : 1,
                report.totalSeconds);
+}
+
+void writeResult(AtomicFile &file, ImageFormat format, const Film &film, const PreparedScene &scene,
+                 const std::string &commandLine) {
+    const Image image = film.toImage();
+    Picture picture(image);
+    picture.wholeWidth = scene.loaded.scene.camera.width;
+    picture.wholeHeight = scene.loaded.scene.camera.height;
+    picture.crop = film.crop;
+    picture.layers = filmLayers(film);
+    picture.attributes = {{"software", "hyalite " HYALITE_VERSION},
+                          {"commandLine", commandLine},
+                          {"scene", scene.loaded.file.string()}};
+    writeImage(file, format, picture, scene.loaded.scene.settings.exposureStops);
 }
 
 ExitCode runRender(const RenderOptions &options, const std::string &commandLine) {
@@ -122,7 +137,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     report.timing = result.timing;
     report.rays = result.rays;
     const Clock::time_point writeStart = Clock::now();
-    writeImage(image, format, result.film.toImage(), settings.exposureStops);
+    writeResult(image, format, result.film, scene, commandLine);
     image.commit();
     report.writeSeconds = secondsSince(writeStart);
     report.totalSeconds = secondsSince(start);
@@ -143,7 +158,10 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("render", "render a scene to an image file");
     const auto options = std::make_shared<RenderOptions>();
     addSceneOptions(*command, options->scene);
-    command->add_option("-o,--output", options->output, ".png: 8 bits, gamma 2.2; .pfm: linear float")
+    command
+        ->add_option("-o,--output", options->output,
+                     ".png: 8 bits, gamma 2.2; .exr: linear float, with variance and "
+                     "sample counts; .hdr, .pfm: linear")
         ->required()
         ->type_name("FILE");
     command

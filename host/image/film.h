@@ -4,6 +4,10 @@
 #include "host/image/image.h"
 #include "shaders/layout.h"
 
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include <limits>
 #include <vector>
 
 namespace hyalite {
@@ -18,6 +22,21 @@ struct Crop {
     [[nodiscard]] int width() const { return x1 - x0; }
     [[nodiscard]] int height() const { return y1 - y0; }
 };
+
+/// The unbiased estimate of the variance of the mean of a pixel's samples, per channel:
+///
+///     (sum x^2 - (sum x)^2 / n) / (n - 1) / n
+///
+/// with Bessel's correction. It takes samples for independent; low-discrepancy ones have less. NaN below two samples.
+/// The film's sums are float32: as little as 2^-24 of the square of the mean is beneath their rounding.
+[[nodiscard]] inline glm::dvec3 varianceOfMean(const layout::FilmPixel &pixel) {
+    if (pixel.sampleCount < 2)
+        return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    const double count = pixel.sampleCount;
+    const glm::dvec3 sum(pixel.sum);
+    const glm::dvec3 deviation = glm::dvec3(pixel.sumOfSquares) - sum * sum / count;
+    return glm::max(deviation, glm::dvec3(0.0)) / ((count - 1.0) * count);
+}
 
 struct Film {
     Crop crop;

@@ -1,6 +1,8 @@
 #include "host/image/image_file.h"
 
 #include "host/error.h"
+#include "host/image/exr.h"
+#include "host/image/hdr.h"
 #include "host/image/input_file.h"
 #include "host/image/pfm.h"
 #include "host/image/png.h"
@@ -24,19 +26,34 @@ ImageFormat imageFormatOf(const std::filesystem::path &path) {
     if (extension == ".pfm") {
         return ImageFormat::Pfm;
     }
-    throw Error(ExitCode::Usage,
-                fmt::format("'{}': an image is written as .png (8-bit, tone-mapped) or .pfm (linear "
-                            "float); name a file with one of these extensions",
-                            path.string()));
+    if (extension == ".exr") {
+        return ImageFormat::Exr;
+    }
+    if (extension == ".hdr") {
+        return ImageFormat::Hdr;
+    }
+    throw Error(
+        ExitCode::Usage,
+        fmt::format("'{}': an image is written as .png (8-bit, tone-mapped), .exr (linear float, with "
+                    "layers), .hdr (linear, 8 bits and an exponent) or .pfm (linear float); name a file "
+                    "with one of these extensions",
+                    path.string()));
 }
 
-void writeImage(AtomicFile &file, ImageFormat format, const Image &image, double exposureStops) {
+void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops) {
+    const Image &image = picture.colour;
     switch (format) {
     case ImageFormat::Png:
         writePng(file, image.width(), image.height(), toneMap(image, exposureStops));
         break;
     case ImageFormat::Pfm:
         writePfm(file, image);
+        break;
+    case ImageFormat::Exr:
+        writeExr(file, picture);
+        break;
+    case ImageFormat::Hdr:
+        writeHdr(file, image);
         break;
     }
 }
@@ -50,7 +67,14 @@ LoadedImage readImage(const std::filesystem::path &path) {
     if (isPfm(head)) {
         return {readPfm(file), Encoding::Linear};
     }
-    throw file.bad(file.sizeBytes() == 0 ? "it is empty" : "it is neither a PNG nor a PFM file");
+    if (isExr(head)) {
+        return {readExr(file), Encoding::Linear};
+    }
+    if (isHdr(head)) {
+        return {readHdr(file), Encoding::Linear};
+    }
+    throw file.bad(file.sizeBytes() == 0 ? "it is empty"
+                                         : "it is no PNG, OpenEXR, Radiance (HDR) or PFM file");
 }
 
 } // namespace hyalite

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/picture.h"
 #include "host/report/atomic_file.h"
 
 #include <cstdint>
@@ -12,6 +13,8 @@ namespace hyalite {
 enum class ImageFormat {
     Png, ///< 8-bit RGB, tone-mapped: for eyes
     Pfm, ///< float32 RGB, linear, as rendered: for programs
+    Exr, ///< the same, with layers and attributes
+    Hdr, ///< RGB of 8 bits with a common exponent, linear
 };
 
 /// What the numbers of an image mean.
@@ -29,17 +32,18 @@ struct LoadedImage {
 inline constexpr int imageSideMax = 32768;
 inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
 
-/// By the name's extension, .png or .pfm in upper or lower case. Throws Error{Usage} for any other.
+/// By the name's extension, .png, .exr, .hdr or .pfm in upper or lower case. Throws Error{Usage} for any other.
 [[nodiscard]] ImageFormat imageFormatOf(const std::filesystem::path &path);
 
-/// Writes the image, which is not empty; the caller commits the file. `exposureStops` brightens a PNG by
-/// 2^exposureStops; a PFM holds the linear values and ignores it. Throws Error{OutputNotWritten}, or
+/// Writes the picture, which is not empty; the caller commits the file. `exposureStops` brightens a PNG by
+/// 2^exposureStops; the other formats hold the linear values and ignore it. Layers and attributes go into an EXR alone. Throws Error{OutputNotWritten}, or
 /// Error{LimitExceeded} where a PNG has more than imagePixelCountMax pixels.
-void writeImage(AtomicFile &file, ImageFormat format, const Image &image, double exposureStops);
+void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops);
 
-/// Reads a PNG or PFM file, told apart by their first bytes. Grey becomes three equal channels; alpha is dropped and
-/// the colours stay as stored (PNG does not multiply them by alpha). Throws Error{BadInput}, naming the file and what
-/// was found, where it is not a regular file, too large, cut short, followed by other bytes, or damaged.
+/// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by their first bytes. Grey becomes three equal channels; alpha
+/// and layers are dropped and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does). Throws
+/// Error{BadInput}, naming the file and what was found, where it is not a regular file, too large, cut short, damaged,
+/// or, except for OpenEXR, followed by other bytes.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 
 } // namespace hyalite

@@ -23,7 +23,7 @@ InputFile::InputFile(const std::filesystem::path &path) : path_(path) {
     struct stat status {};
     if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
         close(descriptor_);
-        throw bad("it is not a regular file; name a PNG or PFM file");
+        throw bad("it is not a regular file; name a PNG, EXR, HDR or PFM file");
     }
     sizeBytes_ = static_cast<std::uint64_t>(status.st_size);
 }

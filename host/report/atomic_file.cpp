@@ -212,6 +212,20 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 
 void AtomicFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
+void AtomicFile::writeAt(std::uint64_t offsetBytes, std::span<const std::byte> bytes) {
+    assert(descriptor_ >= 0);
+    while (!bytes.empty()) {
+        const ssize_t count =
+            pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offsetBytes));
+        if (count >= 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(count));
+            offsetBytes += static_cast<std::uint64_t>(count);
+        } else if (errno != EINTR) {
+            refuseWithErrno(givenPath_, fmt::format("writing {} bytes", bytes.size()), errno);
+        }
+    }
+}
+
 void AtomicFile::commit() {
     assert(descriptor_ >= 0);
     if (const int errorNumber = synchronize(descriptor_); errorNumber != 0) {

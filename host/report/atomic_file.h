@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -36,6 +37,10 @@ class AtomicFile {
     /// Appends. Throws Error{OutputNotWritten}, after which the file can only be dropped.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
+
+    /// Writes at a place of its own, over what is there or beyond it, for formats that fill in a table at the end. What
+    /// write() appends does not move. Throws Error{OutputNotWritten} likewise.
+    void writeAt(std::uint64_t offsetBytes, std::span<const std::byte> bytes);
 
     /// Stores the bytes durably and renames them over the target. At most once, and nothing is written after it.
     /// Throws Error{OutputNotWritten}.

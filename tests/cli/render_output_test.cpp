@@ -55,6 +55,33 @@ TEST_F(RenderOutput, ThePngIsThePfmWithGamma) {
         }
 }
 
+TEST_F(RenderOutput, AnExrHasTheLinearColoursAndLayers) {
+    ASSERT_EQ(run("render spheres -o a.exr --spp 2 --width 16 --height 12 --device cpu").exitCode, 0);
+    const std::string bytes = load("a.exr");
+    EXPECT_EQ(bytes.substr(0, 4), "\x76\x2f\x31\x01");
+    for (const char *part :
+         {"variance.R", "samples", "render spheres -o a.exr", "spheres.json", "hyalite 0."})
+        EXPECT_TRUE(contains(bytes, part)) << part;
+}
+
+TEST_F(RenderOutput, AnHdrIsWritten) {
+    ASSERT_EQ(run("render spheres -o a.hdr" + small).exitCode, 0);
+    EXPECT_TRUE(contains(load("a.hdr"), "\n\n-Y 12 +X 16\n"));
+}
+
+TEST_F(RenderOutput, AFullDiskLeavesTheOldFileWhateverTheFormat) {
+    for (const char *name : {"a.exr", "a.hdr"}) {
+        store(name, "old");
+        Surroundings full;
+        full.fileSizeLimitBytes = 256;
+        const Outcome outcome = runIn(full, "render spheres -o " + std::string(name) + small);
+        EXPECT_EQ(outcome.exitCode, 7) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, name)) << outcome;
+        EXPECT_EQ(load(name), "old");
+    }
+    EXPECT_EQ(entries(), (std::set<std::string>{"a.exr", "a.hdr"}));
+}
+
 TEST_F(RenderOutput, TheExtensionMayBeInUpperCase) {
     EXPECT_EQ(run("render spheres -o A.PNG" + small).exitCode, 0);
     EXPECT_EQ(run("render spheres -o A.Pfm" + small).exitCode, 0);

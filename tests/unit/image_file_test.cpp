@@ -139,7 +139,9 @@ TEST_F(ImageFileTest, FormatsAreKnownByTheirExtensions) {
     EXPECT_EQ(imageFormatOf("a/b.c/out.png"), ImageFormat::Png);
     EXPECT_EQ(imageFormatOf("OUT.PnG"), ImageFormat::Png);
     EXPECT_EQ(imageFormatOf("out.PFM"), ImageFormat::Pfm);
-    for (const char *path : {"out.exr", "out", "png", ".png", "out.png.", "a.png/out", ""}) {
+    EXPECT_EQ(imageFormatOf("out.Exr"), ImageFormat::Exr);
+    EXPECT_EQ(imageFormatOf("out.hdr"), ImageFormat::Hdr);
+    for (const char *path : {"out.tif", "out", "png", ".png", "out.png.", "a.png/out", ""}) {
         try {
             (void)imageFormatOf(path);
             ADD_FAILURE() << path;
@@ -316,7 +318,7 @@ TEST_F(ImageFileTest, DamagedPngIsRefused) {
     expectBadBytes(png(ihdr, "\x00\x33\x44"s), "damaged, or more than 1 x 1");
     expectBadBytes(png(ihdr, std::string(200000, '\0')), "pixel data for 1 x 1");
     expectBadBytes(png(ihdr, "\x07\x33"s), "cannot be decoded");
-    expectBadBytes("GIF89a", "neither a PNG nor a PFM");
+    expectBadBytes("GIF89a", "no PNG, OpenEXR, Radiance (HDR) or PFM");
     expectBadBytes("", "empty");
 }
 

@@ -1,0 +1,28 @@
+// OpenEXR files, through the library of that name (https://openexr.com).
+#pragma once
+
+#include "host/image/input_file.h"
+#include "host/image/picture.h"
+#include "host/report/atomic_file.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace hyalite {
+
+/// Writes scan lines of float32, packed without loss: R, G and B, linear, of the primaries of Rec. 709; each layer as
+/// NAME.CHANNEL, or as NAME where it has one value a pixel; and the attributes as strings. The display window is the
+/// whole image, the data window the crop. The same picture makes the same bytes. Throws Error{OutputNotWritten}.
+void writeExr(AtomicFile &file, const Picture &picture);
+
+/// Whether the first bytes of a file are those of an OpenEXR file.
+[[nodiscard]] bool isExr(std::span<const std::byte> head);
+
+/// Reads R, G and B, or Y as three equal channels, of the data window: of the layer with that name, or of none. A layer
+/// of one value is read likewise. Half floats and integers become float32, all compressions are read. Throws
+/// Error{BadInput}: also for tiles, deep pixels and several parts; for a layer that is not there; and for files that
+/// would take more than 64 MiB and 64 times their size to read.
+[[nodiscard]] Image readExr(const InputFile &file, const std::string &layer = "");
+
+} // namespace hyalite

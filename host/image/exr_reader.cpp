@@ -1,0 +1,266 @@
+#include "host/image/exr.h"
+#include "host/image/image_file.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string_view>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::array<unsigned char, 4> magicBytes{0x76, 0x2f, 0x31, 0x01};
+constexpr std::size_t headerBytesMax = std::size_t{1} << 20;
+
+std::uint32_t little32(std::span<const std::byte> bytes) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        value |= static_cast<std::uint32_t>(bytes[i]) << (8 * i);
+    return value;
+}
+
+/// The header as the library may see it. It asks for as much memory as some attributes say, before it looks at what
+/// there is; so these become attributes of a type that it does not know, whose bytes it keeps as they are.
+///
+///     76 2f 31 01   version and flags   (name \0 type \0 size value)...   \0
+class SafeHeader {
+  public:
+    explicit SafeHeader(const InputFile &file) : file_(file), bytes_(file.head(headerBytesMax)) {
+        requireSingleImage();
+        std::size_t position = 8;
+        while (byteAt(position) != std::byte{0})
+            position = passAttribute(position);
+        bytes_.resize(position + 1);
+    }
+
+    [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+
+  private:
+    [[nodiscard]] std::byte byteAt(std::size_t position) const {
+        if (position >= bytes_.size())
+            throw file_.bad(file_.sizeBytes() > headerBytesMax
+                                ? fmt::format("its OpenEXR header is longer than {} bytes", headerBytesMax)
+                                : "its OpenEXR header is cut short");
+        return bytes_[position];
+    }
+
+    void requireSingleImage() const {
+        (void)byteAt(7);
+        const std::uint32_t version = little32(std::span(bytes_).subspan(4));
+        if ((version & 0xffu) != 2)
+            throw file_.bad(fmt::format("it is OpenEXR of version {}; version 2 is read", version & 0xffu));
+        constexpr std::uint32_t longNames = 0x400;
+        const std::pair<std::uint32_t, const char *> refused[] = {
+            {0x800, "deep pixels"}, {0x1000, "several parts"}, {0x200, "tiles"}};
+        for (const auto &[flag, what] : refused)
+            if ((version & flag) != 0)
+                throw file_.bad(fmt::format("it is OpenEXR with {}; store one image of scan lines", what));
+        if ((version & ~(0xffu | longNames)) != 0)
+            throw file_.bad(fmt::format("its OpenEXR version field is {:#x}, which is not known", version));
+    }
+
+    /// The text that begins there. Its end, a zero, lies within the header.
+    [[nodiscard]] std::string_view textAt(std::size_t begin) const {
+        constexpr std::size_t lengthMax = 255;
+        std::size_t end = begin;
+        while (byteAt(end) != std::byte{0})
+            if (++end - begin > lengthMax)
+                throw file_.bad(
+                    fmt::format("its OpenEXR header has a name of more than {} bytes", lengthMax));
+        return {reinterpret_cast<const char *>(bytes_.data()) + begin, end - begin};
+    }
+
+    /// Returns where the next one begins.
+    std::size_t passAttribute(std::size_t begin) {
+        const std::string_view name = textAt(begin);
+        const std::size_t typeBegin = begin + name.size() + 1;
+        const std::size_t typeSize = textAt(typeBegin).size();
+        const std::size_t sizeBegin = typeBegin + typeSize + 1;
+        (void)byteAt(sizeBegin + 3);
+        const std::uint32_t size = little32(std::span(bytes_).subspan(sizeBegin));
+        const std::size_t valueBegin = sizeBegin + 4;
+        (void)byteAt(valueBegin + size);
+        constexpr std::array<std::string_view, 8> needed{
+            "channels",  "compression",      "dataWindow",         "displayWindow",
+            "lineOrder", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth"};
+        if (std::find(needed.begin(), needed.end(), name) == needed.end())
+            std::fill_n(bytes_.begin() + static_cast<std::ptrdiff_t>(typeBegin), typeSize, std::byte{'~'});
+        return valueBegin + size;
+    }
+
+    const InputFile &file_;
+    std::vector<std::byte> bytes_;
+};
+
+/// The file with the safe header in the place of its own.
+class ExrInput : public Imf::IStream {
+  public:
+    ExrInput(const InputFile &file, const SafeHeader &header)
+        : Imf::IStream("it"), file_(file), header_(header.bytes()) {}
+
+    bool read(char bytes[], int countBytes) override {
+        const auto count = static_cast<std::uint64_t>(countBytes);
+        if (countBytes < 0 || position_ > file_.sizeBytes() || count > file_.sizeBytes() - position_)
+            throw file_.bad("it is cut short");
+        const std::uint64_t fromHeader =
+            position_ < header_.size() ? std::min(count, header_.size() - position_) : 0;
+        if (fromHeader > 0)
+            std::memcpy(bytes, header_.data() + position_, fromHeader);
+        file_.read(position_ + fromHeader,
+                   std::as_writable_bytes(std::span(bytes + fromHeader, count - fromHeader)));
+        position_ += count;
+        return position_ < file_.sizeBytes();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override { position_ = position; }
+
+  private:
+    const InputFile &file_;
+    std::span<const std::byte> header_;
+    std::uint64_t position_ = 0;
+};
+
+int linesPackedTogether(Imf::Compression compression) {
+    switch (compression) {
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+        return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+        return 32;
+    case Imf::DWAB_COMPRESSION:
+        return 256;
+    default:
+        return 1;
+    }
+}
+
+/// Whatever the file holds, a terminal must not obey it.
+std::string printable(const std::string &name, std::size_t lengthMax = 40) {
+    std::string text = name.substr(0, lengthMax);
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
+}
+
+/// The names of the channels that hold R, G and B of a layer.
+std::array<std::string, 3> channelsOf(const InputFile &file, const Imf::ChannelList &channels,
+                                      const std::string &layer) {
+    const std::string prefix = layer.empty() ? "" : layer + ".";
+    const std::array<std::string, 3> rgb{prefix + "R", prefix + "G", prefix + "B"};
+    if (std::all_of(rgb.begin(), rgb.end(),
+                    [&](const std::string &name) { return channels.findChannel(name); }))
+        return rgb;
+    for (const std::string &name : {layer, prefix + "Y"})
+        if (channels.findChannel(name) != nullptr && channels.findChannel(prefix + "RY") == nullptr)
+            return {name, name, name};
+    std::vector<std::string> found;
+    constexpr std::size_t mostTold = 12;
+    std::size_t count = 0;
+    for (Imf::ChannelList::ConstIterator i = channels.begin(); i != channels.end(); ++i)
+        if (++count <= mostTold)
+            found.push_back(printable(i.name()));
+    throw file.bad(fmt::format("it has no channels {}R, {}G and {}B, but {}{}", prefix, prefix, prefix,
+                               found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", ")),
+                               count > mostTold ? fmt::format(" and {} more", count - mostTold) : ""));
+}
+
+/// What there is to be said before memory is asked for. Throws where the file cannot be read.
+void requireReadable(const InputFile &file, const Imf::Header &header) {
+    const Imath::Box2i &window = header.dataWindow();
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    if (width < 1 || height < 1 || width > imageSideMax || height > imageSideMax ||
+        static_cast<std::uint64_t>(width * height) > imagePixelCountMax)
+        throw file.bad(fmt::format("its size is {} x {}; a side may have 1 to {} pixels, an image {}", width,
+                                   height, imageSideMax, imagePixelCountMax));
+    std::uint64_t bytesPerPixel = 0;
+    for (Imf::ChannelList::ConstIterator i = header.channels().begin(); i != header.channels().end(); ++i) {
+        if (i.channel().xSampling != 1 || i.channel().ySampling != 1)
+            throw file.bad(
+                fmt::format("its channel {} has fewer values than pixels (sampling {} x {}); store a "
+                            "value for each pixel",
+                            printable(i.name()), i.channel().xSampling, i.channel().ySampling));
+        bytesPerPixel += i.channel().type == Imf::HALF ? 2 : 4;
+    }
+    // What packed lines become, and the library's room for that: five times as much with DWA, which is the most.
+    constexpr std::uint64_t copyCount = 8;
+    const std::uint64_t pixelCount = static_cast<std::uint64_t>(width * height);
+    const std::uint64_t packedBytes = static_cast<std::uint64_t>(width) * bytesPerPixel *
+                                      static_cast<std::uint64_t>(linesPackedTogether(header.compression()));
+    const std::uint64_t neededBytes = pixelCount * sizeof(glm::vec3) + copyCount * packedBytes;
+    constexpr std::uint64_t freeBytes = std::uint64_t{64} << 20;
+    constexpr std::uint64_t unpackingMax = 64;
+    if (neededBytes > freeBytes + unpackingMax * file.sizeBytes())
+        throw file.bad(
+            fmt::format("{} x {} pixels with {} bytes each take {} MiB to read, for a file of {} bytes; "
+                        "that is more than {} times as much",
+                        width, height, bytesPerPixel, neededBytes >> 20, file.sizeBytes(), unpackingMax));
+}
+
+Image readLayer(const InputFile &file, const std::string &layer) {
+    const SafeHeader safeHeader(file);
+    ExrInput input(file, safeHeader);
+    Imf::Header header;
+    input.seekg(8);
+    int version = 2;
+    header.readFrom(input, version);
+    requireReadable(file, header);
+    const std::array<std::string, 3> names = channelsOf(file, header.channels(), layer);
+
+    input.seekg(0);
+    Imf::InputFile reader(input, 0);
+    if (!reader.isComplete())
+        throw file.bad("some of its rows are missing");
+    const Imath::Box2i &window = header.dataWindow();
+    Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+    Imf::FrameBuffer frameBuffer;
+    const bool isGrey = names[0] == names[1];
+    for (std::size_t channel = 0; channel < (isGrey ? 1u : 3u); ++channel)
+        frameBuffer.insert(names[channel],
+                           Imf::Slice::Make(Imf::FLOAT, &image.pixels().front().x + channel, window,
+                                            sizeof(glm::vec3),
+                                            sizeof(glm::vec3) * static_cast<std::size_t>(image.width())));
+    reader.setFrameBuffer(frameBuffer);
+    reader.readPixels(window.min.y, window.max.y);
+    if (isGrey)
+        for (glm::vec3 &pixel : image.pixels())
+            pixel = glm::vec3(pixel.x);
+    return image;
+}
+
+} // namespace
+
+bool isExr(std::span<const std::byte> head) {
+    return head.size() >= magicBytes.size() &&
+           std::equal(magicBytes.begin(), magicBytes.end(), head.begin(),
+                      [](unsigned char a, std::byte b) { return std::byte{a} == b; });
+}
+
+Image readExr(const InputFile &file, const std::string &layer) {
+    try {
+        return readLayer(file, layer);
+    } catch (const Error &) {
+        throw;
+    } catch (const std::bad_alloc &) {
+        throw;
+    } catch (const std::exception &error) {
+        throw file.bad(fmt::format("OpenEXR says: {}", printable(error.what(), 200)));
+    }
+}
+
+} // namespace hyalite

@@ -1,0 +1,282 @@
+#include "host/image/hdr.h"
+
+#include "host/image/image_file.h"
+
+#include <glm/common.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+using Rgbe = std::array<std::uint8_t, 4>;
+
+constexpr int exponentBias = 128;   ///< a mantissa of 256 with this exponent is 1
+constexpr int runLengthSideMin = 8; ///< rows that are shorter, or longer than the next, are stored plainly
+constexpr int runLengthSideMax = 32767;
+
+Rgbe encode(const glm::vec3 &colour) {
+    // The largest value: 255 / 256 * 2^127.
+    const float largest = std::ldexp(255.0f, 119);
+    const auto bounded = [&](float value) {
+        return value > 0.0f ? std::min(value, largest) : 0.0f;
+    }; // NaN: 0
+    const glm::vec3 positive(bounded(colour.x), bounded(colour.y), bounded(colour.z));
+    const float maximum = std::max({positive.x, positive.y, positive.z});
+    int exponent = 0;
+    if (std::frexp(maximum, &exponent) * 256.0f >= 255.5f) // which would be rounded to 256
+        ++exponent;
+    if (maximum == 0.0f || exponent <= -exponentBias)
+        return {};
+    const auto mantissa = [&](float value) {
+        return static_cast<std::uint8_t>(std::nearbyint(std::ldexp(value, 8 - exponent)));
+    };
+    return {mantissa(positive.x), mantissa(positive.y), mantissa(positive.z),
+            static_cast<std::uint8_t>(exponent + exponentBias)};
+}
+
+/// Appends one channel of a row: runs of 3 to 127 equal bytes as (128 + length, byte), others as (length, bytes), up to
+/// 128 of them.
+void packRuns(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t> &packed) {
+    constexpr std::size_t runMin = 3;
+    constexpr std::size_t runMax = 127;
+    constexpr std::size_t plainMax = 128;
+    const auto runAt = [&](std::size_t begin) {
+        std::size_t end = begin + 1;
+        while (end < bytes.size() && end - begin < runMax && bytes[end] == bytes[begin])
+            ++end;
+        return end - begin;
+    };
+    for (std::size_t begin = 0; begin < bytes.size();) {
+        if (const std::size_t run = runAt(begin); run >= runMin) {
+            packed.push_back(static_cast<std::uint8_t>(128 + run));
+            packed.push_back(bytes[begin]);
+            begin += run;
+            continue;
+        }
+        std::size_t end = begin + 1;
+        while (end < bytes.size() && end - begin < plainMax && runAt(end) < runMin)
+            ++end;
+        packed.push_back(static_cast<std::uint8_t>(end - begin));
+        packed.insert(packed.end(), bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(end));
+        begin = end;
+    }
+}
+
+std::vector<std::uint8_t> packRow(std::span<const Rgbe> row) {
+    std::vector<std::uint8_t> packed;
+    if (row.size() < runLengthSideMin || row.size() > runLengthSideMax) {
+        for (const Rgbe &pixel : row)
+            packed.insert(packed.end(), pixel.begin(), pixel.end());
+        return packed;
+    }
+    packed = {2, 2, static_cast<std::uint8_t>(row.size() >> 8), static_cast<std::uint8_t>(row.size() & 0xff)};
+    std::vector<std::uint8_t> channelBytes(row.size());
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+        std::transform(row.begin(), row.end(), channelBytes.begin(),
+                       [channel](const Rgbe &pixel) { return pixel[channel]; });
+        packRuns(channelBytes, packed);
+    }
+    return packed;
+}
+
+/// The bytes of a file, one after the other.
+class ByteStream {
+  public:
+    explicit ByteStream(const InputFile &file) : file_(file) {}
+
+    [[nodiscard]] std::uint8_t next() {
+        if (position_ == buffer_.size())
+            refill();
+        return static_cast<std::uint8_t>(buffer_[position_++]);
+    }
+    [[nodiscard]] std::uint64_t remaining() const {
+        return file_.sizeBytes() - offset_ + (buffer_.size() - position_);
+    }
+
+  private:
+    void refill() {
+        constexpr std::uint64_t bufferBytes = 65536;
+        buffer_.resize(static_cast<std::size_t>(std::min(bufferBytes, file_.sizeBytes() - offset_)));
+        if (buffer_.empty())
+            throw file_.bad("it is cut short");
+        file_.read(offset_, buffer_);
+        offset_ += buffer_.size();
+        position_ = 0;
+    }
+
+    const InputFile &file_;
+    std::uint64_t offset_ = 0; ///< of what follows the buffer
+    std::vector<std::byte> buffer_;
+    std::size_t position_ = 0;
+};
+
+constexpr std::size_t headerBytesMax = 65536;
+
+/// A line of the header, without its end.
+std::string nextLine(const InputFile &file, ByteStream &stream, std::size_t &headerBytes) {
+    std::string line;
+    for (char c = static_cast<char>(stream.next()); c != '\n'; c = static_cast<char>(stream.next())) {
+        if (++headerBytes > headerBytesMax)
+            throw file.bad(fmt::format("its header is longer than {} bytes", headerBytesMax));
+        line += c;
+    }
+    if (line.ends_with('\r'))
+        line.pop_back();
+    return line;
+}
+
+/// Whatever the file holds, a terminal must not obey it.
+std::string printable(const std::string &text) {
+    std::string shown = text.substr(0, 40);
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return shown;
+}
+
+/// Passes the header, and returns an image of its size.
+Image readHeader(const InputFile &file, ByteStream &stream) {
+    std::size_t headerBytes = 0;
+    std::string line = nextLine(file, stream, headerBytes); // #?RADIANCE
+    bool hasFormat = false;
+    for (line = nextLine(file, stream, headerBytes); !line.empty();
+         line = nextLine(file, stream, headerBytes)) {
+        if (!line.starts_with("FORMAT="))
+            continue;
+        if (line != "FORMAT=32-bit_rle_rgbe")
+            throw file.bad(
+                fmt::format("its header says {}; FORMAT=32-bit_rle_rgbe is read", printable(line)));
+        hasFormat = true;
+    }
+    if (!hasFormat)
+        throw file.bad("its header has no line FORMAT=32-bit_rle_rgbe");
+    line = nextLine(file, stream, headerBytes);
+    int width = 0;
+    int height = 0;
+    int length = 0;
+    static_assert(imageSideMax < 999999, "six digits are read");
+    if (std::sscanf(line.c_str(), "-Y %6d +X %6d%n", &height, &width, &length) != 2 ||
+        static_cast<std::size_t>(length) != line.size())
+        throw file.bad(
+            fmt::format("its size is given as '{}'; allowed: -Y HEIGHT +X WIDTH", printable(line)));
+    const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    if (width < 1 || height < 1 || width > imageSideMax || height > imageSideMax ||
+        pixelCount > imagePixelCountMax)
+        throw file.bad(fmt::format("its size is {} x {}; a side may have 1 to {} pixels, an image {}", width,
+                                   height, imageSideMax, imagePixelCountMax));
+    constexpr std::uint64_t freeBytes = std::uint64_t{60}
+                                        << 20; // of 64 MiB: rows and the file's buffer come on top
+    constexpr std::uint64_t unpackingMax = 64;
+    if (pixelCount * sizeof(glm::vec3) > freeBytes + unpackingMax * file.sizeBytes())
+        throw file.bad(
+            fmt::format("{} x {} pixels take {} MiB to read, for a file of {} bytes; that is more than "
+                        "{} times as much",
+                        width, height, pixelCount * sizeof(glm::vec3) >> 20, file.sizeBytes(), unpackingMax));
+    return {width, height};
+}
+
+[[noreturn]] void refuseRow(const InputFile &file, int y) {
+    throw file.bad(fmt::format("the runs of its row {} do not add up to the width", y));
+}
+
+/// Four channels one after the other, in runs, see packRuns().
+void readRuns(const InputFile &file, ByteStream &stream, int y, std::span<Rgbe> row) {
+    for (std::size_t channel = 0; channel < 4; ++channel)
+        for (std::size_t x = 0; x < row.size();) {
+            const std::uint8_t head = stream.next();
+            const bool isRun = head > 128;
+            const std::size_t count = isRun ? head - 128u : head;
+            if (count == 0 || count > row.size() - x)
+                refuseRow(file, y);
+            std::uint8_t byte = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                if (i == 0 || !isRun)
+                    byte = stream.next();
+                row[x++][channel] = byte;
+            }
+        }
+}
+
+/// Whole pixels; (1, 1, 1, n) repeats the last one n times, and the next such, if it follows at once, 256 n times.
+void readPixels(const InputFile &file, ByteStream &stream, int y, const Rgbe &first, std::span<Rgbe> row) {
+    unsigned shift = 0;
+    Rgbe pixel = first;
+    for (std::size_t x = 0; x < row.size();) {
+        if (pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1) {
+            const std::uint64_t count = shift < 32 ? std::uint64_t{pixel[3]} << shift : row.size() + 1;
+            if (x == 0 || count > row.size() - x)
+                refuseRow(file, y);
+            std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), count, row[x - 1]);
+            x += static_cast<std::size_t>(count);
+            shift += 8;
+        } else {
+            row[x++] = pixel;
+            shift = 0;
+        }
+        if (x < row.size())
+            for (std::uint8_t &byte : pixel)
+                byte = stream.next();
+    }
+}
+
+void readRow(const InputFile &file, ByteStream &stream, int y, std::span<Rgbe> row) {
+    Rgbe first;
+    for (std::uint8_t &byte : first)
+        byte = stream.next();
+    const std::size_t widthInRow = std::size_t{first[2]} << 8 | first[3];
+    if (row.size() >= runLengthSideMin && row.size() <= runLengthSideMax && first[0] == 2 && first[1] == 2 &&
+        widthInRow == row.size())
+        readRuns(file, stream, y, row);
+    else
+        readPixels(file, stream, y, first, row);
+}
+
+glm::vec3 decode(const Rgbe &pixel) {
+    const float scale = std::ldexp(1.0f, pixel[3] - exponentBias - 8);
+    return pixel[3] == 0 ? glm::vec3(0.0f) : scale * glm::vec3(pixel[0], pixel[1], pixel[2]);
+}
+
+} // namespace
+
+bool isHdr(std::span<const std::byte> head) {
+    return head.size() >= 2 && head[0] == std::byte{'#'} && head[1] == std::byte{'?'};
+}
+
+Image readHdr(const InputFile &file) {
+    ByteStream stream(file);
+    Image image = readHeader(file, stream);
+    std::vector<Rgbe> row(static_cast<std::size_t>(image.width()));
+    for (int y = 0; y < image.height(); ++y) {
+        readRow(file, stream, y, row);
+        std::transform(row.begin(), row.end(), &image.at(0, y), decode);
+    }
+    if (stream.remaining() != 0)
+        throw file.bad(fmt::format("{} bytes follow the last row", stream.remaining()));
+    return image;
+}
+
+void writeHdr(AtomicFile &file, const Image &image) {
+    assert(image.width() > 0 && image.height() > 0);
+    file.write(
+        fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", image.height(), image.width()));
+    std::vector<Rgbe> row(static_cast<std::size_t>(image.width()));
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x)
+            row[static_cast<std::size_t>(x)] = encode(image.at(x, y));
+        file.write(std::as_bytes(std::span<const std::uint8_t>(packRow(row))));
+    }
+}
+
+} // namespace hyalite

@@ -1,0 +1,38 @@
+// Radiance's picture files (.hdr, .pic): a text header, then a byte each for red, green, blue and a common exponent.
+//
+//     #?RADIANCE
+//     FORMAT=32-bit_rle_rgbe
+//                                 an empty line ends the header
+//     -Y 480 +X 640               rows from top to bottom, pixels from left to right
+//     <rows, run-length encoded>
+//
+// Defined by G. Ward, "Real Pixels", Graphics Gems II (1991), and the file formats' reference of Radiance. The largest
+// channel has eight bits, so a value is off by up to 1/256 of it.
+//
+// The code is our own, as stb_image takes a file that is cut short for a whole one, and stb_image_write always rounds
+// down, which makes pictures darker.
+#pragma once
+
+#include "host/image/image.h"
+#include "host/image/input_file.h"
+#include "host/report/atomic_file.h"
+
+#include <cstddef>
+#include <span>
+
+namespace hyalite {
+
+/// Each value rounded to the nearest one of the format. Negative values and NaN become 0, and what is beyond the format,
+/// 2^127 and infinity, its largest. Throws Error{OutputNotWritten}.
+void writeHdr(AtomicFile &file, const Image &image);
+
+/// Whether the first bytes of a file are those of a Radiance picture.
+[[nodiscard]] bool isHdr(std::span<const std::byte> head);
+
+/// Reads rows from top to bottom, run-length encoded in the new manner, the old one, or not at all. Values are m * 2^(e -
+/// 136), as nearly all programs have it; Radiance's own adds a half to m. EXPOSURE and other lines of the header are
+/// ignored. Throws Error{BadInput}: also for other orders of pixels, for the colour space XYZ, and for files that would
+/// take more than 64 MiB and 64 times their size to read.
+[[nodiscard]] Image readHdr(const InputFile &file);
+
+} // namespace hyalite

@@ -1,0 +1,36 @@
+#include "host/image/picture.h"
+
+#include <algorithm>
+
+namespace hyalite {
+
+namespace {
+
+std::span<const layout::FilmPixel> rowOf(const Film &film, int y) {
+    const auto width = static_cast<std::size_t>(film.crop.width());
+    return std::span(film.pixels).subspan(static_cast<std::size_t>(y) * width, width);
+}
+
+} // namespace
+
+std::vector<Layer> filmLayers(const Film &film) {
+    std::vector<Layer> layers;
+    const auto hasVariance = [](const layout::FilmPixel &pixel) { return pixel.sampleCount > 1; };
+    if (std::any_of(film.pixels.begin(), film.pixels.end(), hasVariance))
+        layers.push_back({"variance", "RGB", [&film](int y, std::span<float> row) {
+                              float *next = row.data();
+                              for (const layout::FilmPixel &pixel : rowOf(film, y)) {
+                                  const glm::dvec3 variance = varianceOfMean(pixel);
+                                  for (int channel = 0; channel < 3; ++channel)
+                                      *next++ = static_cast<float>(variance[channel]);
+                              }
+                          }});
+    layers.push_back({"samples", "", [&film](int y, std::span<float> row) {
+                          float *next = row.data();
+                          for (const layout::FilmPixel &pixel : rowOf(film, y))
+                              *next++ = static_cast<float>(pixel.sampleCount);
+                      }});
+    return layers;
+}
+
+} // namespace hyalite
