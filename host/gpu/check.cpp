@@ -56,6 +56,7 @@ void check(VkResult result, const std::string &action) {
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_OUT_OF_POOL_MEMORY:
     case VK_ERROR_TOO_MANY_OBJECTS:
+    case VK_ERROR_MEMORY_MAP_FAILED:
         throw Error(ExitCode::LimitExceeded, fmt::format("{}: {}", action, resultName(result)));
     default:
         throw Error(ExitCode::NoDevice, fmt::format("{}: {}", action, resultName(result)));

@@ -11,7 +11,7 @@ namespace hyalite::gpu {
 [[nodiscard]] std::string resultName(VkResult result);
 
 /// Throws unless `result` is VK_SUCCESS: Error{DeviceLost} for a lost device and for time-outs, Error{LimitExceeded}
-/// where memory ran out, Error{NoDevice} otherwise. `action` says what was tried: "vkAllocateMemory for nodes, 64 MiB".
+/// where memory or address space ran out, Error{NoDevice} otherwise. `action` says what was tried: "vkAllocateMemory for nodes, 64 MiB".
 void check(VkResult result, const std::string &action);
 
 } // namespace hyalite::gpu

@@ -50,7 +50,8 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = family;
     VkCommandPool commandPool = VK_NULL_HANDLE;
-    check(vkCreateCommandPool(device, &pool, nullptr, &commandPool), "vkCreateCommandPool");
+    check(vkCreateCommandPool(device, &pool, nullptr, &commandPool),
+          fmt::format("vkCreateCommandPool for {}", info.name));
     commandPool_ = CommandPoolHandle(device, commandPool);
 
     VkCommandBufferAllocateInfo allocate{};
@@ -58,12 +59,13 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     allocate.commandPool = commandPool;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    check(vkAllocateCommandBuffers(device, &allocate, &commandBuffer_), "vkAllocateCommandBuffers");
+    check(vkAllocateCommandBuffers(device, &allocate, &commandBuffer_),
+          fmt::format("vkAllocateCommandBuffers for {}", info.name));
 
     VkFenceCreateInfo fenceInfo{};
     fenceInfo.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     VkFence fence = VK_NULL_HANDLE;
-    check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "vkCreateFence");
+    check(vkCreateFence(device, &fenceInfo, nullptr, &fence), fmt::format("vkCreateFence for {}", info.name));
     fence_ = FenceHandle(device, fence);
 
     timestamps_ = Timestamps(instance_.get(), physical_, device, family, info.hasCalibratedTimestamps);
@@ -106,7 +108,7 @@ void Device::submit(const std::string &action, const std::function<void(VkComman
     // However long it takes: a busy machine, or a program that was stopped for a while, is no lost device, and to give
     // up would free what the work still uses. Of a device that hangs the driver tells.
     check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
-          "waiting for " + action);
+          "vkWaitForFences for " + action);
     instance_.throwOnValidationMessage();
 }
 

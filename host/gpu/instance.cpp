@@ -21,10 +21,11 @@ bool isValidationWanted() {
 }
 
 bool isLayerPresent(const char *name) {
+    const std::string action = fmt::format("vkEnumerateInstanceLayerProperties for {}", name);
     std::uint32_t count = 0;
-    check(vkEnumerateInstanceLayerProperties(&count, nullptr), "vkEnumerateInstanceLayerProperties");
+    check(vkEnumerateInstanceLayerProperties(&count, nullptr), action);
     std::vector<VkLayerProperties> layers(count);
-    check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "vkEnumerateInstanceLayerProperties");
+    check(vkEnumerateInstanceLayerProperties(&count, layers.data()), action);
     return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties &layer) {
         return std::strcmp(layer.layerName, name) == 0;
     });
@@ -32,12 +33,11 @@ bool isLayerPresent(const char *name) {
 
 /// Of the loader and the drivers together.
 bool isExtensionPresent(const char *name) {
+    const std::string action = fmt::format("vkEnumerateInstanceExtensionProperties for {}", name);
     std::uint32_t count = 0;
-    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr),
-          "vkEnumerateInstanceExtensionProperties");
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr), action);
     std::vector<VkExtensionProperties> extensions(count);
-    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()),
-          "vkEnumerateInstanceExtensionProperties");
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()), action);
     return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties &extension) {
         return std::strcmp(extension.extensionName, name) == 0;
     });
@@ -103,12 +103,13 @@ Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
         throw Error(ExitCode::NoDevice,
                     "no Vulkan driver is installed: install your GPU's driver, or the package "
                     "mesa-vulkan-drivers, whose lavapipe renders on any CPU");
-    check(result, "vkCreateInstance");
+    check(result, "vkCreateInstance for hyalite");
     handle_ = InstanceHandle(NoParent{}, instance);
     if (isValidated) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
-        check(create(instance, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+        check(create(instance, &messenger, nullptr, &messenger_),
+              "vkCreateDebugUtilsMessengerEXT for messages of the validation layer");
     }
 }
 
@@ -122,9 +123,10 @@ Instance::~Instance() {
 
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
     std::uint32_t count = 0;
-    check(vkEnumeratePhysicalDevices(handle_.get(), &count, nullptr), "vkEnumeratePhysicalDevices");
+    const char *const action = "vkEnumeratePhysicalDevices for the list of devices";
+    check(vkEnumeratePhysicalDevices(handle_.get(), &count, nullptr), action);
     std::vector<VkPhysicalDevice> devices(count);
-    check(vkEnumeratePhysicalDevices(handle_.get(), &count, devices.data()), "vkEnumeratePhysicalDevices");
+    check(vkEnumeratePhysicalDevices(handle_.get(), &count, devices.data()), action);
     devices.resize(count);
     return devices;
 }

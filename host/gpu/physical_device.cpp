@@ -1,6 +1,7 @@
 #include "host/gpu/physical_device.h"
 
 #include "host/gpu/arithmetic.h"
+#include "host/gpu/check.h"
 #include "shaders/layout.h"
 
 #include <fmt/format.h>
@@ -35,13 +36,13 @@ DeviceType deviceType(VkPhysicalDeviceType type) {
     }
 }
 
+/// A device of which this cannot be learnt is none that lacks the extension: that would change what is rendered.
 bool hasExtension(VkPhysicalDevice device, const char *name) {
+    const std::string action = fmt::format("vkEnumerateDeviceExtensionProperties for {}", name);
     std::uint32_t count = 0;
-    if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS)
-        return false;
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), action);
     std::vector<VkExtensionProperties> extensions(count);
-    if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()) != VK_SUCCESS)
-        return false;
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()), action);
     return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties &extension) {
         return std::strcmp(extension.extensionName, name) == 0;
     });
@@ -137,6 +138,11 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     all.pNext = &subgroup;
     vkGetPhysicalDeviceProperties2(device, &all);
     info.subgroupSize = subgroup.subgroupSize;
+    constexpr VkSubgroupFeatureFlags operations =
+        VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+    if (info.isUsable() && ((subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0 ||
+                            (subgroup.supportedOperations & operations) != operations))
+        info.rejection = "offers no subgroup shuffles in compute kernels, which ours need";
     if (hasDriver) {
         info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
         info.driverId = static_cast<std::uint32_t>(driver.driverID);

@@ -23,9 +23,10 @@ bool canCalibrate(VkInstance instance, VkPhysicalDevice physical) {
     if (list == nullptr)
         return false;
     std::uint32_t count = 0;
-    check(list(physical, &count, nullptr), "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT");
+    const char *const action = "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT for timestamps";
+    check(list(physical, &count, nullptr), action);
     std::vector<VkTimeDomainEXT> domains(count);
-    check(list(physical, &count, domains.data()), "vkGetPhysicalDeviceCalibrateableTimeDomainsEXT");
+    check(list(physical, &count, domains.data()), action);
     const auto has = [&](VkTimeDomainEXT domain) {
         return std::find(domains.begin(), domains.end(), domain) != domains.end();
     };
@@ -127,7 +128,7 @@ void Timestamps::calibrate() {
     std::uint64_t maxDeviation = 0;
     check(getCalibratedTimestamps_(device_, static_cast<std::uint32_t>(infos.size()), infos.data(),
                                    values.data(), &maxDeviation),
-          "vkGetCalibratedTimestampsEXT");
+          "vkGetCalibratedTimestampsEXT for timestamps");
     calibration_ = Calibration{values[0], static_cast<std::int64_t>(values[1])};
 }
 

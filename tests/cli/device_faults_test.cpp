@@ -1,0 +1,177 @@
+// Every Vulkan call of the program fails once, in every way that it can: the exit code and the message say so, and
+// nothing is left behind. The layer in tests/faults makes them fail.
+#include "tests/cli/fault_process.h"
+#include "tests/faults/fault_layer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace hyalite::testing {
+namespace {
+
+const std::string small = " --width 8 --height 8 --spp 1";
+
+std::string textOf(const std::filesystem::path &path) {
+    std::ifstream stream(path);
+    EXPECT_TRUE(stream.good()) << path;
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+std::set<std::string> matches(const std::string &text, const std::string &expression) {
+    const std::regex regex(expression);
+    std::set<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), regex), end; at != end; ++at)
+        found.insert((*at)[1]);
+    return found;
+}
+
+/// What a call can return, by the specification, as far as the program tells results apart.
+std::vector<std::string> resultsOf(const std::string &function) {
+    std::vector<std::string> results{"VK_ERROR_OUT_OF_HOST_MEMORY", "VK_ERROR_OUT_OF_DEVICE_MEMORY"};
+    const auto isOneOf = [&](std::initializer_list<const char *> names) {
+        return std::find(names.begin(), names.end(), function) != names.end();
+    };
+    if (isOneOf({"vkCreateInstance", "vkCreateDevice", "vkEnumeratePhysicalDevices"}))
+        results.push_back("VK_ERROR_INITIALIZATION_FAILED");
+    if (isOneOf({"vkCreateDevice", "vkQueueSubmit", "vkWaitForFences", "vkGetQueryPoolResults"}))
+        results.push_back("VK_ERROR_DEVICE_LOST");
+    if (function == "vkMapMemory")
+        results.push_back("VK_ERROR_MEMORY_MAP_FAILED");
+    return results;
+}
+
+/// Each buffer and each submission; of what is called with them, and of names, a few.
+std::vector<long> chooseCalls(const std::string &function, long count) {
+    const bool isEach =
+        function == "vkAllocateMemory" || function == "vkQueueSubmit" || function == "vkWaitForFences";
+    const long stride = isEach ? 1 : std::max(count / 3, 1l);
+    std::vector<long> chosen;
+    for (long call = 1; call <= count; call += stride)
+        chosen.push_back(call);
+    return chosen;
+}
+
+class DeviceFaults : public FaultyDevice {
+  protected:
+    /// Expects the one fault to be told and nothing to be left.
+    void expectTold(const Outcome &outcome, const std::string &function, const std::string &result) const {
+        EXPECT_EQ(outcome.exitCode, exitCodeOf(result)) << outcome;
+        // The loader asks for extensions, too, while it makes a device.
+        const bool isOfLoader = function == "vkEnumerateDeviceExtensionProperties" &&
+                                contains(outcome.errors, "vkCreateDevice for ");
+        EXPECT_TRUE(isOfLoader || contains(outcome.errors, function + " for ")) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, result)) << outcome;
+        EXPECT_EQ(lastTally.faults, std::vector<std::string>{function});
+        EXPECT_TRUE(lastTally.alive.empty()) << ::testing::PrintToString(lastTally.alive);
+        EXPECT_EQ(entries(), std::set<std::string>{}) << "files are left";
+    }
+
+    /// Lets each call of `line` fail, one in each run.
+    void failEachCall(const std::string &line, const std::string &fakes) {
+        ASSERT_EQ(runHere(line, "", fakes).exitCode, 0);
+        EXPECT_TRUE(lastTally.alive.empty()) << ::testing::PrintToString(lastTally.alive);
+        for (const std::string &name : entries())
+            std::filesystem::remove(folder / name);
+        const std::map<std::string, long> calls = lastTally.calls;
+        for (const auto &[function, count] : calls)
+            for (const long call : chooseCalls(function, count)) {
+                std::vector<std::string> results = resultsOf(function);
+                if (call > 1) // the same line of ours, for another object
+                    results = {results[static_cast<std::size_t>(call) % results.size()]};
+                for (const std::string &result : results) {
+                    const std::string fault = fmt::format("{}:{}:{}", function, call, result);
+                    SCOPED_TRACE(fault + " in " + line);
+                    const Outcome outcome = runHere(line, fault, fakes);
+                    if (lastTally.faults.empty() && function == "vkGetCalibratedTimestampsEXT")
+                        continue; // how often clocks are read depends on the time
+                    expectTold(outcome, function, result);
+                    if (HasFailure())
+                        return;
+                }
+            }
+        for (const auto &[function, count] : calls)
+            visited.insert(function);
+    }
+
+    std::set<std::string> visited;
+};
+
+TEST_F(DeviceFaults, TheLayerKnowsEveryCallThatCanFail) {
+    std::string sources;
+    for (const auto &entry : std::filesystem::directory_iterator(HYALITE_SOURCE_DIR "/host/gpu"))
+        sources += textOf(entry.path());
+    const std::set<std::string> called = matches(sources, R"(\b(vk[A-Z]\w+))");
+    const std::set<std::string> fallible =
+        matches(textOf(HYALITE_VULKAN_HEADER), R"(typedef VkResult \(VKAPI_PTR \*PFN_(vk\w+)\))");
+    ASSERT_GT(fallible.size(), 100u);
+    const std::set<std::string> loadersOwn{"vkEnumerateInstanceExtensionProperties",
+                                           "vkEnumerateInstanceLayerProperties"}; // fault_process.cpp
+    std::size_t count = 0;
+    for (const std::string &function : called) {
+        if (!fallible.contains(function))
+            continue;
+        ++count;
+        EXPECT_TRUE(hyaliteCanFail(function.c_str()) || loadersOwn.contains(function))
+            << function << " is called by host/gpu: add it to tests/faults/layer.cpp";
+    }
+    EXPECT_GT(count, 20u);
+}
+
+TEST_F(DeviceFaults, EachCallOfARenderIsChecked) {
+    failEachCall("render spheres --quiet -o " + (folder / "a.png").string() + small, "calibrated");
+    for (const char *function : {"vkGetCalibratedTimestampsEXT", "vkCreateBufferView", "vkWaitForFences",
+                                 "vkEnumerateInstanceExtensionProperties"})
+        EXPECT_TRUE(visited.contains(function)) << function;
+}
+
+TEST_F(DeviceFaults, EachCallOfARenderThroughStagingBuffersIsChecked) {
+    failEachCall("render spheres --quiet -o " + (folder / "a.png").string() + small, "discrete");
+}
+
+TEST_F(DeviceFaults, EachCallOfTheListOfDevicesIsChecked) { failEachCall("devices", ""); }
+
+TEST_F(DeviceFaults, EveryCommandTellsThem) {
+    struct Case {
+        std::string line;
+        std::string function;
+        int call;
+        std::string result;
+    };
+    const Case cases[] = {
+        {"render spheres -o a.png", "vkQueueSubmit", 4, "VK_ERROR_DEVICE_LOST"},
+        {"render spheres -o a.pfm --report r.json", "vkAllocateMemory", 12, "VK_ERROR_OUT_OF_DEVICE_MEMORY"},
+        {"compare spheres --report r.json", "vkWaitForFences", 4, "VK_ERROR_DEVICE_LOST"},
+        {"profile spheres --repeat 1 --report r.json", "vkGetQueryPoolResults", 5,
+         "VK_ERROR_OUT_OF_HOST_MEMORY"},
+        {"profile spheres --repeat 1 -o a.png", "vkCreateComputePipelines", 2, "VK_ERROR_OUT_OF_HOST_MEMORY"},
+        {"devices --json", "vkCreateInstance", 1, "VK_ERROR_INITIALIZATION_FAILED"},
+    };
+    for (const Case &c : cases)
+        for (const bool isValidated : {false, true}) {
+            const std::string line = c.line + (contains(c.line, "devices") ? "" : small);
+            const Outcome outcome =
+                runFaulty(line, fmt::format("{}:{}:{}", c.function, c.call, c.result), "", isValidated);
+            SCOPED_TRACE(line);
+            expectTold(outcome, c.function, c.result);
+            EXPECT_FALSE(contains(outcome.errors, "validation:")) << outcome;
+        }
+}
+
+TEST_F(DeviceFaults, AFailingDispatchIsNamed) {
+    const Outcome outcome =
+        runFaulty("render spheres -o a.png --crop 16,24,8,16 --width 32 --height 32 --spp 3",
+                  "vkWaitForFences:4:VK_ERROR_DEVICE_LOST");
+    EXPECT_EQ(outcome.exitCode, 6);
+    EXPECT_TRUE(contains(outcome.errors, "kernel whitted skip-list-x2, tile (16, 8), samples 0 to 3"))
+        << outcome;
+}
+
+} // namespace
+} // namespace hyalite::testing

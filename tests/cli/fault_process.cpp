@@ -1,0 +1,121 @@
+#include "tests/cli/fault_process.h"
+
+#include "host/cli/commands.h"
+#include "host/error.h"
+#include "tests/faults/fault_layer.h"
+
+#include <sstream>
+
+#include <dlfcn.h>
+#include <stdlib.h>
+
+namespace hyalite::testing {
+
+namespace {
+
+/// Where the layer is, and that it is wanted. Mesa's layer that sorts devices makes calls of its own: it stays out.
+const std::map<std::string, std::string> layerEnvironment{{"VK_ADD_LAYER_PATH", HYALITE_FAULT_LAYER_FOLDER},
+                                                          {"VK_INSTANCE_LAYERS", "VK_LAYER_HYALITE_faults"},
+                                                          {"NODEVICE_SELECT", "1"}};
+
+template <class Function> Function loadersOwn(const char *name) {
+    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+} // namespace
+
+Tally parseTally(const std::string &text) {
+    Tally tally;
+    std::istringstream lines(text);
+    std::string kind, function;
+    for (long number = 0; lines >> kind >> function >> number;) {
+        if (kind == "call")
+            tally.calls[function] = number;
+        else if (kind == "alive")
+            tally.alive[function] = number;
+        else
+            tally.faults.push_back(function);
+    }
+    return tally;
+}
+
+void FaultyDevice::SetUp() {
+    CommandLine::SetUp();
+    for (const auto &[name, value] : layerEnvironment)
+        setenv(name.c_str(), value.c_str(), 1);
+    setenv("HYALITE_VALIDATION", "0", 1); // it would take most of the time, and is asked for where it matters
+}
+
+void FaultyDevice::TearDown() {
+    hyaliteSetFaults("");
+    hyaliteSetFakes("");
+    for (const auto &[name, value] : layerEnvironment)
+        unsetenv(name.c_str());
+    CommandLine::TearDown();
+}
+
+Outcome FaultyDevice::runFaulty(const std::string &line, const std::string &faults, const std::string &fakes,
+                                bool isValidated) {
+    Surroundings surroundings;
+    surroundings.environment = {{"HYALITE_FAULTS", faults},
+                                {"HYALITE_FAKES", fakes},
+                                {"HYALITE_FAULT_TALLY", (folder / "tally").string()},
+                                {"HYALITE_VALIDATION", isValidated ? "1" : "0"}};
+    const Outcome outcome = runIn(surroundings, line);
+    EXPECT_TRUE(entries().contains("tally")) << "it ended before its end: " << outcome;
+    lastTally = parseTally(load("tally"));
+    std::filesystem::remove(folder / "tally");
+    return outcome;
+}
+
+Outcome FaultyDevice::runHere(const std::string &line, const std::string &faults, const std::string &fakes) {
+    hyaliteSetFakes(fakes.c_str());
+    hyaliteSetFaults(faults.c_str());
+    CLI::App app;
+    CommandContext context;
+    context.commandLine = "hyalite " + line;
+    addRenderCommand(app, context);
+    addCompareCommand(app, context);
+    addProfileCommand(app, context);
+    addDevicesCommand(app, context);
+    Outcome outcome;
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    try {
+        app.parse(line);
+        outcome.exitCode = static_cast<int>(context.exitCode);
+    } catch (const Error &error) {
+        outcome.exitCode = static_cast<int>(error.exitCode);
+        outcome.errors = error.what();
+    }
+    outcome.output = ::testing::internal::GetCapturedStdout();
+    outcome.errors += ::testing::internal::GetCapturedStderr();
+    lastTally = parseTally(hyaliteFaultTally());
+    return outcome;
+}
+
+int exitCodeOf(const std::string &result) {
+    if (result == "VK_TIMEOUT" || result == "VK_ERROR_DEVICE_LOST")
+        return 6;
+    return result == "VK_ERROR_INITIALIZATION_FAILED" ? 4 : 5;
+}
+
+} // namespace hyalite::testing
+
+// Before there is an instance no layer is asked: these stand in for the loader's own.
+
+VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceLayerProperties(std::uint32_t *count,
+                                                                  VkLayerProperties *layers) {
+    const VkResult fault = hyaliteNextFault("vkEnumerateInstanceLayerProperties");
+    return fault != VK_SUCCESS ? fault
+                               : hyalite::testing::loadersOwn<PFN_vkEnumerateInstanceLayerProperties>(
+                                     "vkEnumerateInstanceLayerProperties")(count, layers);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceExtensionProperties(const char *layer, std::uint32_t *count,
+                                                                      VkExtensionProperties *extensions) {
+    const VkResult fault = hyaliteNextFault("vkEnumerateInstanceExtensionProperties");
+    return fault != VK_SUCCESS ? fault
+                               : hyalite::testing::loadersOwn<PFN_vkEnumerateInstanceExtensionProperties>(
+                                     "vkEnumerateInstanceExtensionProperties")(layer, count, extensions);
+}

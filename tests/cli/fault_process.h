@@ -1,0 +1,40 @@
+// Commands under the fault layer: calls that fail, devices that can do less, and what is left afterwards.
+#pragma once
+
+#include "tests/cli/command_line.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hyalite::testing {
+
+/// What the fault layer counted.
+struct Tally {
+    std::map<std::string, long> calls; ///< by function
+    std::vector<std::string> faults;   ///< the functions whose calls failed, in their order
+    std::map<std::string, long> alive; ///< objects that were never destroyed, by the function that made them
+};
+
+[[nodiscard]] Tally parseTally(const std::string &text);
+
+/// A test whose commands run under the layer.
+class FaultyDevice : public CommandLine {
+  protected:
+    void SetUp() override;
+    void TearDown() override;
+
+    /// The program in a process of its own, as a user starts it. Its tally is in `lastTally`.
+    [[nodiscard]] Outcome runFaulty(const std::string &line, const std::string &faults,
+                                    const std::string &fakes = {}, bool isValidated = false);
+    /// The command in this process: many of them are fast. Names of files are as they are given, from the root.
+    [[nodiscard]] Outcome runHere(const std::string &line, const std::string &faults,
+                                  const std::string &fakes = {});
+
+    Tally lastTally;
+};
+
+/// "OUT_OF_HOST_MEMORY" is exit code 5, and so on.
+[[nodiscard]] int exitCodeOf(const std::string &result);
+
+} // namespace hyalite::testing

@@ -1,0 +1,68 @@
+#include "tests/faults/fakes.h"
+
+#include "tests/faults/plan.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace hyalite::faults {
+
+void fakeProperties(VkPhysicalDeviceProperties &properties) {
+    VkPhysicalDeviceLimits &limits = properties.limits;
+    if (plan().isFaked("discrete"))
+        properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    if (plan().isFaked("small-buffers")) {
+        limits.maxStorageBufferRange = 1u << 20;
+        limits.maxTexelBufferElements = 1u << 16;
+    }
+    if (plan().isFaked("workgroup-128")) {
+        limits.maxComputeWorkGroupInvocations = 128;
+        for (std::uint32_t &size : limits.maxComputeWorkGroupSize)
+            size = std::min(size, 128u);
+    }
+    if (plan().isFaked("no-timestamps"))
+        limits.timestampComputeAndGraphics = VK_FALSE;
+}
+
+void fakeChain(void *next) {
+    for (auto *part = static_cast<VkBaseOutStructure *>(next); part != nullptr; part = part->pNext) {
+        if (part->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES &&
+            plan().isFaked("no-subgroups")) {
+            auto &subgroup = reinterpret_cast<VkPhysicalDeviceSubgroupProperties &>(*part);
+            subgroup.supportedOperations = VK_SUBGROUP_FEATURE_BASIC_BIT;
+        }
+        if (part->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES &&
+            plan().isFaked("no-float-controls")) {
+            auto &floats = reinterpret_cast<VkPhysicalDeviceFloatControlsProperties &>(*part);
+            floats.shaderRoundingModeRTEFloat32 = VK_FALSE;
+            floats.shaderSignedZeroInfNanPreserveFloat32 = VK_FALSE;
+        }
+    }
+}
+
+void fakeMemory(VkPhysicalDeviceMemoryProperties &memory) {
+    if (plan().isFaked("small-heap"))
+        for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+            memory.memoryHeaps[i].size = std::min<VkDeviceSize>(memory.memoryHeaps[i].size, 256u << 20);
+}
+
+void fakeQueueFamily(VkQueueFamilyProperties &family) {
+    if (plan().isFaked("no-timestamps"))
+        family.timestampValidBits = 0;
+}
+
+void fakeExtensions(std::vector<VkExtensionProperties> &extensions) {
+    const auto has = [&](const char *name) {
+        return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties &extension) {
+            return std::strcmp(extension.extensionName, name) == 0;
+        });
+    };
+    if (plan().isFaked("calibrated") && !has(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) {
+        VkExtensionProperties extension{};
+        std::strcpy(extension.extensionName, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+        extension.specVersion = 1;
+        extensions.push_back(extension);
+    }
+}
+
+} // namespace hyalite::faults
