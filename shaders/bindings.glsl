@@ -22,7 +22,6 @@ layout(constant_id = constantSamplesAbreast) const uint samplesAbreast = 1u;
 layout(constant_id = constantIsResumable) const bool isResumable = true;
 layout(constant_id = constantLightCount) const uint lightCount = 1u;
 layout(constant_id = constantPendingInRegisters) const uint pendingInRegisters = 0u;
-layout(constant_id = constantSkipOrders) const uint skipOrders = 8u;
 
 // Entry kernels begin with loadConstants(), and everything else reads these copies: inside of loops and branches
 // lavapipe loads every word of a uniform buffer and of the push constants lane by lane.

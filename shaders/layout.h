@@ -81,11 +81,10 @@ struct NodePair {
 };
 
 // The same tree as a list without a stack, for texel buffers: depth first, each node followed by its subtree, and the
-// index where a ray goes on that misses it. There is one such list for each octant of directions, in which the nearer
-// child comes first, or fewer for large meshes (host/bvh/skip_list.h). Boxes are rounded outward to a grid of 16 bits
-// over all triangles. Low half-words hold the plane that a ray of the octant meets first, high ones the other; with
-// fewer lists low ones hold lower planes. `link` of an inner node is the index to go on at, of a leaf it is leafFlag |
-// index of its first triangle, and the list goes on with the next node.
+// index where a ray goes on that misses it. There are two such lists, one in which lower siblings come first and one in
+// which upper ones do. Boxes are rounded outward to a grid over all triangles, whose planes are signed integers of 16
+// bits: low half-words hold the lower plane, high ones the upper one. `link` of an inner node is the index to go on at,
+// of a leaf it is leafFlag | index of its first triangle, and the list goes on with the next node.
 
 struct SkipNode {
     uint x;
@@ -141,7 +140,7 @@ struct FrameRecord {
     uint triangleCount;
     vec3 boundsUpper;
     uint maxDepth;       // segments of a path, the primary ray included
-    vec3 gridOrigin;     // of the skip lists' boxes
+    vec3 gridMiddle;     // of the skip lists' boxes: plane q is at gridMiddle + gridScale * q
     uint skipListLength; // nodes of one list
     vec3 gridScale;
     uint pad0;
@@ -310,9 +309,8 @@ const uint constantSamplesAbreast = 9u; // slots of one pixel: a power of two, a
 const uint constantIsResumable = 10u;   // unfinished slots wait in the path buffer
 const uint constantLightCount = 11u;
 const uint constantPendingInRegisters = 12u; // how many; 0: they are in the buffer
-const uint constantSkipOrders = 13u;         // skip lists: 8, 2 or 1
-const uint constantIsCounting = 14u;         // count the work of the traversal
-const uint constantCount = 15u;
+const uint constantIsCounting = 13u;         // count the work of the traversal
+const uint constantCount = 14u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);

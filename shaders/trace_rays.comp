@@ -56,8 +56,8 @@ void storeHit(uint index, HitRecord hit) {
 
 // The ray's slot is its index: where it is in path_slots.glsl, and in the same order of workgroups.
 void beginRay(uint slot) {
-    uint groupsPerPart = gl_NumWorkGroups.x / dispatch.interleave;
-    uint group = gl_WorkGroupID.x % groupsPerPart * dispatch.interleave + gl_WorkGroupID.x / groupsPerPart;
+    uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
+    uint group = part.y * dispatch.interleave + part.x;
     uint lanes = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     slotIndex[slot] = (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u);
     isSlotUsed[slot] = slotIndex[slot] < slotCount();

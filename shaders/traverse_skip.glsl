@@ -5,33 +5,34 @@
 // until each stands at a leaf, then all test triangles until each has left its leaf. It can stop after any step: the
 // cursor and the nearest hit are all there is to keep.
 
-// Distances to the planes of the grid: q * scale + near for planes that are met first, q * scale + far for the others.
+// Distances to the planes of the grid: q * scale + lower or upper, with q in the upper half of a word. What is in the
+// lower half then moves a plane up by less than a cell: it is only left there for upper planes, which that moves outward.
 //
 // Both are moved outward by 3 pads. With u the unit of rounding and M the reach, a pad is 16 u M: one is the pad of
 // the triangle's own box (box.glsl), whose interval is rounded by 4 u M |inverse|, and the others cover the rounding
-// here: at most u (4 |b| + 4 |65535 a| + 2 |q a + b|) <= 20 u M |inverse|, for b = (gridOrigin - o) inverse with
-// |b| <= M |inverse|, and 65535 a = extent inverse, at most 2 M |inverse|.
+// here: at most u (3 |b| + 3 |q a| + |q a + b|) <= 8 u M |inverse|, for b = (gridMiddle - o) inverse with
+// |b| <= M |inverse|, and q a = q gridScale inverse, at most half of the extent and so M |inverse|, nearly.
 struct GridRay {
     vec3 scale;
-    vec3 near;
-    vec3 far;
+    vec3 lower;
+    vec3 upper;
 };
 
 GridRay makeGridRay(vec3 origin, BoxRay ray) {
-    vec3 outward = abs(3.0 * ray.pad * ray.inverse);
-    vec3 base = subtract(frame.gridOrigin, origin) * ray.inverse;
-    return GridRay(frame.gridScale * ray.inverse, subtract(base, outward), add(base, outward));
+    vec3 outward = 3.0 * ray.pad * ray.inverse;
+    vec3 base = subtract(frame.gridMiddle, origin) * ray.inverse;
+    vec3 scale = frame.gridScale * ray.inverse * (1.0 / 65536.0);
+    return GridRay(scale, subtract(base, outward), add(base, outward));
 }
 
-// The list in which nearer siblings come first for most of these directions.
-uint skipOrder(vec3 d) {
-    if (skipOrders == 8u)
-        return (d.x < 0.0 ? 1u : 0u) | (d.y < 0.0 ? 2u : 0u) | (d.z < 0.0 ? 4u : 0u);
-    return skipOrders == 2u && largestComponent(abs(d)) != largestComponent(d) ? 1u : 0u;
+// The list in which nearer siblings come first for most of these directions: the second one where the longest
+// component is negative.
+uint skipListFor(vec3 direction) {
+    return largestComponent(abs(direction)) != largestComponent(direction) ? 1u : 0u;
 }
 
 void enterTree(uint slot) {
-    path[slot].cursorNode = skipOrder(path[slot].rayDirection) * frame.skipListLength;
+    path[slot].cursorNode = skipListFor(path[slot].rayDirection) * frame.skipListLength;
     path[slot].cursorTriangle = noNode;
 }
 
@@ -40,34 +41,39 @@ void stopTraversal(uint slot) {
     path[slot].cursorTriangle = noNode;
 }
 
-// A slot whose cursor stands on a triangle waits.
-void visitNode(uint slot, GridRay ray) {
-    uint cursor = path[slot].cursorNode;
-    SkipNode node = fetchSkipNode(cursor);
-    uvec3 planes = uvec3(node.x, node.y, node.z);
-    uvec3 first = planes & 0xFFFFu;
-    uvec3 second = planes >> 16u;
-    if (skipOrders != 8u) {
-        bvec3 isTurned = lessThan(ray.scale, vec3(0.0));
-        first = mix(planes & 0xFFFFu, planes >> 16u, isTurned);
-        second = mix(planes >> 16u, planes & 0xFFFFu, isTurned);
-    }
-    vec3 enter = addProduct(ray.near, vec3(first), ray.scale);
-    vec3 leave = addProduct(ray.far, vec3(second), ray.scale);
-    bool isHit = greater(largestComponent(enter), 0.0) <= lesser(smallestComponent(leave), path[slot].rayLength);
-    bool isLeaf = (node.link & leafFlag) != 0u;
-    bool isWaiting = path[slot].cursorTriangle != noNode;
-    uint next = isHit || isLeaf ? cursor + 1u : node.link;
-    path[slot].cursorNode = isWaiting ? cursor : next;
-    path[slot].cursorTriangle = !isWaiting && isHit && isLeaf ? node.link & ~leafFlag : path[slot].cursorTriangle;
+// Where the ray of a slot stands, as signed integers, which CPUs compare faster.
+struct Cursor {
+    int node;         // the next one to visit
+    int end;          // of its list; 0: the slot has no ray to trace
+    int leaf;         // leafFlag | the next triangle to test, or 0
+    bool isSearching; // for the next leaf
+};
+
+bool isBeforeLeaf(Cursor cursor) { return cursor.leaf == 0 && cursor.node < cursor.end; }
+
+// A cursor that stands on a triangle, or at the end, stays.
+void visitNode(inout Cursor cursor, GridRay ray, float rayLength) {
+    SkipNode node = fetchSkipNode(uint(cursor.node));
+    ivec3 planes = ivec3(node.x, node.y, node.z);
+    int link = int(node.link);
+    vec3 toLower = addProduct(ray.lower, vec3(planes << 16u), ray.scale);
+    vec3 toUpper = addProduct(ray.upper, vec3(planes), ray.scale);
+    float enter = greater(largestComponent(lesser(toLower, toUpper)), 0.0);
+    float leave = lesser(smallestComponent(greater(toLower, toUpper)), rayLength);
+    bool isHit = enter <= leave;
+    int following = cursor.node + 1;
+    int next = isHit ? following : max(link, following); // the link of a leaf is negative
+    int leaf = isHit ? min(link, 0) : 0;
+    cursor.node = cursor.isSearching ? next : cursor.node;
+    cursor.leaf = cursor.isSearching ? leaf : cursor.leaf;
+    cursor.isSearching = isBeforeLeaf(cursor);
 }
 
 void traverse(uint stage, const bool isShadow) {
     GridRay gridRay[RAYS];
     BoxRay boxRay[RAYS];
     TriangleRay triangleRay[RAYS];
-    uint end[RAYS];
-    bool isRunning = false;
+    Cursor cursor[RAYS];
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
         vec3 origin = path[slot].rayOrigin;
         vec3 direction = path[slot].rayDirection;
@@ -75,39 +81,50 @@ void traverse(uint stage, const bool isShadow) {
         triangleRay[slot] = makeTriangleRay(origin, direction);
         gridRay[slot] = makeGridRay(origin, boxRay[slot]);
         bool isMine = path[slot].stage == stage && isTraversing(slot);
-        end[slot] = isMine ? (skipOrder(direction) + 1u) * frame.skipListLength : 0u;
-        isRunning = isRunning || isMine;
+        bool isAtLeaf = path[slot].cursorTriangle != noNode;
+        cursor[slot].node = isMine ? int(path[slot].cursorNode) : 0;
+        cursor[slot].end = isMine ? int((skipListFor(direction) + 1u) * frame.skipListLength) : 0;
+        cursor[slot].leaf = isMine && isAtLeaf ? int(path[slot].cursorTriangle | leafFlag) : 0;
     }
+    bool isRunning;
     do {
-        bool isSearching;
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            cursor[slot].isSearching = isBeforeLeaf(cursor[slot]);
+        bool isAnySearching;
         do {
-            isSearching = false;
+            isAnySearching = false;
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-                if (path[slot].cursorNode < end[slot])
-                    visitNode(slot, gridRay[slot]);
-                isSearching = isSearching || (path[slot].cursorNode < end[slot] && path[slot].cursorTriangle == noNode);
+                visitNode(cursor[slot], gridRay[slot], path[slot].rayLength);
+                isAnySearching = isAnySearching || cursor[slot].isSearching;
             }
             stepsTaken += 1u;
-        } while (isSearching && stepsTaken < dispatch.stepBudget);
+        } while (isAnySearching && stepsTaken < dispatch.stepBudget);
         do {
             isRunning = false;
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-                if (end[slot] != 0u && path[slot].cursorTriangle != noNode) {
-                    uint record = path[slot].cursorTriangle;
+                if (cursor[slot].leaf != 0) {
+                    uint record = uint(cursor[slot].leaf) & ~leafFlag;
                     TriangleRecord triangle = fetchTriangle(record);
-                    path[slot].cursorTriangle = (triangle.flags & triangleEndsLeaf) != 0u ? noNode : record + 1u;
-                    if (meetTriangle(slot, record, triangle, triangleRay[slot], boxRay[slot], isShadow))
-                        stopTraversal(slot);
+                    cursor[slot].leaf = (triangle.flags & triangleEndsLeaf) != 0u ? 0 : cursor[slot].leaf + 1;
+                    if (meetTriangle(slot, record, triangle, triangleRay[slot], boxRay[slot], isShadow)) {
+                        cursor[slot].leaf = 0;
+                        cursor[slot].node = cursor[slot].end;
+                    }
                 }
-                isRunning = isRunning || (end[slot] != 0u && path[slot].cursorTriangle != noNode);
+                isRunning = isRunning || cursor[slot].leaf != 0;
             }
             stepsTaken += 1u;
         } while (isRunning && stepsTaken < dispatch.stepBudget);
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            isRunning = isRunning || path[slot].cursorNode < end[slot];
+            isRunning = isRunning || cursor[slot].node < cursor[slot].end;
         stepsTaken += 1u;
     } while (isRunning && stepsTaken < dispatch.stepBudget);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (end[slot] != 0u && path[slot].cursorNode >= end[slot] && path[slot].cursorTriangle == noNode)
-            stopTraversal(slot);
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+        if (cursor[slot].end == 0)
+            continue;
+        bool isAtLeaf = cursor[slot].leaf != 0;
+        bool isDone = !isAtLeaf && cursor[slot].node >= cursor[slot].end;
+        path[slot].cursorNode = isDone ? noNode : uint(cursor[slot].node);
+        path[slot].cursorTriangle = isAtLeaf ? uint(cursor[slot].leaf) & ~leafFlag : noNode;
+    }
 }

@@ -82,7 +82,6 @@ struct RayTracer::State {
         constants[layout::constantStackSize] = scene.stackSize;
         constants[layout::constantExactDivision] = scene.isDivisionExact;
         constants[layout::constantSamplesAbreast] = 1;
-        constants[layout::constantSkipOrders] = scene.buffers.skipOrders;
         constants[layout::constantIsAnyHit] = goal == RayGoal::AnyHit;
         std::array<const Buffer *, layout::rayBindingCount> bound{};
         bound.fill(&unused);

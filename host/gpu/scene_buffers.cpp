@@ -25,31 +25,24 @@ Buffer array(Device &device, const char *name, BufferUse use, const std::vector<
     return uploaded(device, name, use, bytesOf(records), bytesOf(records).size());
 }
 
-/// Eight lists, or two where eight would outgrow caches and memory.
-std::uint32_t fitSkipOrders(const PackedScene &scene) {
-    constexpr std::size_t mostBytes = std::size_t{64} << 20;
-    return 8 * 2 * sizeof(layout::SkipNode) * scene.nodes.size() <= mostBytes ? 8 : 2;
-}
-
 BufferUse arrayUse(bool isSkipList) { return isSkipList ? BufferUse::Texels : BufferUse::Storage; }
 
 struct Tree {
     Buffer nodes;
     layout::FrameRecord frame;
-    std::uint32_t skipOrders;
 };
 
 /// Uploads the tree, and adds to the frame constants what kernels need to know of skip lists. The lists on the host are
 /// gone when this returns: they are the largest part of a large scene.
 Tree uploadTree(Device &device, const PackedScene &scene, bool isSkipList) {
     if (!isSkipList)
-        return {array(device, "the nodes", BufferUse::Storage, scene.nodes), scene.frame, 0};
-    const SkipList list = makeSkipList(scene, fitSkipOrders(scene));
+        return {array(device, "the nodes", BufferUse::Storage, scene.nodes), scene.frame};
+    const SkipList list = makeSkipList(scene);
     layout::FrameRecord frame = scene.frame;
-    frame.gridOrigin = list.gridOrigin;
+    frame.gridMiddle = list.gridMiddle;
     frame.gridScale = list.gridScale;
     frame.skipListLength = list.length;
-    return {array(device, "the skip lists", BufferUse::Texels, list.nodes), frame, list.orderCount};
+    return {array(device, "the skip lists", BufferUse::Texels, list.nodes), frame};
 }
 
 Buffer uploadFrame(Device &device, const layout::FrameRecord &frame) {
@@ -73,7 +66,6 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, bool isSkip
       materials(array(device, "the materials", arrayUse(isSkipList), scene.materials)),
       nodes(std::move(tree.nodes)),
       triangles(array(device, "the triangles", arrayUse(isSkipList), scene.triangles)),
-      normals(array(device, "the normals", arrayUse(isSkipList), scene.normals)),
-      skipOrders(tree.skipOrders) {}
+      normals(array(device, "the normals", arrayUse(isSkipList), scene.normals)) {}
 
 } // namespace hyalite::gpu

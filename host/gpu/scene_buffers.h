@@ -19,7 +19,6 @@ struct SceneBuffers {
     Buffer nodes; ///< node pairs or skip lists
     Buffer triangles;
     Buffer normals;
-    std::uint32_t skipOrders; ///< how many skip lists there are; 0: none
 
   private:
     template <class Tree> SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList, Tree tree);

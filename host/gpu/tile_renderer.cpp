@@ -118,7 +118,6 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantExactDivision] = batching_.arithmetic == Arithmetic::Native;
     constants[layout::constantSamplesAbreast] = samplesAbreast_;
     constants[layout::constantIsResumable] = isResumable;
-    constants[layout::constantSkipOrders] = buffers_.skipOrders;
     constants[layout::constantIsCounting] = batching_.isCounting;
     constants[layout::constantPendingInRegisters] = keepsPending ? mostPending : 0;
     const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,   &buffers_.spheres,
