@@ -113,6 +113,32 @@ TEST(SkipList, EnclosesFlatMeshesFarAwayWhoseGridIsCoarserThanTheirCoordinates) 
     }
 }
 
+TEST(SkipList, LeavesOutInnerNodesThatHardlyCull) {
+    const auto halfArea = [](const std::pair<glm::dvec3, glm::dvec3> &box) {
+        const glm::dvec3 size = box.second - box.first;
+        return size.x * size.y + size.y * size.z + size.z * size.x;
+    };
+    const PackedScene scene = pack(randomScene(3000, 1.0f, glm::vec3(0.0f)), TreeKind::Sah, 4);
+    const SkipList list = makeSkipList(scene);
+    std::size_t childCount = 0;
+    for (const layout::NodePair &pair : scene.nodes)
+        childCount += (pair.left != layout::noNode ? 1u : 0u) + (pair.right != layout::noNode ? 1u : 0u);
+    EXPECT_LT(list.length, childCount);
+    std::vector<std::pair<std::uint32_t, double>> around; // ends and areas of the inner nodes around a node
+    for (std::uint32_t index = 0; index < list.length; ++index) {
+        const layout::SkipNode &node = list.nodes[index];
+        while (!around.empty() && around.back().first == index)
+            around.pop_back();
+        if ((node.link & layout::leafFlag) != 0)
+            continue;
+        const double area = halfArea(boxOf(list, node));
+        if (!around.empty()) {
+            EXPECT_LT(area, 0.51 * around.back().second) << index; // rounded to the grid
+        }
+        around.emplace_back(node.link, area);
+    }
+}
+
 TEST(SkipList, NearerSiblingsComeFirst) {
     // Sixteen triangles in a row on each axis, a leaf each: the lists hold them as rays along the axis and against it
     // meet them.
