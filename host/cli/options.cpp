@@ -71,6 +71,23 @@ CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &pa
     return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);
 }
 
+CLI::Option *addFolders(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
+                        const std::string &help) {
+    const auto read = [name, &paths](const CLI::results_t &words) {
+        for (const std::string &word : words) {
+            std::error_code error;
+            if (!std::filesystem::exists(word, error))
+                refuseValue(name, word, "a folder that exists");
+            paths.emplace_back(word);
+        }
+        return true;
+    };
+    return command.add_option(name, CLI::callback_t(read), help)
+        ->type_name("FOLDER")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const NamedFile &output = outputs[i];

@@ -16,6 +16,7 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -97,6 +98,10 @@ CLI::Option *addChoice(CLI::App &command, const std::string &name, std::optional
 /// An option with the name of a file, which is not empty.
 CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
                      const std::string &typeName, const std::string &help);
+
+/// An option that may be given again and again, each time with one folder (or file) that exists.
+CLI::Option *addFolders(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
+                        const std::string &help);
 
 /// A file that the user named with an option; without a path where the option was not given.
 struct NamedFile {

@@ -99,6 +99,9 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     command.add_option("scene", options.scene, "a .json scene, a .obj mesh, or the name of a shipped scene")
         ->required()
         ->type_name("SCENE");
+    addFolders(
+        command, "--allow-path", options.allowedPaths,
+        "a scene file may name files in this folder, too, not only in its own and in the assets; repeatable");
     const char *image = "Image";
     addNumber(command, "--width", options.width, limits::imageSize, "pixels")->group(image);
     addNumber(command, "--height", options.height, limits::imageSize, "pixels")->group(image);
@@ -151,7 +154,8 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     const Clock::time_point start = Clock::now();
     {
         ProgressLine progress("load", isQuiet);
-        prepared.loaded = loadScene(options.scene, [&](double share) { progress.update(share); });
+        prepared.loaded = loadScene(
+            options.scene, [&](double share) { progress.update(share); }, options.allowedPaths);
     }
     applyOverrides(options, prepared.loaded);
     Scene &scene = prepared.loaded.scene;

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct SceneOptions {
     std::vector<double> up;
     std::vector<double> background;
     std::vector<int> crop;
+    std::vector<std::filesystem::path> allowedPaths;
 };
 
 /// Adds the SCENE argument and the options. `options` must outlive `command`.

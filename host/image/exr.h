@@ -1,8 +1,8 @@
 // OpenEXR files, through the library of that name (https://openexr.com).
 #pragma once
 
-#include "host/image/input_file.h"
 #include "host/image/picture.h"
+#include "host/input_file.h"
 #include "host/report/atomic_file.h"
 
 #include <cstddef>

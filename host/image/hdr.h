@@ -14,7 +14,7 @@
 #pragma once
 
 #include "host/image/image.h"
-#include "host/image/input_file.h"
+#include "host/input_file.h"
 #include "host/report/atomic_file.h"
 
 #include <cstddef>

@@ -3,10 +3,10 @@
 #include "host/error.h"
 #include "host/image/exr.h"
 #include "host/image/hdr.h"
-#include "host/image/input_file.h"
 #include "host/image/pfm.h"
 #include "host/image/png.h"
 #include "host/image/tone_map.h"
+#include "host/input_file.h"
 
 #include <fmt/format.h>
 

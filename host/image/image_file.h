@@ -43,7 +43,8 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 /// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by their first bytes. Grey becomes three equal channels; alpha
 /// and layers are dropped and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does). Throws
 /// Error{BadInput}, naming the file and what was found, where it is not a regular file, too large, cut short, damaged,
-/// or, except for OpenEXR, followed by other bytes.
+/// or, except for OpenEXR, followed by other bytes; and Error{LimitExceeded} where a PNG would take more than 48 MiB and
+/// 64 times its size.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 
 } // namespace hyalite

@@ -173,6 +173,7 @@ class ChunkReader {
             throw file_.bad(fmt::format("{} x {} pixels cannot be packed in {} bytes", header_.width,
                                         header_.height, compressed_.size()));
         }
+        requireModestMemory();
         return assemble();
     }
 
@@ -232,6 +233,23 @@ class ChunkReader {
                 fmt::format("its pixels take {} bytes, more than this program unpacks", rowDataBytes_));
         }
         offsetBytes_ += chunkFrameBytes + frame.sizeBytes;
+    }
+
+    /// Pixels may be packed a thousandfold, so that a small file could ask for gigabytes. Beside the levels that
+    /// stb_image gives there are an Image's floats; unpacking takes less, unless interlaced images lie beside the whole.
+    void requireModestMemory() const {
+        constexpr std::uint64_t anyFileBytes = std::uint64_t{48} << 20;
+        const std::uint64_t levelBytes = header_.bitDepth == 16 ? 2 : 1;
+        const std::uint64_t pixelBytes = sizeof(glm::vec3) + levelBytes * (header_.interlaced ? 8 : 3);
+        const std::uint64_t neededBytes = std::uint64_t{header_.width} * header_.height * pixelBytes;
+        const std::uint64_t allowedBytes = anyFileBytes + 64 * file_.sizeBytes();
+        if (neededBytes > allowedBytes)
+            throw Error(
+                ExitCode::LimitExceeded,
+                fmt::format("{}: {} x {} pixels take {} bytes of memory; for a PNG file of {} bytes {} are "
+                            "allowed (48 MiB and 64 times its size); write larger images as PFM",
+                            file_.path().string(), header_.width, header_.height, neededBytes,
+                            file_.sizeBytes(), allowedBytes));
     }
 
     void readNextChunk() {

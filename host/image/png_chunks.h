@@ -5,7 +5,7 @@
 // make the picture are handed on.
 #pragma once
 
-#include "host/image/input_file.h"
+#include "host/input_file.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,8 @@ struct PngChunks {
     }
 };
 
-/// Throws Error{BadInput}.
+/// Throws Error{BadInput}, or Error{LimitExceeded} where the pixels are packed so densely that they would take more
+/// memory than 48 MiB and 64 times the file's size.
 [[nodiscard]] PngChunks readPngChunks(const InputFile &file);
 
 } // namespace hyalite

@@ -1,11 +1,13 @@
 #include "host/scene/json_document.h"
 
 #include "host/error.h"
+#include "host/input_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cstdint>
+#include <span>
 #include <string_view>
 #include <unordered_set>
 #include <vector>
@@ -15,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uintmax_t maxFileBytes = std::uintmax_t{64} << 20;
+constexpr std::uint64_t maxFileBytes = std::uint64_t{64} << 20;
 constexpr std::size_t maxNesting = 32;
 constexpr std::size_t maxSyntaxMessageBytes = 300;
 
@@ -104,26 +106,13 @@ class DocumentCheck : public json::json_sax_t {
     std::vector<Level> levels_;
 };
 
-std::string readText(const std::filesystem::path &file) {
-    const auto refuse = [&](std::string_view why) {
-        throw Error(ExitCode::BadInput, fmt::format("{}: {}", file.string(), why));
-    };
-    // Opening a pipe would wait for its writer: only regular files are opened.
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(file, error);
-    if (!std::filesystem::exists(status))
-        refuse(error.message());
-    if (!std::filesystem::is_regular_file(status))
-        refuse("is not a regular file");
-    const std::uintmax_t sizeBytes = std::filesystem::file_size(file, error);
-    if (error)
-        refuse(error.message());
-    if (sizeBytes > maxFileBytes)
-        refuse(fmt::format("has {} bytes; at most {} (64 MiB) are read", sizeBytes, maxFileBytes));
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(static_cast<std::size_t>(sizeBytes), '\0');
-    if (!stream.read(text.data(), static_cast<std::streamsize>(text.size())))
-        refuse("cannot be read");
+std::string readText(const std::filesystem::path &path) {
+    const InputFile file(path);
+    if (file.sizeBytes() > maxFileBytes)
+        throw file.bad(
+            fmt::format("has {} bytes; at most {} (64 MiB) are read", file.sizeBytes(), maxFileBytes));
+    std::string text(static_cast<std::size_t>(file.sizeBytes()), '\0');
+    file.read(0, std::as_writable_bytes(std::span(text)));
     return text;
 }
 

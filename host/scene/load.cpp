@@ -41,11 +41,12 @@ LoadedScene loadBareMesh(const std::filesystem::path &file, const OnReading &onR
 
 } // namespace
 
-LoadedScene loadScene(const std::string &argument, const OnReading &onReading) {
+LoadedScene loadScene(const std::string &argument, const OnReading &onReading,
+                      std::span<const std::filesystem::path> allowedPaths) {
     const std::filesystem::path file = resolveScene(argument);
     requireFile(file);
-    LoadedScene loaded =
-        hasExtension(file, ".obj") ? loadBareMesh(file, onReading) : loadSceneFile(file, onReading);
+    LoadedScene loaded = hasExtension(file, ".obj") ? loadBareMesh(file, onReading)
+                                                    : loadSceneFile(file, onReading, allowedPaths);
     validateScene(loaded.scene, file.string());
     return loaded;
 }

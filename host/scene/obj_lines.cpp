@@ -2,9 +2,11 @@
 
 #include "host/error.h"
 
-#include <cerrno>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
-#include <system_error>
 
 namespace hyalite {
 
@@ -26,26 +28,18 @@ std::string quoteInput(std::string_view text) {
     return quoted + (text.size() > maxShown ? "...\"" : "\"");
 }
 
-ObjLines::ObjLines(const std::filesystem::path &file) : name(file.string()), buffer(firstBufferBytes) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(file, error);
-    if (!std::filesystem::status_known(status) || !std::filesystem::exists(status))
-        throw Error(ExitCode::BadInput, name + ": " + (error ? error.message() : "no such file"));
-    if (!std::filesystem::is_regular_file(status))
-        throw Error(ExitCode::BadInput, name + ": not a regular file; an OBJ file must be one");
-    stream.reset(std::fopen(file.c_str(), "rb"));
-    if (!stream)
-        throw Error(ExitCode::BadInput,
-                    name + ": cannot be opened: " + std::generic_category().message(errno));
-    bytesAtOpening = std::filesystem::file_size(file, error);
-    std::setvbuf(stream.get(), nullptr, _IONBF, 0);
+ObjLines::ObjLines(const std::filesystem::path &path)
+    : file(path), name(path.string()), buffer(firstBufferBytes) {
+    if (file.sizeBytes() > maxFileBytes)
+        throw file.bad(
+            fmt::format("has {} bytes; at most {} (4 GiB) are read", file.sizeBytes(), maxFileBytes));
     if (refill() && filled >= 3 && std::memcmp(buffer.data(), "\xEF\xBB\xBF", 3) == 0)
         lineBegin = scan = 3;
 }
 
 double ObjLines::shareRead() const {
-    return fileBytes < bytesAtOpening ? static_cast<double>(fileBytes) / static_cast<double>(bytesAtOpening)
-                                      : 1.0;
+    return file.sizeBytes() > 0 ? static_cast<double>(fileBytes) / static_cast<double>(file.sizeBytes())
+                                : 1.0;
 }
 
 // Appends to what is left of the current line, which moves to the front. False at the end of the file.
@@ -59,14 +53,12 @@ bool ObjLines::refill() {
                    "the line is too long; at most " + std::to_string(maxLineBytes) + " bytes are allowed");
     if (filled + 1 >= buffer.size() / 2)
         buffer.resize(buffer.size() * 2);
-    const std::size_t count = std::fread(buffer.data() + filled, 1, buffer.size() - filled - 1, stream.get());
-    if (count == 0 && std::ferror(stream.get()))
-        throw Error(ExitCode::BadInput, name + ": cannot be read: " + std::generic_category().message(errno));
+    const auto count = static_cast<std::size_t>(
+        std::min<std::uint64_t>(buffer.size() - filled - 1, file.sizeBytes() - fileBytes));
+    file.read(fileBytes, std::as_writable_bytes(std::span(buffer).subspan(filled, count)));
     filled += count;
     buffer[filled] = '\0';
     fileBytes += count;
-    if (fileBytes > maxFileBytes)
-        throw Error(ExitCode::BadInput, name + ": larger than 4 GiB, the limit for OBJ files");
     return count > 0;
 }
 

@@ -1,11 +1,10 @@
 // Cuts a text file into logical lines, in bounded memory: any line ends, joined continuations, no byte order mark.
 #pragma once
 
+#include "host/input_file.h"
+
 #include <cstddef>
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,9 +24,8 @@ class ObjLines {
     static constexpr std::size_t maxFileBytes = 0xFFFF'FFFF; ///< so that 32 bits count anything in the file
     static constexpr std::size_t maxLineBytes = std::size_t{1} << 24;
 
-    /// Opens `file`; throws Error{BadInput} unless it is a regular file that can be read. Never waits for a
-    /// FIFO or a device.
-    explicit ObjLines(const std::filesystem::path &file);
+    /// Throws Error{BadInput} as InputFile does.
+    explicit ObjLines(const std::filesystem::path &path);
 
     /// The next logical line without its line end, which is LF, CR or CRLF. Lines that end in a backslash are
     /// joined with the next one, except in comments. The characters may be written to, and so may the one after
@@ -53,28 +51,23 @@ class ObjLines {
 
     [[nodiscard]] std::size_t bytesRead() const { return fileBytes; }
 
-    /// Of the file as it was when it was opened, in [0, 1].
+    /// In [0, 1].
     [[nodiscard]] double shareRead() const;
 
     /// Throws an Error about the line that next() gave last.
     [[noreturn]] void fail(std::string_view message) const { failAtLine(name, line, message); }
 
   private:
-    struct CloseFile {
-        void operator()(std::FILE *opened) const { std::fclose(opened); }
-    };
-
     bool refill();
     void skipLineFeed();
 
+    InputFile file;
     std::string name;
-    std::unique_ptr<std::FILE, CloseFile> stream;
     std::vector<char> buffer;
     std::size_t lineBegin = 0; ///< in the buffer
     std::size_t scan = 0;      ///< first character of the line that has not been looked at
     std::size_t filled = 0;    ///< characters in the buffer, which has room for one more
     std::size_t fileBytes = 0; ///< read so far
-    std::uintmax_t bytesAtOpening = 0;
     std::size_t line = 0;
     std::size_t nextLine = 1;
 };

@@ -1,5 +1,6 @@
 #include "host/scene/scene_json.h"
 
+#include "host/scene/file_reach.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/limits.h"
@@ -100,8 +101,8 @@ Sphere readSphere(const JsonObject &object, const std::vector<Material> &materia
     return sphere;
 }
 
-ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials,
-                 const std::filesystem::path &folder, const OnReading &onReading) {
+ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials, const FileReach &reach,
+                 const OnReading &onReading) {
     MeshTransform transform;
     transform.scale = object.number("scale", limits::meshScale, transform.scale);
     if (transform.scale == 0.0)
@@ -110,11 +111,7 @@ ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &material
     transform.translate = object.vector("translate", limits::coordinate, transform.translate);
     const std::uint32_t materialIndex = readMaterialIndex(object, materials);
 
-    const std::filesystem::path file = folder / object.text("file");
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        object.at("file").fail(fmt::format("{}: there is no such file", printable(file.string(), 1000)));
-    ObjMesh mesh = loadObj(file, transform, onReading);
+    ObjMesh mesh = loadObj(reach.resolve(object.at("file")), transform, onReading);
     mesh.mesh.materialIndex = materialIndex;
     return mesh;
 }
@@ -134,7 +131,8 @@ RenderSettings readSettings(const JsonObject &object) {
 
 } // namespace
 
-LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &onReading) {
+LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &onReading,
+                          std::span<const std::filesystem::path> allowedPaths) {
     const nlohmann::json document = readJsonFile(file);
     const std::string fileName = file.string();
     const JsonObject top({&document, &fileName}, scene_keys::top);
@@ -165,10 +163,16 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &on
             onReading((static_cast<double>(scene.meshes.size()) + share) /
                       static_cast<double>(meshes.size()));
     };
+    const FileReach reach(file, allowedPaths);
+    std::size_t triangleTotal = 0;
     for (const JsonNode &node : meshes) {
-        ObjMesh mesh = readMesh({node, scene_keys::mesh}, scene.materials, file.parent_path(), onReadingMesh);
+        ObjMesh mesh = readMesh({node, scene_keys::mesh}, scene.materials, reach, onReadingMesh);
         scene.meshes.push_back(std::move(mesh.mesh));
         loaded.meshReports.push_back(mesh.report);
+        triangleTotal += scene.meshes.back().triangles.size();
+        if (triangleTotal > limits::triangleCount) // before the next mesh takes memory
+            node.fail(fmt::format("found {} triangles up to this mesh; allowed: at most {}", triangleTotal,
+                                  limits::triangleCount));
     }
     return loaded;
 }

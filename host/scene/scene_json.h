@@ -31,7 +31,7 @@
 //       "inwardNormal"   true: the normal points to the centre, default false
 //     } ],
 //     "meshes": [ {
-//       "file"           OBJ, relative to the scene file
+//       "file"           OBJ, relative to the scene file, and in its folder or below, or in the assets
 //       "material"       NAME
 //       "scale"          not 0, default 1; then
 //       "rotateDegrees"  about x, y and z in that order, default [0, 0, 0]; then
@@ -59,6 +59,7 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -72,10 +73,12 @@ struct LoadedScene {
 };
 
 /// Reads a scene file and the meshes that it names. Values are in range and names are defined; what concerns
-/// several values at once (is up parallel to the view?) is left to validateScene. Throws Error{BadInput}
+/// several values at once (is up parallel to the view?) is left to validateScene. Files outside of the scene's
+/// folder, the assets and `allowedPaths` are not read (file_reach.h). Throws Error{BadInput}
 /// naming the file, the key as a JSON path such as /spheres/3/radius (a syntax error: line and column), what
 /// was found and what is allowed. `onReading` is told the share of all meshes, each counting the same.
-[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &onReading = {});
+[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &onReading = {},
+                                        std::span<const std::filesystem::path> allowedPaths = {});
 
 /// The keys of each object of a scene file.
 namespace scene_keys {

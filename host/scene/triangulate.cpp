@@ -1,21 +1,26 @@
 #include "host/scene/triangulate.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace hyalite {
 
 namespace {
 
-constexpr std::uint32_t notReflex = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t leafCornerCount = 16;
 
 enum CornerState : std::uint8_t {
     clipped = 1,  // no longer part of the polygon
     deferred = 2, // next to an ear that was clipped in this round
     queued = 4,   // waits in nextRound
+    reflex = 8,   // not strictly convex
 };
 
 // Twice the signed area of abc, > 0 where it turns counter-clockwise. The coordinates are floats: in double
@@ -65,8 +70,7 @@ void Triangulator::linkCorners() {
         next[i] = i + 1 == count ? 0 : i + 1;
     }
     state.assign(count, 0);
-    reflexSlot.assign(count, notReflex);
-    reflex.clear();
+    buildTree();
     for (std::uint32_t i = 0; i < count; ++i)
         updateReflex(i);
 }
@@ -75,55 +79,118 @@ double Triangulator::turn(std::uint32_t corner) const {
     return orient(points[previous[corner]], points[corner], points[next[corner]]);
 }
 
-void Triangulator::forgetReflex(std::uint32_t corner) {
-    const std::uint32_t slot = reflexSlot[corner];
-    if (slot == notReflex)
-        return;
-    reflex[slot] = reflex.back();
-    reflexSlot[reflex[slot].corner] = slot;
-    reflex.pop_back();
-    reflexSlot[corner] = notReflex;
-}
-
-void Triangulator::updateReflex(std::uint32_t corner) {
-    if (turn(corner) > 0.0) {
-        forgetReflex(corner);
-    } else if (reflexSlot[corner] == notReflex) {
-        reflexSlot[corner] = static_cast<std::uint32_t>(reflex.size());
-        reflex.push_back({points[corner], corner});
+// Halves the corners along the longer side of their bounds until few are left: k-d tree, J. L. Bentley, "Multidimensional
+// Binary Search Trees Used for Associative Searching", Communications of the ACM 18 (1975).
+void Triangulator::buildTree() {
+    const auto count = static_cast<std::uint32_t>(points.size());
+    std::size_t leafCount = 1;
+    while (leafCount * leafCornerCount < count)
+        leafCount *= 2;
+    treeOrder.resize(count);
+    std::iota(treeOrder.begin(), treeOrder.end(), 0u);
+    leafOf.resize(count);
+    tree.resize(2 * leafCount);
+    tree[1].begin = 0;
+    tree[1].end = count;
+    for (std::uint32_t i = 1; i < tree.size(); ++i) {
+        TreeNode &node = tree[i];
+        node.reflexCount = 0;
+        node.low = node.high = points[treeOrder[node.begin]];
+        for (std::uint32_t k = node.begin; k < node.end; ++k) {
+            node.low = glm::min(node.low, points[treeOrder[k]]);
+            node.high = glm::max(node.high, points[treeOrder[k]]);
+        }
+        if (i >= leafCount) {
+            for (std::uint32_t k = node.begin; k < node.end; ++k)
+                leafOf[treeOrder[k]] = i;
+            continue;
+        }
+        const int axis = node.high.x - node.low.x >= node.high.y - node.low.y ? 0 : 1;
+        const std::uint32_t middle = node.begin + (node.end - node.begin) / 2;
+        const auto at = [&](std::uint32_t k) { return treeOrder.begin() + k; };
+        const auto key = [&](std::uint32_t corner) { // an order needs NaN to have a place in it
+            const double coordinate = points[corner][axis];
+            return std::isnan(coordinate) ? std::numeric_limits<double>::infinity() : coordinate;
+        };
+        std::nth_element(at(node.begin), at(middle), at(node.end),
+                         [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+        tree[2 * i].begin = node.begin;
+        tree[2 * i].end = tree[2 * i + 1].begin = middle;
+        tree[2 * i + 1].end = node.end;
     }
 }
+
+void Triangulator::setReflex(std::uint32_t corner, bool isReflex) {
+    if (((state[corner] & reflex) != 0) == isReflex)
+        return;
+    state[corner] = static_cast<std::uint8_t>(state[corner] ^ reflex);
+    for (std::uint32_t node = leafOf[corner]; node > 0; node /= 2)
+        tree[node].reflexCount += isReflex ? 1u : ~0u;
+}
+
+void Triangulator::updateReflex(std::uint32_t corner) { setReflex(corner, !(turn(corner) > 0.0)); }
 
 bool Triangulator::isEar(std::uint32_t corner, Ear kind) const {
     if (kind == Ear::Any)
         return true;
-    if (reflexSlot[corner] != notReflex)
+    if (state[corner] & reflex)
         return false;
-    if (kind == Ear::Convex)
-        return true;
+    return kind == Ear::Convex || !isBlocked(corner, kind);
+}
 
+bool Triangulator::isBlocked(std::uint32_t corner, Ear kind) const {
     const std::uint32_t before = previous[corner];
     const std::uint32_t after = next[corner];
     const glm::dvec2 a = points[before];
     const glm::dvec2 b = points[corner];
     const glm::dvec2 c = points[after];
-    const glm::dvec2 low(std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}));
-    const glm::dvec2 high(std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}));
-    for (const ReflexCorner &candidate : reflex) {
-        const glm::dvec2 p = candidate.point;
-        if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y)
-            continue;
-        if (candidate.corner == before || candidate.corner == after)
-            continue;
-        const double ab = orient(a, b, p);
-        const double bc = orient(b, c, p);
-        const double ca = orient(c, a, p);
-        const bool blocks = kind == Ear::Strict ? ab >= 0.0 && bc >= 0.0 && ca >= 0.0
-                                                : (ab > 0.0 && bc > 0.0 && ca > 0.0) || p == b;
-        if (blocks)
+    const glm::dvec2 low = glm::min(glm::min(a, b), c);
+    const glm::dvec2 high = glm::max(glm::max(a, b), c);
+
+    const auto isInside = [&](double ab, double bc, double ca) {
+        return kind == Ear::Strict ? ab >= 0.0 && bc >= 0.0 && ca >= 0.0 : ab > 0.0 && bc > 0.0 && ca > 0.0;
+    };
+    // orient(), as it rounds, is monotone in both coordinates of its last point: for no point in the box is it more than
+    // at the box' corner farthest to the left of the line. So no point is passed over that would block.
+    const auto highest = [](const TreeNode &node, const glm::dvec2 &from, const glm::dvec2 &to) {
+        return orient(from, to,
+                      {to.y > from.y ? node.low.x : node.high.x, to.x > from.x ? node.high.y : node.low.y});
+    };
+    const auto mayBlock = [&](const TreeNode &node) {
+        if (node.reflexCount == 0 || node.low.x > high.x || node.high.x < low.x || node.low.y > high.y ||
+            node.high.y < low.y)
             return false;
+        const bool holdsTip =
+            node.low.x <= b.x && b.x <= node.high.x && node.low.y <= b.y && b.y <= node.high.y;
+        return holdsTip || isInside(highest(node, a, b), highest(node, b, c), highest(node, c, a));
+    };
+    const auto blocks = [&](std::uint32_t candidate) {
+        if (!(state[candidate] & reflex) || candidate == before || candidate == after)
+            return false;
+        const glm::dvec2 p = points[candidate];
+        if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y)
+            return false;
+        return isInside(orient(a, b, p), orient(b, c, p), orient(c, a, p)) || p == b;
+    };
+
+    std::array<std::uint32_t, 2 * std::numeric_limits<std::uint32_t>::digits> pending; // two a level
+    std::size_t pendingCount = 0;
+    pending[pendingCount++] = 1;
+    while (pendingCount > 0) {
+        const std::uint32_t i = pending[--pendingCount];
+        const TreeNode &node = tree[i];
+        if (!mayBlock(node))
+            continue;
+        if (2 * i < tree.size()) {
+            pending[pendingCount++] = 2 * i;
+            pending[pendingCount++] = 2 * i + 1;
+            continue;
+        }
+        for (std::uint32_t k = node.begin; k < node.end; ++k)
+            if (blocks(treeOrder[k]))
+                return true;
     }
-    return true;
+    return false;
 }
 
 void Triangulator::queueForNextRound(std::uint32_t corner) {
@@ -139,8 +206,8 @@ void Triangulator::clip(std::uint32_t corner) {
     triangles.emplace_back(before, corner, after);
     next[before] = after;
     previous[after] = before;
+    setReflex(corner, false);
     state[corner] = clipped;
-    forgetReflex(corner);
     --remaining;
     updateReflex(before);
     updateReflex(after);
@@ -162,7 +229,7 @@ void Triangulator::clipEars(Ear kind) {
         nextRound.clear();
         for (const std::uint32_t corner : thisRound)
             if (!(state[corner] & clipped))
-                state[corner] = 0;
+                state[corner] = static_cast<std::uint8_t>(state[corner] & reflex);
         for (const std::uint32_t corner : thisRound) {
             if (remaining == 3)
                 return;
@@ -173,7 +240,7 @@ void Triangulator::clipEars(Ear kind) {
 }
 
 std::span<const glm::uvec3> Triangulator::triangulate(std::span<const glm::vec3> corners) {
-    assert(corners.size() >= 3 && corners.size() < notReflex);
+    assert(corners.size() >= 3 && corners.size() < std::numeric_limits<std::uint32_t>::max());
     triangles.clear();
     if (corners.size() == 3) {
         triangles.emplace_back(0, 1, 2);

@@ -249,6 +249,7 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
     Clock::time_point lastSignal;
     bool isKilled = false;
     int status = 0;
+    rusage usage{};
     bool isRunning = true;
     while (isRunning || output.ours.number() >= 0 || errors.ours.number() >= 0) {
         // poll() ignores descriptors below 0.
@@ -276,9 +277,10 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
             kill(process, SIGKILL);
             isKilled = true;
         }
-        isRunning = waitpid(process, &status, WNOHANG) == 0;
+        isRunning = wait4(process, &status, WNOHANG, &usage) == 0;
     }
     outcome.seconds = secondsSince(begin);
+    outcome.peakMemoryBytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
     outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     if (isKilled)
         ADD_FAILURE() << "killed after " << surroundings.timeoutSeconds << " s: " << outcome;

@@ -41,6 +41,7 @@ struct Outcome {
     std::string output;
     std::string errors;
     double seconds = 0.0;
+    std::size_t peakMemoryBytes = 0; ///< resident
 };
 
 /// All of it, for the message of a failing test.

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace hyalite {
 namespace {
 
@@ -98,6 +100,84 @@ TEST(MeshTwins, AgreeThatOfTrianglesThatCoincideTheFirstIsSeen) {
         scene.settings.leafSize = leafSize;
         expectTwins(scene, 2000);
     }
+}
+
+/// Adds a copy of `shape`, scaled and moved.
+void addCopy(TriangleMesh &mesh, const TriangleMesh &shape, double scale, const glm::dvec3 &offset) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::vec3 &position : shape.positions)
+        mesh.positions.emplace_back(scale * glm::dvec3(position) + offset);
+    for (const MeshTriangle &triangle : shape.triangles)
+        mesh.triangles.push_back({triangle.positions + first, triangle.normals});
+}
+
+/// Expects twins, and of each tree the picture that there is without one.
+void expectTwinsAsWithoutTree(Scene scene, std::uint64_t leastShadowRays) {
+    scene.settings.tree = TreeKind::None;
+    const Film plain = renderOnCpu(scene).film;
+    for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
+        scene.settings.tree = tree;
+        EXPECT_EQ(differingPixels(renderOnCpu(scene).film, plain), 0u);
+    }
+    expectTwins(scene, leastShadowRays);
+}
+
+Scene smallPicture(Scene scene) {
+    scene.camera.width = 24;
+    scene.camera.height = 20;
+    scene.settings.samplesPerPixel = 1;
+    return scene;
+}
+
+// No split can tell them apart: a ray that meets one is tested against all of them.
+TEST(UglyMeshTwins, AgreeOnIdenticalTriangles) {
+    TriangleMesh pile;
+    pile.positions = {{-1, -1, 0}, {1, -1, 0.1f}, {0, 1, -0.1f}};
+    pile.triangles.resize(500, {{0, 1, 2}, glm::uvec3(MeshTriangle::noNormal)});
+    expectTwinsAsWithoutTree(smallPicture(lookingAt({}, {0.5, 0.4, 3}, 40.0, pile)), 100);
+}
+
+// Each is half as large as the one around it, down to denormal numbers; midpoints cut off one at a time.
+TEST(UglyMeshTwins, AgreeOnNestedTriangles) {
+    TriangleMesh shape, nest;
+    testing::addQuad(shape, {0, 0, 0}, {1, 0, 0.2f}, {0, 1, 0.1f});
+    for (int level = 0; level < 150; ++level)
+        addCopy(nest, shape, std::ldexp(1.0, -level), {0, 0, std::ldexp(0.5, -level)});
+    expectTwinsAsWithoutTree(smallPicture(lookingAt({0.2, 0.2, 0}, {0.5, 0.6, 2}, 40.0, nest)), 100);
+}
+
+TEST(UglyMeshTwins, AgreeOnAGiantAmongTheTiny) {
+    TriangleMesh mesh = soup(1e-3, {});
+    addCopy(mesh, testing::placed(testing::gridCube(1), 1e9, {0, 0, -1.2e9}), 1.0, {});
+    expectTwins(smallPicture(lookingAt({}, {1e-3, 2e-3, 3e-3}, 60.0, mesh)), 400);
+}
+
+TEST(UglyMeshTwins, AgreeOnTrianglesWithoutArea) {
+    testing::Random random(302);
+    TriangleMesh mesh = testing::triangleSoup(random, 300, 1.0, 0.3);
+    for (std::size_t i = 0; i < mesh.triangles.size();
+         i += 2) // a point, a doubled edge, three corners on a line
+        for (glm::length_t corner = 1; corner < 3; ++corner) {
+            const glm::vec3 &first = mesh.positions[mesh.triangles[i].positions[0]];
+            glm::vec3 &position = mesh.positions[mesh.triangles[i].positions[corner]];
+            if (i % 3 == 0 || (i % 3 == 1 && corner == 1))
+                position = first;
+            else if (i % 3 == 2)
+                position = first + glm::vec3(0.25f * static_cast<float>(corner), 0, 0);
+        }
+    expectTwinsAsWithoutTree(smallPicture(lookingAt({}, {1, 2, 3}, 40.0, mesh)), 50);
+    for (MeshTriangle &triangle : mesh.triangles)
+        triangle.positions = glm::uvec3(triangle.positions.x);
+    EXPECT_EQ(renderOnCpu(smallPicture(lookingAt({}, {1, 2, 3}, 40.0, mesh))).rays.shadow, 0u);
+}
+
+TEST(UglyMeshTwins, AgreeAtTheEndsOfTheRangeOfCoordinates) {
+    testing::Random random(303);
+    const TriangleMesh mesh = testing::triangleSoup(random, 300, 1.0, 0.3);
+    for (const double scale : {1e13, 1e-19, 1e-38})
+        expectTwins(
+            smallPicture(lookingAt({}, glm::dvec3(1, 2, 3) * scale, 40.0, testing::placed(mesh, scale, {}))),
+            0);
 }
 
 } // namespace

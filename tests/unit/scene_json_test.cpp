@@ -90,7 +90,8 @@ TEST_F(SceneJson, MeshesAreFoundFromTheFolderOfTheSceneFile) {
     const std::filesystem::path file = write(
         "below/scene.json",
         R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "../triangle.obj", "material": "m"}]})");
-    const LoadedScene loaded = loadSceneFile(file);
+    EXPECT_TRUE(refusalOf(file).starts_with(" /meshes/0/file: ")) << "what is out of reach is not read";
+    const LoadedScene loaded = loadSceneFile(file, {}, std::array{folder});
     EXPECT_EQ(triangleCount(loaded.scene), 1u);
     EXPECT_EQ(loaded.meshReports.size(), 1u);
 }
@@ -231,11 +232,11 @@ TEST_F(SceneJson, ALongValueIsCutInTheMessage) {
 
 TEST_F(SceneJson, OnlyRegularFilesOfAModestSizeAreRead) {
     EXPECT_EQ(refusalOf(folder / "missing.json"), " No such file or directory");
-    EXPECT_EQ(refusalOf(folder), " is not a regular file");
+    EXPECT_EQ(refusalOf(folder), " is a folder, not a regular file; name a file");
 
     const std::filesystem::path pipe = folder / "pipe.json";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_EQ(refusalOf(pipe), " is not a regular file");
+    EXPECT_EQ(refusalOf(pipe), " is a pipe, not a regular file; name a file");
 
     const std::filesystem::path large = write("large.json", "{}");
     std::filesystem::resize_file(large, (64u << 20) + 1); // sparse

@@ -206,6 +206,34 @@ TEST(Triangulate, DegenerateAndNonFinitePolygonsEnd) {
     EXPECT_EQ(triangulate(line).size(), 998u);
 }
 
+// Each would take seconds to minutes where every ear is held against every reflex corner.
+TEST(Triangulate, LargeUglyPolygonsEnd) {
+    constexpr int count = 65'536;
+    Polygon fewPoints, comb, spiral, zigzag;
+    for (int i = 0; i < count; ++i) {
+        const auto x = static_cast<float>(i);
+        fewPoints.emplace_back(i % 3 == 1, i % 3 == 2, 0);
+        comb.emplace_back(x, i % 2 == 0 ? 0.0f : 1e6f, 0);
+        spiral.emplace_back(x * std::cos(x), x * std::sin(x), 0); // crosses itself again and again
+        zigzag.emplace_back(i % 2 == 0 ? x : -x, i % 4 < 2 ? x : -x, 0);
+    }
+    for (const Polygon &polygon : {fewPoints, comb, spiral, zigzag})
+        EXPECT_EQ(triangulate(polygon).size(), polygon.size() - 2);
+}
+
+TEST(Triangulate, ALargeCombIsCoveredOnce) {
+    Polygon comb;
+    for (int i = 0; i < 10'000; ++i) {
+        comb.emplace_back(2 * i, 1000, 0);
+        comb.emplace_back(2 * i + 1, 0, 0);
+    }
+    comb.emplace_back(20'000, 1000, 0);
+    comb.emplace_back(20'000, -1, 0);
+    comb.emplace_back(0, -1, 0);
+    std::reverse(comb.begin(), comb.end());
+    expectCoversOnce(comb, 1e-9);
+}
+
 TEST(Triangulate, GivesTheSameAnswerWhateverItDidBefore) {
     std::mt19937 random(3);
     const Polygon star = makeStar(50, random);

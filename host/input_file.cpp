@@ -1,10 +1,11 @@
-#include "host/image/input_file.h"
+#include "host/input_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 
 #include <fcntl.h>
@@ -13,17 +14,42 @@
 
 namespace hyalite {
 
-InputFile::InputFile(const std::filesystem::path &path) : path_(path) {
-    // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever.
-    descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor_ < 0) {
-        throw Error(ExitCode::BadInput, fmt::format("cannot read image '{}': {}", path.string(),
-                                                    std::generic_category().message(errno)));
+namespace {
+
+std::string_view kindOf(mode_t mode) {
+    switch (mode & S_IFMT) {
+    case S_IFDIR:
+        return "a folder";
+    case S_IFIFO:
+        return "a pipe";
+    case S_IFSOCK:
+        return "a socket";
+    default:
+        return "a device";
     }
+}
+
+} // namespace
+
+InputFile::InputFile(const std::filesystem::path &path) : path_(path) {
+    const auto requireRegular = [&](int failure, const struct stat &status) {
+        if (failure != 0)
+            throw bad(std::generic_category().message(errno));
+        if (!S_ISREG(status.st_mode))
+            throw bad(fmt::format("is {}, not a regular file; name a file", kindOf(status.st_mode)));
+    };
+    // Opening may itself do something to a device, so there is a look before it. If the file is exchanged in between,
+    // O_NONBLOCK keeps the opening of a pipe from waiting for its writer.
     struct stat status {};
-    if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
+    requireRegular(stat(path.c_str(), &status), status);
+    descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (descriptor_ < 0)
+        throw bad(std::generic_category().message(errno));
+    try {
+        requireRegular(fstat(descriptor_, &status), status);
+    } catch (const Error &) {
         close(descriptor_);
-        throw bad("it is not a regular file; name a PNG, EXR, HDR or PFM file");
+        throw;
     }
     sizeBytes_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -53,7 +79,7 @@ std::vector<std::byte> InputFile::head(std::size_t countBytes) const {
 }
 
 Error InputFile::bad(const std::string &found) const {
-    return Error(ExitCode::BadInput, fmt::format("cannot use image '{}': {}", path_.string(), found));
+    return Error(ExitCode::BadInput, fmt::format("{}: {}", path_.string(), found));
 }
 
 } // namespace hyalite
