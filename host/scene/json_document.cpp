@@ -49,10 +49,6 @@ class DocumentCheck : public json::json_sax_t {
 
     /// `position` counts the bytes read, the last of which is at fault.
     bool parse_error(std::size_t position, const std::string &, const json::exception &error) override {
-        const std::string_view before =
-            std::string_view(text_).substr(0, std::max<std::size_t>(position, 1) - 1);
-        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-        const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
         // "[json.exception.parse_error.101] parse error at line 1, column 2: what" -> "what"
         std::string what = error.what();
         what.erase(0, what.find("] ") + 2);
@@ -61,9 +57,16 @@ class DocumentCheck : public json::json_sax_t {
         // The bytes that it cites need not be UTF-8.
         std::replace_if(
             what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7F; }, '?');
+        failAtByte(std::max<std::size_t>(position, 1) - 1, printable(what, maxSyntaxMessageBytes));
+    }
+
+    /// Throws Error{BadInput} with the line and column of a byte of the text.
+    [[noreturn]] void failAtByte(std::size_t offset, std::string_view message) const {
+        const std::string_view before = std::string_view(text_).substr(0, offset);
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
         throw Error(ExitCode::BadInput,
-                    fmt::format("{}:{}:{}: {}", fileName_, line, before.size() - lineStart + 1,
-                                printable(what, maxSyntaxMessageBytes)));
+                    fmt::format("{}:{}:{}: {}", fileName_, line, before.size() - lineStart + 1, message));
     }
 
   private:
@@ -123,6 +126,9 @@ nlohmann::json readJsonFile(const std::filesystem::path &file) {
     const std::string fileName = file.string();
     DocumentCheck check(fileName, text);
     json::sax_parse(text, &check);
+    // The parser takes a NUL behind the document for the file's end, and would not see what follows.
+    if (const std::size_t nul = text.find('\0'); nul != std::string::npos)
+        check.failAtByte(nul, "a NUL follows the document; allowed: nothing but white space");
     return json::parse(text);
 }
 

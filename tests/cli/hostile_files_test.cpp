@@ -150,7 +150,8 @@ TEST_F(HostileFiles, JsonIsRefusedWithItsPlace) {
                       {"/camera/width", "allowed"});
     expectRefused("scene.json", R"({"camera": {}, "camera": {}})", {"/camera", "twice"});
     expectRefused("scene.json", "{\"description\": \"\xC3\x28\"}", {":1:"});
-    expectRefused("scene.json", "{}\0"s, {":1:3"});
+    expectRefused("scene.json", "{}\n\0"s, {":2:1: a NUL follows"});
+    expectRefused("scene.json", "{}\0{\"camera\": 1}"s, {":1:3: a NUL follows"});
     expectRefused("scene.json", "\xFF\xFE{\0}\0"s, {":1:1"});
     expectRefused("scene.json", R"({"\u001b[31m": 1})", {"?[31m"});
     expectTaken("scene.json", "\xEF\xBB\xBF{\r\n}\r\n");
