@@ -98,6 +98,7 @@ ExitCode run(std::span<char *> arguments) {
     addDevicesCommand(app, context);
     addInspectCommand(app, context);
     addDiffCommand(app, context);
+    addToneMapCommand(app, context);
     // After the commands, which would take it over.
     app.footer(
         "`hyalite COMMAND --help` explains a command. Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad "

@@ -19,5 +19,6 @@ void addDevicesCommand(CLI::App &app, CommandContext &context);
 void addDiffCommand(CLI::App &app, CommandContext &context);
 void addInspectCommand(CLI::App &app, CommandContext &context);
 void addProfileCommand(CLI::App &app, CommandContext &context);
+void addToneMapCommand(CLI::App &app, CommandContext &context);
 
 } // namespace hyalite

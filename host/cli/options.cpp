@@ -88,6 +88,13 @@ CLI::Option *addFolders(CLI::App &command, const std::string &name, std::vector<
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve) {
+    return addChoice(command, "--tone", curve, toneCurveNames,
+                     "how a PNG shows radiance: gamma 2.2, which is the default, or sRGB, both clipped; or "
+                     "like film, ACES or "
+                     "AgX");
+}
+
 void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const NamedFile &output = outputs[i];

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "host/error.h"
+#include "host/image/tone_map.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
@@ -102,6 +103,9 @@ CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &pa
 /// An option that may be given again and again, each time with one folder (or file) that exists.
 CLI::Option *addFolders(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
                         const std::string &help);
+
+/// --tone, of commands that write a PNG. `curve` must outlive the command; it stays without a value for the default.
+CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve);
 
 /// A file that the user named with an option; without a path where the option was not given.
 struct NamedFile {

@@ -26,6 +26,7 @@ namespace {
 struct RenderOptions {
     SceneOptions scene;
     std::string output;
+    std::optional<ToneCurve> tone;
     std::string device = "auto";
     int threads = 0;
     std::optional<gpu::KernelChoice> kernel;
@@ -65,8 +66,8 @@ void tellSpeed(const RenderReport &report) {
                report.totalSeconds);
 }
 
-void writeResult(AtomicFile &file, ImageFormat format, const Film &film, const PreparedScene &scene,
-                 const std::string &commandLine) {
+void writeResult(AtomicFile &file, ImageFormat format, ToneCurve tone, const Film &film,
+                 const PreparedScene &scene, const std::string &commandLine) {
     const Image image = film.toImage();
     Picture picture(image);
     picture.wholeWidth = scene.loaded.scene.camera.width;
@@ -76,7 +77,7 @@ void writeResult(AtomicFile &file, ImageFormat format, const Film &film, const P
     picture.attributes = {{"software", "hyalite " HYALITE_VERSION},
                           {"commandLine", commandLine},
                           {"scene", scene.loaded.file.string()}};
-    writeImage(file, format, picture, scene.loaded.scene.settings.exposureStops);
+    writeImage(file, format, picture, scene.loaded.scene.settings.exposureStops, tone);
 }
 
 ExitCode runRender(const RenderOptions &options, const std::string &commandLine) {
@@ -137,7 +138,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     report.timing = result.timing;
     report.rays = result.rays;
     const Clock::time_point writeStart = Clock::now();
-    writeResult(image, format, result.film, scene, commandLine);
+    writeResult(image, format, options.tone.value_or(ToneCurve::Gamma), result.film, scene, commandLine);
     image.commit();
     report.writeSeconds = secondsSince(writeStart);
     report.totalSeconds = secondsSince(start);
@@ -171,6 +172,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
             "`hyalite devices` lists them")
         ->type_name("DEVICE")
         ->capture_default_str();
+    addToneOption(*command, options->tone);
     addThreadsOption(*command, options->threads);
     addKernelOption(*command, options->kernel);
     addFile(*command, "--report", options->report, "FILE.json", "write what was done and how long it took");

@@ -40,11 +40,12 @@ ImageFormat imageFormatOf(const std::filesystem::path &path) {
                     path.string()));
 }
 
-void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops) {
+void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops,
+                ToneCurve curve) {
     const Image &image = picture.colour;
     switch (format) {
     case ImageFormat::Png:
-        writePng(file, image.width(), image.height(), toneMap(image, exposureStops));
+        writePng(file, image.width(), image.height(), toneMap(image, exposureStops, curve));
         break;
     case ImageFormat::Pfm:
         writePfm(file, image);

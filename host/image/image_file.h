@@ -3,6 +3,7 @@
 
 #include "host/image/image.h"
 #include "host/image/picture.h"
+#include "host/image/tone_map.h"
 #include "host/report/atomic_file.h"
 
 #include <cstdint>
@@ -35,10 +36,11 @@ inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
 /// By the name's extension, .png, .exr, .hdr or .pfm in upper or lower case. Throws Error{Usage} for any other.
 [[nodiscard]] ImageFormat imageFormatOf(const std::filesystem::path &path);
 
-/// Writes the picture, which is not empty; the caller commits the file. `exposureStops` brightens a PNG by
-/// 2^exposureStops; the other formats hold the linear values and ignore it. Layers and attributes go into an EXR alone. Throws Error{OutputNotWritten}, or
+/// Writes the picture, which is not empty; the caller commits the file. A PNG is brightened by
+/// 2^exposureStops and goes through the curve; the other formats hold the linear values and ignore both. Layers and attributes go into an EXR alone. Throws Error{OutputNotWritten}, or
 /// Error{LimitExceeded} where a PNG has more than imagePixelCountMax pixels.
-void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops);
+void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops,
+                ToneCurve curve = ToneCurve::Gamma);
 
 /// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by their first bytes. Grey becomes three equal channels; alpha
 /// and layers are dropped and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does). Throws

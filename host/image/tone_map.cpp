@@ -1,5 +1,7 @@
 #include "host/image/tone_map.h"
 
+#include "host/image/tone_curve.h"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -10,19 +12,6 @@
 namespace hyalite {
 
 namespace {
-
-/// 2^x from + - * alone: std::exp2 may differ in the last bit from one C library to the next.
-double exp2Portable(double x) {
-    constexpr double ln2 = 0.693147180559945309417;
-    constexpr int termCount = 20; // |r| <= ln2 / 2, and r^20 / 20! < 2^-90
-    const double whole = std::round(x);
-    const double r = (x - whole) * ln2;
-    double sum = 1.0; // Horner's form of the sum of r^k / k!
-    for (int k = termCount; k >= 1; --k) {
-        sum = 1.0 + r * sum / k;
-    }
-    return std::ldexp(sum, static_cast<int>(whole));
-}
 
 float roundUpToFloat(double x) {
     const float nearest = static_cast<float>(x);
@@ -93,7 +82,21 @@ std::uint8_t encodeLevel(float linear) {
     return linear > 0.0f ? levelFinder().levelOf(linear) : 0; // NaN is 0, too
 }
 
-std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops) {
+namespace {
+
+/// 1 is white already; the bound keeps the product within the range of float. NaN is black.
+float exposed(float linear, double scale) {
+    const double product = static_cast<double>(linear) * scale;
+    return product >= 1.0 ? 1.0f : product > 0.0 ? static_cast<float>(product) : 0.0f;
+}
+
+std::uint8_t levelOf(double display) {
+    return static_cast<std::uint8_t>(std::clamp(display, 0.0, 1.0) * 255.0 + 0.5);
+}
+
+} // namespace
+
+std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops, ToneCurve curve) {
     assert(std::isfinite(exposureStops));
     // 2^300 takes the smallest positive float to white and 2^-300 the largest to black: the rest changes nothing.
     const double scale = exp2Portable(std::clamp(exposureStops, -300.0, 300.0));
@@ -101,13 +104,14 @@ std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops) {
     std::vector<std::uint8_t> bytes(image.pixels().size() * 3);
     std::uint8_t *next = bytes.data();
     for (const glm::vec3 &pixel : image.pixels()) {
-        for (int channel = 0; channel < 3; ++channel) {
-            // 1 is white already; the bound keeps the product within the range of float. NaN is black.
-            const double exposed = static_cast<double>(pixel[channel]) * scale;
-            *next++ = finder.levelOf(exposed >= 1.0  ? 1.0f
-                                     : exposed > 0.0 ? static_cast<float>(exposed)
-                                                     : 0.0f);
+        if (curve == ToneCurve::Gamma) {
+            for (int channel = 0; channel < 3; ++channel)
+                *next++ = finder.levelOf(exposed(pixel[channel], scale));
+            continue;
         }
+        const glm::dvec3 display = displayed(glm::dvec3(pixel) * scale, curve);
+        for (int channel = 0; channel < 3; ++channel)
+            *next++ = levelOf(display[channel]);
     }
     return bytes;
 }

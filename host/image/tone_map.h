@@ -5,9 +5,26 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hyalite {
+
+/// How linear radiance becomes what a screen is sent.
+enum class ToneCurve {
+    Gamma, ///< c^(1/2.2), clipped: the default
+    Srgb,  ///< IEC 61966-2-1, clipped: what a screen undoes
+    Aces,  ///< filmic: contrast, a shoulder, colours that go to white; see tone_curve.h
+    Agx,   ///< softer, and nearer to its hue when it goes to white; see tone_curve.h
+};
+
+/// As options name them.
+inline constexpr std::array<std::pair<std::string_view, ToneCurve>, 4> toneCurveNames{
+    {{"gamma", ToneCurve::Gamma},
+     {"srgb", ToneCurve::Srgb},
+     {"aces", ToneCurve::Aces},
+     {"agx", ToneCurve::Agx}}};
 
 /// Entry i - 1 is the smallest float c with 255 * c^(1/2.2) >= i - 1/2: the smallest that is shown as level i.
 /// Ascending; i = 1..255.
@@ -16,8 +33,10 @@ namespace hyalite {
 /// 255 * clamp(c, 0, 1)^(1/2.2), rounded to nearest. NaN is shown as 0, like everything that is not positive.
 [[nodiscard]] std::uint8_t encodeLevel(float linear);
 
-/// Three bytes R, G, B a pixel, row by row from the top left: encodeLevel(c * 2^exposureStops), where the product
-/// is rounded to float. `exposureStops` is finite. The same bytes on every machine.
-[[nodiscard]] std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops);
+/// Three bytes R, G, B a pixel, row by row from the top left: of c * 2^exposureStops, by the curve. By the default they
+/// are encodeLevel() of that product, rounded to float. `exposureStops` is finite. NaN is black, and infinity white where
+/// the curve does not mix channels. The same bytes on every machine.
+[[nodiscard]] std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops,
+                                                ToneCurve curve = ToneCurve::Gamma);
 
 } // namespace hyalite
