@@ -1,6 +1,7 @@
 #include "host/cli/backend.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
+#include "host/cli/statistical.h"
 #include "host/error.h"
 #include "host/image/comparison_json.h"
 #include "host/image/heat_map.h"
@@ -33,6 +34,9 @@ struct CompareOptions {
     std::optional<gpu::KernelChoice> kernel;
     std::string heatMap;
     std::string report;
+    bool isStatistical = false;
+    ZTestOptions zTest;
+    std::optional<std::uint32_t> againstSeed;
     bool isQuiet = false;
 };
 
@@ -199,6 +203,71 @@ nlohmann::ordered_json describe(const Backend &backend) {
     return {{"name", backend.name()}, {"driver", backend.driver()}, {"arithmetic", backend.arithmetic()}};
 }
 
+struct Contestants {
+    std::unique_ptr<Backend> first;
+    std::unique_ptr<Backend> second;
+};
+
+Contestants openContestants(const CompareOptions &options) {
+    std::unique_ptr<Backend> first =
+        openBackend(options.device, options.threads, batchingFor(options.kernel));
+    return {std::move(first),
+            openBackend(options.against, options.threads,
+                        isReference(options.against) ? gpu::Batching{} : batchingFor(options.kernel))};
+}
+
+void printContestants(const PreparedScene &scene, const Contestants &contestants) {
+    fmt::print("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
+               scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
+    fmt::print("first        {}\nsecond       {}\n", contestants.first->description(),
+               contestants.second->description());
+    for (const Backend *backend : {contestants.first.get(), contestants.second.get()})
+        if (!backend->unpromisedBits().empty())
+            fmt::print("note         bits are not promised by {}: {}\n", backend->name(),
+                       backend->unpromisedBits());
+}
+
+/// Two renders with different seeds, as estimates of one picture.
+ExitCode runStatisticalCompare(const CompareOptions &options, const std::string &commandLine) {
+    requireDistinctFiles({{"--report", options.report}}, {resolveScene(options.scene.scene).string()});
+    std::optional<AtomicFile> reportFile;
+    if (!options.report.empty())
+        reportFile.emplace(options.report);
+    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    requireFilmMemory(scene.crop, 4); // two of them become estimates, of about their size
+    RenderSettings &settings = scene.loaded.scene.settings;
+    const std::uint32_t firstSeed = settings.seed;
+    const std::uint32_t secondSeed = options.againstSeed.value_or(firstSeed + 1);
+    if (firstSeed == secondSeed)
+        throw Error(
+            ExitCode::Usage,
+            fmt::format("--against-seed {}: the first render has this seed; name another", secondSeed));
+    const Contestants contestants = openContestants(options);
+    if (!options.isQuiet) {
+        printContestants(scene, contestants);
+        fmt::print("seeds        {} and {}\n", firstSeed, secondSeed);
+    }
+    const auto render = [&](Backend &backend, std::uint32_t seed) {
+        settings.seed = scene.packed.frame.seed = seed;
+        return estimateOf(renderWithProgress(backend, scene, backend.name(), options.isQuiet).film);
+    };
+    const Estimate a = render(*contestants.first, firstSeed);
+    const Estimate b = render(*contestants.second, secondSeed);
+    const ZTestResult result = testAndPrint(a, b, options.zTest, scene.loaded.file.string());
+    if (reportFile) {
+        nlohmann::ordered_json json{{"commandLine", commandLine},
+                                    {"scene", scene.loaded.file.string()},
+                                    {"first", describe(*contestants.first)},
+                                    {"second", describe(*contestants.second)},
+                                    {"seeds", {firstSeed, secondSeed}}};
+        json["statistical"] = zTestToJson(result, options.zTest);
+        json["passed"] = result.isPassed();
+        reportFile->write(jsonText(json));
+        reportFile->commit();
+    }
+    return result.isPassed() ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
 ExitCode runCompare(const CompareOptions &options, const std::string &commandLine) {
     const Tolerance tolerance = parseTolerance(options.tolerance);
     requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
@@ -217,21 +286,12 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     if (heatMapFile)
         requirePngSize(options.heatMap, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, 2);
-    const std::unique_ptr<Backend> first =
-        openBackend(options.device, options.threads, batchingFor(options.kernel));
-    const std::unique_ptr<Backend> second =
-        openBackend(options.against, options.threads,
-                    isReference(options.against) ? gpu::Batching{} : batchingFor(options.kernel));
+    const Contestants contestants = openContestants(options);
+    Backend *const first = contestants.first.get();
+    Backend *const second = contestants.second.get();
     const bool isAgainstOracle = options.against == "cpu-double";
-    if (!options.isQuiet) {
-        fmt::print("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
-                   scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
-        fmt::print("first        {}\nsecond       {}\n", first->description(), second->description());
-        for (const Backend *backend : {first.get(), second.get()})
-            if (!backend->unpromisedBits().empty())
-                fmt::print("note         bits are not promised by {}: {}\n", backend->name(),
-                           backend->unpromisedBits());
-    }
+    if (!options.isQuiet)
+        printContestants(scene, contestants);
     const BackendResult a = renderWithProgress(*first, scene, first->name(), options.isQuiet);
     const BackendResult b = renderWithProgress(*second, scene, second->name(), options.isQuiet);
     const Image imageA = a.film.toImage();
@@ -322,8 +382,18 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
             "write a heat map of the difference (HDR-FLIP)");
     addFile(*command, "--report", options->report, "FILE.json", "write all metrics");
     command->add_flag("--quiet", options->isQuiet, "print the result only");
+    CLI::Option *statistical = command->add_flag("--statistical", options->isStatistical,
+                                                 "render with two seeds, and ask whether both can be "
+                                                 "estimates of one picture, as `hyalite diff` does");
+    addSignificanceOption(*command, options->zTest)->needs(statistical);
+    addNumber(*command, "--against-seed", options->againstSeed, limits::seed,
+              "of the second render of --statistical; default: one more than the first's")
+        ->needs(statistical);
+    for (const char *option : {"--tolerance", "--max-outliers", "--diff"})
+        statistical->excludes(command->get_option(option));
     command->callback([options, &context] {
-        context.exitCode = static_cast<int>(runCompare(*options, context.commandLine));
+        const auto run = options->isStatistical ? runStatisticalCompare : runCompare;
+        context.exitCode = static_cast<int>(run(*options, context.commandLine));
     });
 }
 

@@ -1,5 +1,6 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
+#include "host/cli/statistical.h"
 #include "host/error.h"
 #include "host/image/comparison_json.h"
 #include "host/image/heat_map.h"
@@ -28,6 +29,8 @@ struct DiffOptions {
     std::string mask;
     std::string heatMap;
     std::string report;
+    bool isStatistical = false;
+    ZTestOptions zTest;
     double outlierThreshold = 0.0;
     std::optional<double> minPsnr;
     std::optional<double> minSsim;
@@ -195,6 +198,28 @@ std::string formatReport(const DiffOptions &options, const std::string &commandL
     return jsonText(report);
 }
 
+/// Two renders as estimates of one picture, not as numbers.
+ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &commandLine) {
+    requireDistinctFiles({{"--report", options.report}}, {options.reference, options.test});
+    std::optional<AtomicFile> reportFile;
+    if (!options.report.empty())
+        reportFile.emplace(options.report);
+    const Estimate reference = readEstimate(options.reference);
+    const Estimate test = readEstimate(options.test);
+    requireSameSize(reference.mean, options.reference, test.mean, options.test);
+    const ZTestResult result = testAndPrint(reference, test, options.zTest,
+                                            fmt::format("'{}' and '{}'", options.reference, options.test));
+    if (reportFile) {
+        nlohmann::ordered_json report{
+            {"commandLine", commandLine}, {"reference", options.reference}, {"test", options.test}};
+        report["statistical"] = zTestToJson(result, options.zTest);
+        report["passed"] = result.isPassed();
+        reportFile->write(jsonText(report));
+        reportFile->commit();
+    }
+    return result.isPassed() ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
 ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
     requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
                          {options.reference, options.test, options.mask});
@@ -243,6 +268,11 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
         "are identical to the bit; and 1 if not.");
     command->add_option("A", options->reference, "the reference: PNG, EXR, HDR or PFM")->required();
     command->add_option("B", options->test, "the image to judge: likewise")->required();
+    CLI::Option *statistical = command->add_flag(
+        "--statistical", options->isStatistical,
+        "ask whether two EXR renders can be estimates of one picture, by their variances: Welch's t "
+        "of each pixel and channel, and of the image, with Sidak's correction; 1 if not");
+    addSignificanceOption(*command, options->zTest)->needs(statistical);
     addFile(*command, "--mask", options->mask, "FILE", "compare only where this image is white");
     addFile(*command, "--diff", options->heatMap, "FILE.png",
             "write the FLIP error of each pixel as a heat map");
@@ -259,8 +289,13 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
               "gate: largest difference of a channel at most");
     addNumber(*command, "--max-outliers", options->maxOutliers, limits::fraction,
               "gate: share of outliers at most, from 0 to 1");
-    command->callback(
-        [options, &context] { context.exitCode = static_cast<int>(runDiff(*options, context.commandLine)); });
+    for (const char *option : {"--mask", "--diff", "--threshold", "--min-psnr", "--min-ssim", "--max-flip",
+                               "--max-diff", "--max-outliers"})
+        statistical->excludes(command->get_option(option));
+    command->callback([options, &context] {
+        const auto run = options->isStatistical ? runStatisticalDiff : runDiff;
+        context.exitCode = static_cast<int>(run(*options, context.commandLine));
+    });
 }
 
 } // namespace hyalite

@@ -25,4 +25,7 @@ void writeExr(AtomicFile &file, const Picture &picture);
 /// would take more than 64 MiB and 64 times their size to read.
 [[nodiscard]] Image readExr(const InputFile &file, const std::string &layer = "");
 
+/// Whether readExr() would find that layer. Throws as it does where the header cannot be read.
+[[nodiscard]] bool hasExrLayer(const InputFile &file, const std::string &layer);
+
 } // namespace hyalite

@@ -15,7 +15,9 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 namespace hyalite {
 
@@ -157,17 +159,25 @@ std::string printable(const std::string &name, std::size_t lengthMax = 40) {
     return text;
 }
 
-/// The names of the channels that hold R, G and B of a layer.
-std::array<std::string, 3> channelsOf(const InputFile &file, const Imf::ChannelList &channels,
-                                      const std::string &layer) {
-    const std::string prefix = layer.empty() ? "" : layer + ".";
+std::string prefixOf(const std::string &layer) { return layer.empty() ? "" : layer + "."; }
+
+/// The names of the channels that hold R, G and B of a layer, if there are any.
+std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &channels,
+                                                       const std::string &layer) {
+    const std::string prefix = prefixOf(layer);
     const std::array<std::string, 3> rgb{prefix + "R", prefix + "G", prefix + "B"};
     if (std::all_of(rgb.begin(), rgb.end(),
                     [&](const std::string &name) { return channels.findChannel(name); }))
         return rgb;
     for (const std::string &name : {layer, prefix + "Y"})
         if (channels.findChannel(name) != nullptr && channels.findChannel(prefix + "RY") == nullptr)
-            return {name, name, name};
+            return {{name, name, name}};
+    return std::nullopt;
+}
+
+[[noreturn]] void refuseChannels(const InputFile &file, const Imf::ChannelList &channels,
+                                 const std::string &layer) {
+    const std::string prefix = prefixOf(layer);
     std::vector<std::string> found;
     constexpr std::size_t mostTold = 12;
     std::size_t count = 0;
@@ -212,15 +222,23 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
                         width, height, bytesPerPixel, neededBytes >> 20, file.sizeBytes(), unpackingMax));
 }
 
-Image readLayer(const InputFile &file, const std::string &layer) {
-    const SafeHeader safeHeader(file);
-    ExrInput input(file, safeHeader);
+Imf::Header readHeader(ExrInput &input) {
     Imf::Header header;
     input.seekg(8);
     int version = 2;
     header.readFrom(input, version);
+    return header;
+}
+
+Image readLayer(const InputFile &file, const std::string &layer) {
+    const SafeHeader safeHeader(file);
+    ExrInput input(file, safeHeader);
+    const Imf::Header header = readHeader(input);
     requireReadable(file, header);
-    const std::array<std::string, 3> names = channelsOf(file, header.channels(), layer);
+    const std::optional<std::array<std::string, 3>> channels = findChannels(header.channels(), layer);
+    if (!channels)
+        refuseChannels(file, header.channels(), layer);
+    const std::array<std::string, 3> &names = *channels;
 
     input.seekg(0);
     Imf::InputFile reader(input, 0);
@@ -251,9 +269,12 @@ bool isExr(std::span<const std::byte> head) {
                       [](unsigned char a, std::byte b) { return std::byte{a} == b; });
 }
 
-Image readExr(const InputFile &file, const std::string &layer) {
+namespace {
+
+/// What read() returns; what the library throws becomes an Error about the file.
+template <class Read> auto asked(const InputFile &file, const Read &read) {
     try {
-        return readLayer(file, layer);
+        return read();
     } catch (const Error &) {
         throw;
     } catch (const std::bad_alloc &) {
@@ -261,6 +282,20 @@ Image readExr(const InputFile &file, const std::string &layer) {
     } catch (const std::exception &error) {
         throw file.bad(fmt::format("OpenEXR says: {}", printable(error.what(), 200)));
     }
+}
+
+} // namespace
+
+Image readExr(const InputFile &file, const std::string &layer) {
+    return asked(file, [&] { return readLayer(file, layer); });
+}
+
+bool hasExrLayer(const InputFile &file, const std::string &layer) {
+    return asked(file, [&] {
+        const SafeHeader safeHeader(file);
+        ExrInput input(file, safeHeader);
+        return findChannels(readHeader(input).channels(), layer).has_value();
+    });
 }
 
 } // namespace hyalite

@@ -1,0 +1,68 @@
+#include "host/cli/statistical.h"
+
+#include "host/cli/options.h"
+#include "host/image/exr.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hyalite {
+
+CLI::Option *addSignificanceOption(CLI::App &command, ZTestOptions &options) {
+    return addNumber(command, "--significance", options.significance, Interval{0.0, 1.0, false, false},
+                     "how often --statistical may fail on equal pictures")
+        ->default_str("0.01");
+}
+
+Estimate readEstimate(const std::string &path) {
+    const InputFile file(path);
+    if (!isExr(file.head(4)))
+        throw file.bad("--statistical needs the variance of an EXR file; render one with -o FILE.exr");
+    Estimate estimate{readExr(file), readExr(file, "variance"), std::nullopt};
+    if (hasExrLayer(file, "samples"))
+        estimate.counts = readExr(file, "samples");
+    return estimate;
+}
+
+ZTestResult testAndPrint(const Estimate &a, const Estimate &b, const ZTestOptions &options,
+                         const std::string &names) {
+    const ZTestResult result = zTest(a, b, options);
+    if (result.testCount == 0)
+        throw Error(ExitCode::BadInput,
+                    fmt::format("{}: no pixel can be tested: each needs a variance, of {} samples at least",
+                                names, options.leastSampleCount));
+    fmt::print("tests        {} of channels of pixels and of the image, {} untested; significance {:g}\n",
+               result.testCount, result.untestedCount, options.significance);
+    const glm::vec3 &meanA = a.mean.at(result.x, result.y);
+    const glm::vec3 &meanB = b.mean.at(result.x, result.y);
+    const auto deviation = [&](const Estimate &estimate) {
+        return std::sqrt(static_cast<double>(estimate.variance.at(result.x, result.y)[result.channel]));
+    };
+    fmt::print("largest      |z| = {:.2f} at ({}, {}), {}: {:.6g} +- {:.2g} and {:.6g} +- {:.2g}\n",
+               result.largest, result.x, result.y, "RGB"[result.channel], meanA[result.channel], deviation(a),
+               meanB[result.channel], deviation(b));
+    fmt::print("image        z = {:.2f}, {:.2f}, {:.2f} of the means of R, G, B\n", result.ofImage[0],
+               result.ofImage[1], result.ofImage[2]);
+    fmt::print("failing      {} with |z| above {:.2f}\n", result.failureCount, result.threshold);
+    fmt::print("{}\n", result.isPassed() ? "no difference is significant" : "NOT estimates of one picture");
+    return result;
+}
+
+nlohmann::ordered_json zTestToJson(const ZTestResult &result, const ZTestOptions &options) {
+    nlohmann::ordered_json json{
+        {"significance", options.significance},
+        {"leastSamples", options.leastSampleCount},
+        {"tests", result.testCount},
+        {"untested", result.untestedCount},
+        {"threshold", result.threshold},
+        {"failing", result.failureCount},
+        {"largest", nullptr},
+        {"at", {{"x", result.x}, {"y", result.y}, {"channel", std::string(1, "RGB"[result.channel])}}},
+        {"image", result.ofImage}};
+    if (std::isfinite(result.largest))
+        json["largest"] = result.largest;
+    return json;
+}
+
+} // namespace hyalite

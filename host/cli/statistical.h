@@ -1,0 +1,26 @@
+// --statistical, of `compare` and `diff`: two renders as estimates of one picture.
+#pragma once
+
+#include "host/image/z_test.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace hyalite {
+
+/// Adds --significance. `options` must outlive the command.
+CLI::Option *addSignificanceOption(CLI::App &command, ZTestOptions &options);
+
+/// Reads colours, "variance" and, where it is there, "samples" of an EXR file. Throws Error{BadInput} for other files.
+[[nodiscard]] Estimate readEstimate(const std::string &path);
+
+/// Tests, prints the result, and returns it. Throws Error{BadInput} where no pixel can be tested; `names` is for the message.
+[[nodiscard]] ZTestResult testAndPrint(const Estimate &a, const Estimate &b, const ZTestOptions &options,
+                                       const std::string &names);
+
+/// As reports write it.
+[[nodiscard]] nlohmann::ordered_json zTestToJson(const ZTestResult &result, const ZTestOptions &options);
+
+} // namespace hyalite
