@@ -17,6 +17,7 @@
 #include <new>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hyalite {
@@ -84,6 +85,14 @@ class SafeHeader {
         return {reinterpret_cast<const char *>(bytes_.data()) + begin, end - begin};
     }
 
+    /// Whether names, each with 16 bytes behind it, and an empty name take just so many bytes.
+    [[nodiscard]] bool isChannelList(std::size_t begin, std::size_t size) const {
+        std::size_t position = begin;
+        while (position < begin + size && byteAt(position) != std::byte{0})
+            position += textAt(position).size() + 1 + 16;
+        return position + 1 == begin + size;
+    }
+
     /// Returns where the next one begins.
     std::size_t passAttribute(std::size_t begin) {
         const std::string_view name = textAt(begin);
@@ -94,10 +103,22 @@ class SafeHeader {
         const std::uint32_t size = little32(std::span(bytes_).subspan(sizeBegin));
         const std::size_t valueBegin = sizeBegin + 4;
         (void)byteAt(valueBegin + size);
-        constexpr std::array<std::string_view, 8> needed{
-            "channels",  "compression",      "dataWindow",         "displayWindow",
-            "lineOrder", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth"};
-        if (std::find(needed.begin(), needed.end(), name) == needed.end())
+        // Of these the library reads as much as their types have, whatever the size says.
+        constexpr std::array<std::pair<std::string_view, std::size_t>, 7> needed{{{"compression", 1},
+                                                                                  {"dataWindow", 16},
+                                                                                  {"displayWindow", 16},
+                                                                                  {"lineOrder", 1},
+                                                                                  {"pixelAspectRatio", 4},
+                                                                                  {"screenWindowCenter", 8},
+                                                                                  {"screenWindowWidth", 4}}};
+        const auto found =
+            std::find_if(needed.begin(), needed.end(), [&](const auto &n) { return n.first == name; });
+        const bool isRight = name == "channels"      ? isChannelList(valueBegin, size)
+                             : found != needed.end() ? found->second == size
+                                                     : true;
+        if (!isRight)
+            throw file_.bad(fmt::format("its OpenEXR attribute {} is damaged", name));
+        if (name != "channels" && found == needed.end())
             std::fill_n(bytes_.begin() + static_cast<std::ptrdiff_t>(typeBegin), typeSize, std::byte{'~'});
         return valueBegin + size;
     }
