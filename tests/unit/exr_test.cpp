@@ -250,6 +250,10 @@ TEST_F(Exr, DamagedFilesAreRefused) {
     const std::size_t comments = good.find("comments\0string\0"s);
     ASSERT_NE(comments, std::string::npos);
     expectBad(damaged(comments + 16, "\xff\xff\xff\x7f"), "cut short");
+    // The library reads channels up to an empty name, and one byte of compression, whatever their sizes say.
+    expectBad(damaged(good.find("channels\0chlist\0"s) + 16, "\x38"), "attribute channels is damaged");
+    expectBad(damaged(good.find("compression\0compression\0"s) + 24, "\2"),
+              "attribute compression is damaged");
     const std::size_t window = good.find("dataWindow\0box2i\0"s);
     ASSERT_NE(window, std::string::npos);
     expectBad(damaged(window + 33, "\xff\x7f"), ": "); // rows that are not there
