@@ -22,6 +22,8 @@ layout(constant_id = constantSamplesAbreast) const uint samplesAbreast = 1u;
 layout(constant_id = constantIsResumable) const bool isResumable = true;
 layout(constant_id = constantLightCount) const uint lightCount = 1u;
 layout(constant_id = constantPendingInRegisters) const uint pendingInRegisters = 0u;
+layout(constant_id = constantEmitterCount) const uint emitterCount = 0u;
+layout(constant_id = constantHasEmission) const bool hasEmission = true;
 
 // Entry kernels begin with loadConstants(), and everything else reads these copies: inside of loops and branches
 // lavapipe loads every word of a uniform buffer and of the push constants lane by lane.

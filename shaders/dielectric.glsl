@@ -29,3 +29,28 @@ Refraction refractRay(vec3 direction, vec3 facing, float index, bool isEntering)
     precise float transmittance = 1.0 - reflectance;
     return Refraction(unitVector(transmitted), reflectance, transmittance, radicand < 0.0);
 }
+
+struct Interface {
+    vec3 refracted;    // direction, unit length; meaningless where the reflectance is 1
+    float reflectance; // in [0, 1]; 1: total
+};
+
+// What a smooth interface does with unpolarised light: Fresnel's equations. `direction` meets it from the side of its unit
+// normal `facing`; `eta` is the refractive index on that side divided by the one beyond.
+Interface meetInterface(vec3 direction, vec3 facing, float eta) {
+    precise float cosIncident = -dotProduct(direction, facing);
+    precise float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
+    precise float cosTransmitted = squareRoot(greater(radicand, 0.0));
+    precise float along = eta * cosIncident - cosTransmitted;
+    precise vec3 refracted = direction * eta + facing * along;
+    precise float acrossBefore = eta * cosIncident;
+    precise float alongBeyond = eta * cosTransmitted;
+    precise float acrossDifference = acrossBefore - cosTransmitted;
+    precise float acrossSum = acrossBefore + cosTransmitted;
+    precise float alongDifference = cosIncident - alongBeyond;
+    precise float alongSum = cosIncident + alongBeyond;
+    float across = divide(acrossDifference, acrossSum);
+    float parallel = divide(alongDifference, alongSum);
+    precise float reflectance = 0.5 * (across * across + parallel * parallel);
+    return Interface(unitVector(refracted), radicand > 0.0 ? lesser(reflectance, 1.0) : 1.0);
+}

@@ -86,6 +86,8 @@ void addRoundToFilm(uint slot) {
         finishedSampleCount += 1u;
     finishedRayCounts += rayCounts[slot];
     rayCounts[slot] = uvec4(0u);
+    finishedBounceCount += bounceCounts[slot];
+    bounceCounts[slot] = 0u;
     path[slot].sampleIndex += samplesAbreast;
     path[slot].stage = first + samplesAbreast < dispatch.sampleEnd ? stageNextSample : stageDone;
 }

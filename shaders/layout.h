@@ -100,15 +100,19 @@ const uint materialMirror = 1u;
 const uint materialDielectric = 2u;
 const uint noMaterial = 0xFFFFFFFFu;
 
+// Dielectrics come first among the materials, those of higher priority before others: what glass is where several overlap
+// (shaders/media.glsl).
+const uint mostMedia = 8u; // dielectrics that the path integrator tells apart
+
 struct MaterialRecord {
     vec3 albedo;
     uint kind;
-    vec3 segmentTint; // factor on all that a segment inside this dielectric returns
+    vec3 segmentTint; // Whitted: factor on all that a segment inside this dielectric returns
     float refractiveIndex;
+    vec3 emission;        // radiance on the side of the normal, on both where isTwoSided
+    float emitterDensity; // path: with which density, per unit of area, a light sample lies at a point that emits
+    vec3 absorption;      // path: of this dielectric, per unit of length
     uint isTwoSided;
-    uint pad0;
-    uint pad1;
-    uint pad2;
 };
 
 struct LightRecord {
@@ -116,6 +120,24 @@ struct LightRecord {
     float pad0;
     vec3 intensity; // radiant intensity: power / (4 pi)
     float pad1;
+};
+
+// What the path integrator can aim at: one of them is chosen for each shadow ray, with a probability that goes with its
+// power. Emitters are in the order of the input: lights, spheres, triangles.
+
+const uint emitterPoint = 0u;
+const uint emitterSphere = 1u;
+const uint emitterTriangle = 2u;
+
+struct EmitterRecord {
+    vec3 position; // of a point light
+    uint kind;
+    vec3 emission; // radiant intensity of a point light, radiance of a surface
+    float probability;
+    uint cumulative; // of 2^32 numbers, so many choose this emitter or one before it
+    uint record;     // index among the sphere or the triangle records
+    float density;   // probability per unit of area of a triangle or a sphere
+    uint isTwoSided;
 };
 
 // ---- What is the same for a whole render
@@ -190,6 +212,10 @@ struct DispatchProgress {
     uint shadowRays;
     uint reflectionRays;
     uint refractionRays;
+    uint bounceRays; // scattered by diffuse surfaces
+    uint pad0;
+    uint pad1;
+    uint pad2;
     // Only where constantIsCounting is set, by the kernels over a stack.
     uint nodesVisited;
     uint boxesTested;
@@ -208,7 +234,8 @@ const uint traceThroughput = 5u;  // of the segment at its hit, tint included
 const uint traceReflectance = 6u; // at glass; integer: 1 where reflection is total; value: reflectance
 const uint traceVisibility = 7u;  // integer: 0 unlit, 1 blocked, 2 dimmed by glass, 3 clear
 const uint traceRadiance = 8u;    // of the sample so far, after light was added to it
-const uint traceQuantityCount = 9u;
+const uint traceScatter = 9u;     // integer: bits of the density; value: direction of the scattered ray
+const uint traceQuantityCount = 10u;
 
 const uint visibilityUnlit = 0u;
 const uint visibilityBlocked = 1u;
@@ -262,6 +289,13 @@ struct PathRecord {
     uint cursorTriangle; // the leaf's triangle to test next, or noNode
     uint stackSize;      // subtrees that wait in the stack buffer
     uint isLightDimmed;  // 1: the shadow ray has passed glass
+    // Of the path integrator:
+    vec3 scatterDirection; // of the ray that goes on from the surface
+    float scatterDensity;  // of the direction of the current ray, per solid angle; 0: it had no choice
+    uint rayTarget;        // the primitive that the shadow ray is aimed at
+    uint mediaInside;      // the glass around the current ray, see media.glsl
+    uint pad0;
+    uint pad1;
 };
 
 // A ray that a dielectric has split off, to be traced later: at most one for each level of depth.
@@ -292,7 +326,8 @@ const uint bindingPending = 10u; // maxDepth rays a slot
 const uint bindingStacks = 11u;  // stackSize references a slot
 const uint bindingTrace = 12u;
 const uint bindingSphereArray = 13u; // the spheres again, as texels
-const uint bindingCount = 14u;
+const uint bindingEmitters = 14u;
+const uint bindingCount = 15u;
 
 // ---- Specialization constants: what a scene does not use costs nothing
 
@@ -310,7 +345,10 @@ const uint constantIsResumable = 10u;   // unfinished slots wait in the path buf
 const uint constantLightCount = 11u;
 const uint constantPendingInRegisters = 12u; // how many; 0: they are in the buffer
 const uint constantIsCounting = 13u;         // count the work of the traversal
-const uint constantCount = 14u;
+const uint constantEmitterCount = 14u;
+const uint constantHasEmission = 15u; // materials of primitives that emit
+const uint constantView = 16u;        // which view
+const uint constantCount = 17u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);
@@ -318,14 +356,15 @@ static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) ==
 static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
 static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
-static_assert(sizeof(MaterialRecord) == 48 && offsetof(MaterialRecord, isTwoSided) == 32);
+static_assert(sizeof(MaterialRecord) == 64 && offsetof(MaterialRecord, isTwoSided) == 60);
+static_assert(sizeof(EmitterRecord) == 48 && offsetof(EmitterRecord, isTwoSided) == 44);
 static_assert(sizeof(LightRecord) == 32 && offsetof(LightRecord, intensity) == 16);
 static_assert(sizeof(FrameRecord) == 144 && offsetof(FrameRecord, boundsUpper) == 96);
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
-static_assert(sizeof(DispatchProgress) == 48);
+static_assert(sizeof(DispatchProgress) == 64);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
-static_assert(sizeof(PathRecord) == 176 && offsetof(PathRecord, cursorNode) == 160);
+static_assert(sizeof(PathRecord) == 208 && offsetof(PathRecord, rayTarget) == 192);
 static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
 } // namespace hyalite::layout
 #endif

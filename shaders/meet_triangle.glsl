@@ -10,8 +10,9 @@ bool meetTriangle(uint slot, uint record, TriangleRecord triangle, TriangleRay r
     uint id = triangle.primitiveId;
     bool isHit = hit.distance > 0.0 && id != path[slot].rayExcluded;
     if (isShadow) {
-        bool isBetween = isHit && hit.distance < path[slot].rayLength;
-        bool isTransmissive = hasDielectric && (triangle.flags & triangleIsTransmissive) != 0u;
+        bool isBetween =
+            isHit && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);
+        bool isTransmissive = lightPassesGlass && (triangle.flags & triangleIsTransmissive) != 0u;
         if (isBetween && isTransmissive)
             path[slot].isLightDimmed = 1u;
         bool isBlocked = isBetween && !isTransmissive;

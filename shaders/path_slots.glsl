@@ -18,6 +18,8 @@ uint stackOverflowCount = 0u;
 uint finishedSampleCount = 0u;
 uvec4 rayCounts[RAYS];               // of unfinished samples: primary, shadow, reflection, refraction
 uvec4 finishedRayCounts = uvec4(0u); // of all others
+uint bounceCounts[RAYS];               // of unfinished samples: rays that diffuse surfaces scatter
+uint finishedBounceCount = 0u;
 uvec4 workCounts = uvec4(0u);         // nodes, boxes, triangles, deepest stack: only where isCounting
 
 uint slotCount() { return dispatch.tileWidth * dispatch.tileHeight * samplesAbreast; }
@@ -61,6 +63,7 @@ void placeSlot(uint slot) {
 // Goes on with what waits, or else after the `samplesInFilm` samples that the pixel has.
 void loadSlot(uint slot, uint samplesInFilm) {
     rayCounts[slot] = uvec4(0u);
+    bounceCounts[slot] = 0u;
     if (isResumable && dispatch.isResumed != 0u && isSlotUsed[slot]) {
         path[slot] = pathRecords[slotIndex[slot]];
         return;
@@ -78,6 +81,7 @@ void storeSlot(uint slot) {
     if (!isResumable)
         return;
     finishedRayCounts += rayCounts[slot];
+    finishedBounceCount += bounceCounts[slot];
     if (isSlotUsed[slot])
         pathRecords[slotIndex[slot]] = path[slot];
 }
@@ -110,6 +114,7 @@ void addProgress() {
     uint samples = sumOfLanes(finishedSampleCount);
     uvec4 rays = uvec4(sumOfLanes(finishedRayCounts.x), sumOfLanes(finishedRayCounts.y),
                        sumOfLanes(finishedRayCounts.z), sumOfLanes(finishedRayCounts.w));
+    uint bounces = hasBounces ? sumOfLanes(finishedBounceCount) : 0u;
     if (!isSpeaker())
         return;
     if (unfinished != 0u)
@@ -123,6 +128,8 @@ void addProgress() {
         atomicAdd(progress.reflectionRays, rays.z);
     if (hasDielectric)
         atomicAdd(progress.refractionRays, rays.w);
+    if (hasBounces)
+        atomicAdd(progress.bounceRays, bounces);
     if (isCounting) {
         atomicAdd(progress.nodesVisited, workCounts.x);
         atomicAdd(progress.boxesTested, workCounts.y);

@@ -39,13 +39,25 @@ uint secondSobolCoordinate(uint x) {
 // In [0, 1): the upper 24 bits, which a float holds exactly.
 float unitFloat(uint x) { return float(x >> 8u) * (1.0 / 16777216.0); }
 
-// Where sample `sampleIndex` of a pixel lies inside of it, in [0,1)^2: shuffled, scrambled Sobol points, so that any
-// first 2^k samples of a pixel are stratified, and no two pixels share a pattern.
+// Keys of the pair of dimensions `pair` of a pixel: each pair is a pattern of its own.
+uvec3 pairKeys(uvec2 pixel, uint seed, uint pair) {
+    uvec3 keys = hashKeys(uvec3(pixel, seed));
+    return pair == 0u ? keys : hashKeys(keys ^ pair);
+}
+
+// Two coordinates of a sample, as fractions of 2^32: shuffled, scrambled Sobol points, so that any first 2^k samples of a
+// pixel are stratified, and no two pixels and no two pairs share a pattern.
+uvec2 sampleBits(uvec3 keys, uint sampleIndex) {
+    uint first = bitfieldReverse(owenScramble(sampleIndex, keys.x));
+    uint second = secondSobolCoordinate(first);
+    return uvec2(owenScramble(first, keys.y), owenScramble(second, keys.z));
+}
+
+vec2 unitFloats(uvec2 bits) { return vec2(unitFloat(bits.x), unitFloat(bits.y)); }
+
+// Where sample `sampleIndex` of a pixel lies inside of it, in [0,1)^2. It is pair 0.
 vec2 samplePixel(uvec2 pixel, uint sampleIndex, uint seed) {
     if (samplerKind == samplerCentre)
         return vec2(0.5);
-    uvec3 keys = hashKeys(uvec3(pixel, seed));
-    uint first = bitfieldReverse(owenScramble(sampleIndex, keys.x));
-    uint second = secondSobolCoordinate(first);
-    return vec2(unitFloat(owenScramble(first, keys.y)), unitFloat(owenScramble(second, keys.z)));
+    return unitFloats(sampleBits(pairKeys(pixel, seed, 0u), sampleIndex));
 }

@@ -13,6 +13,7 @@ layout(set = 0, binding = bindingMaterials, rgba32ui) uniform restrict readonly 
 layout(set = 0, binding = bindingNodes, rgba32ui) uniform restrict readonly uimageBuffer nodeTexels;
 layout(set = 0, binding = bindingTriangles, rgba32ui) uniform restrict readonly uimageBuffer triangleTexels;
 layout(set = 0, binding = bindingNormals, rgba32ui) uniform restrict readonly uimageBuffer normalTexels;
+layout(set = 0, binding = bindingEmitters, rgba32ui) uniform restrict readonly uimageBuffer emitterTexels;
 
 layout(set = 0, binding = bindingSphereArray, rgba32ui) uniform restrict readonly uimageBuffer sphereTexels;
 
@@ -23,12 +24,13 @@ SphereRecord fetchSphere(uint index) {
 }
 
 MaterialRecord fetchMaterial(uint index) {
-    int row = int(index) * 3;
+    int row = int(index) * 4;
     uvec4 a = imageLoad(materialTexels, row);
     uvec4 b = imageLoad(materialTexels, row + 1);
     uvec4 c = imageLoad(materialTexels, row + 2);
-    return MaterialRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w), c.x, c.y, c.z,
-                          c.w);
+    uvec4 d = imageLoad(materialTexels, row + 3);
+    return MaterialRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),
+                          uintBitsToFloat(c.xyz), uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w);
 }
 
 SkipNode fetchSkipNode(uint index) {
@@ -42,6 +44,15 @@ TriangleRecord fetchTriangle(uint index) {
     uvec4 b = imageLoad(triangleTexels, row + 1);
     uvec4 c = imageLoad(triangleTexels, row + 2);
     return TriangleRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w);
+}
+
+EmitterRecord fetchEmitter(uint index) {
+    int row = int(index) * 3;
+    uvec4 a = imageLoad(emitterTexels, row);
+    uvec4 b = imageLoad(emitterTexels, row + 1);
+    uvec4 c = imageLoad(emitterTexels, row + 2);
+    return EmitterRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w), c.x, c.y,
+                         uintBitsToFloat(c.z), c.w);
 }
 
 NormalRecord fetchNormals(uint index) {
@@ -58,8 +69,11 @@ layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuff
 layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { NodePair nodes[]; };
 layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
 layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
+layout(set = 0, binding = bindingEmitters, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
 
 SphereRecord fetchSphere(uint index) { return spheres[index]; }
+
+EmitterRecord fetchEmitter(uint index) { return emitters[index]; }
 
 MaterialRecord fetchMaterial(uint index) { return materials[index]; }
 

@@ -14,6 +14,11 @@
 layout(local_size_x_id = 0) in;
 
 #include "bindings.glsl"
+
+const bool lightPassesGlass = hasDielectric;
+const bool raysHaveTargets = false;
+const bool hasBounces = false;
+
 #include "scene_data.glsl"
 #include "arithmetic.glsl"
 #include "vector.glsl"

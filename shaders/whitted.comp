@@ -12,6 +12,11 @@
 layout(local_size_x_id = 0) in;
 
 #include "bindings.glsl"
+
+const bool lightPassesGlass = hasDielectric;
+const bool raysHaveTargets = false;
+const bool hasBounces = false;
+
 #include "scene_data.glsl"
 #include "arithmetic.glsl"
 #include "vector.glsl"
@@ -32,6 +37,7 @@ layout(local_size_x_id = 0) in;
 #else
 #include "traverse_stack.glsl"
 #endif
+#include "rays.glsl"
 #include "whitted.glsl"
 
 void main() {

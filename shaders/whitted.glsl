@@ -8,15 +8,6 @@
 
 const float inversePi = 0.31830988618379067;
 
-void startRay(uint slot, vec3 origin, vec3 direction, uint excluded, uint depth, uint medium) {
-    path[slot].rayOrigin = origin;
-    path[slot].rayDirection = direction;
-    path[slot].rayExcluded = excluded;
-    path[slot].rayDepth = depth;
-    path[slot].rayMedium = medium;
-    path[slot].stage = stageNewRay;
-}
-
 // Stage: the primary ray of the next sample.
 void beginSample(uint slot) {
     path[slot].sampleRadiance = vec3(0.0);
@@ -40,41 +31,6 @@ void takePendingRay(uint slot) {
     PendingRay ray = popPendingRay(slot);
     path[slot].throughput = ray.throughput;
     startRay(slot, ray.origin, ray.direction, ray.excluded, ray.depth, ray.medium);
-}
-
-void meetSphere(uint slot, uint i, vec4 shape) {
-    float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape.xyz, shape.w, path[slot].rayExcluded == i);
-    bool isNearer = distance > 0.0 && distance < path[slot].rayLength;
-    path[slot].rayLength = isNearer ? distance : path[slot].rayLength;
-    path[slot].hitPrimitive = isNearer ? i : path[slot].hitPrimitive;
-}
-
-void meetSphereInShadow(uint slot, uint i, vec4 shape) {
-    float meeting = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape.xyz, shape.w, path[slot].rayExcluded == i);
-    bool isBetween = meeting > 0.0 && meeting < path[slot].rayLength;
-    bool isTransmissive = hasDielectric && isSphereTransmissive(i);
-    path[slot].isLightDimmed = isBetween && isTransmissive ? 1u : path[slot].isLightDimmed;
-    path[slot].hitPrimitive = isBetween && !isTransmissive ? i : path[slot].hitPrimitive;
-}
-
-// Stage: meet the spheres and stand at the root of the tree.
-void beginClosest(uint slot) {
-    traceEvent(slot, traceRayOrigin, 0u, path[slot].rayOrigin);
-    traceEvent(slot, traceRayDirection, 0u, path[slot].rayDirection);
-    path[slot].rayLength = unbounded;
-    path[slot].hitPrimitive = noPrimitive;
-    if (sphereCount <= unrolledSphereCount)
-        [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
-            meetSphere(slot, i, sphereShapes[i]);
-    else
-        for (uint i = 0u; i < sphereCount; ++i)
-            meetSphere(slot, i, sphereShape(i));
-    path[slot].hitRecord = path[slot].hitPrimitive;
-    if (hasTriangles)
-        enterTree(slot);
-    else
-        stopTraversal(slot);
-    path[slot].stage = stageClosest;
 }
 
 void reflectRay(uint slot, Surface surface, uint medium) {
@@ -123,24 +79,13 @@ void leaveScene(uint slot) {
 
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
-    bool isTriangle = hasTriangles && path[slot].hitPrimitive >= firstTriangleId;
-    traceEvent(slot, traceHit, path[slot].hitPrimitive,
-               vec3(path[slot].rayLength, isTriangle ? vec2(path[slot].hitU, path[slot].hitV) : vec2(0.0)));
+    traceNearestHit(slot);
     if (path[slot].hitPrimitive == noPrimitive) {
         leaveScene(slot);
         return;
     }
-    Surface surface;
     uint materialIndex;
-    if (isTriangle) {
-        TriangleRecord triangle = fetchTriangle(path[slot].hitRecord);
-        surface = triangleSurface(triangle, fetchNormals(path[slot].hitRecord), path[slot].hitU, path[slot].hitV);
-        materialIndex = triangle.materialIndex;
-    } else {
-        SphereRecord sphere = fetchSphere(path[slot].hitRecord);
-        surface = sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
-        materialIndex = sphere.materialIndex;
-    }
+    Surface surface = hitSurface(slot, materialIndex);
     MaterialRecord material = fetchMaterial(materialIndex);
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
@@ -153,6 +98,11 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
+    bool isSeenFromFront = dotProduct(direction, surface.geometricNormal) < 0.0;
+    if (hasEmission && (isSeenFromFront || material.isTwoSided != 0u)) {
+        path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, path[slot].throughput, material.emission);
+        traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
+    }
     endPath(slot);
     if (!hasSpecular || material.kind == materialDiffuse) {
         if (material.isTwoSided != 0u && dotProduct(direction, surface.geometricNormal) > 0.0) {
@@ -193,25 +143,7 @@ void aimAtLight(uint slot) {
             endPath(slot);
         return;
     }
-    rayCounts[slot].y += 1u;
-    path[slot].rayOrigin = spawnPoint(path[slot].surfacePosition, path[slot].surfaceError,
-                                      path[slot].surfaceGeometricNormal, direction);
-    path[slot].rayDirection = direction;
-    path[slot].rayLength = distance;
-    path[slot].rayExcluded = path[slot].surfacePrimitive;
-    path[slot].hitPrimitive = noPrimitive;
-    path[slot].isLightDimmed = 0u;
-    if (sphereCount <= unrolledSphereCount)
-        [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
-            meetSphereInShadow(slot, i, sphereShapes[i]);
-    else
-        for (uint i = 0u; i < sphereCount; ++i)
-            meetSphereInShadow(slot, i, sphereShape(i));
-    if (hasTriangles && path[slot].hitPrimitive == noPrimitive)
-        enterTree(slot);
-    else
-        stopTraversal(slot);
-    path[slot].stage = stageShadow;
+    beginShadow(slot, direction, distance);
 }
 
 // Stage: the shadow ray has arrived, or was stopped.
@@ -235,23 +167,6 @@ void addLight(uint slot) {
     if (path[slot].lightIndex == lightCount)
         endPath(slot);
 }
-
-bool isUnfinished() {
-    bool any = false;
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        any = any || path[slot].stage != stageDone;
-    return any;
-}
-
-bool isAtStageUpTo(uint stage) {
-    bool any = false;
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        any = any || path[slot].stage <= stage;
-    return any;
-}
-
-// Of loops over the spheres in one pass, which count as steps.
-const uint sphereIterations = sphereCount <= unrolledSphereCount ? 0u : RAYS * sphereCount;
 
 // Follows rays until they meet a diffuse surface or nothing.
 void followPaths() {

@@ -1,12 +1,16 @@
 #include "host/bvh/packed_scene.h"
 
+#include "host/bvh/emitters.h"
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 
 namespace hyalite {
 
@@ -41,14 +45,30 @@ layout::MaterialRecord packMaterial(const Material &material) {
     record.kind = static_cast<std::uint32_t>(material.kind);
     record.segmentTint = material.segmentTint;
     record.refractiveIndex = material.refractiveIndex;
+    record.emission = material.emission;
+    record.absorption = material.absorption;
     record.isTwoSided = material.twoSided ? 1u : 0u;
     return record;
+}
+
+/// The input indices of all materials in the order in which they are packed.
+std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials) {
+    std::vector<std::uint32_t> order(materials.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto rank = [&](std::uint32_t i) {
+        return materials[i].kind == MaterialKind::Dielectric ? -materials[i].priority
+                                                             : std::numeric_limits<int>::max();
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+    return order;
 }
 
 /// Whether a loop of so many rounds is worth waking other threads.
 bool isLong(std::int64_t count) { return count > 8192; }
 
-void packTriangles(const Scene &scene, const Bvh &bvh, PackedScene &packed) {
+void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::uint32_t> &packedMaterial,
+                   PackedScene &packed) {
     std::vector<std::uint32_t> positionInTree(bvh.order.size());
     const auto total = static_cast<std::int64_t>(bvh.order.size());
 #pragma omp parallel for schedule(static) if (isLong(total))
@@ -70,7 +90,7 @@ void packTriangles(const Scene &scene, const Bvh &bvh, PackedScene &packed) {
             triangle.v1 = mesh.positions[corner.positions.y];
             triangle.v2 = mesh.positions[corner.positions.z];
             triangle.primitiveId = layout::firstTriangleId + inputIndex;
-            triangle.materialIndex = mesh.materialIndex;
+            triangle.materialIndex = packedMaterial[mesh.materialIndex];
             triangle.flags = isTransmissive ? layout::triangleIsTransmissive : 0u;
             layout::NormalRecord &normals = packed.normals[position];
             const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
@@ -130,8 +150,9 @@ void packNodes(const Bvh &bvh, PackedScene &packed) {
 
 std::size_t PackedScene::sizeBytes() const {
     return sizeof(frame) + spheres.size() * sizeof(spheres[0]) + lights.size() * sizeof(lights[0]) +
-           materials.size() * sizeof(materials[0]) + nodes.size() * sizeof(nodes[0]) +
-           triangles.size() * sizeof(triangles[0]) + normals.size() * sizeof(normals[0]);
+           materials.size() * sizeof(materials[0]) + emitters.size() * sizeof(emitters[0]) +
+           nodes.size() * sizeof(nodes[0]) + triangles.size() * sizeof(triangles[0]) +
+           normals.size() * sizeof(normals[0]);
 }
 
 PackedScene packScene(const Scene &scene, const Bvh &bvh) {
@@ -141,8 +162,15 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
     packed.treeDepth = bvh.depth;
     packed.hasTriangles = !bvh.order.empty();
 
+    const std::vector<std::uint32_t> order = materialOrder(scene.materials);
+    std::vector<std::uint32_t> packedMaterial(order.size()); // by the index in the input
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        packedMaterial[order[i]] = i;
+        packed.materials.push_back(packMaterial(scene.materials[order[i]]));
+    }
     const auto useMaterial = [&](std::uint32_t index) {
         const MaterialKind kind = scene.materials[index].kind;
+        packed.hasEmission = packed.hasEmission || scene.materials[index].emission != glm::vec3(0.0f);
         packed.hasSpecular = packed.hasSpecular || kind != MaterialKind::Diffuse;
         packed.hasDielectric = packed.hasDielectric || kind == MaterialKind::Dielectric;
     };
@@ -151,7 +179,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
         layout::SphereRecord record{};
         record.centre = glm::vec3(sphere.centre);
         record.radius = static_cast<float>(sphere.radius);
-        record.materialIndex = sphere.materialIndex;
+        record.materialIndex = packedMaterial[sphere.materialIndex];
         record.isTransmissive =
             scene.materials[sphere.materialIndex].kind == MaterialKind::Dielectric ? 1u : 0u;
         record.normalSign = sphere.inwardNormal ? -1.0f : 1.0f;
@@ -165,10 +193,10 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
         record.intensity = glm::vec3(light.power / (4.0 * std::numbers::pi));
         packed.lights.push_back(record);
     }
-    for (const Material &material : scene.materials)
-        packed.materials.push_back(packMaterial(material));
-    packTriangles(scene, bvh, packed);
+    packTriangles(scene, bvh, packedMaterial, packed);
     packNodes(bvh, packed);
+    if (scene.settings.integrator == Integrator::Path)
+        packEmitters(scene, packed);
     if (packed.hasTriangles) {
         packed.frame.boundsLower = bvh.nodes.front().box.lower;
         packed.frame.boundsUpper = bvh.nodes.front().box.upper;

@@ -11,7 +11,8 @@ struct PackedScene {
     layout::FrameRecord frame{};
     std::vector<layout::SphereRecord> spheres;
     std::vector<layout::LightRecord> lights;
-    std::vector<layout::MaterialRecord> materials;
+    std::vector<layout::MaterialRecord> materials; ///< dielectrics first, by falling priority
+    std::vector<layout::EmitterRecord> emitters;   ///< for the path integrator only
     std::vector<layout::NodePair> nodes;           ///< never empty
     std::vector<layout::TriangleRecord> triangles; ///< leaf by leaf
     std::vector<layout::NormalRecord> normals;     ///< one for each triangle record
@@ -21,6 +22,7 @@ struct PackedScene {
     bool hasTriangles = false;
     bool hasSpecular = false;
     bool hasDielectric = false;
+    bool hasEmission = false;
 
     /// Of all arrays together: what a device has to hold of the scene.
     [[nodiscard]] std::size_t sizeBytes() const;

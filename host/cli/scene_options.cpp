@@ -54,6 +54,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     RenderSettings &settings = scene.settings;
     settings.samplesPerPixel = options.samplesPerPixel.value_or(settings.samplesPerPixel);
+    settings.integrator = options.integrator.value_or(settings.integrator);
     settings.maxDepth = options.maxDepth.value_or(settings.maxDepth);
     settings.tree = options.tree.value_or(settings.tree);
     settings.leafSize = options.leafSize.value_or(settings.leafSize);
@@ -136,6 +137,9 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->group(view);
 
     const char *tracing = "Tracing";
+    addChoice(command, "--integrator", options.integrator, integratorNames,
+              "whitted: direct light, mirrors and both branches at glass; path: light on all its ways")
+        ->group(tracing);
     addNumber(
         command, "--max-depth", options.maxDepth, limits::maxDepth,
         "segments of a path, the primary ray included; glass splits paths in two, so that each level may "

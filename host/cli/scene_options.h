@@ -21,6 +21,7 @@ struct SceneOptions {
     std::optional<int> width;
     std::optional<int> height;
     std::optional<int> samplesPerPixel;
+    std::optional<Integrator> integrator;
     std::optional<int> maxDepth;
     std::optional<TreeKind> tree;
     std::optional<int> leafSize;

@@ -1,11 +1,16 @@
 #include "host/gpu/batching.h"
 
+#include "pathSkipOneSlot.h"
+#include "pathSkipTwoSlots.h"
+#include "pathStackOneSlot.h"
+#include "pathStackTwoSlots.h"
 #include "whittedSkipOneSlot.h"
 #include "whittedSkipTwoSlots.h"
 #include "whittedStackOneSlot.h"
 #include "whittedStackTwoSlots.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace hyalite::gpu {
@@ -41,13 +46,16 @@ Batching completed(Batching batching, const DeviceInfo &device) {
     return batching;
 }
 
-std::span<const std::uint32_t> kernelWords(const Batching &batching) {
+std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator) {
     using Words = std::span<const std::uint32_t>;
     if (!batching.kernel.empty())
         return batching.kernel;
-    if (batching.traversal == Traversal::SkipList)
-        return batching.slotsPerInvocation == 2 ? Words(whittedSkipTwoSlots) : Words(whittedSkipOneSlot);
-    return batching.slotsPerInvocation == 2 ? Words(whittedStackTwoSlots) : Words(whittedStackOneSlot);
+    const std::array<Words, 4> whitted{whittedStackOneSlot, whittedStackTwoSlots, whittedSkipOneSlot,
+                                       whittedSkipTwoSlots};
+    const std::array<Words, 4> path{pathStackOneSlot, pathStackTwoSlots, pathSkipOneSlot, pathSkipTwoSlots};
+    const std::size_t index =
+        (batching.traversal == Traversal::SkipList ? 2u : 0u) + (batching.slotsPerInvocation == 2 ? 1u : 0u);
+    return integrator == Integrator::Path ? path[index] : whitted[index];
 }
 
 std::string_view kernelName(const Batching &batching) {

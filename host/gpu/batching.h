@@ -3,6 +3,7 @@
 
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/devices.h"
+#include "host/scene/scene.h"
 
 #include <array>
 #include <cstdint>
@@ -37,8 +38,8 @@ struct Batching {
 /// `batching` with everything filled in that was left to the device.
 [[nodiscard]] Batching completed(Batching batching, const DeviceInfo &device);
 
-/// The kernel that a complete `batching` names, as SPIR-V.
-[[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching);
+/// The kernel of `integrator` that a complete `batching` names, as SPIR-V.
+[[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator);
 
 /// A kernel that can be asked for.
 struct KernelChoice {

@@ -65,7 +65,12 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
     result.timing.uploadSeconds = endStage("upload");
 
     for (const Crop &band : cutIntoBands(crop, state_->device.info())) {
-        const Job job{scene, band, settings.sampler, 0, static_cast<std::uint32_t>(settings.samplesPerPixel),
+        const Job job{scene,
+                      band,
+                      settings.integrator,
+                      settings.sampler,
+                      0,
+                      static_cast<std::uint32_t>(settings.samplesPerPixel),
                       false};
         TileRenderer tiles(state_->device, buffers, state_->batching, job);
         result.timing.pipelineSeconds += endStage("buffers");
@@ -101,7 +106,9 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
                                                 const glm::uvec2 &pixel, std::uint32_t sampleIndex) {
     const int x = static_cast<int>(pixel.x);
     const int y = static_cast<int>(pixel.y);
-    const Job job{scene, {x, x + 1, y, y + 1}, settings.sampler, sampleIndex, sampleIndex + 1, true};
+    const Job job{
+        scene, {x, x + 1, y, y + 1}, settings.integrator, settings.sampler, sampleIndex, sampleIndex + 1,
+        true};
     const SceneBuffers buffers = state_->upload(scene);
     TileRenderer tiles(state_->device, buffers, state_->batching, job);
     tiles.makeKernel();

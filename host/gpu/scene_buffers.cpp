@@ -66,6 +66,7 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, bool isSkip
       materials(array(device, "the materials", arrayUse(isSkipList), scene.materials)),
       nodes(std::move(tree.nodes)),
       triangles(array(device, "the triangles", arrayUse(isSkipList), scene.triangles)),
-      normals(array(device, "the normals", arrayUse(isSkipList), scene.normals)) {}
+      normals(array(device, "the normals", arrayUse(isSkipList), scene.normals)),
+      emitters(array(device, "the emitters", arrayUse(isSkipList), scene.emitters)) {}
 
 } // namespace hyalite::gpu

@@ -19,6 +19,7 @@ struct SceneBuffers {
     Buffer nodes; ///< node pairs or skip lists
     Buffer triangles;
     Buffer normals;
+    Buffer emitters;
 
   private:
     template <class Tree> SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList, Tree tree);

@@ -1,6 +1,7 @@
 #include "host/gpu/tile_renderer.h"
 
 #include "host/error.h"
+#include "host/scene/names.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +35,8 @@ BufferUse bulkUse(const Batching &batching) {
 }
 
 RayCounts raysOf(const layout::DispatchProgress &counters) {
-    return {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays};
+    return {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays,
+            counters.bounceRays};
 }
 
 WorkCounts workOf(const layout::DispatchProgress &counters) {
@@ -98,7 +100,8 @@ void TileRenderer::warmUp(Kernel &kernel) {
 
 TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     const PackedScene &scene = job_.scene;
-    const std::uint32_t mostPending = scene.hasDielectric ? scene.frame.maxDepth - 1 : 0;
+    const bool isSplitting = job_.integrator == Integrator::Whitted && scene.hasDielectric;
+    const std::uint32_t mostPending = isSplitting ? scene.frame.maxDepth - 1 : 0;
     const bool keepsPending = !isResumable && mostPending <= layout::mostPendingInRegisters;
     Buffer paths(device_, "the path slots", BufferUse::Storage,
                  isResumable ? std::size_t{slotCount_} * sizeof(layout::PathRecord) : 0);
@@ -112,6 +115,8 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantHasTriangles] = scene.hasTriangles;
     constants[layout::constantHasSpecular] = scene.hasSpecular;
     constants[layout::constantHasDielectric] = scene.hasDielectric;
+    constants[layout::constantHasEmission] = scene.hasEmission;
+    constants[layout::constantEmitterCount] = static_cast<std::uint32_t>(scene.emitters.size());
     constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
     constants[layout::constantStackSize] = stackSize_;
     constants[layout::constantIsTracing] = job_.isTraced;
@@ -126,11 +131,12 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
                                                                  &buffers_.normals, &film_,
                                                                  &progress_,        &paths,
                                                                  &pending,          &stacks_,
-                                                                 &trace_,           &buffers_.sphereArray};
+                                                                 &trace_,           &buffers_.sphereArray,
+                                                                 &buffers_.emitters};
     const std::string name =
-        fmt::format("whitted {}{}", kernelName(batching_),
+        fmt::format("{} {}{}", nameOf(job_.integrator), kernelName(batching_),
                     isResumable && batching_.traversal == Traversal::SkipList ? ", resumable" : "");
-    Kernel kernel(device_, name, kernelWords(batching_), constants, bound);
+    Kernel kernel(device_, name, kernelWords(batching_, job_.integrator), constants, bound);
     return {std::move(paths), std::move(pending), std::move(kernel)};
 }
 

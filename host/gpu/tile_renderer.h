@@ -21,6 +21,7 @@ namespace hyalite::gpu {
 struct Job {
     const PackedScene &scene;
     Crop crop;
+    Integrator integrator;
     SamplerKind sampler;
     std::uint32_t sampleBegin;
     std::uint32_t sampleEnd;

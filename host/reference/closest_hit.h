@@ -144,4 +144,24 @@ template <class Real>
     return castShadowRay(scene, ray, length, counter);
 }
 
+/// Whether anything, glass included, lies between the ray's origin and `length` along it, the primitive `target` aside.
+template <class Real, class Counter>
+[[nodiscard]] bool isAnythingBefore(const PackedScene &scene, const Ray<Real> &ray, const Real &length,
+                                    std::uint32_t target, Counter &counter) {
+    bool isBlocked = false;
+    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
+        const layout::SphereRecord &sphere = scene.spheres[i];
+        const Real distance = intersectSphere(ray.origin, ray.direction, Vec3<Real>(sphere.centre),
+                                              static_cast<Real>(sphere.radius), ray.excluded == i);
+        isBlocked = isBlocked || (distance > 0 && distance < length && i != target);
+    }
+    if (isBlocked)
+        return true;
+    visitTriangles(scene, ray, length, counter, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
+        isBlocked = hit.distance < length && scene.triangles[record].primitiveId != target;
+        return !isBlocked;
+    });
+    return isBlocked;
+}
+
 } // namespace hyalite::reference

@@ -34,4 +34,26 @@ template <class Real>
     return {unitVector(transmitted), reflectance, Real(1) - reflectance, radicand < 0};
 }
 
+template <class Real> struct Interface {
+    Vec3<Real> refracted; ///< direction, unit length; meaningless where the reflectance is 1
+    Real reflectance;     ///< in [0, 1]; 1: total
+};
+
+/// What a smooth interface does with unpolarised light: Fresnel's equations. `direction` meets it from the side of its
+/// unit normal `facing`; `eta` is the refractive index on that side divided by the one beyond.
+template <class Real>
+[[nodiscard]] Interface<Real> meetInterface(const Vec3<Real> &direction, const Vec3<Real> &facing, Real eta) {
+    const Real cosIncident = -dotProduct(direction, facing);
+    const Real radicand = Real(1) - eta * eta * (Real(1) - cosIncident * cosIncident);
+    const Real cosTransmitted = std::sqrt(greater(radicand, Real(0)));
+    const Real along = eta * cosIncident - cosTransmitted;
+    const Vec3<Real> refracted = direction * eta + facing * along;
+    const Real acrossBefore = eta * cosIncident;
+    const Real alongBeyond = eta * cosTransmitted;
+    const Real across = (acrossBefore - cosTransmitted) / (acrossBefore + cosTransmitted);
+    const Real parallel = (cosIncident - alongBeyond) / (cosIncident + alongBeyond);
+    const Real reflectance = Real(0.5) * (across * across + parallel * parallel);
+    return {unitVector(refracted), radicand > 0 ? lesser(reflectance, Real(1)) : Real(1)};
+}
+
 } // namespace hyalite::reference

@@ -57,17 +57,31 @@ template <class Real> [[nodiscard]] Real unitReal(std::uint32_t x) {
     return static_cast<Real>(x >> 8) * Real(1.0 / 16777216.0);
 }
 
-/// Where sample `sampleIndex` of a pixel lies inside of it, in [0,1)^2: shuffled, scrambled Sobol points, so that any
-/// first 2^k samples of a pixel are stratified, and no two pixels share a pattern.
+/// Keys of the pair of dimensions `pair` of a pixel: each pair is a pattern of its own.
+[[nodiscard]] inline glm::uvec3 pairKeys(const glm::uvec2 &pixel, std::uint32_t seed, std::uint32_t pair) {
+    const glm::uvec3 keys = hashKeys(glm::uvec3(pixel, seed));
+    return pair == 0 ? keys : hashKeys(keys ^ pair);
+}
+
+/// Two coordinates of a sample, as fractions of 2^32: shuffled, scrambled Sobol points, so that any first 2^k samples of
+/// a pixel are stratified, and no two pixels and no two pairs share a pattern.
+[[nodiscard]] inline glm::uvec2 sampleBits(const glm::uvec3 &keys, std::uint32_t sampleIndex) {
+    const std::uint32_t first = reverseBits(owenScramble(sampleIndex, keys.x));
+    const std::uint32_t second = secondSobolCoordinate(first);
+    return {owenScramble(first, keys.y), owenScramble(second, keys.z)};
+}
+
+template <class Real> [[nodiscard]] Vec2<Real> unitReals(const glm::uvec2 &bits) {
+    return {unitReal<Real>(bits.x), unitReal<Real>(bits.y)};
+}
+
+/// Where sample `sampleIndex` of a pixel lies inside of it, in [0,1)^2. It is pair 0.
 template <class Real>
 [[nodiscard]] Vec2<Real> samplePixel(std::uint32_t samplerKind, const glm::uvec2 &pixel,
                                      std::uint32_t sampleIndex, std::uint32_t seed) {
     if (samplerKind == layout::samplerCentre)
         return Vec2<Real>(Real(0.5));
-    const glm::uvec3 keys = hashKeys(glm::uvec3(pixel, seed));
-    const std::uint32_t first = reverseBits(owenScramble(sampleIndex, keys.x));
-    const std::uint32_t second = secondSobolCoordinate(first);
-    return {unitReal<Real>(owenScramble(first, keys.y)), unitReal<Real>(owenScramble(second, keys.z))};
+    return unitReals<Real>(sampleBits(pairKeys(pixel, seed, 0), sampleIndex));
 }
 
 } // namespace hyalite::reference

@@ -1,5 +1,6 @@
 #include "host/reference/renderer.h"
 
+#include "host/reference/path.h"
 #include "host/reference/whitted.h"
 
 #include <omp.h>
@@ -14,8 +15,8 @@ namespace hyalite::reference {
 namespace {
 
 /// At most `sampleCount` samples: `isLast` is asked after each.
-template <class Real, class Counter, class IsLast>
-layout::FilmPixel renderPixel(WhittedIntegrator<Real, Counter> &integrator, const glm::uvec2 &pixel,
+template <class Real, class SampleIntegrator, class IsLast>
+layout::FilmPixel renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
                               std::uint32_t sampleCount, const IsLast &isLast) {
     Vec3<Real> sum(Real(0));
     Vec3<Real> sumOfSquares(Real(0));
@@ -31,9 +32,9 @@ layout::FilmPixel renderPixel(WhittedIntegrator<Real, Counter> &integrator, cons
     return {glm::vec3(sum), finishedCount, glm::vec3(sumOfSquares), 0.0f};
 }
 
-template <class Real, class Counter = NoCounter>
-Result renderAs(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                const Options &options) {
+template <class SampleIntegrator, class Real, class Counter>
+Result renderWith(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
+                  const Options &options) {
     Result result{Film(crop), {}, {}};
     // Short runs of pixels: some pixels cost a hundred times more than others.
     constexpr std::int64_t runLength = 32;
@@ -49,7 +50,7 @@ Result renderAs(const PackedScene &scene, const RenderSettings &settings, const 
     };
 #pragma omp parallel num_threads(threadCount)
     {
-        WhittedIntegrator<Real, Counter> integrator(scene, static_cast<std::uint32_t>(settings.sampler));
+        SampleIntegrator integrator(scene, static_cast<std::uint32_t>(settings.sampler));
 #pragma omp for schedule(dynamic)
         for (std::int64_t run = 0; run < runCount; ++run) {
             const std::int64_t end = std::min((run + 1) * runLength, pixelCount);
@@ -57,8 +58,8 @@ Result renderAs(const PackedScene &scene, const RenderSettings &settings, const 
                 const glm::uvec2 pixel(static_cast<std::uint32_t>(crop.x0 + i % crop.width()),
                                        static_cast<std::uint32_t>(crop.y0 + i / crop.width()));
                 result.film.pixels[static_cast<std::size_t>(i)] =
-                    renderPixel(integrator, pixel, static_cast<std::uint32_t>(settings.samplesPerPixel),
-                                askWhetherToStop);
+                    renderPixel<Real>(integrator, pixel, static_cast<std::uint32_t>(settings.samplesPerPixel),
+                                      askWhetherToStop);
             }
             if (isStopped) // a loop of OpenMP cannot be left: what remains of it is skipped
                 continue;
@@ -79,15 +80,32 @@ Result renderAs(const PackedScene &scene, const RenderSettings &settings, const 
     return result;
 }
 
+template <class Real, class Counter = NoCounter>
+Result renderAs(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
+                const Options &options) {
+    if (settings.integrator == Integrator::Path)
+        return renderWith<PathIntegrator<Real, Counter>, Real, Counter>(scene, settings, crop, options);
+    return renderWith<WhittedIntegrator<Real, Counter>, Real, Counter>(scene, settings, crop, options);
+}
+
+template <class SampleIntegrator, class Real>
+std::vector<layout::TraceEvent> traceWith(const PackedScene &scene, const RenderSettings &settings,
+                                          const glm::uvec2 &pixel, std::uint32_t sampleIndex,
+                                          const glm::dvec2 &shift) {
+    std::vector<layout::TraceEvent> events;
+    SampleIntegrator integrator(scene, static_cast<std::uint32_t>(settings.sampler));
+    integrator.traceTo(events);
+    static_cast<void>(integrator.sampleRadiance(pixel, sampleIndex, Vec2<Real>(shift)));
+    return events;
+}
+
 template <class Real>
 std::vector<layout::TraceEvent> traceAs(const PackedScene &scene, const RenderSettings &settings,
                                         const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                         const glm::dvec2 &shift) {
-    std::vector<layout::TraceEvent> events;
-    WhittedIntegrator<Real> integrator(scene, static_cast<std::uint32_t>(settings.sampler));
-    integrator.traceTo(events);
-    static_cast<void>(integrator.sampleRadiance(pixel, sampleIndex, Vec2<Real>(shift)));
-    return events;
+    if (settings.integrator == Integrator::Path)
+        return traceWith<PathIntegrator<Real>, Real>(scene, settings, pixel, sampleIndex, shift);
+    return traceWith<WhittedIntegrator<Real>, Real>(scene, settings, pixel, sampleIndex, shift);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/dielectric.h"
+#include "host/reference/hit_surface.h"
 #include "host/reference/random.h"
 #include "host/reference/surface.h"
 #include "host/report/ray_counts.h"
@@ -76,17 +77,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             traceEvent(layout::traceRadiance, 0, radiance_);
             return;
         }
-        Surface<Real> surface;
         std::uint32_t materialIndex;
-        if (hit.primitive >= layout::firstTriangleId) {
-            const layout::TriangleRecord &triangle = scene_.triangles[hit.record];
-            surface = triangleSurface(triangle, scene_.normals[hit.record], hit.u, hit.v);
-            materialIndex = triangle.materialIndex;
-        } else {
-            const layout::SphereRecord &sphere = scene_.spheres[hit.record];
-            surface = sphereSurface(segment.ray.origin, segment.ray.direction, hit.distance, sphere);
-            materialIndex = sphere.materialIndex;
-        }
+        const Surface<Real> surface = hitSurface(scene_, segment.ray, hit, materialIndex);
         const layout::MaterialRecord &material = scene_.materials[materialIndex];
         const bool isEntering = dotProduct(segment.ray.direction, surface.normal) < 0;
         const bool isGlass = material.kind == layout::materialDielectric;
@@ -97,6 +89,11 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, segment.throughput);
+        const bool isSeenFromFront = dotProduct(segment.ray.direction, surface.geometricNormal) < 0;
+        if (scene_.hasEmission && (isSeenFromFront || material.isTwoSided != 0)) {
+            radiance_ = radiance_ + segment.throughput * Vec3<Real>(material.emission);
+            traceEvent(layout::traceRadiance, 0, radiance_);
+        }
         if (material.kind == layout::materialDiffuse)
             shadeDiffuse(segment, surface, material, hit.primitive);
         else if (segment.depth < scene_.frame.maxDepth && isGlass)

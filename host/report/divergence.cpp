@@ -14,8 +14,8 @@ namespace {
 using layout::TraceEvent;
 
 constexpr std::array<std::string_view, layout::traceQuantityCount> quantityNames{
-    "ray origin",  "ray direction",    "hit",     "surface position", "surface normal", "throughput",
-    "reflectance", "light visibility", "radiance"};
+    "ray origin",  "ray direction",    "hit",      "surface position",   "surface normal", "throughput",
+    "reflectance", "light visibility", "radiance", "scattered direction"};
 
 std::string floatText(float value) {
     return fmt::format("{:.9g} (0x{:08x})", value, std::bit_cast<std::uint32_t>(value));

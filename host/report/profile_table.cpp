@@ -49,20 +49,20 @@ std::string profileTable(const Profile &profile) {
 
     text += fmt::format("\n{:<24}{:>12}", "Mray/s", "invocations");
     for (const RayKind &kind : rayKinds)
-        text += fmt::format("{:>13}", kind.name);
-    text += fmt::format("{:>13}\n", "total");
+        text += fmt::format("{:>12}", kind.name);
+    text += fmt::format("{:>12}\n", "total");
     RayCounts rays;
     for (const KernelSummary &kernel : kernels) {
         rays += kernel.rays;
         text += fmt::format("{:<24}{:>12}", kernel.times.name, kernel.invocations);
         for (const RayKind &kind : rayKinds)
-            text += fmt::format("{:>13}", speedText(kernel.megaraysPerSecond(kernel.rays.*kind.count)));
-        text += fmt::format("{:>13}\n", speedText(kernel.megaraysPerSecond(kernel.rays.total())));
+            text += fmt::format("{:>12}", speedText(kernel.megaraysPerSecond(kernel.rays.*kind.count)));
+        text += fmt::format("{:>12}\n", speedText(kernel.megaraysPerSecond(kernel.rays.total())));
     }
     text += fmt::format("{:<36}", "rays in a frame");
     for (const RayKind &kind : rayKinds)
-        text += fmt::format("{:>13}", rays.*kind.count);
-    text += fmt::format("{:>13}\n", rays.total());
+        text += fmt::format("{:>12}", rays.*kind.count);
+    text += fmt::format("{:>12}\n", rays.total());
     if (profile.work)
         text += fmt::format("work of a stack traversal: {} nodes, {} boxes, {} triangles, deepest stack {}\n",
                             profile.work->nodesVisited, profile.work->boxesTested,

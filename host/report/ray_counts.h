@@ -11,13 +11,15 @@ struct RayCounts {
     std::uint64_t shadow = 0;
     std::uint64_t reflection = 0;
     std::uint64_t refraction = 0;
+    std::uint64_t bounce = 0; ///< scattered by diffuse surfaces
 
-    [[nodiscard]] std::uint64_t total() const { return primary + shadow + reflection + refraction; }
+    [[nodiscard]] std::uint64_t total() const { return primary + shadow + reflection + refraction + bounce; }
     RayCounts &operator+=(const RayCounts &other) {
         primary += other.primary;
         shadow += other.shadow;
         reflection += other.reflection;
         refraction += other.refraction;
+        bounce += other.bounce;
         return *this;
     }
     bool operator==(const RayCounts &) const = default;
@@ -28,9 +30,10 @@ struct RayKind {
     std::uint64_t RayCounts::*count;
 };
 
-inline constexpr std::array<RayKind, 4> rayKinds{{{"primary", &RayCounts::primary},
+inline constexpr std::array<RayKind, 5> rayKinds{{{"primary", &RayCounts::primary},
                                                   {"shadow", &RayCounts::shadow},
                                                   {"reflection", &RayCounts::reflection},
-                                                  {"refraction", &RayCounts::refraction}}};
+                                                  {"refraction", &RayCounts::refraction},
+                                                  {"bounce", &RayCounts::bounce}}};
 
 } // namespace hyalite

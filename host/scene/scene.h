@@ -40,7 +40,10 @@ struct Material {
     bool twoSided = false;        ///< Diffuse: turn the normal towards the viewer before shading
     float refractiveIndex = 1.5f; ///< Dielectric: relative to the surroundings, in [1, 10]
     glm::vec3 segmentTint{
-        1.0f}; ///< Dielectric: factor on all that a segment inside returns, whatever its length
+        1.0f}; ///< Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only
+    glm::vec3 absorption{0.0f}; ///< Dielectric: per unit of length, >= 0; path only
+    int priority = 0; ///< Dielectric: where several overlap, the glass of the highest is there; path only
+    glm::vec3 emission{0.0f}; ///< Diffuse: radiance on the side of the normal, on both where twoSided; >= 0
 };
 
 struct Sphere {
@@ -67,7 +70,7 @@ struct TriangleMesh {
     std::uint32_t materialIndex = 0;
 };
 
-enum class Integrator { Whitted };
+enum class Integrator { Whitted, Path };
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 

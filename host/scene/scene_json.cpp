@@ -61,6 +61,8 @@ Material readMaterial(const std::string &name, const JsonObject &object) {
         object.allowOnly(scene_keys::diffuse);
         material.albedo = glm::vec3(object.colour("albedo", limits::fraction, glm::dvec3(material.albedo)));
         material.twoSided = object.boolean("twoSided", material.twoSided);
+        material.emission =
+            glm::vec3(object.colour("emission", limits::radiance, glm::dvec3(material.emission)));
         break;
     case MaterialKind::Mirror:
         object.allowOnly(scene_keys::mirror);
@@ -71,6 +73,9 @@ Material readMaterial(const std::string &name, const JsonObject &object) {
             static_cast<float>(object.number("index", limits::refractiveIndex, material.refractiveIndex));
         material.segmentTint =
             glm::vec3(object.colour("segmentTint", limits::fraction, glm::dvec3(material.segmentTint)));
+        material.absorption =
+            glm::vec3(object.colour("absorption", limits::absorption, glm::dvec3(material.absorption)));
+        material.priority = object.integer("priority", limits::priority, material.priority);
         break;
     }
     return material;

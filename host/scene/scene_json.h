@@ -18,11 +18,15 @@
 //     } ],
 //     "materials": { NAME: one of
 //       { "type": "diffuse", "albedo": colour in [0, 1], default 0.5;
-//                            "twoSided": true turns the normal to the viewer, default false }
+//                            "twoSided": true turns the normal to the viewer, default false;
+//                            "emission": colour, default 0: radiance on the side of the normal, on both where twoSided }
 //       { "type": "mirror" }
 //       { "type": "dielectric", "index": from 1 to 10, default 1.5;
 //                               "segmentTint": colour in [0, 1], default 1: a factor on all that a segment
-//                                              inside returns, whatever its length }
+//                                              inside returns, whatever its length; integrator "whitted" only;
+//                               "absorption": colour per unit of length, at least 0, default 0; "path" only;
+//                               "priority": from -1000 to 1000, default 0: where several dielectrics overlap,
+//                                           the one of the highest is there; "path" only }
 //     },
 //     "spheres": [ {          at most 64
 //       "centre"         point
@@ -38,7 +42,7 @@
 //       "translate"      vector, default [0, 0, 0]
 //     } ],
 //     "settings": {
-//       "integrator"     "whitted"
+//       "integrator"     "whitted" (default) or "path"
 //       "spp"            samples a pixel, from 1 to 65536, default 16
 //       "maxDepth"       segments of a path, from 1 to 32, default 7
 //       "bvh"            "midpoint" (default), "sah" or "none"
@@ -89,9 +93,10 @@ inline constexpr auto top =
 inline constexpr auto camera = std::to_array<std::string_view>(
     {"position", "target", "direction", "up", "horizontalFov", "width", "height"});
 inline constexpr auto light = std::to_array<std::string_view>({"type", "position", "power"});
-inline constexpr auto diffuse = std::to_array<std::string_view>({"type", "albedo", "twoSided"});
+inline constexpr auto diffuse = std::to_array<std::string_view>({"type", "albedo", "twoSided", "emission"});
 inline constexpr auto mirror = std::to_array<std::string_view>({"type"});
-inline constexpr auto dielectric = std::to_array<std::string_view>({"type", "index", "segmentTint"});
+inline constexpr auto dielectric =
+    std::to_array<std::string_view>({"type", "index", "segmentTint", "absorption", "priority"});
 inline constexpr auto sphere =
     std::to_array<std::string_view>({"centre", "radius", "material", "inwardNormal"});
 inline constexpr auto mesh =

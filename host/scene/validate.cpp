@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 #include <type_traits>
@@ -90,6 +91,9 @@ void checkMaterial(const Material &material, const Checked &checked) {
     checked.within(limits::fraction, material.albedo, "albedo");
     checked.within(limits::refractiveIndex, material.refractiveIndex, "index");
     checked.within(limits::fraction, material.segmentTint, "segmentTint");
+    checked.within(limits::absorption, material.absorption, "absorption");
+    checked.within(limits::priority, material.priority, "priority");
+    checked.within(limits::radiance, material.emission, "emission");
 }
 
 void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checked &checked) {
@@ -135,6 +139,13 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     whole.atMost(limits::triangleCount, triangleCount(scene), "triangles");
     whole.within(limits::radiance, scene.background, "background");
     whole.within(limits::fraction, scene.shadowThroughGlass, "shadowThroughGlass");
+
+    if (scene.settings.integrator == Integrator::Path)
+        whole.atMost(limits::mediumCount,
+                     static_cast<std::size_t>(std::count_if(
+                         scene.materials.begin(), scene.materials.end(),
+                         [](const Material &material) { return material.kind == MaterialKind::Dielectric; })),
+                     "dielectric materials for the integrator path");
 
     checkCamera(scene.camera, {sourceName, "camera"});
     checkSettings(scene.settings, {sourceName, "settings"});

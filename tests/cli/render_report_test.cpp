@@ -43,8 +43,8 @@ TEST_F(RenderReport, HasAllItsKeys) {
         EXPECT_EQ(keysOf(report.at("settings")),
                   (std::set<std::string>{"integrator", "spp", "maxDepth", "bvh", "leafSize", "sampler",
                                          "seed", "exposure"}));
-        EXPECT_EQ(keysOf(report.at("rays")),
-                  (std::set<std::string>{"primary", "shadow", "reflection", "refraction", "total"}));
+        EXPECT_EQ(keysOf(report.at("rays")), (std::set<std::string>{"primary", "shadow", "reflection",
+                                                                    "refraction", "bounce", "total"}));
         EXPECT_EQ(keysOf(report.at("seconds")),
                   (std::set<std::string>{"load", "build", "upload", "pipeline", "render", "write", "total"}));
     }

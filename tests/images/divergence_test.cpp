@@ -3,8 +3,11 @@
 #include "tests/images/rendering.h"
 
 #include "faultInCamera.h"
+#include "faultInEmitter.h"
 #include "faultInFresnel.h"
+#include "faultInLight.h"
 #include "faultInNormal.h"
+#include "faultInScatter.h"
 #include "faultInShadow.h"
 #include "faultInSphere.h"
 #include "faultInTint.h"
@@ -67,9 +70,17 @@ TEST(PlantedFault, InTheTintOfGlass) { expectNamed(balls(), faultInTint, "throug
 
 TEST(PlantedFault, InTheShadow) { expectNamed(balls(), faultInShadow, "light visibility"); }
 
+Scene lamps() { return testing::shippedScene("lamps", 40, 30, 2); }
+
+TEST(PlantedFault, InTheScatteredDirection) { expectNamed(lamps(), faultInScatter, "scattered direction"); }
+
+TEST(PlantedFault, InTheWeightOfLight) { expectNamed(lamps(), faultInLight, "radiance"); }
+
+TEST(PlantedFault, InTheChoiceOfAnEmitter) { expectNamed(lamps(), faultInEmitter, "light visibility"); }
+
 // The same kernel, traced on both sides: every step is there, and equal.
 TEST(Trace, OfBothTwinsIsEqual) {
-    for (const char *name : {"spheres", "spheres-nested", "cat"}) {
+    for (const char *name : {"spheres", "spheres-nested", "cat", "cornell", "lamps"}) {
         const Scene scene = testing::shippedScene(name, 32, 32, 1);
         const PackedScene packed = testing::pack(scene);
         gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"));

@@ -71,13 +71,86 @@ TEST(Twins, AgreeOnManySpheresAndLights) {
     for (int i = 0; i < 24; ++i) {
         Sphere ball = balls[static_cast<std::size_t>(i) % balls.size()];
         ball.radius = 1.5f;
-        ball.centre = {static_cast<float>(i % 8) * 5.0f - 18.0f, static_cast<float>(i / 8) * 5.0f - 6.0f, 12.0f};
+        ball.centre = {static_cast<float>(i % 8) * 5.0f - 18.0f, static_cast<float>(i / 8) * 5.0f - 6.0f,
+                       12.0f};
         scene.spheres.push_back(ball);
     }
     scene.lights.push_back(scene.lights.front());
     scene.lights.back().position.x += 30.0f;
     for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
         expectTwins(scene, {.traversal = traversal});
+}
+
+/// What the path integrator knows: emitters of every kind, glass in glass, absorption, two-sided paper.
+Scene pathScene(int width, int height, int samplesPerPixel) {
+    Scene scene = shippedScene("spheres", width, height, samplesPerPixel);
+    scene.settings.integrator = Integrator::Path;
+    scene.settings.maxDepth = 12;
+    scene.background = {0.1f, 0.2f, 0.3f};
+    const auto addMaterial = [&](const Material &material) {
+        scene.materials.push_back(material);
+        return static_cast<std::uint32_t>(scene.materials.size() - 1);
+    };
+    Material lamp;
+    lamp.emission = {30.0f, 20.0f, 10.0f};
+    Material paper = lamp;
+    paper.twoSided = true;
+    Material amber;
+    amber.kind = MaterialKind::Dielectric;
+    amber.absorption = {0.01f, 0.05f, 0.2f};
+    amber.priority = 3;
+    scene.spheres.push_back({{-8, 12, 12}, 3.0, addMaterial(lamp), false});
+    scene.spheres.push_back({{14, 18, 0}, 2.0, addMaterial(paper), true});
+    scene.spheres.push_back({{2, -3, 6}, 7.0, addMaterial(amber), false});
+    const Scene cat = shippedScene("cat", 8, 8, 1);
+    TriangleMesh mesh = cat.meshes.front();
+    mesh.triangles.resize(3000);
+    for (glm::vec3 &position : mesh.positions)
+        position += glm::vec3(-18.0f, 0.0f, 18.0f);
+    mesh.materialIndex = addMaterial(paper);
+    scene.meshes.push_back(mesh);
+    return scene;
+}
+
+TEST(Twins, AgreeOnPaths) {
+    const Scene scene = pathScene(64, 64, 4);
+    for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+        for (const int slots : {1, 2})
+            expectTwins(scene, {.slotsPerInvocation = slots, .traversal = traversal});
+    expectTwins(scene, {.tileWidth = 16, .tileHeight = 8, .arithmetic = gpu::Arithmetic::Own});
+    expectTwins(shippedScene("cornell", 64, 64, 4));
+    expectTwins(shippedScene("lamps", 64, 64, 4));
+}
+
+TEST(Twins, AgreeOnPathsOfEveryLength) {
+    for (int depth = 1; depth <= 8; ++depth) {
+        Scene scene = pathScene(24, 24, 1);
+        scene.settings.maxDepth = depth;
+        expectTwins(scene);
+    }
+}
+
+TEST(Twins, AgreeOnPathsFromTheOtherSampler) {
+    Scene scene = pathScene(24, 24, 3);
+    scene.settings.sampler = SamplerKind::Centre;
+    scene.settings.seed = 7;
+    expectTwins(scene);
+}
+
+TEST(Twins, AgreeOnWhittedEmission) {
+    Scene scene = pathScene(48, 48, 2);
+    scene.settings.integrator = Integrator::Whitted;
+    expectTwins(scene);
+}
+
+TEST(Batching, ResumesInsidePaths) {
+    const Scene scene = pathScene(24, 24, 3);
+    const Film expected = renderOnCpu(scene).film;
+    for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
+        const gpu::Result result = renderOnDevice(scene, {.steps = 60, .traversal = traversal});
+        EXPECT_EQ(differingPixels(result.film, expected), 0u);
+        EXPECT_GT(result.timing.dispatchCount, 5u);
+    }
 }
 
 TEST(Twins, AgreeOnAnEmptyScene) {
@@ -110,9 +183,9 @@ TEST(Batching, AddsSamplesAbreastInTheirOrder) {
         const Scene scene = shippedScene("spheres", 20, 12, samples);
         for (const int abreast : {1, 2, 4, 8})
             for (const std::uint32_t steps : {0u, 40u})
-                expectTwins(scene, {.steps = steps,
-                                    .samplesAbreast = abreast,
-                                    .traversal = gpu::Traversal::SkipList});
+                expectTwins(
+                    scene,
+                    {.steps = steps, .samplesAbreast = abreast, .traversal = gpu::Traversal::SkipList});
     }
 }
 

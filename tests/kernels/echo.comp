@@ -23,7 +23,8 @@ layout(set = 0, binding = 9, std430) readonly buffer TraceBuffer { TraceEvent tr
 layout(set = 0, binding = 10, std430) readonly buffer PathBuffer { PathRecord paths[]; };
 layout(set = 0, binding = 11, std430) readonly buffer PendingBuffer { PendingRay pendings[]; };
 layout(set = 0, binding = 12, std430) readonly buffer SkipBuffer { SkipNode skips[]; };
-layout(set = 0, binding = 13, std430) writeonly buffer WordBuffer { uint words[]; };
+layout(set = 0, binding = 13, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
+layout(set = 0, binding = 14, std430) writeonly buffer WordBuffer { uint words[]; };
 
 uint cursor = 0u;
 
@@ -53,5 +54,6 @@ void main() {
     FIELDS_PathRecord(GIVE, paths[1])
     FIELDS_PendingRay(GIVE, pendings[1])
     FIELDS_SkipNode(GIVE, skips[1])
+    FIELDS_EmitterRecord(GIVE, emitters[1])
     FIELDS_DispatchConstants(GIVE, dispatch)
 }

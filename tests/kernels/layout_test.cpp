@@ -79,6 +79,7 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     const Pair<layout::PathRecord> path(Storage);
     const Pair<layout::PendingRay> pending(Storage);
     const Pair<layout::SkipNode> skip(Storage);
+    const Pair<layout::EmitterRecord> emitter(Storage);
     const layout::DispatchConstants dispatch = fill<layout::DispatchConstants>();
 
     Expected expected;
@@ -95,15 +96,16 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     EXPECT_FIELDS(PathRecord, path.records[1]);
     EXPECT_FIELDS(PendingRay, pending.records[1]);
     EXPECT_FIELDS(SkipNode, skip.records[1]);
+    EXPECT_FIELDS(EmitterRecord, emitter.records[1]);
     EXPECT_FIELDS(DispatchConstants, dispatch);
     EXPECT_EQ(expected.structCount, layoutStructCount) << "a struct of layout.h is not echoed";
 
     std::vector<std::uint32_t> words(expected.words.get().size());
     const gpu::Buffer output(probeDevice(), "the words", Storage, std::span(words).size_bytes());
-    const std::array<const gpu::Buffer *, 14> buffers{
+    const std::array<const gpu::Buffer *, 15> buffers{
         &frame.buffer,    &sphere.buffer,  &light.buffer, &material.buffer, &node.buffer,
         &triangle.buffer, &normal.buffer,  &film.buffer,  &progress.buffer, &trace.buffer,
-        &path.buffer,     &pending.buffer, &skip.buffer,  &output};
+        &path.buffer,     &pending.buffer, &skip.buffer,  &emitter.buffer,  &output};
     gpu::Kernel(probeDevice(), "echo", echoKernel, {}, buffers).run(dispatch, 1);
     output.download(std::as_writable_bytes(std::span(words)));
     for (std::size_t i = 0; i < words.size(); ++i)

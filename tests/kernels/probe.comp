@@ -18,7 +18,11 @@ layout(local_size_x_id = 0) in;
 #include "shaders/triangle.glsl"
 #include "shaders/sphere.glsl"
 #include "shaders/dielectric.glsl"
+#include "shaders/media.glsl"
+#include "shaders/functions.glsl"
+#include "shaders/sampling.glsl"
 #include "shaders/surface.glsl"
+#include "shaders/emitter_density.glsl"
 
 layout(set = 0, binding = bindingProbeInputs, std430) readonly buffer InputBuffer { uint inputWords[]; };
 layout(set = 0, binding = bindingProbeOutputs, std430) writeonly buffer OutputBuffer { uint outputWords[]; };
@@ -245,5 +249,83 @@ void main() {
     case probeSquareRoot:
         give(squareRoot(takeFloat()));
         break;
+    case probeSampleBits: {
+        uvec2 pixel = takeUvec2();
+        uint seed = takeUint();
+        uvec3 keys = pairKeys(pixel, seed, takeUint());
+        uvec2 bits = sampleBits(keys, takeUint());
+        give(bits.x);
+        give(bits.y);
+        break;
+    }
+    case probeSineCosine: {
+        SineCosine angle = sineCosine(takeFloat());
+        give(angle.sine);
+        give(angle.cosine);
+        break;
+    }
+    case probeDecay:
+        give(decay(takeFloat()));
+        break;
+    case probeSampleCosine: {
+        vec3 normal = takeVec3();
+        vec3 direction = sampleCosine(normal, takeVec2());
+        give(direction);
+        give(pdfCosine(direction.z));
+        break;
+    }
+    case probeSampleTriangle:
+        give(sampleTriangle(takeVec2()));
+        break;
+    case probeSampleCone: {
+        vec3 axis = takeVec3();
+        float squaredRadius = takeFloat();
+        float height = coneHeight(squaredRadius, takeFloat());
+        give(height);
+        give(sampleCone(axis, height, takeVec2()));
+        give(pdfCone(height));
+        break;
+    }
+    case probeSampleSphere:
+        give(sampleSphere(takeVec2()));
+        break;
+    case probePowerHeuristic: {
+        float a = takeFloat();
+        give(powerHeuristic(a, takeFloat()));
+        break;
+    }
+    case probeMeetInterface: {
+        vec3 direction = takeVec3();
+        vec3 facing = takeVec3();
+        Interface glass = meetInterface(direction, facing, takeFloat());
+        give(glass.refracted);
+        give(glass.reflectance);
+        break;
+    }
+    case probeMedia: {
+        uint inside = takeUint();
+        uint material = takeUint();
+        give(mediumAround(inside));
+        give(mediumCount(inside, material));
+        give(enterMedium(inside, material));
+        give(leaveMedium(inside, material));
+        break;
+    }
+    case probeSolidAngleDensity: {
+        float areaDensity = takeFloat();
+        float distance = takeFloat();
+        give(solidAngleDensity(areaDensity, distance, takeFloat()));
+        break;
+    }
+    case probeSphereLightDensity: {
+        vec3 position = takeVec3();
+        vec3 direction = takeVec3();
+        float distance = takeFloat();
+        vec3 centre = takeVec3();
+        float radius = takeFloat();
+        vec3 outward = takeVec3();
+        give(sphereLightDensity(position, direction, distance, centre, radius, outward, takeFloat()));
+        break;
+    }
     }
 }

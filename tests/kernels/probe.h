@@ -37,6 +37,18 @@ const uint probeTriangleSurface = 22u;
 const uint probeSpawnPoint = 23u;
 const uint probeDivide = 24u;
 const uint probeSquareRoot = 25u;
+const uint probeSampleBits = 26u;
+const uint probeSineCosine = 27u;
+const uint probeDecay = 28u;
+const uint probeSampleCosine = 29u;
+const uint probeSampleTriangle = 30u;
+const uint probeSampleCone = 31u;
+const uint probeSampleSphere = 32u;
+const uint probePowerHeuristic = 33u;
+const uint probeMeetInterface = 34u;
+const uint probeMedia = 35u;
+const uint probeSolidAngleDensity = 36u;
+const uint probeSphereLightDensity = 37u;
 
 // Two bindings and three specialization constants beyond those of the renderer's kernels.
 const uint bindingProbeInputs = bindingCount;

@@ -2,12 +2,15 @@
 #include "host/reference/box.h"
 #include "host/reference/camera.h"
 #include "host/reference/dielectric.h"
+#include "host/reference/emitters.h"
+#include "host/reference/media.h"
 #include "host/reference/random.h"
 #include "host/reference/sphere.h"
 #include "host/reference/surface.h"
 #include "host/reference/triangle.h"
 #include "tests/kernels/probe_device.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace hyalite::testing {
@@ -392,6 +395,137 @@ TEST(SurfaceTwin, SpawnPoint) {
         const vec3 direction = draw.chance(8) ? -surface.geometricNormal : draw.direction();
         input << surface.position << surface.error << surface.geometricNormal << direction;
         expected << reference::spawnPoint(surface, direction);
+    });
+}
+
+// ---- Sampling
+
+vec2 unitPair(Draw &draw) {
+    const float x = draw.chance(64) ? 0.0f : draw.unit();
+    return {x, draw.chance(64) ? 1.0f - 0x1p-24f : draw.unit()};
+}
+
+TEST(RandomTwin, SampleBits) {
+    expectTwin(probeSampleBits, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.index(32768);
+        const uvec2 pixel(x, draw.index(32768));
+        const std::uint32_t seed = draw.word();
+        const std::uint32_t pair = draw.index(100);
+        const std::uint32_t sample = draw.index(65536);
+        input << pixel << seed << pair << sample;
+        expected << reference::sampleBits(reference::pairKeys(pixel, seed, pair), sample);
+    });
+}
+
+TEST(FunctionTwin, SineCosine) {
+    expectTwin(probeSineCosine, [](Draw &draw, Words &input, Words &expected) {
+        const float turns = draw.chance(8) ? static_cast<float>(draw.index(17)) / 16.0f : draw.unit();
+        const auto angle = reference::sineCosine(turns);
+        input << turns;
+        expected << angle.sine << angle.cosine;
+    });
+}
+
+TEST(FunctionTwin, Decay) {
+    expectTwin(probeDecay, [](Draw &draw, Words &input, Words &expected) {
+        const float x = draw.chance(4) ? std::abs(draw.coordinate()) : draw.unit() * 90.0f;
+        input << x;
+        expected << reference::decay(x);
+    });
+}
+
+TEST(SamplingTwin, SampleCosine) {
+    expectTwin(probeSampleCosine, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 normal = draw.direction();
+        const vec2 u = unitPair(draw);
+        const vec3 direction = reference::sampleCosine(normal, u);
+        input << normal << u;
+        expected << direction << reference::pdfCosine(direction.z);
+    });
+}
+
+TEST(SamplingTwin, SampleTriangle) {
+    expectTwin(probeSampleTriangle, [](Draw &draw, Words &input, Words &expected) {
+        const vec2 u = unitPair(draw);
+        input << u;
+        expected << reference::sampleTriangle(u);
+    });
+}
+
+TEST(SamplingTwin, SampleCone) {
+    expectTwin(probeSampleCone, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 axis = draw.direction();
+        const float squaredDistance = 0.001f + draw.unit() * 1000.0f;
+        const float squaredRadius = squaredDistance * draw.unit();
+        const vec2 u = unitPair(draw);
+        const float height = reference::coneHeight(squaredRadius, squaredDistance);
+        input << axis << squaredRadius << squaredDistance << u;
+        expected << height << reference::sampleCone(axis, height, u) << reference::pdfCone(height);
+    });
+}
+
+TEST(SamplingTwin, SampleSphere) {
+    expectTwin(probeSampleSphere, [](Draw &draw, Words &input, Words &expected) {
+        const vec2 u = unitPair(draw);
+        input << u;
+        expected << reference::sampleSphere(u);
+    });
+}
+
+TEST(SamplingTwin, PowerHeuristic) {
+    expectTwin(probePowerHeuristic, [](Draw &draw, Words &input, Words &expected) {
+        const float a = std::abs(draw.coordinate()) + 1e-6f;
+        const float b = draw.chance(8) ? 0.0f : std::abs(draw.coordinate());
+        input << a << b;
+        expected << reference::powerHeuristic(a, b);
+    });
+}
+
+TEST(DielectricTwin, MeetInterface) {
+    expectTwin(probeMeetInterface, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 normal = draw.direction();
+        vec3 direction = draw.direction();
+        if (glm::dot(direction, normal) > 0.0f)
+            direction = -direction;
+        const float eta = draw.chance(2) ? 0.1f + draw.unit() : 1.0f + draw.unit() * 2.0f;
+        const auto glass = reference::meetInterface(direction, normal, eta);
+        input << direction << normal << eta;
+        expected << glass.refracted << glass.reflectance;
+    });
+}
+
+TEST(MediaTwin, CountsAndPriorities) {
+    expectTwin(probeMedia, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t inside = draw.word();
+        const std::uint32_t material = draw.index(layout::mostMedia);
+        input << inside << material;
+        expected << reference::mediumAround(inside) << reference::mediumCount(inside, material)
+                 << reference::enterMedium(inside, material) << reference::leaveMedium(inside, material);
+    });
+}
+
+TEST(EmitterTwin, SolidAngleDensity) {
+    expectTwin(probeSolidAngleDensity, [](Draw &draw, Words &input, Words &expected) {
+        const float areaDensity = draw.unit();
+        const float distance = std::abs(draw.coordinate());
+        const float cosine = draw.unit() + 0x1p-24f;
+        input << areaDensity << distance << cosine;
+        expected << reference::solidAngleDensity(areaDensity, distance, cosine);
+    });
+}
+
+TEST(EmitterTwin, SphereLightDensity) {
+    expectTwin(probeSphereLightDensity, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 position = draw.point();
+        const vec3 direction = draw.direction();
+        const float distance = std::abs(draw.coordinate());
+        const vec3 centre = draw.point();
+        const float radius = draw.unit() * 10.0f + 0.001f;
+        const vec3 outward = draw.direction();
+        const float areaDensity = draw.unit();
+        input << position << direction << distance << centre << radius << outward << areaDensity;
+        expected << reference::sphereLightDensity(position, direction, distance, centre, radius, outward,
+                                                  areaDensity);
     });
 }
 

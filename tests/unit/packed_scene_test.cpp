@@ -116,7 +116,8 @@ TEST(PackedScene, ARecordHasItsCornersNormalsMaterialAndFlags) {
         EXPECT_EQ(triangle.v0, mesh.positions[corner.positions.x]);
         EXPECT_EQ(triangle.v1, mesh.positions[corner.positions.y]);
         EXPECT_EQ(triangle.v2, mesh.positions[corner.positions.z]);
-        EXPECT_EQ(triangle.materialIndex, input / 2);
+        const std::uint32_t glassFirst[] = {1, 0, 2};
+        EXPECT_EQ(triangle.materialIndex, glassFirst[input / 2]);
         EXPECT_EQ(triangle.flags & layout::triangleIsTransmissive,
                   input / 2 == 1 ? layout::triangleIsTransmissive : 0u);
         EXPECT_EQ(triangle.flags & layout::triangleEndsLeaf, layout::triangleEndsLeaf) << "leaves of one";
@@ -207,7 +208,8 @@ TEST(PackedScene, SpheresLightsAndMaterialsAreCopied) {
     ASSERT_EQ(result.spheres.size(), 2u);
     EXPECT_EQ(result.spheres[0].centre, glm::vec3(1, 2, 3));
     EXPECT_EQ(result.spheres[0].radius, 4.0f);
-    EXPECT_EQ(result.spheres[0].materialIndex, 1u);
+    EXPECT_EQ(result.spheres[0].materialIndex, 0u) << "glass comes first";
+    EXPECT_EQ(result.spheres[1].materialIndex, 1u);
     EXPECT_EQ(result.spheres[0].normalSign, -1.0f);
     EXPECT_EQ(result.spheres[1].normalSign, 1.0f);
     ASSERT_EQ(result.lights.size(), 1u);
@@ -215,12 +217,69 @@ TEST(PackedScene, SpheresLightsAndMaterialsAreCopied) {
     EXPECT_EQ(result.lights[0].position, glm::vec3(1));
     EXPECT_EQ(result.lights[0].intensity, glm::vec3(1, 0, 2)) << "power / 4 pi";
     ASSERT_EQ(result.materials.size(), 2u);
-    EXPECT_EQ(result.materials[1].kind, layout::materialDielectric);
-    EXPECT_EQ(result.materials[1].albedo, glm::vec3(0.1f, 0.2f, 0.3f));
-    EXPECT_EQ(result.materials[1].segmentTint, glm::vec3(0.4f, 0.5f, 0.6f));
-    EXPECT_EQ(result.materials[1].refractiveIndex, 1.7f);
-    EXPECT_EQ(result.materials[1].isTwoSided, 1u);
-    EXPECT_EQ(result.materials[0].isTwoSided, 0u);
+    EXPECT_EQ(result.materials[0].kind, layout::materialDielectric);
+    EXPECT_EQ(result.materials[0].albedo, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(result.materials[0].segmentTint, glm::vec3(0.4f, 0.5f, 0.6f));
+    EXPECT_EQ(result.materials[0].refractiveIndex, 1.7f);
+    EXPECT_EQ(result.materials[0].isTwoSided, 1u);
+    EXPECT_EQ(result.materials[1].isTwoSided, 0u);
+}
+
+TEST(PackedScene, DielectricsComeFirstByPriority) {
+    Scene scene;
+    scene.materials.resize(5);
+    for (const std::size_t i : {1u, 3u, 4u})
+        scene.materials[i].kind = MaterialKind::Dielectric;
+    scene.materials[3].priority = 2;
+    for (std::size_t i = 0; i < 5; ++i)
+        scene.materials[i].albedo.x = 0.1f * static_cast<float>(i);
+    for (std::uint32_t i = 0; i < 5; ++i)
+        scene.spheres.push_back({{0, 0, 0}, 1.0, i, false});
+    const PackedScene result = packed(scene);
+    for (std::uint32_t i = 0; i < 5; ++i)
+        EXPECT_EQ(result.materials[result.spheres[i].materialIndex].albedo, scene.materials[i].albedo) << i;
+    EXPECT_EQ(result.spheres[3].materialIndex, 0u);
+    EXPECT_EQ(result.spheres[1].materialIndex, 1u);
+    EXPECT_EQ(result.spheres[4].materialIndex, 2u);
+}
+
+// ---- Emitters
+
+TEST(Emitters, AreChosenByPowerInTheOrderOfTheInput) {
+    Scene scene;
+    scene.settings.integrator = Integrator::Path;
+    scene.materials.resize(3);
+    scene.materials[1].emission = glm::vec3(2.0f);
+    scene.materials[2].emission = glm::vec3(1.0f);
+    scene.materials[2].twoSided = true;
+    scene.lights.push_back({{1, 1, 1}, glm::dvec3(8.0 * std::numbers::pi)});
+    scene.lights.push_back({{2, 1, 1}, glm::dvec3(0.0)});
+    scene.spheres.push_back({{0, 0, 0}, 1.0, 0, false}); // dark
+    scene.spheres.push_back({{0, 0, 0}, 1.0, 1, false}); // pi * 2 * 4 pi
+    scene.meshes.emplace_back();
+    hyalite::testing::addTriangle(scene.meshes[0], {0, 0, 0}, {4, 0, 0},
+                                  {0, 2, 0}); // pi * 1 * 4 on each side
+    hyalite::testing::addTriangle(scene.meshes[0], {0, 0, 0}, {1, 0, 0}, {2, 0, 0}); // without area
+    scene.meshes[0].materialIndex = 2;
+    const PackedScene result = packed(scene, TreeKind::Sah, 1);
+    const double total =
+        8.0 * std::numbers::pi + 8.0 * std::numbers::pi * std::numbers::pi + 8.0 * std::numbers::pi;
+    ASSERT_EQ(result.emitters.size(), 3u);
+    EXPECT_EQ(result.emitters[0].kind, layout::emitterPoint);
+    EXPECT_EQ(result.emitters[1].kind, layout::emitterSphere);
+    EXPECT_EQ(result.emitters[1].record, 1u);
+    EXPECT_EQ(result.emitters[2].kind, layout::emitterTriangle);
+    EXPECT_EQ(result.triangles[result.emitters[2].record].primitiveId, layout::firstTriangleId);
+    EXPECT_NEAR(result.emitters[0].probability, 8.0 * std::numbers::pi / total, 1e-7);
+    EXPECT_NEAR(result.emitters[1].probability, 8.0 * std::numbers::pi * std::numbers::pi / total, 1e-7);
+    EXPECT_NEAR(result.emitters[2].probability, 8.0 * std::numbers::pi / total, 1e-7);
+    EXPECT_NEAR(result.emitters[2].density, result.emitters[2].probability / 4.0, 1e-7);
+    EXPECT_NEAR(result.materials[2].emitterDensity, result.emitters[2].density, 1e-7);
+    EXPECT_NEAR(result.materials[1].emitterDensity, result.emitters[1].density, 1e-7);
+    EXPECT_EQ(result.emitters[2].cumulative, 0xFFFFFFFFu);
+    EXPECT_TRUE(result.hasEmission);
+    scene.settings.integrator = Integrator::Whitted;
+    EXPECT_TRUE(packed(scene).emitters.empty());
 }
 
 // ---- The camera

@@ -104,8 +104,9 @@ TEST(ProfileCsv, HasALineForEachDispatch) {
     const auto columnCount = [](const std::string &line) {
         return std::count(line.begin(), line.end(), ',');
     };
-    EXPECT_EQ(lines[1],
-              "warm-up 1,0,0,a,0,8,16,12,0,4,0,192,1000,2000,300,40,5.000000,31.000000,5.500000,30.000000\r");
+    EXPECT_EQ(
+        lines[1],
+        "warm-up 1,0,0,a,0,8,16,12,0,4,0,192,1000,2000,300,40,0,5.000000,31.000000,5.500000,30.000000\r");
     EXPECT_EQ(columnCount(lines[0]), columnCount(lines[1]));
     EXPECT_NE(lines[4].find("repeat 1,1,0,\"odd, \"\"name\"\"\",0,8"), std::string::npos) << lines[4];
     EXPECT_EQ(columnCount(lines[6]), columnCount(lines[0]));

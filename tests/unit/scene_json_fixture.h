@@ -66,9 +66,11 @@ inline nlohmann::json completeScene() {
         "background": [0.1, 0.2, 0.3],
         "lights": [{"type": "point", "position": [-10, 20, 40], "power": [1, 2, 3]}],
         "materials": {
-            "paper": {"type": "diffuse", "albedo": [0.25, 0.5, 1], "twoSided": true},
+            "paper": {"type": "diffuse", "albedo": [0.25, 0.5, 1], "twoSided": true,
+                      "emission": [1, 2, 3]},
             "chrome": {"type": "mirror"},
-            "ice": {"type": "dielectric", "index": 1.31, "segmentTint": 0.75}
+            "ice": {"type": "dielectric", "index": 1.31, "segmentTint": 0.75,
+                    "absorption": [0.5, 0.25, 0], "priority": -2}
         },
         "spheres": [{"centre": [4, 5, 6], "radius": 7, "material": "ice", "inwardNormal": true}],
         "meshes": [{"file": "triangle.obj", "scale": 2, "rotateDegrees": [0, 0, 90],

@@ -40,6 +40,8 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(ice.kind, MaterialKind::Dielectric);
     EXPECT_EQ(ice.refractiveIndex, 1.31f);
     EXPECT_EQ(ice.segmentTint, glm::vec3(0.75f));
+    EXPECT_EQ(ice.absorption, glm::vec3(0.5f, 0.25f, 0.0f));
+    EXPECT_EQ(ice.priority, -2);
 
     ASSERT_EQ(scene.meshes.size(), 1u);
     ASSERT_EQ(scene.meshes[0].triangles.size(), 1u);
@@ -48,6 +50,7 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(paper.kind, MaterialKind::Diffuse);
     EXPECT_EQ(paper.albedo, glm::vec3(0.25f, 0.5f, 1.0f));
     EXPECT_TRUE(paper.twoSided);
+    EXPECT_EQ(paper.emission, glm::vec3(1.0f, 2.0f, 3.0f));
     // The corner (1, 0, 0): scaled to (2, 0, 0), turned about z to (0, 2, 0), moved to (0, 2, -5).
     const glm::vec3 corner = scene.meshes[0].positions.at(scene.meshes[0].triangles[0].positions[1]);
     EXPECT_NEAR(corner.x, 0.0, 1e-6);

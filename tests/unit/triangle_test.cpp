@@ -499,7 +499,8 @@ TEST(ShadowRay, GlassDimsAndOpaqueBlocksWhateverTheOrder) {
             const TriangleRay<float> triangleRay = makeTriangleRay(ray.origin, ray.direction);
             return std::ranges::any_of(packed.triangles, [&](const layout::TriangleRecord &t) {
                 const TriangleHit<float> hit = intersectTriangle(triangleRay, boxRay, t.v0, t.v1, t.v2);
-                return hit.distance > 0 && hit.distance < length && (t.materialIndex == 1) == isGlass;
+                return hit.distance > 0 && hit.distance < length &&
+                       ((t.flags & layout::triangleIsTransmissive) != 0) == isGlass;
             });
         };
         for (int i = 0; i < 500; ++i) {

@@ -106,6 +106,16 @@ INSTANTIATE_TEST_SUITE_P(
                  [](Scene &s) { s.materials[0].refractiveIndex = 0.5f; }},
         Breakage{"material 0 (wall): segmentTint: found (1, nan, 1)",
                  [](Scene &s) { s.materials[0].segmentTint.y = float(nan); }},
+        Breakage{"material 0 (wall): emission: found (0, -1, 0)",
+                 [](Scene &s) { s.materials[0].emission.y = -1.0f; }},
+        Breakage{"material 0 (wall): absorption: found (nan, 0, 0)",
+                 [](Scene &s) { s.materials[0].absorption.x = float(nan); }},
+        Breakage{"scene: dielectric materials for the integrator path: found 9; allowed: at most 8",
+                 [](Scene &s) {
+                     s.settings.integrator = Integrator::Path;
+                     for (int i = 0; i < 9; ++i)
+                         s.materials.emplace_back().kind = MaterialKind::Dielectric;
+                 }},
 
         Breakage{"sphere 1: centre: found (inf, 0, 0)", [](Scene &s) { s.spheres[1].centre.x = infinity; }},
         Breakage{"sphere 1: radius: found 0", [](Scene &s) { s.spheres[1].radius = 0; }},

@@ -1,0 +1,138 @@
+// Light that a surface is aimed at: point lights, spheres and triangles that emit. Twin: shaders/emitters.glsl.
+#pragma once
+
+#include "host/bvh/packed_scene.h"
+#include "host/reference/sampling.h"
+#include "host/reference/sphere.h"
+#include "host/reference/surface.h"
+
+#include <algorithm>
+
+namespace hyalite::reference {
+
+template <class Real> struct LightSample {
+    Vec3<Real> direction; ///< unit length, from the surface to the light
+    Real distance = 0;
+    Vec3<Real> radiance{
+        Real(0)};     ///< divided by the density; of a point light the intensity / squared distance /
+                      ///< probability
+    Real density = 0; ///< per solid angle, the choice of the emitter included; 0: a point light
+    std::uint32_t target = layout::noPrimitive; ///< the primitive at its end
+};
+
+/// Per solid angle, of a point chosen with `areaDensity` per unit of area; `cosine` > 0 is that at the light.
+template <class Real> [[nodiscard]] Real solidAngleDensity(Real areaDensity, Real distance, Real cosine) {
+    return areaDensity * (distance * distance) / cosine;
+}
+
+/// Seen from further away than this, in squared radii, a sphere is sampled by the cone of directions to it, else by area.
+template <class Real> inline constexpr Real leastConeDistance = Real(1.0001);
+
+/// The density with which a sphere is aimed at from `position` in a direction that meets it after `distance`; 0 where
+/// that point is never chosen. `outward` is the sphere's outward normal there.
+template <class Real>
+[[nodiscard]] Real sphereLightDensity(const Vec3<Real> &position, const Vec3<Real> &direction, Real distance,
+                                      const Vec3<Real> &centre, Real radius, const Vec3<Real> &outward,
+                                      Real areaDensity) {
+    const Real squaredRadius = radius * radius;
+    const Vec3<Real> toCentre = centre - position;
+    const Real squaredDistance = dotProduct(toCentre, toCentre);
+    if (squaredDistance > squaredRadius * leastConeDistance<Real>)
+        return areaDensity * (Real(12.566370614359173) * squaredRadius) *
+               pdfCone(coneHeight(squaredRadius, squaredDistance));
+    const Real cosine = dotProduct(direction, outward);
+    return cosine > 0 ? solidAngleDensity(areaDensity, distance, cosine) : Real(0);
+}
+
+template <class Real>
+[[nodiscard]] LightSample<Real> samplePoint(const layout::EmitterRecord &emitter,
+                                            const Vec3<Real> &position) {
+    const Vec3<Real> toLight = Vec3<Real>(emitter.position) - position;
+    const Real distance = vectorLength(toLight);
+    const Real share = distance * distance * static_cast<Real>(emitter.probability);
+    return {toLight * (Real(1) / distance), distance, Vec3<Real>(emitter.emission) * (Real(1) / share),
+            Real(0), layout::noPrimitive};
+}
+
+template <class Real>
+[[nodiscard]] LightSample<Real> sampleTriangleLight(const PackedScene &scene,
+                                                    const layout::EmitterRecord &emitter,
+                                                    const Vec3<Real> &position, const Vec2<Real> &u) {
+    const layout::TriangleRecord &triangle = scene.triangles[emitter.record];
+    const Vec2<Real> weights = sampleTriangle(u);
+    const Surface<Real> surface =
+        triangleSurface(triangle, scene.normals[emitter.record], weights.x, weights.y);
+    const Vec3<Real> toLight = surface.position - position;
+    const Real distance = vectorLength(toLight);
+    const Vec3<Real> direction = toLight * (Real(1) / distance);
+    const Real facing = -dotProduct(direction, surface.geometricNormal);
+    const Real cosine = emitter.isTwoSided != 0 ? std::abs(facing) : facing;
+    const Real density = solidAngleDensity(static_cast<Real>(emitter.density), distance, cosine);
+    const bool isSeen = cosine > 0 && distance > 0;
+    return {direction, distance,
+            isSeen ? Vec3<Real>(emitter.emission) * (Real(1) / density) : Vec3<Real>(Real(0)), density,
+            triangle.primitiveId};
+}
+
+template <class Real>
+[[nodiscard]] LightSample<Real> sampleSphereLight(const PackedScene &scene,
+                                                  const layout::EmitterRecord &emitter,
+                                                  const Vec3<Real> &position, const Vec2<Real> &u) {
+    const layout::SphereRecord &sphere = scene.spheres[emitter.record];
+    const Vec3<Real> centre(sphere.centre);
+    const Real radius = static_cast<Real>(sphere.radius);
+    const Real squaredRadius = radius * radius;
+    const Vec3<Real> toCentre = centre - position;
+    const Real squaredDistance = dotProduct(toCentre, toCentre);
+    LightSample<Real> light;
+    bool isSeen;
+    if (squaredDistance > squaredRadius * leastConeDistance<Real>) {
+        const Real centreDistance = std::sqrt(squaredDistance);
+        const Real height = coneHeight(squaredRadius, squaredDistance);
+        light.direction = sampleCone<Real>(toCentre * (Real(1) / centreDistance), height, u);
+        const Real meeting = intersectSphere(position, light.direction, centre, radius, false);
+        light.distance = meeting > 0 ? meeting : centreDistance; // past the rim by rounding
+        light.density = static_cast<Real>(emitter.probability) * pdfCone(height);
+        isSeen = sphere.normalSign > 0.0f || emitter.isTwoSided != 0;
+    } else {
+        const Vec3<Real> outward = sampleSphere(u);
+        const Vec3<Real> toLight = toCentre + outward * radius;
+        light.distance = vectorLength(toLight);
+        light.direction = toLight * (Real(1) / light.distance);
+        const Real cosine = dotProduct(light.direction, outward);
+        light.density = solidAngleDensity(static_cast<Real>(emitter.density), light.distance, cosine);
+        isSeen = cosine > 0 && light.distance > 0 && (sphere.normalSign < 0.0f || emitter.isTwoSided != 0);
+    }
+    if (isSeen)
+        light.radiance = Vec3<Real>(emitter.emission) * (Real(1) / light.density);
+    light.target = emitter.record;
+    return light;
+}
+
+/// Which emitter a number of 32 bits chooses; 0 where there is none.
+[[nodiscard]] inline std::uint32_t chooseEmitter(const std::vector<layout::EmitterRecord> &emitters,
+                                                 std::uint32_t bits) {
+    if (emitters.empty())
+        return 0;
+    const auto chosen =
+        std::partition_point(emitters.begin(), emitters.end() - 1, [&](const layout::EmitterRecord &emitter) {
+            return emitter.cumulative <= bits;
+        });
+    return static_cast<std::uint32_t>(chosen - emitters.begin());
+}
+
+/// A point of an emitter as seen from `position`.
+template <class Real>
+[[nodiscard]] LightSample<Real> sampleEmitter(const PackedScene &scene, std::uint32_t index,
+                                              const Vec3<Real> &position, const Vec2<Real> &u) {
+    if (scene.emitters.empty())
+        return {};
+    const layout::EmitterRecord &emitter = scene.emitters[index];
+    if (emitter.kind == layout::emitterPoint)
+        return samplePoint(emitter, position);
+    if (emitter.kind == layout::emitterTriangle)
+        return sampleTriangleLight(scene, emitter, position, u);
+    return sampleSphereLight(scene, emitter, position, u);
+}
+
+} // namespace hyalite::reference

@@ -1,0 +1,270 @@
+// The path integrator: one path a sample, with next-event estimation at diffuse surfaces, combined with what scattered
+// rays find by multiple importance sampling, and Russian roulette. Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach,
+// "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 9 and 10.
+// Twin: shaders/path.glsl. Here a path is followed vertex by vertex; the order of all sums is the same.
+//
+// `maxDepth` bounds the segments of a path from the eye to the light, so that neither technique finds longer paths than
+// the other. Each vertex has three pairs of random numbers.
+#pragma once
+
+#include "host/reference/camera.h"
+#include "host/reference/closest_hit.h"
+#include "host/reference/dielectric.h"
+#include "host/reference/emitters.h"
+#include "host/reference/hit_surface.h"
+#include "host/reference/media.h"
+#include "host/reference/random.h"
+#include "host/report/ray_counts.h"
+
+#include <bit>
+#include <optional>
+#include <vector>
+
+namespace hyalite::reference {
+
+/// Follows camera samples through the scene. One instance a thread: it keeps the counts.
+template <class Real, class Counter = NoCounter> class PathIntegrator {
+  public:
+    PathIntegrator(const PackedScene &scene, std::uint32_t samplerKind)
+        : scene_(scene), samplerKind_(samplerKind) {}
+
+    /// Radiance of one sample of a pixel of the whole image. `shift` moves it by so many pixels, to learn how the
+    /// picture changes around it.
+    [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
+                                            const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
+        const Vec2<Real> offset =
+            samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed) + shift;
+        ++counts_.primary;
+        pixel_ = pixel;
+        sampleIndex_ = sampleIndex;
+        radiance_ = Vec3<Real>(Real(0));
+        throughput_ = Vec3<Real>(Real(1));
+        scatterDensity_ = 0;
+        mediaInside_ = 0;
+        depth_ = 1;
+        std::optional<Ray<Real>> ray =
+            Ray<Real>{Vec3<Real>(scene_.frame.eye), primaryDirection(scene_.frame, pixel, offset)};
+        while (ray) {
+            ray = followRay(*ray);
+            ++depth_;
+        }
+        return radiance_;
+    }
+
+    [[nodiscard]] const RayCounts &counts() const { return counts_; }
+    /// Of the traversal.
+    [[nodiscard]] const Counter &counter() const { return counter_; }
+
+    /// From now on, what the paths do is appended to `events`, which must outlive the integrator.
+    void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
+
+  private:
+    static constexpr std::uint32_t pairChoice =
+        0; // an emitter, or a side of an interface; and whether the path survives
+    static constexpr std::uint32_t pairLight = 1;
+    static constexpr std::uint32_t pairScatter = 2;
+    static constexpr std::uint32_t pairsPerVertex = 3;
+    static constexpr std::uint32_t firstRouletteDepth = 4; // segments that no path is denied
+
+    void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
+        if (events_ != nullptr)
+            events_->push_back({quantity, sampleIndex_, depth_, integer, glm::vec3(value), 0});
+    }
+
+    [[nodiscard]] glm::uvec2 vertexBits(std::uint32_t pair) const {
+        const std::uint32_t number = 1 + pairsPerVertex * (depth_ - 1) + pair;
+        return sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_);
+    }
+
+    void addRadiance(const Vec3<Real> &weight, const Vec3<Real> &radiance) {
+        radiance_ = radiance_ + weight * radiance;
+        traceEvent(layout::traceRadiance, 0, radiance_);
+    }
+
+    /// What a surface that the ray has met emits towards it, weighted against aiming at the same point.
+    void addEmission(const Ray<Real> &ray, const Hit<Real> &hit, const Surface<Real> &surface,
+                     const layout::MaterialRecord &material) {
+        const Real facing = -dotProduct(ray.direction, surface.geometricNormal);
+        const Real cosine = material.isTwoSided != 0 ? std::abs(facing) : facing;
+        const Real areaDensity = static_cast<Real>(material.emitterDensity);
+        if (areaDensity <= 0 || cosine <= 0)
+            return;
+        Real weight = 1;
+        if (scatterDensity_ > 0) {
+            Real density;
+            if (hit.primitive >= layout::firstTriangleId) {
+                density = solidAngleDensity(areaDensity, hit.distance, cosine);
+            } else {
+                const layout::SphereRecord &sphere = scene_.spheres[hit.record];
+                density =
+                    sphereLightDensity(ray.origin, ray.direction, hit.distance, Vec3<Real>(sphere.centre),
+                                       static_cast<Real>(sphere.radius),
+                                       surface.normal * static_cast<Real>(sphere.normalSign), areaDensity);
+            }
+            weight = powerHeuristic(scatterDensity_, density);
+        }
+        addRadiance(throughput_ * weight, Vec3<Real>(material.emission));
+    }
+
+    /// What glass around the path leaves of light after this distance.
+    [[nodiscard]] Vec3<Real> transmittance(Real distance) const {
+        const std::uint32_t medium = mediumAround(mediaInside_);
+        return medium != layout::noMaterial
+                   ? decay<Real>(Vec3<Real>(scene_.materials[medium].absorption) * distance)
+                   : Vec3<Real>(Real(1));
+    }
+
+    [[nodiscard]] Real mediumIndex(std::uint32_t medium) const {
+        return medium != layout::noMaterial ? static_cast<Real>(scene_.materials[medium].refractiveIndex)
+                                            : Real(1);
+    }
+
+    /// Lets long paths of little weight end by chance, and gives the others their weight.
+    [[nodiscard]] bool survivesRoulette() {
+        if (depth_ < firstRouletteDepth)
+            return true;
+        const Real index = mediumIndex(mediumAround(mediaInside_));
+        // Radiance in glass is larger by the square of the index, which it loses on its way out.
+        const Real survival = lesser(largestComponent(throughput_) * (index * index), Real(1));
+        if (unitReal<Real>(vertexBits(pairChoice).y) >= survival)
+            return false;
+        throughput_ *= Real(1) / survival;
+        return true;
+    }
+
+    [[nodiscard]] Ray<Real> reflect(const Ray<Real> &ray, const Surface<Real> &surface,
+                                    const Vec3<Real> &normal, std::uint32_t primitive) {
+        const Vec3<Real> direction = mirrorDirection(ray.direction, normal);
+        scatterDensity_ = 0;
+        ++counts_.reflection;
+        return {spawnPoint(surface, direction), direction, primitive};
+    }
+
+    /// At glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction, chosen
+    /// with the probability of its share.
+    [[nodiscard]] Ray<Real> meetGlass(const Ray<Real> &ray, const Surface<Real> &surface,
+                                      std::uint32_t materialIndex, std::uint32_t primitive) {
+        const bool isEntering = dotProduct(ray.direction, surface.geometricNormal) < 0;
+        // A path that leaves glass which it has not entered began in it.
+        const std::uint32_t insideBefore = isEntering || mediumCount(mediaInside_, materialIndex) > 0
+                                               ? mediaInside_
+                                               : enterMedium(mediaInside_, materialIndex);
+        const std::uint32_t insideBeyond =
+            isEntering ? enterMedium(mediaInside_, materialIndex) : leaveMedium(mediaInside_, materialIndex);
+        const std::uint32_t before = mediumAround(insideBefore);
+        const std::uint32_t beyond = mediumAround(insideBeyond);
+        if (before == beyond) {
+            mediaInside_ = insideBeyond;
+            scatterDensity_ = 0; // no light is aimed at through glass
+            return {spawnPoint(surface, ray.direction), ray.direction, primitive};
+        }
+        const Vec3<Real> geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
+        const Vec3<Real> shadingFacing = isEntering ? surface.normal : -surface.normal;
+        const Vec3<Real> facing =
+            dotProduct(ray.direction, shadingFacing) < 0 ? shadingFacing : geometricFacing;
+        const Real eta = mediumIndex(before) / mediumIndex(beyond);
+        const Interface<Real> glass = meetInterface(ray.direction, facing, eta);
+        traceEvent(layout::traceReflectance, glass.reflectance == 1 ? 1 : 0, Vec3<Real>(glass.reflectance));
+        if (unitReal<Real>(vertexBits(pairChoice).x) < glass.reflectance) {
+            mediaInside_ = insideBefore;
+            return reflect(ray, surface, facing, primitive);
+        }
+        mediaInside_ = insideBeyond;
+        throughput_ *= eta * eta;
+        scatterDensity_ = 0;
+        ++counts_.refraction;
+        return {spawnPoint(surface, glass.refracted), glass.refracted, primitive};
+    }
+
+    /// What the path does next, or nothing.
+    [[nodiscard]] std::optional<Ray<Real>> followRay(const Ray<Real> &ray) {
+        traceEvent(layout::traceRayOrigin, 0, ray.origin);
+        traceEvent(layout::traceRayDirection, 0, ray.direction);
+        const Hit<Real> hit = closestHit(scene_, ray, counter_);
+        traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
+        throughput_ *= transmittance(hit.distance);
+        if (hit.primitive == layout::noPrimitive) {
+            addRadiance(throughput_, Vec3<Real>(scene_.frame.background));
+            return std::nullopt;
+        }
+        std::uint32_t materialIndex;
+        Surface<Real> surface = hitSurface(scene_, ray, hit, materialIndex);
+        const layout::MaterialRecord &material = scene_.materials[materialIndex];
+        traceEvent(layout::traceSurfacePosition, 0, surface.position);
+        traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
+        traceEvent(layout::traceThroughput, 0, throughput_);
+        addEmission(ray, hit, surface, material);
+        if (depth_ >= scene_.frame.maxDepth)
+            return std::nullopt;
+        if (material.kind == layout::materialDiffuse) {
+            if (dotProduct(ray.direction, surface.geometricNormal) > 0) {
+                if (material.isTwoSided == 0)
+                    return std::nullopt;
+                surface.normal = -surface.normal;
+                surface.geometricNormal = -surface.geometricNormal;
+            }
+            throughput_ *= Vec3<Real>(material.albedo);
+            return lightAndScatter(surface, hit.primitive);
+        }
+        if (!survivesRoulette())
+            return std::nullopt;
+        if (material.kind == layout::materialDielectric)
+            return meetGlass(ray, surface, materialIndex, hit.primitive);
+        return reflect(ray, surface, surface.normal, hit.primitive);
+    }
+
+    /// On a diffuse surface: draws the direction in which the path goes on, and aims at a light.
+    [[nodiscard]] std::optional<Ray<Real>> lightAndScatter(const Surface<Real> &surface,
+                                                           std::uint32_t primitive) {
+        const Vec3<Real> direction = sampleCosine(surface.normal, unitReals<Real>(vertexBits(pairScatter)));
+        scatterDensity_ = pdfCosine(dotProduct(surface.normal, direction));
+        addLight(surface, primitive);
+        if (!(scatterDensity_ > 0 && dotProduct(surface.geometricNormal, direction) > 0) ||
+            !survivesRoulette())
+            return std::nullopt;
+        traceEvent(layout::traceScatter, std::bit_cast<std::uint32_t>(static_cast<float>(scatterDensity_)),
+                   direction);
+        ++counts_.bounce;
+        return Ray<Real>{spawnPoint(surface, direction), direction, primitive};
+    }
+
+    void addLight(const Surface<Real> &surface, std::uint32_t primitive) {
+        const std::uint32_t emitter = chooseEmitter(scene_.emitters, vertexBits(pairChoice).x);
+        const LightSample<Real> light =
+            sampleEmitter(scene_, emitter, surface.position, unitReals<Real>(vertexBits(pairLight)));
+        const Vec3<Real> emitterIndex(static_cast<Real>(emitter));
+        const Real cosine = dotProduct(surface.normal, light.direction);
+        const bool isLit = largestComponent(light.radiance) > 0 && cosine > 0 &&
+                           dotProduct(surface.geometricNormal, light.direction) > 0;
+        if (!isLit) {
+            traceEvent(layout::traceVisibility, layout::visibilityUnlit, emitterIndex);
+            return;
+        }
+        const Real reflected = pdfCosine(cosine); // also the density of a scattered ray
+        const Real share =
+            light.density > 0 ? reflected * powerHeuristic(light.density, reflected) : reflected;
+        const Vec3<Real> weight = throughput_ * (light.radiance * share) * transmittance(light.distance);
+        ++counts_.shadow;
+        const Ray<Real> ray{spawnPoint(surface, light.direction), light.direction, primitive};
+        const bool isBlocked = isAnythingBefore(scene_, ray, light.distance, light.target, counter_);
+        traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
+                   emitterIndex);
+        if (!isBlocked)
+            addRadiance(weight, Vec3<Real>(Real(1)));
+    }
+
+    const PackedScene &scene_;
+    const std::uint32_t samplerKind_;
+    glm::uvec2 pixel_{0};
+    std::uint32_t sampleIndex_ = 0;
+    std::uint32_t depth_ = 0; ///< segment number of the current ray
+    Vec3<Real> radiance_{Real(0)};
+    Vec3<Real> throughput_{Real(1)};
+    Real scatterDensity_ = 0; ///< of the direction of the current ray, per solid angle; 0: it had no choice
+    std::uint32_t mediaInside_ = 0; ///< see media.h
+    RayCounts counts_;
+    Counter counter_;
+    std::vector<layout::TraceEvent> *events_ = nullptr;
+};
+
+} // namespace hyalite::reference

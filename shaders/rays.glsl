@@ -1,0 +1,108 @@
+// Rays of the path slots, whichever integrator sends them: how they start, what they meet and when all have ended.
+// An integrator defines `lightPassesGlass`, whether glass dims a shadow ray and does not block it, and `raysHaveTargets`,
+// whether a shadow ray ends on a primitive, which then does not block it.
+
+void startRay(uint slot, vec3 origin, vec3 direction, uint excluded, uint depth, uint medium) {
+    path[slot].rayOrigin = origin;
+    path[slot].rayDirection = direction;
+    path[slot].rayExcluded = excluded;
+    path[slot].rayDepth = depth;
+    path[slot].rayMedium = medium;
+    path[slot].stage = stageNewRay;
+}
+
+bool isTarget(uint slot, uint primitive) { return raysHaveTargets && path[slot].rayTarget == primitive; }
+
+void meetSphere(uint slot, uint i, vec4 shape) {
+    float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape.xyz, shape.w, path[slot].rayExcluded == i);
+    bool isNearer = distance > 0.0 && distance < path[slot].rayLength;
+    path[slot].rayLength = isNearer ? distance : path[slot].rayLength;
+    path[slot].hitPrimitive = isNearer ? i : path[slot].hitPrimitive;
+}
+
+void meetSphereInShadow(uint slot, uint i, vec4 shape) {
+    float meeting = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape.xyz, shape.w, path[slot].rayExcluded == i);
+    bool isBetween = meeting > 0.0 && meeting < path[slot].rayLength && !isTarget(slot, i);
+    bool isTransmissive = lightPassesGlass && isSphereTransmissive(i);
+    path[slot].isLightDimmed = isBetween && isTransmissive ? 1u : path[slot].isLightDimmed;
+    path[slot].hitPrimitive = isBetween && !isTransmissive ? i : path[slot].hitPrimitive;
+}
+
+// Stage: meet the spheres and stand at the root of the tree.
+void beginClosest(uint slot) {
+    traceEvent(slot, traceRayOrigin, 0u, path[slot].rayOrigin);
+    traceEvent(slot, traceRayDirection, 0u, path[slot].rayDirection);
+    path[slot].rayLength = unbounded;
+    path[slot].hitPrimitive = noPrimitive;
+    if (sphereCount <= unrolledSphereCount)
+        [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
+            meetSphere(slot, i, sphereShapes[i]);
+    else
+        for (uint i = 0u; i < sphereCount; ++i)
+            meetSphere(slot, i, sphereShape(i));
+    path[slot].hitRecord = path[slot].hitPrimitive;
+    if (hasTriangles)
+        enterTree(slot);
+    else
+        stopTraversal(slot);
+    path[slot].stage = stageClosest;
+}
+
+// Stage: look for what lies between the surface where the path stands and a light, `distance` away in `direction`.
+void beginShadow(uint slot, vec3 direction, float distance) {
+    rayCounts[slot].y += 1u;
+    path[slot].rayOrigin = spawnPoint(path[slot].surfacePosition, path[slot].surfaceError,
+                                      path[slot].surfaceGeometricNormal, direction);
+    path[slot].rayDirection = direction;
+    path[slot].rayLength = distance;
+    path[slot].rayExcluded = path[slot].surfacePrimitive;
+    path[slot].hitPrimitive = noPrimitive;
+    path[slot].isLightDimmed = 0u;
+    if (sphereCount <= unrolledSphereCount)
+        [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
+            meetSphereInShadow(slot, i, sphereShapes[i]);
+    else
+        for (uint i = 0u; i < sphereCount; ++i)
+            meetSphereInShadow(slot, i, sphereShape(i));
+    if (hasTriangles && path[slot].hitPrimitive == noPrimitive)
+        enterTree(slot);
+    else
+        stopTraversal(slot);
+    path[slot].stage = stageShadow;
+}
+
+// The surface that the ray has met.
+Surface hitSurface(uint slot, out uint materialIndex) {
+    if (hasTriangles && path[slot].hitPrimitive >= firstTriangleId) {
+        TriangleRecord triangle = fetchTriangle(path[slot].hitRecord);
+        materialIndex = triangle.materialIndex;
+        return triangleSurface(triangle, fetchNormals(path[slot].hitRecord), path[slot].hitU, path[slot].hitV);
+    }
+    SphereRecord sphere = fetchSphere(path[slot].hitRecord);
+    materialIndex = sphere.materialIndex;
+    return sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
+}
+
+void traceNearestHit(uint slot) {
+    bool isTriangle = hasTriangles && path[slot].hitPrimitive >= firstTriangleId &&
+                      path[slot].hitPrimitive != noPrimitive;
+    traceEvent(slot, traceHit, path[slot].hitPrimitive,
+               vec3(path[slot].rayLength, isTriangle ? vec2(path[slot].hitU, path[slot].hitV) : vec2(0.0)));
+}
+
+bool isUnfinished() {
+    bool any = false;
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        any = any || path[slot].stage != stageDone;
+    return any;
+}
+
+bool isAtStageUpTo(uint stage) {
+    bool any = false;
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        any = any || path[slot].stage <= stage;
+    return any;
+}
+
+// Of loops over the spheres in one pass, which count as steps.
+const uint sphereIterations = sphereCount <= unrolledSphereCount ? 0u : RAYS * sphereCount;
