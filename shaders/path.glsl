@@ -240,7 +240,7 @@ void followPaths() {
 }
 
 // Of the search for an emitter, in all slots.
-const uint searchIterations = emitterCount > 1u ? RAYS * 32u : 0u;
+uint searchIterations() { return emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u; }
 
 // Lights the surfaces where paths stand, and scatters them.
 void lightPaths() {
@@ -252,7 +252,7 @@ void lightPaths() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageShadow && !isTraversing(slot))
             addLight(slot);
-    stepsTaken += 1u + sphereIterations + searchIterations;
+    stepsTaken += 1u + sphereIterations + searchIterations();
 }
 
 // Runs the samples that the slots have begun to their end, or until the step budget is spent.
