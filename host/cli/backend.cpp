@@ -14,6 +14,7 @@
 #include <future>
 #include <new>
 #include <optional>
+#include <utility>
 
 namespace hyalite {
 
@@ -38,6 +39,10 @@ class CpuBackend : public Backend {
     }
     [[nodiscard]] std::string driver() const override { return "reference renderer"; }
     [[nodiscard]] std::string arithmetic() const override { return "native / and sqrt: IEEE 754"; }
+    [[nodiscard]] std::string precision() const override {
+        // A film holds sums in single precision.
+        return precision_ == reference::Precision::Float32 ? Backend::precision() : std::string();
+    }
     [[nodiscard]] std::string description() const override {
         return precision_ == reference::Precision::Float32
                    ? "cpu, the reference renderer"
@@ -45,12 +50,14 @@ class CpuBackend : public Backend {
     }
     [[nodiscard]] BackendResult render(const PreparedScene &scene,
                                        const std::function<void(double)> &onProgress, Timeline *timeline,
-                                       const std::function<bool()> &shouldStop) override {
+                                       const std::function<bool()> &shouldStop,
+                                       Continuation continuation) override {
         const RenderSettings &settings = scene.loaded.scene.settings;
         Stopwatch watch;
         reference::Result result =
             reference::render(scene.packed, settings, scene.crop,
-                              {precision_, threadCount_, onProgress, isCounting_, shouldStop});
+                              {precision_, threadCount_, onProgress, isCounting_, shouldStop},
+                              std::move(continuation));
         const Span span = watch.lap();
         if (timeline != nullptr) {
             timeline->clock = "the host's clock, from call to return";
@@ -101,6 +108,10 @@ class DeviceBackend : public Backend {
         return fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason);
     }
     [[nodiscard]] std::string unpromisedBits() const override { return gpu::explainUnpromisedBits(device_); }
+    [[nodiscard]] std::string precision() const override {
+        return unpromisedBits().empty() ? Backend::precision()
+                                        : fmt::format("float32 of {}, {}", device_.name, device_.driver);
+    }
     [[nodiscard]] std::string description() const override {
         const std::string driver = driverBesideName(device_.driver, device_.name);
         return fmt::format("{}, {}{}{}{}", device_.index, device_.name, driver.empty() ? "" : ", ", driver,
@@ -108,9 +119,10 @@ class DeviceBackend : public Backend {
     }
     [[nodiscard]] BackendResult render(const PreparedScene &scene,
                                        const std::function<void(double)> &onProgress, Timeline *timeline,
-                                       const std::function<bool()> &shouldStop) override {
+                                       const std::function<bool()> &shouldStop,
+                                       Continuation continuation) override {
         gpu::Result result = renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop,
-                                              onProgress, timeline, shouldStop);
+                                              onProgress, timeline, shouldStop, std::move(continuation));
         return {std::move(result.film), result.rays, result.timing, result.work};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
@@ -183,11 +195,13 @@ void requireFilmMemory(const Crop &crop, unsigned filmCount) {
 }
 
 BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, const std::string &task,
-                                 bool isQuiet, Timeline *timeline, const std::function<bool()> &shouldStop) {
+                                 bool isQuiet, Timeline *timeline, const std::function<bool()> &shouldStop,
+                                 Continuation continuation) {
     ProgressLine progress(task, isQuiet);
     try {
         return backend.render(
-            scene, [&](double share) { progress.update(share); }, timeline, shouldStop);
+            scene, [&](double share) { progress.update(share); }, timeline, shouldStop,
+            std::move(continuation));
     } catch (const std::bad_alloc &) {
         refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
     }

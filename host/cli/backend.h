@@ -18,7 +18,7 @@ namespace hyalite {
 
 struct BackendResult {
     Film film;
-    RayCounts rays;
+    RayCounts rays; ///< traced by this call
     RenderTiming timing; ///< only renderSeconds on the CPU
     WorkCounts work;     ///< all 0 unless the batching asked for counting
 };
@@ -33,12 +33,15 @@ class Backend {
     [[nodiscard]] virtual std::string arithmetic() const = 0;  ///< which / and sqrt run, and why
     /// Why images may differ from the CPU twin's in their bits, or empty where they may not.
     [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
+    /// Backends that say the same add samples of the same bits to a film, and a film gives them all that they need to go
+    /// on; empty: it does not.
+    [[nodiscard]] virtual std::string precision() const { return "float32"; }
     /// `timeline`, where there is one, gets what was done when. Where `shouldStop`, which several threads may ask at
     /// once, says so, the film has the samples that are finished by then.
     [[nodiscard]] virtual BackendResult render(const PreparedScene &scene,
                                                const std::function<void(double)> &onProgress,
-                                               Timeline *timeline,
-                                               const std::function<bool()> &shouldStop) = 0;
+                                               Timeline *timeline, const std::function<bool()> &shouldStop,
+                                               Continuation continuation) = 0;
     /// What one sample of one pixel of the whole image does.
     [[nodiscard]] virtual std::vector<layout::TraceEvent>
     trace(const PreparedScene &scene, const glm::uvec2 &pixel, std::uint32_t sampleIndex) = 0;
@@ -49,7 +52,8 @@ class Backend {
 [[nodiscard]] BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene,
                                                const std::string &task, bool isQuiet,
                                                Timeline *timeline = nullptr,
-                                               const std::function<bool()> &shouldStop = {});
+                                               const std::function<bool()> &shouldStop = {},
+                                               Continuation continuation = {});
 
 /// Throws Error{LimitExceeded} where memory cannot hold so many films of the crop and the images made of them.
 void requireFilmMemory(const Crop &crop, unsigned filmCount);

@@ -1,6 +1,8 @@
 #include "host/cli/backend.h"
 #include "host/cli/commands.h"
+#include "host/cli/identity.h"
 #include "host/cli/options.h"
+#include "host/cli/snapshots.h"
 #include "host/cli/stop.h"
 #include "host/image/image_file.h"
 #include "host/image/png.h"
@@ -18,6 +20,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace hyalite {
 
@@ -32,10 +36,15 @@ struct RenderOptions {
     std::optional<gpu::KernelChoice> kernel;
     std::string report;
     std::optional<double> timeLimitSeconds;
+    std::string checkpoint;
+    double checkpointSeconds = 10.0;
+    bool isResuming = false;
+    std::optional<double> partialSeconds;
     bool isQuiet = false;
 };
 
 constexpr Interval timeLimits{0.0, 1e9, false}; // seconds
+constexpr Interval intervals{0.0, 1e9, false};  // seconds
 
 using Clock = std::chrono::steady_clock;
 
@@ -55,15 +64,47 @@ void tellWhatIsFinished(const RenderReport &report) {
                  std::floor(sampleShare * 1000.0) / 10.0, report.output);
 }
 
-/// The closing line.
+/// The closing line: of what this run has done.
 void tellSpeed(const RenderReport &report) {
+    const std::uint64_t rayCount = report.rays.total() - (report.resumed ? report.resumed->rays.total() : 0);
     const double megaraysPerSecond =
-        static_cast<double>(report.rays.total()) / 1e6 / report.timing.renderSeconds;
-    fmt::print("{}: {}x{}, {}{} spp, {} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
+        rayCount > 0 ? static_cast<double>(rayCount) / 1e6 / report.timing.renderSeconds : 0.0;
+    fmt::print("{}: {}x{}, {}{} spp, {}{} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
                report.width, report.height, report.finished.isComplete ? "" : "up to ",
-               report.settings.samplesPerPixel, roundedText(report.rays.total(), "rays"),
-               report.timing.renderSeconds, megaraysPerSecond, megaraysPerSecond < 1.0 ? 3 : 1,
-               report.totalSeconds);
+               report.settings.samplesPerPixel, report.resumed ? "resumed, " : "",
+               roundedText(rayCount, "rays"), report.timing.renderSeconds, megaraysPerSecond,
+               megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
+}
+
+double shareOfSamples(const Film &film, std::uint64_t sampleCount, const RenderSettings &settings) {
+    return static_cast<double>(sampleCount) / static_cast<double>(film.pixels.size()) /
+           settings.samplesPerPixel;
+}
+
+/// Reads the checkpoint that is to be resumed, if there is one, and says so.
+std::optional<ResumedCheckpoint> resume(const RenderOptions &options, const PreparedScene &scene,
+                                        const RenderIdentity &identity) {
+    const RenderSettings &settings = scene.loaded.scene.settings;
+    std::optional<ResumedCheckpoint> resumed = resumeCheckpoint(
+        options.checkpoint, identity, scene.crop, static_cast<std::uint32_t>(settings.samplesPerPixel));
+    if (resumed && !resumed->damage.empty())
+        printMessage("note: {}; going on from the older {}\n", resumed->damage, resumed->path.string());
+    if (!resumed && !options.isQuiet)
+        printMessage("there is no checkpoint {} yet: beginning anew\n", options.checkpoint);
+    if (resumed && !options.isQuiet) {
+        const Film &film = resumed->checkpoint.film;
+        printMessage("resuming from {}: {:.1f} % of the samples are finished\n", resumed->path.string(),
+                     std::floor(shareOfSamples(film, finishedWork(film, settings.samplesPerPixel).sampleCount,
+                                               settings) *
+                                1000.0) /
+                         10.0);
+    }
+    return resumed;
+}
+
+RayCounts sumOf(RayCounts a, const RayCounts &b) {
+    a += b;
+    return a;
 }
 
 void writeResult(AtomicFile &file, ImageFormat format, ToneCurve tone, const Film &film,
@@ -83,20 +124,33 @@ void writeResult(AtomicFile &file, ImageFormat format, ToneCurve tone, const Fil
 ExitCode runRender(const RenderOptions &options, const std::string &commandLine) {
     const Clock::time_point start = Clock::now();
     const ImageFormat format = imageFormatOf(options.output);
-    requireDistinctFiles({{"--output", options.output}, {"--report", options.report}},
+    const std::string olderGeneration =
+        options.checkpoint.empty() ? "" : olderCheckpoint(options.checkpoint).string();
+    requireDistinctFiles({{"--output", options.output},
+                          {"--report", options.report},
+                          {"--checkpoint", options.checkpoint},
+                          {"--checkpoint", olderGeneration}},
                          {resolveScene(options.scene.scene).string()});
+    if (options.checkpoint.empty() && options.isResuming)
+        throw Error(ExitCode::Usage, "--resume needs --checkpoint FILE, to go on from");
+    if (!options.checkpoint.empty() && options.device == "cpu-double")
+        throw Error(ExitCode::Usage,
+                    "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
+                    "not hold; use --device cpu or a Vulkan device");
     // Opened before the work begins, so that an output that cannot be written is known now.
     AtomicFile image(options.output);
     std::optional<AtomicFile> reportFile;
     if (!options.report.empty())
         reportFile.emplace(options.report);
+    if (!options.checkpoint.empty())
+        const CheckpointWriter writability(options.checkpoint, {}, false);
 
     std::future<std::unique_ptr<Backend>> opening =
         beginOpeningBackend(options.device, options.threads, batchingFor(options.kernel));
     const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
     if (format == ImageFormat::Png)
         requirePngSize(options.output, scene.crop.width(), scene.crop.height());
-    requireFilmMemory(scene.crop, 1);
+    requireFilmMemory(scene.crop, options.checkpoint.empty() && !options.partialSeconds ? 1 : 2);
     const RenderSettings &settings = scene.loaded.scene.settings;
     RenderReport report;
     report.commandLine = commandLine;
@@ -120,13 +174,45 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         if (!backend->unpromisedBits().empty())
             printMessage("note: bits may differ from the CPU twin's: {}\n", backend->unpromisedBits());
     }
+    const ToneCurve tone = options.tone.value_or(ToneCurve::Gamma);
+    Continuation continuation;
+    RayCounts raysBefore;
+    std::optional<CheckpointWriter> checkpoint;
+    std::vector<PeriodicFile> periodicFiles;
+    if (!options.checkpoint.empty()) {
+        const RenderIdentity identity = identityOf(scene, *backend);
+        std::optional<ResumedCheckpoint> resumed;
+        if (options.isResuming)
+            resumed = resume(options, scene, identity);
+        // Without --resume what is there is another render's, and may be gone with the second generation.
+        checkpoint.emplace(options.checkpoint, identity, !resumed || resumed->damage.empty());
+        if (resumed) {
+            raysBefore = resumed->checkpoint.rays;
+            report.resumed = ResumedWork{
+                resumed->path.string(),
+                finishedWork(resumed->checkpoint.film, settings.samplesPerPixel).sampleCount, raysBefore};
+            continuation.film = std::move(resumed->checkpoint.film);
+        }
+        periodicFiles.push_back({options.checkpointSeconds, [&](const Film &film, const RayCounts &rays) {
+                                     checkpoint->write(film, sumOf(raysBefore, rays));
+                                 }});
+    }
+    if (options.partialSeconds)
+        periodicFiles.push_back({*options.partialSeconds, [&](const Film &film, const RayCounts &) {
+                                     AtomicFile partial(options.output);
+                                     writeResult(partial, format, tone, film, scene, commandLine);
+                                     partial.commit();
+                                 }});
+    PeriodicFiles snapshots(scene.crop, std::move(periodicFiles));
+    continuation.snapshots = &snapshots;
     const Clock::time_point renderStart = Clock::now();
     const auto shouldStop = [&] {
         return signals.first() != 0 ||
                (options.timeLimitSeconds && secondsSince(renderStart) >= *options.timeLimitSeconds);
     };
-    const BackendResult result =
-        renderWithProgress(*backend, scene, "render", options.isQuiet, nullptr, shouldStop);
+    const BackendResult result = renderWithProgress(*backend, scene, "render", options.isQuiet, nullptr,
+                                                    shouldStop, std::move(continuation));
+    snapshots.finish();
     const int stoppingSignal = signals.first();
     report.finished = finishedWork(result.film, settings.samplesPerPixel);
     if (stoppingSignal != 0 && report.finished.sampleCount == 0)
@@ -136,9 +222,17 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     if (!report.finished.isComplete)
         report.stoppedBy = stoppingSignal != 0 ? signalName(stoppingSignal) : "the time limit";
     report.timing = result.timing;
-    report.rays = result.rays;
+    report.rays = sumOf(raysBefore, result.rays);
     const Clock::time_point writeStart = Clock::now();
-    writeResult(image, format, options.tone.value_or(ToneCurve::Gamma), result.film, scene, commandLine);
+    std::optional<Error> checkpointFailure;
+    if (checkpoint) {
+        try { // first: where there is no room for the picture, nothing is lost
+            checkpoint->write(result.film, report.rays);
+        } catch (const Error &error) {
+            checkpointFailure.emplace(error);
+        }
+    }
+    writeResult(image, format, tone, result.film, scene, commandLine);
     image.commit();
     report.writeSeconds = secondsSince(writeStart);
     report.totalSeconds = secondsSince(start);
@@ -150,6 +244,8 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         tellWhatIsFinished(report);
     if (!options.isQuiet)
         tellSpeed(report);
+    if (checkpointFailure)
+        throw *checkpointFailure;
     return signals.first() != 0 ? exitCodeFor(signals.first()) : ExitCode::Ok;
 }
 
@@ -179,6 +275,25 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     addNumber(*command, "--time-limit", options->timeLimitSeconds, timeLimits,
               "stop then, and write what is finished; loading and building do not count")
         ->type_name("SECONDS");
+    const char *group = "Long renders";
+    addFile(
+        *command, "--checkpoint", options->checkpoint, "FILE",
+        "write what is finished there again and again, and when the render ends; FILE.1 is the one before")
+        ->group(group);
+    addNumber(*command, "--checkpoint-interval", options->checkpointSeconds, intervals,
+              "between two checkpoints")
+        ->type_name("SECONDS")
+        ->default_str("10")
+        ->group(group);
+    command
+        ->add_flag("--resume", options->isResuming,
+                   "go on from the checkpoint, if there is one, to the same image; --device, --threads, "
+                   "--kernel, --bvh and more --spp may be others")
+        ->group(group);
+    addNumber(*command, "--partial", options->partialSeconds, intervals,
+              "replace the output by what is finished, again and again after so long")
+        ->type_name("SECONDS")
+        ->group(group);
     command->add_flag("--quiet", options->isQuiet, "print errors only");
     command->callback([options, &context] {
         context.exitCode = static_cast<int>(runRender(*options, context.commandLine));

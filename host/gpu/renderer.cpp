@@ -49,8 +49,9 @@ const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                         const std::function<void(double)> &onProgress, Timeline *timeline,
-                        const std::function<bool()> &shouldStop) {
-    Result result{Film(crop), {}, {}, {}};
+                        const std::function<bool()> &shouldStop, Continuation continuation) {
+    const bool isContinued = continuation.film.has_value();
+    Result result{isContinued ? std::move(*continuation.film) : Film(crop), {}, {}, {}};
     Stopwatch watch;
     // Ends a stage and returns how long it took.
     const auto endStage = [&](const char *name) {
@@ -65,13 +66,20 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
     result.timing.uploadSeconds = endStage("upload");
 
     for (const Crop &band : cutIntoBands(crop, state_->device.info())) {
-        const Job job{scene,
-                      band,
-                      settings.integrator,
-                      settings.sampler,
-                      0,
-                      static_cast<std::uint32_t>(settings.samplesPerPixel),
-                      false};
+        const std::size_t width = static_cast<std::size_t>(crop.width());
+        const std::size_t bandBegin = static_cast<std::size_t>(band.y0 - crop.y0) * width;
+        const std::size_t bandSize = static_cast<std::size_t>(band.height()) * width;
+        const std::span<layout::FilmPixel> pixels = result.film.pixels;
+        const std::span<layout::FilmPixel> bandPixels = pixels.subspan(bandBegin, bandSize);
+        Job job{scene,
+                band,
+                settings.integrator,
+                settings.sampler,
+                0,
+                static_cast<std::uint32_t>(settings.samplesPerPixel),
+                false};
+        if (isContinued)
+            job.film = bandPixels;
         TileRenderer tiles(state_->device, buffers, state_->batching, job);
         result.timing.pipelineSeconds += endStage("buffers");
         tiles.makeKernel();
@@ -85,16 +93,28 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                 if (onProgress)
                     onProgress((rowsBefore + share * band.height()) / crop.height());
             },
-            timeline, shouldStop);
+            timeline, shouldStop,
+            [&](const RayCounts &rays) {
+                if (continuation.snapshots == nullptr || !continuation.snapshots->isWanted())
+                    return;
+                RayCounts raysSoFar = result.rays;
+                raysSoFar += rays;
+                continuation.snapshots->take(
+                    [&](std::span<layout::FilmPixel> copy) {
+                        // Other bands have all samples, or those that they began with.
+                        std::ranges::copy(pixels.first(bandBegin), copy.begin());
+                        std::ranges::copy(pixels.subspan(bandBegin + bandSize),
+                                          copy.subspan(bandBegin + bandSize).begin());
+                        tiles.readFilm(copy.subspan(bandBegin, bandSize));
+                    },
+                    raysSoFar);
+            });
         result.rays += totals.rays;
         result.work += totals.work;
         result.timing.dispatchCount += totals.dispatchCount;
         result.timing.pipelineSeconds += tiles.lateBuildSeconds();
         result.timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();
-        const std::size_t width = static_cast<std::size_t>(crop.width());
-        tiles.readFilm(std::span(result.film.pixels)
-                           .subspan(static_cast<std::size_t>(band.y0 - crop.y0) * width,
-                                    static_cast<std::size_t>(band.height()) * width));
+        tiles.readFilm(bandPixels);
         endStage("readback");
         if (totals.isStopped)
             break;

@@ -4,6 +4,7 @@
 #include "host/bvh/packed_scene.h"
 #include "host/gpu/batching.h"
 #include "host/image/film.h"
+#include "host/image/snapshots.h"
 #include "host/report/ray_counts.h"
 #include "host/report/render_timing.h"
 #include "host/report/timeline.h"
@@ -17,7 +18,7 @@ namespace hyalite::gpu {
 
 struct Result {
     Film film;
-    RayCounts rays;
+    RayCounts rays; ///< traced by this call; where it was stopped, also of samples that are not in the film
     RenderTiming timing;
     WorkCounts work; ///< all 0 unless the batching asks for counting
 };
@@ -35,11 +36,13 @@ class Renderer {
 
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
     /// dispatch, and `timeline`, where there is one, what was done when. `shouldStop` is asked after each dispatch:
-    /// where it says so, the film has the samples that are finished by then, tile after tile, and no others. Throws
-    /// Error{LimitExceeded} where the scene is too large for the device, Error{DeviceLost}.
+    /// where it says so, the film has the samples that are finished by then, tile after tile, and no others. Where
+    /// `continuation` goes on changes no bit. Throws Error{LimitExceeded} where the scene is too large for the device,
+    /// Error{DeviceLost}.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                                 const std::function<void(double)> &onProgress = {},
-                                Timeline *timeline = nullptr, const std::function<bool()> &shouldStop = {});
+                                Timeline *timeline = nullptr, const std::function<bool()> &shouldStop = {},
+                                Continuation continuation = {});
 
     /// What one sample of one pixel of the whole image does, step by step; at most 2^17 steps are kept.
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,

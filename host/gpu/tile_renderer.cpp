@@ -65,7 +65,17 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
       trace_(device, "the trace", BufferUse::Storage,
              job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0),
       pace_(batching.dispatchSeconds, samplesAbreast_, batching.steps) {
-    film_.clear();
+    if (job.film.empty())
+        film_.clear();
+    else
+        film_.upload(std::as_bytes(job.film));
+    for (const layout::FilmPixel &pixel : job.film)
+        samplesInFilm_ += pixel.sampleCount;
+    const auto fewest = std::min_element(job.film.begin(), job.film.end(), [](const auto &a, const auto &b) {
+        return a.sampleCount < b.sampleCount;
+    });
+    if (fewest != job.film.end())
+        fewestInFilm_ = fewest->sampleCount;
     dispatch_.cropX = static_cast<std::uint32_t>(job.crop.x0);
     dispatch_.cropY = static_cast<std::uint32_t>(job.crop.y0);
     dispatch_.filmWidth = static_cast<std::uint32_t>(job.crop.width());
@@ -154,11 +164,12 @@ Kernel &TileRenderer::resumableKernel(Timeline *timeline) {
 }
 
 TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Timeline *timeline,
-                             const std::function<bool()> &shouldStop) {
+                             const std::function<bool()> &shouldStop,
+                             const std::function<void(const RayCounts &)> &onPause) {
     const int tilesAcross = (job_.crop.width() + tileWidth_ - 1) / tileWidth_;
     const int tilesDown = (job_.crop.height() + tileHeight_ - 1) / tileHeight_;
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
-    std::uint64_t samplesFinished = 0;
+    std::uint64_t samplesFinished = samplesInFilm_;
     TileTotals totals;
     bool isResumed = false;
     const auto dispatch = [&](Kernel &kernel) {
@@ -175,6 +186,8 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         if (onProgress)
             onProgress(static_cast<double>(samplesFinished) / samplesWanted);
         totals.isStopped = shouldStop && shouldStop();
+        if (onPause && !totals.isStopped)
+            onPause(totals.rays);
         return step.counters;
     };
     // The film says where each pixel stands: the samples of the tile up to `end` are wanted.
@@ -198,7 +211,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         }
     };
     // Pass after pass over the whole image, so that one that is stopped early has samples everywhere.
-    for (std::uint32_t begin = job_.sampleBegin; begin < job_.sampleEnd && !totals.isStopped;) {
+    for (std::uint32_t begin = job_.sampleBegin + fewestInFilm_; begin < job_.sampleEnd && !totals.isStopped;) {
         const std::uint32_t end = begin + std::min(samplesInPass, job_.sampleEnd - begin);
         for (int tile = 0; tile < tilesAcross * tilesDown && !totals.isStopped; ++tile) {
             dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);

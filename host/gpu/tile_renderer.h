@@ -26,6 +26,7 @@ struct Job {
     std::uint32_t sampleBegin;
     std::uint32_t sampleEnd;
     bool isTraced;
+    std::span<const layout::FilmPixel> film{}; ///< to be added to, in place of an empty one; needed only to begin
 };
 
 /// What the tiles of a job came to.
@@ -55,9 +56,11 @@ class TileRenderer {
     /// Runs until all samples of all tiles are in the film, or until `shouldStop`, which is asked after each dispatch,
     /// says so: the film then has what is finished. It is not long until it is asked: with it, no dispatch adds more than
     /// 64 samples to a pixel. `onProgress` gets the finished share, in [0, 1], after each
-    /// dispatch, and `timeline`, where there is one, a record of each. Throws Error{DeviceLost}.
+    /// dispatch, and so does `onPause` the rays so far: the film can then be read. `timeline`, where there is one, gets a
+    /// record of each. Throws Error{DeviceLost}.
     [[nodiscard]] TileTotals run(const std::function<void(double)> &onProgress, Timeline *timeline = nullptr,
-                                 const std::function<bool()> &shouldStop = {});
+                                 const std::function<bool()> &shouldStop = {},
+                                 const std::function<void(const RayCounts &)> &onPause = {});
 
     void readFilm(std::span<layout::FilmPixel> pixels) const;
 
@@ -103,6 +106,8 @@ class TileRenderer {
     layout::DispatchConstants dispatch_{};
     std::uint32_t groupCount_ = 0;
     std::uint32_t traceEventCount_ = 0;
+    std::uint64_t samplesInFilm_ = 0; ///< at the beginning, of all pixels
+    std::uint32_t fewestInFilm_ = 0;  ///< of any pixel
     Pace pace_;
     double lateBuildSeconds_ = 0.0;
     std::optional<Program> direct_; ///< drops what is unfinished at its end

@@ -9,18 +9,20 @@
 #include <atomic>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 namespace hyalite::reference {
 
 namespace {
 
-/// At most `sampleCount` samples: `isLast` is asked after each.
+/// Adds samples to `film` until it has `sampleCount`: `isLast` is asked after each. Returns how many were added.
 template <class Real, class SampleIntegrator, class IsLast>
-layout::FilmPixel renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
-                              std::uint32_t sampleCount, const IsLast &isLast) {
-    Vec3<Real> sum(Real(0));
-    Vec3<Real> sumOfSquares(Real(0));
-    std::uint32_t finishedCount = 0;
+std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel, std::uint32_t sampleCount,
+                          layout::FilmPixel &film, const IsLast &isLast) {
+    Vec3<Real> sum(film.sum);
+    Vec3<Real> sumOfSquares(film.sumOfSquares);
+    const std::uint32_t countBefore = film.sampleCount;
+    std::uint32_t finishedCount = countBefore;
     bool isStopped = false;
     while (finishedCount < sampleCount && !isStopped) {
         const Vec3<Real> radiance = integrator.sampleRadiance(pixel, finishedCount);
@@ -29,96 +31,160 @@ layout::FilmPixel renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pi
         ++finishedCount;
         isStopped = isLast();
     }
-    return {glm::vec3(sum), finishedCount, glm::vec3(sumOfSquares), 0.0f};
+    film = {glm::vec3(sum), finishedCount, glm::vec3(sumOfSquares), 0.0f};
+    return finishedCount - countBefore;
 }
 
-template <class SampleIntegrator, class Real, class Counter>
-Result renderWith(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                  const Options &options) {
-    Result result{Film(crop), {}, {}};
+/// The work of one render, with an integrator for each thread: it stops for snapshots and goes on.
+template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
+  public:
+    FilmRenderer(const MakeIntegrator &makeIntegrator, const RenderSettings &settings, const Crop &crop,
+                 const Options &options, Continuation continuation)
+        : makeIntegrator_(makeIntegrator), options_(options),
+          sampleCount_(static_cast<std::uint32_t>(settings.samplesPerPixel)),
+          snapshots_(continuation.snapshots), result_{continuation.film ? std::move(*continuation.film)
+                                                                        : Film(crop),
+                                                      {},
+                                                      {}},
+          pixelCount_(static_cast<std::int64_t>(result_.film.pixels.size())) {
+        for (const layout::FilmPixel &pixel : result_.film.pixels)
+            finishedSamples_ += pixel.sampleCount;
+    }
+
+    [[nodiscard]] Result render() {
+        do {
+            isPaused_ = false;
+            renderUntilPaused();
+            if (isPaused_ && !isStopped_)
+                snapshots_->take(
+                    [this](std::span<layout::FilmPixel> copy) {
+                        std::copy(result_.film.pixels.begin(), result_.film.pixels.end(), copy.begin());
+                    },
+                    result_.rays);
+        } while (isPaused_ && !isStopped_);
+        return std::move(result_);
+    }
+
+  private:
     // Short runs of pixels: some pixels cost a hundred times more than others.
-    constexpr std::int64_t runLength = 32;
-    const std::int64_t pixelCount = static_cast<std::int64_t>(result.film.pixels.size());
-    const std::int64_t runCount = (pixelCount + runLength - 1) / runLength;
-    const int threadCount = options.threadCount > 0 ? options.threadCount : omp_get_max_threads();
-    std::int64_t finishedRuns = 0;
-    std::atomic<bool> isStopped = false;
-    const auto askWhetherToStop = [&] {
-        if (options.shouldStop && options.shouldStop())
-            isStopped = true;
-        return isStopped.load();
-    };
+    static constexpr std::int64_t runLength = 32;
+
+    void renderUntilPaused() {
+        const std::int64_t runCount = (pixelCount_ + runLength - 1) / runLength;
+        while (firstRun_ < runCount && isFinished(firstRun_))
+            ++firstRun_;
+        const int threadCount = options_.threadCount > 0 ? options_.threadCount : omp_get_max_threads();
 #pragma omp parallel num_threads(threadCount)
-    {
-        SampleIntegrator integrator(scene, static_cast<std::uint32_t>(settings.sampler));
-#pragma omp for schedule(dynamic)
-        for (std::int64_t run = 0; run < runCount; ++run) {
-            const std::int64_t end = std::min((run + 1) * runLength, pixelCount);
-            for (std::int64_t i = run * runLength; i < end && !isStopped; ++i) {
-                const glm::uvec2 pixel(static_cast<std::uint32_t>(crop.x0 + i % crop.width()),
-                                       static_cast<std::uint32_t>(crop.y0 + i / crop.width()));
-                result.film.pixels[static_cast<std::size_t>(i)] =
-                    renderPixel<Real>(integrator, pixel, static_cast<std::uint32_t>(settings.samplesPerPixel),
-                                      askWhetherToStop);
-            }
-            if (isStopped) // a loop of OpenMP cannot be left: what remains of it is skipped
-                continue;
-#pragma omp critical(hyaliteReferenceProgress)
-            {
-                ++finishedRuns;
-                if (options.onProgress)
-                    options.onProgress(static_cast<double>(finishedRuns) / static_cast<double>(runCount));
-            }
-        }
-#pragma omp critical(hyaliteReferenceCounts)
         {
-            result.rays += integrator.counts();
-            if constexpr (std::is_same_v<Counter, WorkCounter>)
-                result.work += integrator.counter().counts;
+            auto integrator = makeIntegrator_();
+#pragma omp for schedule(dynamic)
+            for (std::int64_t run = firstRun_; run < runCount; ++run)
+                if (!isPaused_ &&
+                    !isStopped_) // a loop of OpenMP cannot be left: what remains of it is skipped
+                    renderRun(integrator, run);
+#pragma omp critical(hyaliteReferenceCounts)
+            {
+                result_.rays += integrator.counts();
+                if constexpr (std::is_same_v<Counter, WorkCounter>)
+                    result_.work += integrator.counter().counts;
+            }
         }
     }
-    return result;
-}
 
-template <class Real, class Counter = NoCounter>
-Result renderAs(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                const Options &options) {
+    template <class SampleIntegrator> void renderRun(SampleIntegrator &integrator, std::int64_t run) {
+        const Crop &crop = result_.film.crop;
+        std::uint64_t addedSamples = 0;
+        const std::int64_t end = std::min((run + 1) * runLength, pixelCount_);
+        for (std::int64_t i = run * runLength; i < end && !isPaused_ && !isStopped_; ++i) {
+            const glm::uvec2 pixel(static_cast<std::uint32_t>(crop.x0 + i % crop.width()),
+                                   static_cast<std::uint32_t>(crop.y0 + i / crop.width()));
+            addedSamples += renderPixel<Real>(integrator, pixel, sampleCount_,
+                                        result_.film.pixels[static_cast<std::size_t>(i)], [this] {
+                                            // Sums in double precision would be rounded by a pause.
+                                            return isToStop() || (std::is_same_v<Real, float> && isToPause());
+                                        });
+            (void)isToPause();
+        }
+#pragma omp critical(hyaliteReferenceProgress)
+        {
+            finishedSamples_ += addedSamples;
+            if (options_.onProgress)
+                options_.onProgress(static_cast<double>(finishedSamples_) / static_cast<double>(pixelCount_) /
+                                    sampleCount_);
+        }
+    }
+
+    [[nodiscard]] bool isFinished(std::int64_t run) const {
+        const auto begin = result_.film.pixels.begin() + run * runLength;
+        const auto end = result_.film.pixels.begin() + std::min((run + 1) * runLength, pixelCount_);
+        return std::all_of(begin, end,
+                           [this](const auto &pixel) { return pixel.sampleCount >= sampleCount_; });
+    }
+
+    [[nodiscard]] bool isToStop() {
+        if (options_.shouldStop && options_.shouldStop())
+            isStopped_ = true;
+        return isStopped_.load();
+    }
+
+    [[nodiscard]] bool isToPause() {
+        if (snapshots_ != nullptr && snapshots_->isWanted())
+            isPaused_ = true;
+        return isPaused_.load();
+    }
+
+    const MakeIntegrator &makeIntegrator_;
+    const Options &options_;
+    std::uint32_t sampleCount_;
+    SnapshotTaker *snapshots_;
+    Result result_;
+    std::int64_t pixelCount_;
+    std::int64_t firstRun_ = 0; ///< all before it are finished
+    std::uint64_t finishedSamples_ = 0;
+    std::atomic<bool> isPaused_ = false;
+    std::atomic<bool> isStopped_ = false;
+};
+
+/// Calls `use` with what makes an integrator of the kind that the settings ask for.
+template <class Real, class Counter, class Use>
+auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, const Use &use) {
+    const auto sampler = static_cast<std::uint32_t>(settings.sampler);
     if (settings.integrator == Integrator::Path)
-        return renderWith<PathIntegrator<Real, Counter>, Real, Counter>(scene, settings, crop, options);
-    return renderWith<WhittedIntegrator<Real, Counter>, Real, Counter>(scene, settings, crop, options);
-}
-
-template <class SampleIntegrator, class Real>
-std::vector<layout::TraceEvent> traceWith(const PackedScene &scene, const RenderSettings &settings,
-                                          const glm::uvec2 &pixel, std::uint32_t sampleIndex,
-                                          const glm::dvec2 &shift) {
-    std::vector<layout::TraceEvent> events;
-    SampleIntegrator integrator(scene, static_cast<std::uint32_t>(settings.sampler));
-    integrator.traceTo(events);
-    static_cast<void>(integrator.sampleRadiance(pixel, sampleIndex, Vec2<Real>(shift)));
-    return events;
+        return use([&] { return PathIntegrator<Real, Counter>(scene, sampler); });
+    return use([&] { return WhittedIntegrator<Real, Counter>(scene, sampler); });
 }
 
 template <class Real>
 std::vector<layout::TraceEvent> traceAs(const PackedScene &scene, const RenderSettings &settings,
                                         const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                         const glm::dvec2 &shift) {
-    if (settings.integrator == Integrator::Path)
-        return traceWith<PathIntegrator<Real>, Real>(scene, settings, pixel, sampleIndex, shift);
-    return traceWith<WhittedIntegrator<Real>, Real>(scene, settings, pixel, sampleIndex, shift);
+    return withIntegrator<Real, NoCounter>(scene, settings, [&](const auto &makeIntegrator) {
+        std::vector<layout::TraceEvent> events;
+        auto integrator = makeIntegrator();
+        integrator.traceTo(events);
+        static_cast<void>(integrator.sampleRadiance(pixel, sampleIndex, Vec2<Real>(shift)));
+        return events;
+    });
 }
 
 } // namespace
 
 Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-              const Options &options) {
-    if (options.isCounting && options.precision == Precision::Float64)
-        return renderAs<double, WorkCounter>(scene, settings, crop, options);
+              const Options &options, Continuation continuation) {
+    const auto renderAs = [&]<class Real, class Counter>() {
+        return withIntegrator<Real, Counter>(
+            scene, settings, [&]<class MakeIntegrator>(const MakeIntegrator &makeIntegrator) {
+                return FilmRenderer<Real, Counter, MakeIntegrator>(makeIntegrator, settings, crop, options,
+                                                                   std::move(continuation))
+                    .render();
+            });
+    };
+    const bool isDouble = options.precision == Precision::Float64;
     if (options.isCounting)
-        return renderAs<float, WorkCounter>(scene, settings, crop, options);
-    if (options.precision == Precision::Float64)
-        return renderAs<double>(scene, settings, crop, options);
-    return renderAs<float>(scene, settings, crop, options);
+        return isDouble ? renderAs.template operator()<double, WorkCounter>()
+                        : renderAs.template operator()<float, WorkCounter>();
+    return isDouble ? renderAs.template operator()<double, NoCounter>()
+                    : renderAs.template operator()<float, NoCounter>();
 }
 
 std::vector<layout::TraceEvent> trace(const PackedScene &scene, const RenderSettings &settings,

@@ -3,6 +3,7 @@
 
 #include "host/bvh/packed_scene.h"
 #include "host/image/film.h"
+#include "host/image/snapshots.h"
 #include "host/report/ray_counts.h"
 #include "host/report/work_counts.h"
 
@@ -26,13 +27,14 @@ struct Options {
 
 struct Result {
     Film film;
-    RayCounts rays;
+    RayCounts rays;  ///< of the samples that were added to the film
     WorkCounts work; ///< all 0 unless counting was asked for
 };
 
-/// Renders `crop` of the scene's image. The result does not depend on the number of threads.
+/// Renders `crop` of the scene's image. The result does not depend on the number of threads, nor, with Float32, on where
+/// `continuation` goes on. With Float64 a snapshot has pixels with all samples or none besides those that it began with.
 [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                            const Options &options = {});
+                            const Options &options = {}, Continuation continuation = {});
 
 /// What one sample of one pixel of the whole image does, step by step. `shift` moves the sample by so many pixels.
 [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene, const RenderSettings &settings,

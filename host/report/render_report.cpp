@@ -53,6 +53,11 @@ std::string formatReport(const RenderReport &report) {
                 {"stoppedBy", nullptr}};
     if (!report.stoppedBy.empty())
         finished["stoppedBy"] = report.stoppedBy;
+    json["resumed"] = nullptr;
+    if (report.resumed)
+        json["resumed"] = {{"checkpoint", report.resumed->checkpoint},
+                           {"samples", report.resumed->sampleCount},
+                           {"rays", raysToJson(report.resumed->rays)}};
     json["rays"] = raysToJson(report.rays);
     json["dispatches"] = report.timing.dispatchCount;
     json["seconds"] = {{"load", report.loadSeconds},

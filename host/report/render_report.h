@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace hyalite {
@@ -23,6 +24,13 @@ struct FinishedWork {
 /// What `film` has of `samplesPerPixel` samples in each pixel.
 [[nodiscard]] FinishedWork finishedWork(const Film &film, int samplesPerPixel);
 
+/// What a render went on from.
+struct ResumedWork {
+    std::string checkpoint; ///< path of the file
+    std::uint64_t sampleCount = 0;
+    RayCounts rays;
+};
+
 struct RenderReport {
     std::string commandLine;
     std::string scene; ///< path of the file
@@ -36,7 +44,8 @@ struct RenderReport {
     std::size_t triangleCount = 0;
     FinishedWork finished;
     std::string stoppedBy; ///< what ended the render before all was finished; empty: nothing did
-    RayCounts rays;
+    std::optional<ResumedWork> resumed;
+    RayCounts rays; ///< traced for the image, before and now
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
     RenderTiming timing;

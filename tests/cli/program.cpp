@@ -255,7 +255,7 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
         // poll() ignores descriptors below 0.
         std::array<pollfd, 2> streams{pollfd{output.ours.number(), POLLIN, 0},
                                       pollfd{errors.ours.number(), POLLIN, 0}};
-        constexpr int pollMillis = 10;
+        const int pollMillis = surroundings.signalWhen && !isSignalSent ? 1 : 10;
         poll(streams.data(), streams.size(), pollMillis);
         if (streams[0].revents != 0)
             readSome(output.ours, outcome.output);
@@ -266,8 +266,9 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
         const bool isWanted = isSignalSent
                                   ? surroundings.signalAgainSeconds > 0.0 &&
                                         secondsSince(lastSignal) > surroundings.signalAgainSeconds
-                                  : !surroundings.signalAfter.empty() &&
-                                        outcome.errors.find(surroundings.signalAfter) != std::string::npos;
+                                  : (!surroundings.signalAfter.empty() &&
+                                     outcome.errors.find(surroundings.signalAfter) != std::string::npos) ||
+                                        (surroundings.signalWhen && surroundings.signalWhen());
         if (isWanted) {
             kill(process, surroundings.signal);
             isSignalSent = true;

@@ -35,7 +35,8 @@ TEST_F(RenderReport, HasAllItsKeys) {
         const nlohmann::json report = renderReport("sheet.json" + small + " --device " + device);
         EXPECT_EQ(keysOf(report), (std::set<std::string>{"program", "commandLine", "scene", "output",
                                                          "device", "image", "settings", "triangles",
-                                                         "finished", "rays", "dispatches", "seconds"}));
+                                                         "finished", "resumed", "rays", "dispatches",
+                                                         "seconds"}));
         EXPECT_EQ(keysOf(report.at("finished")),
                   (std::set<std::string>{"isComplete", "pixels", "samples", "stoppedBy"}));
         EXPECT_EQ(keysOf(report.at("device")), (std::set<std::string>{"name", "driver", "arithmetic"}));

@@ -1,0 +1,69 @@
+// Checkpoints as `hyalite render --resume` reads them. The input is read twice: as it is, and with the hash at its end put
+// right, as one who makes up a file would.
+#include "host/image/checkpoint.h"
+#include "host/report/hash.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/heap_peak.h"
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace hyalite::fuzz {
+namespace {
+
+// Of the seeds in corpus/checkpoint.
+const RenderIdentity identity{{"seed", "7"}, {"sampler", "sobol"}};
+constexpr Crop crop{2, 5, 1, 3};
+constexpr std::uint32_t samplesPerPixel = 100;
+
+void read(const TemporaryFolder &folder, std::string_view content) {
+    const std::filesystem::path file = folder.write("input", content);
+    std::optional<ResumedCheckpoint> resumed;
+    std::size_t peakBytes = 0;
+    const bool isRefused = refusalOf([&] {
+                               const HeapPeak peak;
+                               resumed = resumeCheckpoint(file, identity, crop, samplesPerPixel);
+                               peakBytes = peak.bytes();
+                           }).has_value();
+    if (isRefused)
+        return;
+    require(resumed.has_value(), "a file that is there is not found");
+    require(peakBytes <= (std::size_t{1} << 20) + 2 * content.size(), "it takes more memory than the file");
+    const Film &film = resumed->checkpoint.film;
+    require(film.crop.x0 == crop.x0 && film.crop.x1 == crop.x1 && film.crop.y0 == crop.y0 &&
+                film.crop.y1 == crop.y1 && film.pixels.size() == 6,
+            "a film of another size is taken");
+    for (const layout::FilmPixel &pixel : film.pixels)
+        require(pixel.sampleCount <= samplesPerPixel, "a pixel has more samples than are wanted");
+}
+
+/// With the hash that belongs to it, if it has a header.
+std::string repaired(std::string_view content) {
+    constexpr std::size_t headBytes = 19 + 56;
+    std::string bytes(content);
+    if (bytes.size() < headBytes + sizeof(std::uint64_t))
+        return bytes;
+    std::uint32_t identityBytes = 0;
+    std::memcpy(&identityBytes, bytes.data() + 19 + 4, sizeof identityBytes);
+    const auto all = std::as_bytes(std::span(bytes)).first(bytes.size() - sizeof(std::uint64_t));
+    if (identityBytes > all.size() - headBytes)
+        return bytes;
+    std::uint64_t hash = hash64(all.first(headBytes));
+    hash = hash64(all.subspan(headBytes, identityBytes), hash);
+    hash = hash64(all.subspan(headBytes + identityBytes), hash);
+    std::memcpy(bytes.data() + all.size(), &hash, sizeof hash);
+    return bytes;
+}
+
+} // namespace
+} // namespace hyalite::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
+    using namespace hyalite::fuzz;
+    static const TemporaryFolder folder;
+    const std::string_view content = textOf(data, sizeBytes);
+    read(folder, content);
+    read(folder, repaired(content));
+    return 0;
+}

@@ -1,0 +1,153 @@
+// A film that is not finished goes on anywhere, to the same bits and the same counts.
+#include "tests/images/rendering.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace hyalite {
+namespace {
+
+using testing::differingPixels;
+using testing::pack;
+using testing::shippedScene;
+
+struct Part {
+    Film film;
+    RayCounts rays;
+};
+
+/// Keeps every `stride`-th copy that there could be.
+class Collector : public SnapshotTaker {
+  public:
+    explicit Collector(const Crop &crop, int stride = 1) : crop_(crop), stride_(stride) {}
+    [[nodiscard]] bool isWanted() const noexcept override { return parts.size() < mostParts; }
+    void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
+              const RayCounts &rays) override {
+        if (count_++ % stride_ != 0)
+            return;
+        parts.push_back({Film(crop_), rays});
+        copyFilm(parts.back().film.pixels);
+    }
+
+    std::vector<Part> parts;
+
+  private:
+    static constexpr std::size_t mostParts = 12;
+    Crop crop_;
+    int stride_;
+    int count_ = 0;
+};
+
+struct Continuations : ::testing::Test {
+    Scene scene = shippedScene("spheres", 40, 24, 20);
+    PackedScene packed = pack(scene);
+    Crop crop{0, 40, 0, 24};
+
+    [[nodiscard]] reference::Result onCpu(Continuation continuation, int threadCount = 2) const {
+        reference::Options options;
+        options.threadCount = threadCount;
+        return reference::render(packed, scene.settings, crop, options, std::move(continuation));
+    }
+    [[nodiscard]] gpu::Result onDevice(Continuation continuation, const gpu::Batching &batching = {}) const {
+        gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), batching);
+        return renderer.render(packed, scene.settings, crop, {}, nullptr, {}, std::move(continuation));
+    }
+    template <class Result>
+    static void expectWhole(const Part &part, const Result &rest, const reference::Result &whole,
+                            bool isTracedTwice = false) {
+        EXPECT_EQ(differingPixels(rest.film, whole.film), 0u);
+        RayCounts rays = part.rays;
+        rays += rest.rays;
+        if (isTracedTwice) // what was begun and not finished
+            EXPECT_GE(rays.total(), whole.rays.total());
+        else
+            EXPECT_EQ(rays, whole.rays);
+    }
+};
+
+std::uint64_t sampleCount(const Film &film) {
+    std::uint64_t count = 0;
+    for (const layout::FilmPixel &pixel : film.pixels)
+        count += pixel.sampleCount;
+    return count;
+}
+
+TEST_F(Continuations, OfTheReferenceGoOnAnywhere) {
+    const reference::Result whole = onCpu({});
+    Collector collector(crop);
+    EXPECT_EQ(differingPixels(onCpu({{}, &collector}).film, whole.film), 0u) << "a copy changes nothing";
+    ASSERT_EQ(collector.parts.size(), 12u);
+    EXPECT_LT(sampleCount(collector.parts[0].film), 40u * 24u) << "it is asked for early";
+    for (std::size_t i = 0; i < collector.parts.size(); i += 5) {
+        const Part &part = collector.parts[i];
+        expectWhole(part, onCpu({part.film}, 1), whole);
+        expectWhole(part, onDevice({part.film}), whole);
+        expectWhole(part, onDevice({part.film}, {.tileWidth = 16, .tileHeight = 8, .samplesAbreast = 4}),
+                    whole);
+    }
+}
+
+// With a budget of a few steps nearly all copies are taken in the middle of samples.
+TEST_F(Continuations, OfADeviceGoOnAnywhere) {
+    const reference::Result whole = onCpu({});
+    for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+        for (const std::uint32_t steps : {0u, 9u}) {
+            Collector collector(crop, steps == 0 ? 1 : 5);
+            const gpu::Batching batching{
+                .tileWidth = 16, .tileHeight = 16, .steps = steps, .traversal = traversal};
+            EXPECT_EQ(differingPixels(onDevice({{}, &collector}, batching).film, whole.film), 0u);
+            ASSERT_GE(collector.parts.size(), 5u);
+            for (std::size_t i = 0; i < collector.parts.size(); i += 4) {
+                const Part &part = collector.parts[i];
+                EXPECT_LT(sampleCount(part.film), 40u * 24u * 20u) << i;
+                const bool isTracedTwice = steps != 0 || traversal == gpu::Traversal::Stack;
+                expectWhole(part, onCpu({part.film}), whole, isTracedTwice);
+                expectWhole(part, onDevice({part.film}, {.tileWidth = 32, .tileHeight = 8}), whole,
+                            isTracedTwice);
+            }
+        }
+}
+
+TEST_F(Continuations, OfABandedFilmHaveAllBands) {
+    const reference::Result whole = onCpu({});
+    gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), "llvmpipe");
+    device.maxStorageBufferBytes = 32 * 1024;
+    gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8, .samplesAbreast = 1});
+    Collector collector(crop, 3);
+    const auto render = [&](Continuation continuation) {
+        return renderer.render(packed, scene.settings, crop, {}, nullptr, {}, std::move(continuation));
+    };
+    EXPECT_EQ(differingPixels(render({{}, &collector}).film, whole.film), 0u);
+    ASSERT_GE(collector.parts.size(), 4u);
+    for (std::size_t i = 0; i < collector.parts.size(); i += 3)
+        expectWhole(collector.parts[i], render({collector.parts[i].film}), whole);
+}
+
+TEST_F(Continuations, MayAddSamplesToWhatWasFinished) {
+    const reference::Result whole = onCpu({});
+    scene.settings.samplesPerPixel = 7;
+    const reference::Result seven = onCpu({});
+    scene.settings.samplesPerPixel = 20;
+    expectWhole({seven.film, seven.rays}, onCpu({seven.film}), whole);
+    expectWhole({seven.film, seven.rays}, onDevice({seven.film}), whole);
+    EXPECT_EQ(onDevice({whole.film}).rays.total(), 0u) << "nothing is left to do";
+    EXPECT_EQ(onCpu({whole.film}).rays.total(), 0u);
+}
+
+TEST_F(Continuations, OfTheOracleAreTakenBetweenPixels) {
+    reference::Options options;
+    options.precision = reference::Precision::Float64;
+    const reference::Result whole = reference::render(packed, scene.settings, crop, options);
+    Collector collector(crop);
+    EXPECT_EQ(differingPixels(reference::render(packed, scene.settings, crop, options, {{}, &collector}).film,
+                              whole.film),
+              0u);
+    ASSERT_FALSE(collector.parts.empty());
+    for (const Part &part : collector.parts)
+        for (const layout::FilmPixel &pixel : part.film.pixels)
+            EXPECT_TRUE(pixel.sampleCount == 0 || pixel.sampleCount == 20) << pixel.sampleCount;
+}
+
+} // namespace
+} // namespace hyalite
