@@ -1,6 +1,7 @@
 #include "host/bvh/packed_scene.h"
 
 #include "host/bvh/emitters.h"
+#include "host/report/hash.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 namespace hyalite {
 
@@ -153,6 +155,27 @@ std::size_t PackedScene::sizeBytes() const {
            materials.size() * sizeof(materials[0]) + emitters.size() * sizeof(emitters[0]) +
            nodes.size() * sizeof(nodes[0]) + triangles.size() * sizeof(triangles[0]) +
            normals.size() * sizeof(normals[0]);
+}
+
+std::uint64_t PackedScene::contentHash() const {
+    layout::FrameRecord seen = frame;
+    seen.seed = 0;
+    seen.maxDepth = 0;
+    std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)));
+    hash = hashBytes(std::as_bytes(std::span(spheres)), hash);
+    hash = hashBytes(std::as_bytes(std::span(lights)), hash);
+    hash = hashBytes(std::as_bytes(std::span(materials)), hash);
+    // Trees put the triangles into orders of their own, and each has its id: their sum is the same in any order.
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        struct {
+            layout::TriangleRecord triangle;
+            layout::NormalRecord normals;
+        } seenTriangle{triangles[i], normals[i]};
+        seenTriangle.triangle.flags &= ~layout::triangleEndsLeaf;
+        sum += hashBytes(std::as_bytes(std::span(&seenTriangle, 1)));
+    }
+    return hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
 }
 
 PackedScene packScene(const Scene &scene, const Bvh &bvh) {

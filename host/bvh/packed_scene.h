@@ -26,6 +26,10 @@ struct PackedScene {
 
     /// Of all arrays together: what a device has to hold of the scene.
     [[nodiscard]] std::size_t sizeBytes() const;
+
+    /// A hash of what there is to see: camera and image size, background, lights, materials and primitives. It does not
+    /// depend on the tree, nor on the seed and the depth of paths, and is the same on every machine.
+    [[nodiscard]] std::uint64_t contentHash() const;
 };
 
 /// `scene` is valid, and `bvh` was built from its triangles.

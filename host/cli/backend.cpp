@@ -37,8 +37,9 @@ class CpuBackend : public Backend {
     [[nodiscard]] std::string name() const override {
         return precision_ == reference::Precision::Float32 ? "cpu" : "cpu-double";
     }
-    [[nodiscard]] std::string driver() const override { return "reference renderer"; }
-    [[nodiscard]] std::string arithmetic() const override { return "native / and sqrt: IEEE 754"; }
+    [[nodiscard]] RendererIdentity identity() const override {
+        return {name(), "reference renderer", "native / and sqrt: IEEE 754", "", 0};
+    }
     [[nodiscard]] std::string precision() const override {
         // A film holds sums in single precision.
         return precision_ == reference::Precision::Float32 ? Backend::precision() : std::string();
@@ -102,10 +103,11 @@ class DeviceBackend : public Backend {
         : device_(device), renderer_(device, batching) {}
 
     [[nodiscard]] std::string name() const override { return device_.name; }
-    [[nodiscard]] std::string driver() const override { return device_.driver; }
-    [[nodiscard]] std::string arithmetic() const override {
+    [[nodiscard]] RendererIdentity identity() const override {
         const gpu::ArithmeticChoice &choice = renderer_.arithmetic();
-        return fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason);
+        return {device_.name, device_.driver,
+                fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason),
+                std::string(renderer_.kernelName()), renderer_.kernelHash()};
     }
     [[nodiscard]] std::string unpromisedBits() const override { return gpu::explainUnpromisedBits(device_); }
     [[nodiscard]] std::string precision() const override {

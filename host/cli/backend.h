@@ -3,6 +3,7 @@
 
 #include "host/cli/scene_options.h"
 #include "host/gpu/renderer.h"
+#include "host/report/provenance.h"
 #include "host/report/ray_counts.h"
 #include "host/report/timeline.h"
 #include "host/report/work_counts.h"
@@ -28,9 +29,8 @@ class Backend {
     virtual ~Backend() = default;
 
     [[nodiscard]] virtual std::string name() const = 0;        ///< "cpu", or as the device calls itself
-    [[nodiscard]] virtual std::string driver() const = 0;      ///< what computes
     [[nodiscard]] virtual std::string description() const = 0; ///< for people
-    [[nodiscard]] virtual std::string arithmetic() const = 0;  ///< which / and sqrt run, and why
+    [[nodiscard]] virtual RendererIdentity identity() const = 0;
     /// Why images may differ from the CPU twin's in their bits, or empty where they may not.
     [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
     /// Backends that say the same add samples of the same bits to a film, and a film gives them all that they need to go

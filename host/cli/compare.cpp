@@ -199,10 +199,6 @@ nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
     return json;
 }
 
-nlohmann::ordered_json describe(const Backend &backend) {
-    return {{"name", backend.name()}, {"driver", backend.driver()}, {"arithmetic", backend.arithmetic()}};
-}
-
 struct Contestants {
     std::unique_ptr<Backend> first;
     std::unique_ptr<Backend> second;
@@ -255,11 +251,11 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     const Estimate b = render(*contestants.second, secondSeed);
     const ZTestResult result = testAndPrint(a, b, options.zTest, scene.loaded.file.string());
     if (reportFile) {
-        nlohmann::ordered_json json{{"commandLine", commandLine},
-                                    {"scene", scene.loaded.file.string()},
-                                    {"first", describe(*contestants.first)},
-                                    {"second", describe(*contestants.second)},
-                                    {"seeds", {firstSeed, secondSeed}}};
+        settings.seed = scene.packed.frame.seed = firstSeed;
+        nlohmann::ordered_json json = provenanceToJson(provenanceOf(scene, commandLine));
+        json["first"] = rendererToJson(contestants.first->identity());
+        json["second"] = rendererToJson(contestants.second->identity());
+        json["seeds"] = {firstSeed, secondSeed};
         json["statistical"] = zTestToJson(result, options.zTest);
         json["passed"] = result.isPassed();
         reportFile->write(jsonText(json));
@@ -309,7 +305,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
                    isAgainstOracle && isDefaultTolerance ? "by more than 2/255 as a PNG shows them"
                                                          : "beyond the tolerance");
 
-    nlohmann::ordered_json report;
+    nlohmann::ordered_json report = nlohmann::ordered_json::object();
     bool isPassed = outlierShare <= options.maxOutliers;
     if (isAgainstOracle) {
         const std::size_t unexplained = explainOutliers(scene, outliers);
@@ -331,16 +327,16 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
                            : isPassed                    ? "equal within the tolerance"
                                                          : "NOT equal");
     }
+    nlohmann::ordered_json origin = provenanceToJson(provenanceOf(scene, commandLine));
+    origin["first"] = rendererToJson(first->identity());
+    origin["second"] = rendererToJson(second->identity());
     if (heatMapFile) {
-        writePng(*heatMapFile, imageA.width(), imageA.height(), heatMap(comparison.flipMap));
+        writePng(*heatMapFile, imageA.width(), imageA.height(), heatMap(comparison.flipMap),
+                 attributesOf(origin));
         heatMapFile->commit();
     }
     if (reportFile) {
-        nlohmann::ordered_json json;
-        json["commandLine"] = commandLine;
-        json["scene"] = scene.loaded.file.string();
-        json["first"] = describe(*first);
-        json["second"] = describe(*second);
+        nlohmann::ordered_json json = origin;
         json.update(comparisonToJson(comparison, imageB, imageA));
         json["outliers"] = outliers.size();
         json["areRayCountsEqual"] = areCountsEqual;

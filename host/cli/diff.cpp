@@ -9,6 +9,7 @@
 #include "host/image/tone_map.h"
 #include "host/report/atomic_file.h"
 #include "host/report/json_text.h"
+#include "host/report/provenance.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -178,8 +179,7 @@ void printVerdict(const std::vector<Gate> &gates, bool isPassed) {
 
 std::string formatReport(const DiffOptions &options, const std::string &commandLine, const Inputs &inputs,
                          const ImageComparison &comparison, const std::vector<Gate> &gates, bool isPassed) {
-    nlohmann::ordered_json report;
-    report["commandLine"] = commandLine;
+    nlohmann::ordered_json report = programToJson(commandLine);
     report["reference"] = options.reference;
     report["test"] = options.test;
     if (!options.mask.empty())
@@ -243,7 +243,7 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
 
     if (heatMapFile) {
         writePng(*heatMapFile, comparison.flipMap.width, comparison.flipMap.height,
-                 heatMap(comparison.flipMap));
+                 heatMap(comparison.flipMap), attributesOf(programToJson(commandLine)));
         heatMapFile->commit();
     }
     if (reportFile) {

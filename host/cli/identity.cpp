@@ -1,46 +1,13 @@
 #include "host/cli/identity.h"
 
 #include "host/report/hash.h"
-#include "host/report/render_report.h"
+#include "host/report/provenance.h"
 
 #include "pixel_sources.h"
 
 #include <fmt/format.h>
 
-#include <span>
-
 namespace hyalite {
-
-namespace {
-
-template <class Record> std::uint64_t chain(const std::vector<Record> &records, std::uint64_t hash) {
-    return hash64(std::as_bytes(std::span(records)), hash);
-}
-
-/// Trees put triangles into different orders, which changes no pixel: so the sum of a hash for each.
-std::uint64_t hashTriangles(const PackedScene &scene) {
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        layout::TriangleRecord triangle = scene.triangles[i];
-        triangle.flags &= ~layout::triangleEndsLeaf;
-        sum += hash64(std::as_bytes(std::span(&scene.normals[i], 1)),
-                      hash64(std::as_bytes(std::span(&triangle, 1))));
-    }
-    return sum;
-}
-
-std::uint64_t hashScene(const PackedScene &scene) {
-    layout::FrameRecord frame = scene.frame;
-    frame.seed = frame.maxDepth = frame.imageWidth = frame.imageHeight = 0; // which have names of their own
-    std::uint64_t hash = hash64(std::as_bytes(std::span(&frame, 1)));
-    hash = chain(scene.spheres, hash);
-    hash = chain(scene.lights, hash);
-    hash = chain(scene.materials, hash);
-    const std::uint64_t triangles = hashTriangles(scene);
-    return hash64(std::as_bytes(std::span(&triangles, 1)), hash);
-}
-
-} // namespace
 
 RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend) {
     RenderIdentity identity;
@@ -52,7 +19,7 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend) {
     for (const auto &[name, value] : settings.items())
         if (name != "spp" && name != "bvh" && name != "leafSize" && name != "exposure")
             identity.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
-    identity.emplace_back("scene and camera", fmt::format("{:016x}", hashScene(scene.packed)));
+    identity.emplace_back("scene and camera", hashText(scene.packed.contentHash()));
     identity.emplace_back("precision", backend.precision());
     identity.emplace_back("kernels of this program", pixelSources);
     return identity;

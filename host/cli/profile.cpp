@@ -113,8 +113,13 @@ Film renderFrame(Backend &backend, const PreparedScene &scene, const std::string
     return std::move(result.film);
 }
 
-std::vector<std::byte> pngOf(const Image &image, double exposureStops) {
-    return encodePng(image.width(), image.height(), toneMap(image, exposureStops));
+std::vector<Attribute> originOf(const Profile &profile) {
+    return attributesOf(provenanceToJson(profile.origin, profile.device));
+}
+
+std::vector<std::byte> pngOf(const Image &image, const Profile &profile) {
+    return encodePng(image.width(), image.height(), toneMap(image, profile.origin.settings.exposureStops),
+                     originOf(profile));
 }
 
 RayCounts raysOf(const Frame &frame) {
@@ -149,7 +154,8 @@ std::optional<std::string> verify(Backend &backend, const PreparedScene &scene, 
 }
 
 /// Loads the scene and opens the device, and writes both down.
-PreparedScene prepare(const ProfileOptions &options, std::unique_ptr<Backend> &backend, Profile &profile) {
+PreparedScene prepare(const ProfileOptions &options, const std::string &commandLine,
+                      std::unique_ptr<Backend> &backend, Profile &profile) {
     Stopwatch watch;
     PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
     const Span prepared = watch.lap();
@@ -161,21 +167,16 @@ PreparedScene prepare(const ProfileOptions &options, std::unique_ptr<Backend> &b
     watch = {};
     backend = openBackend(options.device, options.threads, batchingFor(options.kernel));
     profile.hostStages.push_back({"open the device", watch.lap()});
-    profile.scene = scene.loaded.file.string();
-    profile.deviceName = backend->name();
-    profile.deviceDriver = backend->driver();
-    profile.arithmetic = backend->arithmetic();
-    profile.width = scene.crop.width();
-    profile.height = scene.crop.height();
-    profile.settings = scene.loaded.scene.settings;
-    profile.triangleCount = scene.packed.triangles.size();
+    profile.origin = provenanceOf(scene, commandLine);
+    profile.device = backend->identity();
     profile.sceneBytes = scene.packed.sizeBytes();
     return scene;
 }
 
 void printHead(const Profile &profile, const Backend &backend) {
-    fmt::print("scene        {}: {}x{}, {} spp, {}, {} of scene data\n", profile.scene, profile.width,
-               profile.height, profile.settings.samplesPerPixel, countText(profile.triangleCount, "triangle"),
+    const Provenance &origin = profile.origin;
+    fmt::print("scene        {}: {}x{}, {} spp, {}, {} of scene data\n", origin.scene, origin.width,
+               origin.height, origin.settings.samplesPerPixel, countText(origin.triangleCount, "triangle"),
                sizeText(profile.sceneBytes));
     fmt::print("device       {}\n", backend.description());
 }
@@ -201,13 +202,12 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
         baseline = readFigures(options.baseline);
     Outputs outputs(options);
     Profile profile;
-    profile.commandLine = commandLine;
     std::unique_ptr<Backend> backend;
-    const PreparedScene scene = prepare(options, backend, profile);
+    const PreparedScene scene = prepare(options, commandLine, backend, profile);
     if (outputs.image && format == ImageFormat::Png)
-        requirePngSize(options.output, profile.width, profile.height);
+        requirePngSize(options.output, profile.origin.width, profile.origin.height);
     if (outputs.html)
-        requirePngSize(options.html, profile.width, profile.height);
+        requirePngSize(options.html, profile.origin.width, profile.origin.height);
     if (baseline)
         requireSameJob(*baseline, profile);
     printHead(profile, *backend);
@@ -239,7 +239,10 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     }
     if (outputs.image) {
         Stopwatch watch;
-        writeImage(*outputs.image, format, film->toImage(), profile.settings.exposureStops);
+        const Image image = film->toImage();
+        Picture picture(image);
+        picture.attributes = originOf(profile);
+        writeImage(*outputs.image, format, picture, profile.origin.settings.exposureStops);
         outputs.image->commit();
         profile.hostStages.push_back({"write", watch.lap()});
     }
@@ -248,7 +251,7 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     store(outputs.csv, profileCsv(profile));
     store(outputs.trace, jsonText(profileToTrace(profile)));
     if (outputs.html)
-        store(outputs.html, profileHtml(profile, pngOf(film->toImage(), profile.settings.exposureStops)));
+        store(outputs.html, profileHtml(profile, pngOf(film->toImage(), profile)));
     if (!baseline)
         return ExitCode::Ok;
     const Gate gate = options.gate.value_or(Gate::All);

@@ -10,7 +10,6 @@
 #include "host/report/quantities.h"
 #include "host/report/render_report.h"
 #include "host/scene/assets.h"
-#include "host/version.h"
 
 #include <fmt/format.h>
 
@@ -55,9 +54,9 @@ double secondsSince(Clock::time_point start) {
 /// What there is of an image that is not complete, and where it is.
 void tellWhatIsFinished(const RenderReport &report) {
     const std::uint64_t pixelCount =
-        static_cast<std::uint64_t>(report.width) * static_cast<std::uint64_t>(report.height);
+        static_cast<std::uint64_t>(report.origin.width) * static_cast<std::uint64_t>(report.origin.height);
     const double sampleShare = static_cast<double>(report.finished.sampleCount) /
-                               static_cast<double>(pixelCount) / report.settings.samplesPerPixel;
+                               static_cast<double>(pixelCount) / report.origin.settings.samplesPerPixel;
     // Rounded down: what is not complete is never 100 %.
     printMessage("stopped by {}: {} of {} pixels are finished, {:.1f} % of the samples; {} has them\n",
                  report.stoppedBy, report.finished.pixelCount, pixelCount,
@@ -70,8 +69,8 @@ void tellSpeed(const RenderReport &report) {
     const double megaraysPerSecond =
         rayCount > 0 ? static_cast<double>(rayCount) / 1e6 / report.timing.renderSeconds : 0.0;
     fmt::print("{}: {}x{}, {}{} spp, {}{} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
-               report.width, report.height, report.finished.isComplete ? "" : "up to ",
-               report.settings.samplesPerPixel, report.resumed ? "resumed, " : "",
+               report.origin.width, report.origin.height, report.finished.isComplete ? "" : "up to ",
+               report.origin.settings.samplesPerPixel, report.resumed ? "resumed, " : "",
                roundedText(rayCount, "rays"), report.timing.renderSeconds, megaraysPerSecond,
                megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
 }
@@ -108,16 +107,14 @@ RayCounts sumOf(RayCounts a, const RayCounts &b) {
 }
 
 void writeResult(AtomicFile &file, ImageFormat format, ToneCurve tone, const Film &film,
-                 const PreparedScene &scene, const std::string &commandLine) {
+                 const PreparedScene &scene, const RenderReport &report) {
     const Image image = film.toImage();
     Picture picture(image);
     picture.wholeWidth = scene.loaded.scene.camera.width;
     picture.wholeHeight = scene.loaded.scene.camera.height;
     picture.crop = film.crop;
     picture.layers = filmLayers(film);
-    picture.attributes = {{"software", "hyalite " HYALITE_VERSION},
-                          {"commandLine", commandLine},
-                          {"scene", scene.loaded.file.string()}};
+    picture.attributes = attributesOf(provenanceToJson(report.origin, report.device));
     writeImage(file, format, picture, scene.loaded.scene.settings.exposureStops, tone);
 }
 
@@ -153,20 +150,13 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     requireFilmMemory(scene.crop, options.checkpoint.empty() && !options.partialSeconds ? 1 : 2);
     const RenderSettings &settings = scene.loaded.scene.settings;
     RenderReport report;
-    report.commandLine = commandLine;
-    report.scene = scene.loaded.file.string();
+    report.origin = provenanceOf(scene, commandLine);
     report.output = options.output;
-    report.width = scene.crop.width();
-    report.height = scene.crop.height();
-    report.settings = settings;
-    report.triangleCount = scene.packed.triangles.size();
     report.loadSeconds = scene.loadSeconds;
     report.buildSeconds = scene.buildSeconds;
 
     const std::unique_ptr<Backend> backend = opening.get();
-    report.deviceName = backend->name();
-    report.deviceDriver = backend->driver();
-    report.arithmetic = backend->arithmetic();
+    report.device = backend->identity();
     // Until all is written: at the last moment, most would be lost.
     const CaughtSignals signals(options.isQuiet);
     if (!options.isQuiet) {
@@ -200,7 +190,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     if (options.partialSeconds)
         periodicFiles.push_back({*options.partialSeconds, [&](const Film &film, const RayCounts &) {
                                      AtomicFile partial(options.output);
-                                     writeResult(partial, format, tone, film, scene, commandLine);
+                                     writeResult(partial, format, tone, film, scene, report);
                                      partial.commit();
                                  }});
     PeriodicFiles snapshots(scene.crop, std::move(periodicFiles));
@@ -232,7 +222,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
             checkpointFailure.emplace(error);
         }
     }
-    writeResult(image, format, tone, result.film, scene, commandLine);
+    writeResult(image, format, tone, result.film, scene, report);
     image.commit();
     report.writeSeconds = secondsSince(writeStart);
     report.totalSeconds = secondsSince(start);

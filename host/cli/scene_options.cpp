@@ -182,4 +182,16 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     return prepared;
 }
 
+Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine) {
+    Provenance origin;
+    origin.commandLine = commandLine;
+    origin.scene = scene.loaded.file.string();
+    origin.sceneHash = scene.packed.contentHash();
+    origin.triangleCount = scene.packed.triangles.size();
+    origin.width = scene.crop.width();
+    origin.height = scene.crop.height();
+    origin.settings = scene.loaded.scene.settings;
+    return origin;
+}
+
 } // namespace hyalite

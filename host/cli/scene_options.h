@@ -4,6 +4,7 @@
 #include "host/bvh/bvh.h"
 #include "host/bvh/packed_scene.h"
 #include "host/image/film.h"
+#include "host/report/provenance.h"
 #include "host/scene/scene_json.h"
 
 #include <CLI/CLI.hpp>
@@ -57,5 +58,8 @@ struct PreparedScene {
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for options that do not go
 /// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet);
+
+/// What reports say of it.
+[[nodiscard]] Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine);
 
 } // namespace hyalite

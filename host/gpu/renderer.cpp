@@ -1,6 +1,7 @@
 #include "host/gpu/renderer.h"
 
 #include "host/gpu/tile_renderer.h"
+#include "host/report/hash.h"
 
 #include <algorithm>
 #include <string>
@@ -46,6 +47,10 @@ Renderer::Renderer(Renderer &&) noexcept = default;
 Renderer &Renderer::operator=(Renderer &&) noexcept = default;
 
 const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
+
+std::string_view Renderer::kernelName() const { return gpu::kernelName(state_->batching); }
+
+std::uint64_t Renderer::kernelHash() const { return hashBytes(std::as_bytes(kernelWords(state_->batching))); }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                         const std::function<void(double)> &onProgress, Timeline *timeline,

@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace hyalite::gpu {
@@ -33,6 +34,10 @@ class Renderer {
 
     /// Which / and sqrt the kernels run.
     [[nodiscard]] const ArithmeticChoice &arithmetic() const;
+
+    /// The word for the kernel that renders, and a hash of its SPIR-V.
+    [[nodiscard]] std::string_view kernelName() const;
+    [[nodiscard]] std::uint64_t kernelHash() const;
 
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
     /// dispatch, and `timeline`, where there is one, what was done when. `shouldStop` is asked after each dispatch:

@@ -107,9 +107,9 @@ class Reader {
         Checkpoint checkpoint{Film({header.x0, header.x1, header.y0, header.y1}),
                               {header.rays[0], header.rays[1], header.rays[2], header.rays[3]}};
         readPiece(std::as_writable_bytes(std::span(checkpoint.film.pixels)));
-        std::uint64_t hash = hash64(head);
-        hash = hash64(std::as_bytes(std::span(identityThere)), hash);
-        hash = hash64(std::as_bytes(std::span(checkpoint.film.pixels)), hash);
+        std::uint64_t hash = hashBytes(head);
+        hash = hashBytes(std::as_bytes(std::span(identityThere)), hash);
+        hash = hashBytes(std::as_bytes(std::span(checkpoint.film.pixels)), hash);
         std::uint64_t expected = 0;
         readPiece(std::as_writable_bytes(std::span(&expected, 1)));
         if (hash != expected)
@@ -195,9 +195,9 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays) {
                         {rays.primary, rays.shadow, rays.reflection, rays.refraction}};
     std::string head(magic);
     head.append(reinterpret_cast<const char *>(&header), sizeof header);
-    std::uint64_t hash = hash64(std::as_bytes(std::span(head)));
-    hash = hash64(std::as_bytes(std::span(identity)), hash);
-    hash = hash64(std::as_bytes(std::span(film.pixels)), hash);
+    std::uint64_t hash = hashBytes(std::as_bytes(std::span(head)));
+    hash = hashBytes(std::as_bytes(std::span(identity)), hash);
+    hash = hashBytes(std::as_bytes(std::span(film.pixels)), hash);
 
     AtomicFile file(path_);
     file.write(head);

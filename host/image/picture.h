@@ -1,13 +1,13 @@
 // All that an image file can hold of a render: colours, what is known beside them, and where they come from.
 #pragma once
 
+#include "host/image/attribute.h"
 #include "host/image/film.h"
 #include "host/image/image.h"
 
 #include <functional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hyalite {
@@ -31,8 +31,7 @@ struct Picture {
     int wholeHeight;
     Crop crop; ///< of the size of `colour`
     std::vector<Layer> layers;
-    std::vector<std::pair<std::string, std::string>>
-        attributes; ///< names and texts: what made the picture, from what
+    std::vector<Attribute> attributes; ///< what made the picture, from what
 };
 
 /// The film as layers: "variance" RGB, of the mean of the samples, see varianceOfMean(), unless no pixel has one; and

@@ -3,14 +3,16 @@
 #include "host/error.h"
 #include "host/image/image_file.h"
 #include "host/image/png_chunks.h"
+#include "host/image/png_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <exception>
 #include <memory>
+#include <new>
+#include <optional>
 #include <vector>
 
 // stb is written in C's manner; its warnings are its own.
@@ -36,20 +38,34 @@ namespace hyalite {
 
 namespace {
 
-/// What the C callback needs; an exception must not pass through stb's frames, which would leak.
-struct WriteContext {
-    AtomicFile &file;
-    std::exception_ptr failure;
-};
-
-void writeBytes(void *context, void *data, int sizeBytes) {
-    auto &target = *static_cast<WriteContext *>(context);
+/// stb's callback: it packs the whole file, and then calls this. An exception must not pass through its frames.
+void appendBytes(void *context, void *data, int sizeBytes) {
+    auto &file = *static_cast<std::optional<std::vector<std::byte>> *>(context);
+    const auto *begin = static_cast<const std::byte *>(data);
     try {
-        target.file.write(
-            std::span(static_cast<const std::byte *>(data), static_cast<std::size_t>(sizeBytes)));
-    } catch (...) {
-        target.failure = std::current_exception();
+        file.emplace(begin, begin + sizeBytes);
+    } catch (const std::bad_alloc &) {
+        file.reset();
     }
+}
+
+/// `name` is for messages.
+std::vector<std::byte> encode(const std::filesystem::path &name, int width, int height,
+                              std::span<const std::uint8_t> rgb, std::span<const Attribute> attributes) {
+    assert(width > 0 && height > 0);
+    assert(rgb.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    requirePngSize(name, width, height);
+    // Rendered pictures have large plain parts: unfiltered rows pack twice as fast, and about as small.
+    stbi_write_force_png_filter = 0;
+    stbi_write_png_compression_level = 5;
+    std::optional<std::vector<std::byte>> file;
+    const int written = stbi_write_png_to_func(appendBytes, &file, width, height, 3, rgb.data(), width * 3);
+    if (written == 0 || !file) {
+        throw Error(ExitCode::LimitExceeded, fmt::format("'{}': no memory to pack a PNG of {} x {} pixels",
+                                                         name.string(), width, height));
+    }
+    insertTexts(*file, attributes);
+    return std::move(*file);
 }
 
 struct StbFree {
@@ -116,37 +132,14 @@ void requirePngSize(const std::filesystem::path &name, int width, int height) {
     }
 }
 
-void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb) {
-    assert(width > 0 && height > 0);
-    assert(rgb.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    requirePngSize(file.path(), width, height);
-    // Rendered pictures have large plain parts: unfiltered rows pack twice as fast, and about as small.
-    stbi_write_force_png_filter = 0;
-    stbi_write_png_compression_level = 5;
-    WriteContext context{file, nullptr};
-    const int written = stbi_write_png_to_func(writeBytes, &context, width, height, 3, rgb.data(), width * 3);
-    if (context.failure) {
-        std::rethrow_exception(context.failure);
-    }
-    if (written == 0) {
-        throw Error(ExitCode::LimitExceeded, fmt::format("'{}': no memory to pack a PNG of {} x {} pixels",
-                                                         file.path().string(), width, height));
-    }
+void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb,
+              std::span<const Attribute> attributes) {
+    file.write(encode(file.path(), width, height, rgb, attributes));
 }
 
-std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb) {
-    assert(rgb.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    requirePngSize("the image", width, height);
-    std::vector<std::byte> bytes;
-    const auto append = [](void *context, void *data, int size) {
-        const auto *begin = static_cast<const std::byte *>(data);
-        auto &all = *static_cast<std::vector<std::byte> *>(context);
-        all.insert(all.end(), begin, begin + size);
-    };
-    if (stbi_write_png_to_func(append, &bytes, width, height, 3, rgb.data(), width * 3) == 0)
-        throw Error(ExitCode::LimitExceeded,
-                    fmt::format("no memory to pack a PNG of {} x {} pixels", width, height));
-    return bytes;
+std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb,
+                                 std::span<const Attribute> attributes) {
+    return encode("the image", width, height, rgb, attributes);
 }
 
 Image readPng(const InputFile &file) {

@@ -1,6 +1,7 @@
 // PNG files, through stb_image and stb_image_write.
 #pragma once
 
+#include "host/image/attribute.h"
 #include "host/image/image.h"
 #include "host/input_file.h"
 #include "host/report/atomic_file.h"
@@ -19,12 +20,15 @@ namespace hyalite {
 /// Throws Error{LimitExceeded} where a PNG of that size has more than imagePixelCountMax pixels. `name` is for the message.
 void requirePngSize(const std::filesystem::path &name, int width, int height);
 
-/// Writes 8-bit RGB: three bytes a pixel, row by row from the top left. Throws Error{LimitExceeded} where the image
-/// has more than imagePixelCountMax pixels, or memory is short, and Error{OutputNotWritten}.
-void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb);
+/// Writes 8-bit RGB: three bytes a pixel, row by row from the top left; and `attributes` as text. Throws
+/// Error{LimitExceeded} where the image has more than imagePixelCountMax pixels, or memory is short, and
+/// Error{OutputNotWritten}.
+void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb,
+              std::span<const Attribute> attributes = {});
 
 /// The bytes of such a file. Throws Error{LimitExceeded} likewise.
-[[nodiscard]] std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb);
+[[nodiscard]] std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb,
+                                               std::span<const Attribute> attributes = {});
 
 /// Reads every kind of PNG (1 to 16 bits, grey, RGB, palette, interlaced) as display-encoded values in [0, 1]: level /
 /// 255, or / 65535 for 16 bits. Alpha is dropped and the colours stay as stored; colour profiles and gamma chunks are

@@ -63,16 +63,6 @@ std::uint32_t crc32(std::span<const std::byte> bytes) {
     return crc ^ 0xffffffffu;
 }
 
-void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<const std::byte> data) {
-    appendBigEndian32(file, static_cast<std::uint32_t>(data.size()));
-    const std::size_t begin = file.size();
-    for (const char c : type) {
-        file.push_back(static_cast<std::byte>(c));
-    }
-    file.insert(file.end(), data.begin(), data.end());
-    appendBigEndian32(file, crc32(std::span(file).subspan(begin)));
-}
-
 bool isLegalDepth(int colourType, int bitDepth) {
     switch (colourType) {
     case grey:
@@ -327,6 +317,16 @@ class ChunkReader {
 };
 
 } // namespace
+
+void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<const std::byte> data) {
+    appendBigEndian32(file, static_cast<std::uint32_t>(data.size()));
+    const std::size_t begin = file.size();
+    for (const char c : type) {
+        file.push_back(static_cast<std::byte>(c));
+    }
+    file.insert(file.end(), data.begin(), data.end());
+    appendBigEndian32(file, crc32(std::span(file).subspan(begin)));
+}
 
 PngChunks readPngChunks(const InputFile &file) { return ChunkReader(file).read(); }
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace hyalite {
@@ -28,6 +29,9 @@ struct PngChunks {
         return std::span(minimal).subspan(compressedOffset, compressedBytes);
     }
 };
+
+/// Appends a chunk with its length and its checksum. `type` has four letters.
+void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<const std::byte> data);
 
 /// Throws Error{BadInput}, or Error{LimitExceeded} where the pixels are packed so densely that they would take more
 /// memory than 48 MiB and 64 times the file's size.

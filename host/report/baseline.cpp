@@ -130,8 +130,8 @@ ProfileFigures readFigures(const std::filesystem::path &file) {
 }
 
 void requireSameJob(const ProfileFigures &baseline, const Profile &profile) {
-    const std::string job =
-        jobText(profile.scene, profile.width, profile.height, Json(settingsToJson(profile.settings)));
+    const std::string job = jobText(profile.origin.scene, profile.origin.width, profile.origin.height,
+                                    Json(settingsToJson(profile.origin.settings)));
     if (baseline.job != job)
         throw Error(ExitCode::BadInput,
                     fmt::format("the baseline is of another job: it measured\n  {}\nand this is\n  {}",

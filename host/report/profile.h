@@ -1,10 +1,10 @@
 // What `hyalite profile` has measured, and what it comes to for each stage and kernel.
 #pragma once
 
+#include "host/report/provenance.h"
 #include "host/report/statistics.h"
 #include "host/report/timeline.h"
 #include "host/report/work_counts.h"
-#include "host/scene/scene.h"
 
 #include <cstdint>
 #include <optional>
@@ -22,17 +22,10 @@ struct Frame {
 };
 
 struct Profile {
-    std::string commandLine;
-    std::string scene; ///< path of the file
-    std::string deviceName;
-    std::string deviceDriver;
-    std::string arithmetic;   ///< which / and sqrt ran
+    Provenance origin;
+    RendererIdentity device;
     std::string verification; ///< against what, or why not
     bool isVerified = false;
-    int width = 0; ///< of the film, pixels
-    int height = 0;
-    RenderSettings settings;
-    std::size_t triangleCount = 0;
     std::optional<WorkCounts> work;      ///< of a frame; nothing where nobody asked
     std::uint64_t sceneBytes = 0;        ///< of the scene's arrays
     std::vector<StageRecord> hostStages; ///< outside of frames: load, build, open, write

@@ -1,5 +1,7 @@
 #include "host/report/profile_html.h"
 
+#include "host/report/clean_text.h"
+#include "host/report/hash.h"
 #include "host/report/quantities.h"
 #include "host/scene/names.h"
 #include "host/version.h"
@@ -139,22 +141,27 @@ std::string rayTable(const std::vector<KernelSummary> &kernels) {
 }
 
 std::string provenance(const Profile &profile) {
-    const RenderSettings &settings = profile.settings;
+    const Provenance &origin = profile.origin;
+    const RenderSettings &settings = origin.settings;
     std::string html = "<dl class=\"card\">\n";
     const auto add = [&](const char *term, const std::string &text) {
         html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, htmlText(text));
     };
-    html += fmt::format("<dt>Command line</dt><dd><code>{}</code></dd>\n", htmlText(profile.commandLine));
+    html += fmt::format("<dt>Command line</dt><dd><code>{}</code></dd>\n", htmlText(origin.commandLine));
     add("Program", "hyalite " HYALITE_VERSION);
-    add("Scene", fmt::format("{}, {}, {}", profile.scene, countText(profile.triangleCount, "triangle"),
+    add("Scene", fmt::format("{}, {}, {}", origin.scene, countText(origin.triangleCount, "triangle"),
                              sizeText(profile.sceneBytes)));
+    add("Scene's hash", hashText(origin.sceneHash));
     add("Settings",
-        fmt::format("{} by {}, {} spp, depth {}, tree {}, leaves of {}, sampler {}, seed {}", profile.width,
-                    profile.height, settings.samplesPerPixel, settings.maxDepth, nameOf(settings.tree),
+        fmt::format("{} by {}, {} spp, depth {}, tree {}, leaves of {}, sampler {}, seed {}", origin.width,
+                    origin.height, settings.samplesPerPixel, settings.maxDepth, nameOf(settings.tree),
                     settings.leafSize, nameOf(settings.sampler), settings.seed));
-    add("Device", profile.deviceName);
-    add("Driver", profile.deviceDriver);
-    add("Arithmetic", profile.arithmetic);
+    add("Device", profile.device.name);
+    add("Driver", profile.device.driver);
+    if (!profile.device.kernel.empty())
+        add("SPIR-V",
+            fmt::format("{} of kernel {}", hashText(profile.device.kernelHash), profile.device.kernel));
+    add("Arithmetic", profile.device.arithmetic);
     add("Clock", profile.frames.back().timeline.clock);
     add("Verified", profile.verification);
     return html + "</dl>\n";
@@ -164,7 +171,7 @@ std::string provenance(const Profile &profile) {
 
 std::string htmlText(std::string_view text) {
     std::string escaped;
-    for (const char letter : text) {
+    for (const char letter : cleanText(text)) {
         switch (letter) {
         case '&':
             escaped += "&amp;";
@@ -203,7 +210,8 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png) 
     const std::vector<StageSummary> stages = summariseStages(profile);
     const std::vector<KernelSummary> kernels = summariseKernels(profile);
     const StageSummary frame = summariseFrame(profile);
-    const std::string sceneName = std::filesystem::path(profile.scene).filename().string();
+    const Provenance &origin = profile.origin;
+    const std::string sceneName = std::filesystem::path(origin.scene).filename().string();
     RayCounts rays;
     double kernelSeconds = 0.0;
     std::size_t launchCount = 0;
@@ -217,16 +225,16 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png) 
         fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                     "<title>{} on {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-                    htmlText(sceneName), htmlText(profile.deviceName), style);
+                    htmlText(sceneName), htmlText(profile.device.name), style);
     html += fmt::format("<h1>{} on {}</h1>\n<p>{} by {} pixels, {}; {}</p>\n", htmlText(sceneName),
-                        htmlText(profile.deviceName), profile.width, profile.height,
-                        countText(static_cast<std::uint64_t>(profile.settings.samplesPerPixel), "sample") +
+                        htmlText(profile.device.name), origin.width, origin.height,
+                        countText(static_cast<std::uint64_t>(origin.settings.samplesPerPixel), "sample") +
                             " per pixel",
                         htmlText(profile.verification));
     html += fmt::format(
         "<div class=\"top\">\n<img alt=\"The image that was rendered\" width=\"{}\" height=\"{}\" "
         "src=\"data:image/png;base64,{}\">\n<div class=\"figures\">\n",
-        profile.width, profile.height, base64(png));
+        origin.width, origin.height, base64(png));
     html += figure(millisText(frame.launch.median) + " ms",
                    fmt::format("a frame, median of {}", frame.launch.count));
     html += figure(fmt::format("{:.2f} Mray/s", kernelSeconds > 0.0

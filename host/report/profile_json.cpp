@@ -1,7 +1,6 @@
 #include "host/report/profile_json.h"
 
 #include "host/report/render_report.h"
-#include "host/version.h"
 
 namespace hyalite {
 
@@ -41,17 +40,8 @@ nlohmann::ordered_json kernelToJson(const KernelSummary &kernel) {
 nlohmann::ordered_json profileToJson(const Profile &profile) {
     const std::vector<KernelSummary> kernels = summariseKernels(profile);
     const std::vector<double> frames = frameMillis(profile);
-    nlohmann::ordered_json json;
-    json["program"] = "hyalite " HYALITE_VERSION;
-    json["commandLine"] = profile.commandLine;
-    json["scene"] = profile.scene;
-    json["device"] = {{"name", profile.deviceName},
-                      {"driver", profile.deviceDriver},
-                      {"arithmetic", profile.arithmetic},
-                      {"clock", profile.frames.back().timeline.clock}};
-    json["image"] = {{"width", profile.width}, {"height", profile.height}};
-    json["settings"] = settingsToJson(profile.settings);
-    json["triangles"] = profile.triangleCount;
+    nlohmann::ordered_json json = provenanceToJson(profile.origin, profile.device);
+    json["device"]["clock"] = profile.frames.back().timeline.clock;
     json["sceneBytes"] = profile.sceneBytes;
     if (const std::uint64_t bytes = mostDeviceBytes(profile); bytes > 0)
         json["deviceBytes"] = bytes;

@@ -1,21 +1,8 @@
 #include "host/report/render_report.h"
 
 #include "host/report/json_text.h"
-#include "host/scene/names.h"
-#include "host/version.h"
 
 namespace hyalite {
-
-nlohmann::ordered_json settingsToJson(const RenderSettings &settings) {
-    return {{"integrator", nameOf(settings.integrator)},
-            {"spp", settings.samplesPerPixel},
-            {"maxDepth", settings.maxDepth},
-            {"bvh", nameOf(settings.tree)},
-            {"leafSize", settings.leafSize},
-            {"sampler", nameOf(settings.sampler)},
-            {"seed", settings.seed},
-            {"exposure", settings.exposureStops}};
-}
 
 nlohmann::ordered_json raysToJson(const RayCounts &rays) {
     nlohmann::ordered_json json;
@@ -36,16 +23,8 @@ FinishedWork finishedWork(const Film &film, int samplesPerPixel) {
 }
 
 std::string formatReport(const RenderReport &report) {
-    nlohmann::ordered_json json;
-    json["program"] = "hyalite " HYALITE_VERSION;
-    json["commandLine"] = report.commandLine;
-    json["scene"] = report.scene;
+    nlohmann::ordered_json json = provenanceToJson(report.origin, report.device);
     json["output"] = report.output;
-    json["device"] = {
-        {"name", report.deviceName}, {"driver", report.deviceDriver}, {"arithmetic", report.arithmetic}};
-    json["image"] = {{"width", report.width}, {"height", report.height}};
-    json["settings"] = settingsToJson(report.settings);
-    json["triangles"] = report.triangleCount;
     nlohmann::ordered_json &finished = json["finished"];
     finished = {{"isComplete", report.finished.isComplete},
                 {"pixels", report.finished.pixelCount},

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "host/image/film.h"
+#include "host/report/provenance.h"
 #include "host/report/ray_counts.h"
 #include "host/report/render_timing.h"
-#include "host/scene/scene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -32,16 +32,9 @@ struct ResumedWork {
 };
 
 struct RenderReport {
-    std::string commandLine;
-    std::string scene; ///< path of the file
+    Provenance origin;
+    RendererIdentity device;
     std::string output;
-    std::string deviceName;
-    std::string deviceDriver;
-    std::string arithmetic; ///< which / and sqrt ran
-    int width = 0;          ///< of the output, pixels
-    int height = 0;
-    RenderSettings settings;
-    std::size_t triangleCount = 0;
     FinishedWork finished;
     std::string stoppedBy; ///< what ended the render before all was finished; empty: nothing did
     std::optional<ResumedWork> resumed;
@@ -54,7 +47,6 @@ struct RenderReport {
 };
 
 /// As all reports write them.
-[[nodiscard]] nlohmann::ordered_json settingsToJson(const RenderSettings &settings);
 [[nodiscard]] nlohmann::ordered_json raysToJson(const RayCounts &rays);
 
 [[nodiscard]] std::string formatReport(const RenderReport &report);

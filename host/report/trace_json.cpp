@@ -133,7 +133,7 @@ Json profileToTrace(const Profile &profile) {
     const std::string &clock = profile.frames.back().timeline.clock;
     TraceEvents events(beginOf(profile));
     events.nameTrack(Track::Host, "hyalite", "host");
-    events.nameTrack(Track::Device, profile.deviceName, "kernels, by " + clock);
+    events.nameTrack(Track::Device, profile.device.name, "kernels, by " + clock);
     for (const StageRecord &stage : profile.hostStages)
         events.addSlice(Track::Host, "stage", stage.name, stage.span);
     for (const Frame &frame : profile.frames)
@@ -142,10 +142,10 @@ Json profileToTrace(const Profile &profile) {
             {"displayTimeUnit", "ms"},
             {"otherData",
              {{"program", "hyalite " HYALITE_VERSION},
-              {"commandLine", profile.commandLine},
-              {"scene", profile.scene},
-              {"device", profile.deviceName},
-              {"driver", profile.deviceDriver},
+              {"commandLine", profile.origin.commandLine},
+              {"scene", profile.origin.scene},
+              {"device", profile.device.name},
+              {"driver", profile.device.driver},
               {"clock", clock}}}};
 }
 

@@ -33,13 +33,16 @@ std::set<std::string> keysOf(const nlohmann::json &object) {
 TEST_F(RenderReport, HasAllItsKeys) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
         const nlohmann::json report = renderReport("sheet.json" + small + " --device " + device);
-        EXPECT_EQ(keysOf(report), (std::set<std::string>{"program", "commandLine", "scene", "output",
-                                                         "device", "image", "settings", "triangles",
+        EXPECT_EQ(keysOf(report), (std::set<std::string>{"program", "commandLine", "scene", "sceneHash",
+                                                         "output", "device", "image", "settings", "triangles",
                                                          "finished", "resumed", "rays", "dispatches",
                                                          "seconds"}));
         EXPECT_EQ(keysOf(report.at("finished")),
                   (std::set<std::string>{"isComplete", "pixels", "samples", "stoppedBy"}));
-        EXPECT_EQ(keysOf(report.at("device")), (std::set<std::string>{"name", "driver", "arithmetic"}));
+        std::set<std::string> ofDevice{"name", "driver", "arithmetic"};
+        if (device != "cpu")
+            ofDevice.insert("kernel");
+        EXPECT_EQ(keysOf(report.at("device")), ofDevice);
         EXPECT_EQ(keysOf(report.at("image")), (std::set<std::string>{"width", "height"}));
         EXPECT_EQ(keysOf(report.at("settings")),
                   (std::set<std::string>{"integrator", "spp", "maxDepth", "bvh", "leafSize", "sampler",
@@ -63,6 +66,84 @@ TEST_F(RenderReport, SaysWhatWasAsked) {
     EXPECT_EQ(report.at("finished"),
               (nlohmann::json{
                   {"isComplete", true}, {"pixels", 5 * 4}, {"samples", 5 * 4 * 2}, {"stoppedBy", nullptr}}));
+}
+
+/// The text with a keyword in a PNG.
+std::string textOf(const std::string &png, const std::string &keyword) {
+    const std::string begin = "iTXt" + keyword + std::string(5, '\0');
+    const std::size_t at = png.find(begin);
+    if (at == std::string::npos)
+        return "no " + keyword;
+    std::size_t sizeBytes = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        sizeBytes = sizeBytes << 8 | static_cast<unsigned char>(png[at - 4 + i]);
+    return png.substr(at + begin.size(), sizeBytes + 4 - begin.size());
+}
+
+TEST_F(RenderReport, APictureSaysWhatTheReportSays) {
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        ASSERT_EQ(
+            run("render sheet.json -o a.png --report a.json --seed 7 --device " + device + small).exitCode,
+            0);
+        const nlohmann::json report = nlohmann::json::parse(load("a.json"));
+        const std::string png = load("a.png");
+        EXPECT_EQ(textOf(png, "Software"), report.at("program"));
+        EXPECT_EQ(textOf(png, "settings.seed"), "7");
+        EXPECT_EQ(textOf(png, "settings.spp"), "2");
+        for (const char *key : {"commandLine", "scene", "sceneHash"})
+            EXPECT_EQ(textOf(png, key), report.at(key)) << key;
+        for (const char *key : {"name", "driver", "arithmetic"})
+            EXPECT_EQ(textOf(png, std::string("device.") + key), report.at("device").at(key)) << key;
+        if (device != "cpu") {
+            EXPECT_EQ(textOf(png, "device.kernel.spirvHash"),
+                      report.at("device").at("kernel").at("spirvHash"));
+        }
+    }
+}
+
+TEST_F(RenderReport, EveryCommandSaysWhereItsFilesComeFrom) {
+    const nlohmann::json wanted = renderReport("sheet.json" + small + " --device " + softwareDevice());
+    ASSERT_EQ(
+        run("compare sheet.json --diff e.png --report compare.json --device " + softwareDevice() + small)
+            .exitCode,
+        0);
+    ASSERT_EQ(run("profile sheet.json --repeat 1 --no-verify -o p.png --report profile.json --device " +
+                  softwareDevice() + small)
+                  .exitCode,
+              0);
+    ASSERT_EQ(run("diff p.png p.png --diff d.png --report diff.json").exitCode, 0);
+    const nlohmann::json compare = nlohmann::json::parse(load("compare.json"));
+    const nlohmann::json profile = nlohmann::json::parse(load("profile.json"));
+    const nlohmann::json diff = nlohmann::json::parse(load("diff.json"));
+    for (const char *key : {"program", "scene", "sceneHash", "triangles", "image", "settings"}) {
+        EXPECT_EQ(compare.at(key), wanted.at(key)) << key;
+        EXPECT_EQ(profile.at(key), wanted.at(key)) << key;
+    }
+    EXPECT_EQ(compare.at("first"), wanted.at("device"));
+    EXPECT_EQ(compare.at("second").at("name"), "cpu");
+    EXPECT_EQ(profile.at("device").at("kernel"), wanted.at("device").at("kernel"));
+    EXPECT_EQ(diff.at("program"), wanted.at("program"));
+    EXPECT_EQ(textOf(load("e.png"), "commandLine"), compare.at("commandLine"));
+    EXPECT_EQ(textOf(load("e.png"), "second.name"), "cpu");
+    EXPECT_EQ(textOf(load("p.png"), "commandLine"), profile.at("commandLine"));
+    EXPECT_EQ(textOf(load("d.png"), "commandLine"), diff.at("commandLine"));
+}
+
+TEST_F(RenderReport, NoNameSpoilsAPictureOrAReport) {
+    Surroundings surroundings;
+    surroundings.folder = folder;
+    const std::string name = "a\x1b[31m\xff\r\n\u0085.png";
+    ASSERT_EQ(runProgram({"render", "sheet.json", "-o", name, "--width", "4", "--height", "4", "--spp",
+                          std::string(100'000, '0') + "1", "--device", "cpu", "--report", "report.json"},
+                         surroundings)
+                  .exitCode,
+              0);
+    const nlohmann::json report = nlohmann::json::parse(load("report.json"));
+    EXPECT_TRUE(contains(report.at("commandLine"), "a\x1b[31m\uFFFD\r\n"));
+    EXPECT_EQ(report.at("settings").at("spp"), 1);
+    EXPECT_TRUE(contains(textOf(load(name), "commandLine"), "a\uFFFD[31m\uFFFD\uFFFD\n\uFFFD.png"));
+    const Outcome diff = runProgram({"diff", name, name}, surroundings);
+    EXPECT_EQ(diff.exitCode, 0) << diff;
 }
 
 TEST_F(RenderReport, CommandLineCanBePastedBack) {

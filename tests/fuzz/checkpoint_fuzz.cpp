@@ -49,9 +49,9 @@ std::string repaired(std::string_view content) {
     const auto all = std::as_bytes(std::span(bytes)).first(bytes.size() - sizeof(std::uint64_t));
     if (identityBytes > all.size() - headBytes)
         return bytes;
-    std::uint64_t hash = hash64(all.first(headBytes));
-    hash = hash64(all.subspan(headBytes, identityBytes), hash);
-    hash = hash64(all.subspan(headBytes + identityBytes), hash);
+    std::uint64_t hash = hashBytes(all.first(headBytes));
+    hash = hashBytes(all.subspan(headBytes, identityBytes), hash);
+    hash = hashBytes(all.subspan(headBytes + identityBytes), hash);
     std::memcpy(bytes.data() + all.size(), &hash, sizeof hash);
     return bytes;
 }

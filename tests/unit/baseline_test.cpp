@@ -113,7 +113,7 @@ TEST(Baseline, TheGateOfWorkIgnoresTimes) {
 
 TEST(Baseline, OfAnotherDeviceItsTimesFailNothing) {
     Profile other = handMadeProfile(times(3.0, calm));
-    other.deviceName = "another device";
+    other.device.name = "another device";
     const BaselineComparison comparison = compare(handMadeProfile(calm), other);
     EXPECT_FALSE(comparison.isSameDevice);
     EXPECT_TRUE(comparison.isPassed);
@@ -134,11 +134,11 @@ TEST(Baseline, OfAnotherJobIsRefused) {
     const ProfileFigures baseline = figuresOf(handMadeProfile(calm));
     Profile now = handMadeProfile(calm);
     EXPECT_NO_THROW(requireSameJob(baseline, now));
-    now.settings.exposureStops = 2.0;
+    now.origin.settings.exposureStops = 2.0;
     EXPECT_NO_THROW(requireSameJob(baseline, now)) << "it costs nothing";
-    now.scene = "elsewhere/a.json";
+    now.origin.scene = "elsewhere/a.json";
     EXPECT_NO_THROW(requireSameJob(baseline, now)) << "the same file elsewhere";
-    now.settings.samplesPerPixel = 5;
+    now.origin.settings.samplesPerPixel = 5;
     EXPECT_THROW(requireSameJob(baseline, now), Error);
 }
 

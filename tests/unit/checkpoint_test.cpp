@@ -88,18 +88,18 @@ TEST(Hash64, ChangesWithEveryBitAndLength) {
         bytes[i] = static_cast<std::byte>(i * 37);
     std::set<std::uint64_t> hashes;
     for (std::size_t length = 0; length <= bytes.size(); ++length)
-        hashes.insert(hash64(std::span(bytes).first(length)));
-    const std::uint64_t whole = hash64(bytes);
+        hashes.insert(hashBytes(std::span(bytes).first(length)));
+    const std::uint64_t whole = hashBytes(bytes);
     for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
         bytes[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
-        hashes.insert(hash64(bytes));
+        hashes.insert(hashBytes(bytes));
         bytes[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
     }
     EXPECT_EQ(hashes.size(), bytes.size() + 1 + 8 * bytes.size());
-    EXPECT_EQ(hash64(bytes), whole);
-    EXPECT_NE(hash64(bytes, 1), whole);
-    EXPECT_NE(hash64(std::span(bytes).subspan(50), hash64(std::span(bytes).first(50))),
-              hash64(std::span(bytes).first(50), hash64(std::span(bytes).subspan(50))));
+    EXPECT_EQ(hashBytes(bytes), whole);
+    EXPECT_NE(hashBytes(bytes, 1), whole);
+    EXPECT_NE(hashBytes(std::span(bytes).subspan(50), hashBytes(std::span(bytes).first(50))),
+              hashBytes(std::span(bytes).first(50), hashBytes(std::span(bytes).subspan(50))));
 }
 
 TEST_F(CheckpointTest, ComesBackAsItWasWritten) {

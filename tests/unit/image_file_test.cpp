@@ -1,6 +1,8 @@
 #include "host/image/image_file.h"
 
 #include "host/error.h"
+#include "host/image/png.h"
+#include "host/image/tone_map.h"
 
 #include <gtest/gtest.h>
 
@@ -328,6 +330,54 @@ TEST_F(ImageFileTest, OnlyRegularFilesAreRead) {
     expectBad("/dev/zero", "not a regular file");
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     expectBad(folder / "pipe", "not a regular file");
+}
+
+struct Chunk {
+    std::string type;
+    std::string data;
+};
+
+/// The chunks of a PNG, whose checksums are expected to be right.
+std::vector<Chunk> chunksOf(const std::string &file) {
+    std::vector<Chunk> chunks;
+    std::size_t at = pngSignature.size();
+    EXPECT_EQ(file.substr(0, at), pngSignature);
+    while (at + 12 <= file.size()) {
+        std::size_t sizeBytes = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            sizeBytes = sizeBytes << 8 | static_cast<unsigned char>(file[at + i]);
+        chunks.push_back({file.substr(at + 4, 4), file.substr(at + 8, sizeBytes)});
+        EXPECT_EQ(file.substr(at, sizeBytes + 12), chunk(chunks.back().type, chunks.back().data));
+        at += sizeBytes + 12;
+    }
+    EXPECT_EQ(at, file.size());
+    return chunks;
+}
+
+std::string fileOf(const Image &image, const std::vector<Attribute> &attributes) {
+    const std::vector<std::byte> png =
+        encodePng(image.width(), image.height(), toneMap(image, 0.0), attributes);
+    return {reinterpret_cast<const char *>(png.data()), png.size()};
+}
+
+TEST_F(ImageFileTest, APngSaysWhatItIsToldToAndShowsTheSame) {
+    const Image image = randomImage(13, 7, 5);
+    const std::string plain = fileOf(image, {});
+    const std::string file =
+        fileOf(image, {{"software", "a\x1b[31m\xff"}, {"empty", ""}, {"long", std::string(1'000'000, 'x')}});
+    const std::vector<Chunk> chunks = chunksOf(file);
+    ASSERT_EQ(chunks.size(), 6u);
+    EXPECT_EQ(chunks[0].type, "IHDR");
+    const std::string inNoLanguage(5, '\0');
+    EXPECT_EQ(chunks[1].data, "Software" + inNoLanguage + "a\uFFFD[31m\uFFFD");
+    EXPECT_EQ(chunks[2].data, "empty" + inNoLanguage);
+    EXPECT_EQ(chunks[3].data, "long" + inNoLanguage + std::string(1'000'000, 'x'));
+    for (std::size_t i = 1; i < 4; ++i)
+        EXPECT_EQ(chunks[i].type, "iTXt");
+    EXPECT_EQ(chunks[4].type, "IDAT");
+    EXPECT_EQ(chunks[4].data, chunksOf(plain)[1].data);
+    EXPECT_EQ(chunks[5].type, "IEND");
+    EXPECT_EQ(readBytes(file).pixels(), readBytes(plain).pixels());
 }
 
 TEST_F(ImageFileTest, AFailingOutputIsReportedByTheWriter) {

@@ -3,6 +3,7 @@
 #include "host/reference/camera.h"
 #include "tests/unit/geometry_fixture.h"
 
+#include <functional>
 #include <optional>
 #include <tuple>
 
@@ -129,6 +130,35 @@ TEST(PackedScene, ARecordHasItsCornersNormalsMaterialAndFlags) {
     EXPECT_EQ(result.frame.boundsLower, glm::vec3(0, 0, 0));
     EXPECT_EQ(result.frame.boundsUpper, glm::vec3(21, 1, 1));
     EXPECT_EQ(result.frame.triangleCount, 6u);
+}
+
+TEST(PackedScene, TheHashIsOfWhatThereIsToSee) {
+    Random random(702);
+    Scene scene = testing::sceneOf(testing::triangleSoup(random, 50, 1.0, 0.1));
+    scene.spheres.push_back({{1, 2, 3}, 0.5, 0, false});
+    const std::uint64_t hash = packed(scene).contentHash();
+    for (const TreeKind kind : {TreeKind::None, TreeKind::Midpoint, TreeKind::Sah})
+        for (const int leafSize : {1, 4, 64})
+            EXPECT_EQ(packed(scene, kind, leafSize).contentHash(), hash);
+    const auto changed = [&](const std::function<void(Scene &)> &change) {
+        Scene other = scene;
+        change(other);
+        return packed(other).contentHash();
+    };
+    EXPECT_EQ(changed([](Scene &other) { other.settings.seed = 5; }), hash);
+    EXPECT_EQ(changed([](Scene &other) { other.settings.maxDepth = 2; }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.camera.position.x += 1.0; }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.camera.width += 1; }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.background.x = 0.5f; }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.shadowThroughGlass = 0.5f; }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.lights.push_back({}); }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.materials[0].albedo.x *= 0.5f; }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.spheres[0].radius *= 2.0; }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.spheres.push_back(other.spheres[0]); }), hash);
+    EXPECT_NE(changed([](Scene &other) { other.meshes[0].positions[4].y += 0.001f; }), hash);
+    EXPECT_NE(
+        changed([](Scene &other) { std::swap(other.meshes[0].triangles[3], other.meshes[0].triangles[4]); }),
+        hash);
 }
 
 TEST(PackedScene, AnEmptySceneHasARootWithoutChildren) {

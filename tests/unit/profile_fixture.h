@@ -47,17 +47,17 @@ inline Frame handMadeFrame(const std::string &label, bool isMeasured, double beg
 /// A frame that is not measured, and one for each scale that is, a second after each other.
 inline Profile handMadeProfile(const std::vector<double> &scales) {
     Profile profile;
-    profile.commandLine = "hyalite profile a.json";
-    profile.scene = "a.json";
-    profile.deviceName = "the device";
-    profile.deviceDriver = "the driver 1.0";
-    profile.arithmetic = "own";
+    profile.origin.commandLine = "hyalite profile a.json";
+    profile.origin.scene = "a.json";
+    profile.device.name = "the device";
+    profile.device.driver = "the driver 1.0";
+    profile.device.arithmetic = "own";
     profile.verification = "equal";
     profile.isVerified = true;
-    profile.width = 64;
-    profile.height = 48;
-    profile.settings.samplesPerPixel = 4;
-    profile.triangleCount = 12;
+    profile.origin.width = 64;
+    profile.origin.height = 48;
+    profile.origin.settings.samplesPerPixel = 4;
+    profile.origin.triangleCount = 12;
     profile.sceneBytes = 345;
     profile.hostStages = {{"load", millisSpan(1.0, 3.0)}, {"write", millisSpan(99'000.0, 99'007.0)}};
     profile.frames.push_back(handMadeFrame("warm-up 1", false, 1000.0, 3.0));

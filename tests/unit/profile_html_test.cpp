@@ -70,8 +70,8 @@ TEST(ProfileHtml, HasTheFiguresAndWhereTheyComeFrom) {
 
 TEST(ProfileHtml, NamesMayHoldAnything) {
     Profile profile = handMadeProfile({1.0});
-    profile.commandLine = "hyalite profile '<b>&\"c\"</b>.json'";
-    profile.deviceName = "</title><img>";
+    profile.origin.commandLine = "hyalite profile '<b>&\"c\"</b>.json'";
+    profile.device.name = "</title><img>";
     profile.frames.back().timeline.stages[0].name = "\"><p>";
     const std::string page = pageOf(profile);
     expectWellFormed(page);

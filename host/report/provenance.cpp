@@ -1,0 +1,69 @@
+#include "host/report/provenance.h"
+
+#include "host/report/hash.h"
+#include "host/scene/names.h"
+#include "host/version.h"
+
+namespace hyalite {
+
+namespace {
+
+void appendAttributes(std::vector<Attribute> &attributes, const std::string &path,
+                      const nlohmann::ordered_json &value) {
+    if (value.is_object()) {
+        for (const auto &[key, part] : value.items())
+            appendAttributes(attributes, path.empty() ? key : path + "." + key, part);
+        return;
+    }
+    attributes.push_back(
+        {path == "program" ? "software" : path, value.is_string() ? value.get<std::string>() : value.dump()});
+}
+
+} // namespace
+
+nlohmann::ordered_json programToJson(const std::string &commandLine) {
+    return {{"program", "hyalite " HYALITE_VERSION}, {"commandLine", commandLine}};
+}
+
+nlohmann::ordered_json provenanceToJson(const Provenance &provenance) {
+    nlohmann::ordered_json json = programToJson(provenance.commandLine);
+    json["scene"] = provenance.scene;
+    json["sceneHash"] = hashText(provenance.sceneHash);
+    json["triangles"] = provenance.triangleCount;
+    json["image"] = {{"width", provenance.width}, {"height", provenance.height}};
+    json["settings"] = settingsToJson(provenance.settings);
+    return json;
+}
+
+nlohmann::ordered_json provenanceToJson(const Provenance &provenance, const RendererIdentity &device) {
+    nlohmann::ordered_json json = provenanceToJson(provenance);
+    json["device"] = rendererToJson(device);
+    return json;
+}
+
+nlohmann::ordered_json rendererToJson(const RendererIdentity &renderer) {
+    nlohmann::ordered_json json{
+        {"name", renderer.name}, {"driver", renderer.driver}, {"arithmetic", renderer.arithmetic}};
+    if (!renderer.kernel.empty())
+        json["kernel"] = {{"name", renderer.kernel}, {"spirvHash", hashText(renderer.kernelHash)}};
+    return json;
+}
+
+nlohmann::ordered_json settingsToJson(const RenderSettings &settings) {
+    return {{"integrator", nameOf(settings.integrator)},
+            {"spp", settings.samplesPerPixel},
+            {"maxDepth", settings.maxDepth},
+            {"bvh", nameOf(settings.tree)},
+            {"leafSize", settings.leafSize},
+            {"sampler", nameOf(settings.sampler)},
+            {"seed", settings.seed},
+            {"exposure", settings.exposureStops}};
+}
+
+std::vector<Attribute> attributesOf(const nlohmann::ordered_json &provenance) {
+    std::vector<Attribute> attributes;
+    appendAttributes(attributes, "", provenance);
+    return attributes;
+}
+
+} // namespace hyalite

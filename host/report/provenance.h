@@ -1,0 +1,47 @@
+// Where a picture or a report comes from: the one place for what all files say about it.
+#pragma once
+
+#include "host/image/attribute.h"
+#include "host/scene/scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// Who rendered.
+struct RendererIdentity {
+    std::string name;             ///< "cpu", or as the device calls itself
+    std::string driver;           ///< name and version
+    std::string arithmetic;       ///< which / and sqrt ran
+    std::string kernel;           ///< empty for the reference renderer, which has none
+    std::uint64_t kernelHash = 0; ///< of its SPIR-V, before float controls of the device are added to it
+};
+
+/// What was rendered.
+struct Provenance {
+    std::string commandLine;
+    std::string scene;           ///< path of the file
+    std::uint64_t sceneHash = 0; ///< PackedScene::contentHash()
+    std::size_t triangleCount = 0;
+    int width = 0; ///< of the output, pixels
+    int height = 0;
+    RenderSettings settings;
+};
+
+/// The program and its command line: how every report begins.
+[[nodiscard]] nlohmann::ordered_json programToJson(const std::string &commandLine);
+/// The same, what was rendered, and by whom.
+[[nodiscard]] nlohmann::ordered_json provenanceToJson(const Provenance &provenance);
+[[nodiscard]] nlohmann::ordered_json provenanceToJson(const Provenance &provenance,
+                                                      const RendererIdentity &device);
+[[nodiscard]] nlohmann::ordered_json rendererToJson(const RendererIdentity &renderer);
+[[nodiscard]] nlohmann::ordered_json settingsToJson(const RenderSettings &settings);
+
+/// The same as attributes of an image file: each value by its path, as "device.driver", and the program as "software".
+[[nodiscard]] std::vector<Attribute> attributesOf(const nlohmann::ordered_json &provenance);
+
+} // namespace hyalite

@@ -1,0 +1,34 @@
+#include "host/report/clean_text.h"
+
+#include <gtest/gtest.h>
+
+namespace hyalite {
+namespace {
+
+using namespace std::string_literals;
+
+const std::string instead = "\xEF\xBF\xBD"; // U+FFFD
+
+TEST(CleanText, KeepsWhatIsText) {
+    for (const char *text :
+         {"", "plain", "two\nlines", "ü \u00A0 \u00FF \u0100 🐈", "quotes ' \" \\ / \\u0041"})
+        EXPECT_EQ(cleanText(text), text);
+}
+
+TEST(CleanText, HasNoControlCharacters) {
+    EXPECT_EQ(cleanText("\x1b[31m\r\t\x7f\0"s), instead + "[31m" + instead + instead + instead + instead);
+    EXPECT_EQ(cleanText("\u0080\u009F"), instead + instead);
+}
+
+TEST(CleanText, IsUtf8) {
+    EXPECT_EQ(cleanText("a\xff"), "a" + instead);
+    EXPECT_EQ(cleanText("\xC2"), instead);
+    EXPECT_EQ(cleanText("\x85"), instead);
+    EXPECT_EQ(cleanText("\xED\xA0\x80").find('\xED'), std::string::npos) << "half of a pair of UTF-16";
+    for (int byte = 1; byte < 256; ++byte)
+        EXPECT_EQ(cleanText(cleanText(std::string(3, static_cast<char>(byte)))),
+                  cleanText(std::string(3, static_cast<char>(byte))));
+}
+
+} // namespace
+} // namespace hyalite
