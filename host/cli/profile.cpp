@@ -168,7 +168,7 @@ PreparedScene prepare(const ProfileOptions &options, const std::string &commandL
     backend = openBackend(options.device, options.threads, batchingFor(options.kernel));
     profile.hostStages.push_back({"open the device", watch.lap()});
     profile.origin = provenanceOf(scene, commandLine);
-    profile.device = backend->identity();
+    profile.device = backend->identity(scene.loaded.scene.settings.integrator);
     profile.sceneBytes = scene.packed.sizeBytes();
     return scene;
 }

@@ -156,7 +156,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     report.buildSeconds = scene.buildSeconds;
 
     const std::unique_ptr<Backend> backend = opening.get();
-    report.device = backend->identity();
+    report.device = backend->identity(settings.integrator);
     // Until all is written: at the last moment, most would be lost.
     const CaughtSignals signals(options.isQuiet);
     if (!options.isQuiet) {

@@ -50,7 +50,9 @@ const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic
 
 std::string_view Renderer::kernelName() const { return gpu::kernelName(state_->batching); }
 
-std::uint64_t Renderer::kernelHash() const { return hashBytes(std::as_bytes(kernelWords(state_->batching))); }
+std::uint64_t Renderer::kernelHash(Integrator integrator) const {
+    return hashBytes(std::as_bytes(kernelWords(state_->batching, integrator)));
+}
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                         const std::function<void(double)> &onProgress, Timeline *timeline,

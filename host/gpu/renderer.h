@@ -37,7 +37,7 @@ class Renderer {
 
     /// The word for the kernel that renders, and a hash of its SPIR-V.
     [[nodiscard]] std::string_view kernelName() const;
-    [[nodiscard]] std::uint64_t kernelHash() const;
+    [[nodiscard]] std::uint64_t kernelHash(Integrator integrator) const;
 
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
     /// dispatch, and `timeline`, where there is one, what was done when. `shouldStop` is asked after each dispatch:
