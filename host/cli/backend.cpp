@@ -3,6 +3,7 @@
 #include "host/cli/options.h"
 #include "host/error.h"
 #include "host/reference/renderer.h"
+#include "host/report/message.h"
 #include "host/report/progress.h"
 #include "host/report/quantities.h"
 
@@ -125,7 +126,8 @@ class DeviceBackend : public Backend {
                                        Continuation continuation) override {
         gpu::Result result = renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop,
                                               onProgress, timeline, shouldStop, std::move(continuation));
-        return {std::move(result.film), result.rays, result.timing, result.work};
+        return {std::move(result.film), result.rays,   result.timing, result.work,
+                result.faults,          result.failure};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
@@ -201,9 +203,15 @@ BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, c
                                  Continuation continuation) {
     ProgressLine progress(task, isQuiet);
     try {
-        return backend.render(
+        BackendResult result = backend.render(
             scene, [&](double share) { progress.update(share); }, timeline, shouldStop,
             std::move(continuation));
+        if (result.failure && !shouldStop)
+            throw Error(*result.failure);
+        const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);
+        for (std::size_t i = 0; i < survived; ++i)
+            printMessage("note: {}; opened the device anew, for half as much at a time\n", result.faults[i]);
+        return result;
     } catch (const std::bad_alloc &) {
         refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
     }

@@ -22,6 +22,10 @@ struct BackendResult {
     RayCounts rays; ///< traced by this call
     RenderTiming timing; ///< only renderSeconds on the CPU
     WorkCounts work;     ///< all 0 unless the batching asked for counting
+    std::vector<std::string>
+        faults{}; ///< Vulkan calls that failed; after all of them, or all but the last, it went on
+    std::optional<Error>
+        failure{}; ///< why the render ended before all was finished, where the device was at fault
 };
 
 class Backend {
@@ -48,7 +52,8 @@ class Backend {
 };
 
 /// Renders with a progress line that `task` begins. Throws Error{LimitExceeded} with the film's size where there is not
-/// the memory for it.
+/// the memory for it. Faults of the device are told; where a render that cannot be stopped, of which a part is of no
+/// use, fails for them, its failure is thrown.
 [[nodiscard]] BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene,
                                                const std::string &task, bool isQuiet,
                                                Timeline *timeline = nullptr,

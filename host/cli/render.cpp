@@ -205,12 +205,17 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     snapshots.finish();
     const int stoppingSignal = signals.first();
     report.finished = finishedWork(result.film, settings.samplesPerPixel);
+    if (result.failure && report.finished.sampleCount == 0)
+        throw Error(*result.failure);
     if (stoppingSignal != 0 && report.finished.sampleCount == 0)
         throw Error(exitCodeFor(stoppingSignal),
                     fmt::format("stopped by {} before the first sample was finished: nothing is written",
                                 signalName(stoppingSignal)));
     if (!report.finished.isComplete)
-        report.stoppedBy = stoppingSignal != 0 ? signalName(stoppingSignal) : "the time limit";
+        report.stoppedBy = result.failure        ? "the device"
+                           : stoppingSignal != 0 ? signalName(stoppingSignal)
+                                                 : "the time limit";
+    report.faults = result.faults;
     report.timing = result.timing;
     report.rays = sumOf(raysBefore, result.rays);
     const Clock::time_point writeStart = Clock::now();
@@ -230,12 +235,14 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         reportFile->write(formatReport(report));
         reportFile->commit();
     }
-    if (!report.finished.isComplete && (stoppingSignal != 0 || !options.isQuiet))
+    if (!report.finished.isComplete && (result.failure || stoppingSignal != 0 || !options.isQuiet))
         tellWhatIsFinished(report);
     if (!options.isQuiet)
         tellSpeed(report);
     if (checkpointFailure)
         throw *checkpointFailure;
+    if (result.failure)
+        throw Error(*result.failure);
     return signals.first() != 0 ? exitCodeFor(signals.first()) : ExitCode::Ok;
 }
 

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <limits>
 #include <vector>
 
 namespace hyalite::gpu {
@@ -88,6 +86,28 @@ bool Device::isMappable(std::uint32_t memoryType) const {
     return (memory_.memoryTypes[memoryType].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
 }
 
+void Device::waitForFence(const std::string &action) {
+    // In slices that are counted, not by a clock: a program that is suspended for a while uses up one of them. No
+    // dispatch is meant to take a second, and a busy machine is given a hundred times that.
+    constexpr std::uint64_t sliceNanos = 1'000'000'000;
+    constexpr int mostSlices = 120;
+    const VkFence fence = fence_.get();
+    VkResult result = VK_TIMEOUT;
+    for (int slice = 0; slice < mostSlices && result == VK_TIMEOUT; ++slice)
+        result = vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, sliceNanos);
+    if (result == VK_SUCCESS)
+        return;
+    // A lost device has stopped. Otherwise what was submitted may still run, and use what would be destroyed next.
+    const bool isIdle = result == VK_ERROR_DEVICE_LOST ||
+                        (result != VK_TIMEOUT && vkDeviceWaitIdle(device_.get()) == VK_SUCCESS);
+    if (!isIdle) {
+        gpu::abandon(device_.get());
+        instance_.abandon();
+    }
+    check(result, fmt::format("vkWaitForFences for {}{}", action,
+                              result == VK_TIMEOUT ? fmt::format(", {} s", mostSlices) : ""));
+}
+
 void Device::submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record) {
     VkCommandBufferBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
@@ -105,10 +125,7 @@ void Device::submit(const std::string &action, const std::function<void(VkComman
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commandBuffer_;
     check(vkQueueSubmit(queue_, 1, &submit, fence), "vkQueueSubmit for " + action);
-    // However long it takes: a busy machine, or a program that was stopped for a while, is no lost device, and to give
-    // up would free what the work still uses. Of a device that hangs the driver tells.
-    check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
-          "vkWaitForFences for " + action);
+    waitForFence(action);
     instance_.throwOnValidationMessage();
 }
 

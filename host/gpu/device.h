@@ -36,11 +36,14 @@ class Device {
     /// Of all buffers that are alive.
     [[nodiscard]] std::uint64_t &allocatedBytes() { return allocatedBytes_; }
 
-    /// Records commands with `record`, submits them and waits until they are finished, however long that takes. Throws
-    /// Error{DeviceLost} naming `action` where the device fails.
+    /// Records commands with `record`, submits them and waits until they are finished. Throws DeviceFault naming
+    /// `action` where the device fails, or does not finish within two minutes; after that the device and all that
+    /// belongs to it are never destroyed, as they may still be in use.
     void submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record);
 
   private:
+    void waitForFence(const std::string &action);
+
     DeviceInfo info_;
     bool isStagingPreferred_;
     Instance instance_;

@@ -10,8 +10,13 @@ namespace hyalite::gpu {
 
 struct NoParent {};
 
+/// From now on nothing of this device is destroyed, nor is it: a kernel that does not end still uses all that it was
+/// given. From any thread.
+void abandon(VkDevice device);
+[[nodiscard]] bool isAbandoned(VkDevice device) noexcept;
+
 /// Destroys `object` with `destroy(parent, object, nullptr)`, or `destroy(object, nullptr)` for objects that have no
-/// parent (instances and devices). The parent must outlive the handle.
+/// parent (instances and devices), unless the device is abandoned. The parent must outlive the handle.
 template <class Object, auto destroy, class Parent = VkDevice> class Handle {
   public:
     Handle() = default;
@@ -26,13 +31,19 @@ template <class Object, auto destroy, class Parent = VkDevice> class Handle {
     ~Handle() {
         if (object_ == VK_NULL_HANDLE)
             return;
-        if constexpr (std::is_same_v<Parent, NoParent>)
+        if constexpr (std::is_same_v<Object, VkDevice>) {
+            if (!isAbandoned(object_))
+                destroy(object_, nullptr);
+        } else if constexpr (std::is_same_v<Parent, NoParent>) {
             destroy(object_, nullptr);
-        else
+        } else if (!isAbandoned(parent_)) {
             destroy(parent_, object_, nullptr);
+        }
     }
 
     [[nodiscard]] Object get() const { return object_; }
+    /// Leaves the object to its fate.
+    void release() { object_ = VK_NULL_HANDLE; }
 
   private:
     Parent parent_{};

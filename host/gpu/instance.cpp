@@ -121,6 +121,13 @@ Instance::~Instance() {
     destroy(handle_.get(), messenger_, nullptr);
 }
 
+void Instance::abandon() {
+    handle_.release();
+    messenger_ = VK_NULL_HANDLE;
+    static_cast<void>(firstMessage_.release()); // the layer may still write to it
+    firstMessage_ = std::make_unique<std::string>();
+}
+
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
     std::uint32_t count = 0;
     const char *const action = "vkEnumeratePhysicalDevices for the list of devices";

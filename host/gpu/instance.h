@@ -24,6 +24,9 @@ class Instance {
     /// Whether VK_EXT_debug_utils is enabled.
     [[nodiscard]] bool hasDebugUtils() const { return hasDebugUtils_; }
 
+    /// Does not destroy it: it has a device that is abandoned.
+    void abandon();
+
     /// Throws Error{DeviceLost} with the first message, if the validation layer has had anything to say.
     void throwOnValidationMessage() const;
 

@@ -1,9 +1,15 @@
 #include "host/gpu/renderer.h"
 
+#include "host/gpu/check.h"
+#include "host/gpu/device.h"
 #include "host/gpu/tile_renderer.h"
 #include "host/report/hash.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -22,21 +28,66 @@ std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
     return bands;
 }
 
+/// How often a render that failed is tried again.
+constexpr int mostRetries = 3;
+constexpr std::uint32_t leastSteps = 256; // of a dispatch that is cut in halves
+
+/// When to copy the film to the host, as a device that is lost takes its own with it: often, but for a hundredth of the
+/// time.
+class FilmKeeper {
+  public:
+    [[nodiscard]] bool isDue() const { return hostNanos() >= dueNanos_; }
+    void keep(const std::function<void()> &copy) {
+        const std::int64_t begin = hostNanos();
+        copy();
+        const std::int64_t end = hostNanos();
+        dueNanos_ = end + 100 * (end - begin);
+    }
+
+  private:
+    std::int64_t dueNanos_ = 0;
+};
+
+RayCounts sumOf(RayCounts a, const RayCounts &b) {
+    a += b;
+    return a;
+}
+
 } // namespace
 
 struct Renderer::State {
-    Device device;
+    DeviceInfo info;
+    std::optional<Device> device; ///< none where it failed, and could not be opened again
     Batching batching;
     ArithmeticChoice arithmetic;
 
-    State(const DeviceInfo &info, const Batching &wanted)
-        : device(info, wanted.isStaged ? Transfers::Staged : Transfers::Automatic),
-          batching(completed(wanted, info)), arithmetic(chooseArithmetic(device, wanted.arithmetic)) {
+    State(const DeviceInfo &deviceInfo, const Batching &wanted)
+        : info(deviceInfo), device(std::in_place, info, transfers(wanted)), batching(completed(wanted, info)),
+          arithmetic(chooseArithmetic(*device, wanted.arithmetic)) {
         batching.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
     }
 
+    static Transfers transfers(const Batching &batching) {
+        return batching.isStaged ? Transfers::Staged : Transfers::Automatic;
+    }
+
     SceneBuffers upload(const PackedScene &scene) {
-        return SceneBuffers(device, scene, batching.traversal == Traversal::SkipList);
+        return SceneBuffers(*device, scene, batching.traversal == Traversal::SkipList);
+    }
+
+    /// The same device anew, for half as much at a time. Throws DeviceFault.
+    void reopen() {
+        device.reset();
+        batching.tileHeight = std::max(batching.tileHeight / 2 / 8 * 8, 8);
+        batching.steps = std::max(batching.steps / 2, std::min(batching.steps, leastSteps));
+        batching.dispatchSeconds /= 2.0;
+        try {
+            device.emplace(info, transfers(batching));
+        } catch (const DeviceFault &) {
+            throw;
+        } catch (const Error &error) { // it is gone
+            throw DeviceFault(error.exitCode, error.what());
+        }
     }
 };
 
@@ -57,22 +108,52 @@ std::uint64_t Renderer::kernelHash(Integrator integrator) const {
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                         const std::function<void(double)> &onProgress, Timeline *timeline,
                         const std::function<bool()> &shouldStop, Continuation continuation) {
-    const bool isContinued = continuation.film.has_value();
-    Result result{isContinued ? std::move(*continuation.film) : Film(crop), {}, {}, {}};
+    bool isBegun = continuation.film.has_value();
+    Result result{isBegun ? std::move(*continuation.film) : Film(crop), {}, {}, {}};
+    for (int retry = 0;; ++retry) {
+        try {
+            if (retry > 0 || !state_->device)
+                state_->reopen();
+            renderOnce(scene, settings, isBegun, onProgress, timeline, shouldStop, continuation.snapshots,
+                       result);
+            return result;
+        } catch (const DeviceFault &fault) {
+            result.faults.emplace_back(fault.what());
+            isBegun = true;
+            if (retry == mostRetries) {
+                const bool isGone = fault.exitCode == ExitCode::NoDevice;
+                result.failure.emplace(
+                    isGone ? ExitCode::DeviceLost : fault.exitCode,
+                    fmt::format("{}; the device was opened anew {} times, for half as much at a "
+                                "time each, and failed each time",
+                                fault.what(), mostRetries));
+                return result;
+            }
+            if (shouldStop && shouldStop())
+                return result;
+        }
+    }
+}
+
+void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settings, bool isBegun,
+                          const std::function<void(double)> &onProgress, Timeline *timeline,
+                          const std::function<bool()> &shouldStop, SnapshotTaker *snapshots, Result &result) {
+    const Crop crop = result.film.crop;
+    FilmKeeper keeper;
     Stopwatch watch;
     // Ends a stage and returns how long it took.
     const auto endStage = [&](const char *name) {
         const Span span = watch.lap();
         if (timeline != nullptr)
-            timeline->stages.push_back({name, span, state_->device.allocatedBytes()});
+            timeline->stages.push_back({name, span, state_->device->allocatedBytes()});
         return span.seconds();
     };
     if (timeline != nullptr)
-        timeline->clock = state_->device.timestamps().describe();
+        timeline->clock = state_->device->timestamps().describe();
     const SceneBuffers buffers = state_->upload(scene);
     result.timing.uploadSeconds = endStage("upload");
 
-    for (const Crop &band : cutIntoBands(crop, state_->device.info())) {
+    for (const Crop &band : cutIntoBands(crop, state_->info)) {
         const std::size_t width = static_cast<std::size_t>(crop.width());
         const std::size_t bandBegin = static_cast<std::size_t>(band.y0 - crop.y0) * width;
         const std::size_t bandSize = static_cast<std::size_t>(band.height()) * width;
@@ -85,9 +166,10 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                 0,
                 static_cast<std::uint32_t>(settings.samplesPerPixel),
                 false};
-        if (isContinued)
+        if (isBegun)
             job.film = bandPixels;
-        TileRenderer tiles(state_->device, buffers, state_->batching, job);
+        const RayCounts raysBefore = result.rays;
+        TileRenderer tiles(*state_->device, buffers, state_->batching, job);
         result.timing.pipelineSeconds += endStage("buffers");
         tiles.makeKernel();
         result.timing.pipelineSeconds += endStage("pipeline");
@@ -102,11 +184,15 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
             },
             timeline, shouldStop,
             [&](const RayCounts &rays) {
-                if (continuation.snapshots == nullptr || !continuation.snapshots->isWanted())
+                const RayCounts raysSoFar = sumOf(raysBefore, rays);
+                // Of lost dispatches work cannot be counted: a frame that counts begins anew.
+                if (!state_->batching.isCounting && keeper.isDue()) {
+                    keeper.keep([&] { tiles.readFilm(bandPixels); });
+                    result.rays = raysSoFar;
+                }
+                if (snapshots == nullptr || !snapshots->isWanted())
                     return;
-                RayCounts raysSoFar = result.rays;
-                raysSoFar += rays;
-                continuation.snapshots->take(
+                snapshots->take(
                     [&](std::span<layout::FilmPixel> copy) {
                         // Other bands have all samples, or those that they began with.
                         std::ranges::copy(pixels.first(bandBegin), copy.begin());
@@ -116,17 +202,16 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                     },
                     raysSoFar);
             });
-        result.rays += totals.rays;
         result.work += totals.work;
         result.timing.dispatchCount += totals.dispatchCount;
         result.timing.pipelineSeconds += tiles.lateBuildSeconds();
         result.timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();
         tiles.readFilm(bandPixels);
+        result.rays = sumOf(raysBefore, totals.rays);
         endStage("readback");
         if (totals.isStopped)
             break;
     }
-    return result;
 }
 
 std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const RenderSettings &settings,
@@ -136,8 +221,10 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     const Job job{
         scene, {x, x + 1, y, y + 1}, settings.integrator, settings.sampler, sampleIndex, sampleIndex + 1,
         true};
+    if (!state_->device)
+        state_->reopen();
     const SceneBuffers buffers = state_->upload(scene);
-    TileRenderer tiles(state_->device, buffers, state_->batching, job);
+    TileRenderer tiles(*state_->device, buffers, state_->batching, job);
     tiles.makeKernel();
     (void)tiles.run({});
     return tiles.readTrace();

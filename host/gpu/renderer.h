@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/bvh/packed_scene.h"
+#include "host/error.h"
 #include "host/gpu/batching.h"
 #include "host/image/film.h"
 #include "host/image/snapshots.h"
@@ -12,6 +13,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,12 +22,16 @@ namespace hyalite::gpu {
 
 struct Result {
     Film film;
-    RayCounts rays; ///< traced by this call; where it was stopped, also of samples that are not in the film
+    RayCounts rays; ///< of the samples that were added to the film
     RenderTiming timing;
     WorkCounts work; ///< all 0 unless the batching asks for counting
+    std::vector<std::string>
+        faults{}; ///< Vulkan calls that failed, each with its object or dispatch, in their order
+    std::optional<Error>
+        failure{}; ///< why the render ended before all was finished, where the device was at fault
 };
 
-/// Renders scenes on one device, opened once.
+/// Renders scenes on one device, opened once, and again where it fails.
 class Renderer {
   public:
     explicit Renderer(const DeviceInfo &device, const Batching &batching = {});
@@ -42,8 +49,11 @@ class Renderer {
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
     /// dispatch, and `timeline`, where there is one, what was done when. `shouldStop` is asked after each dispatch:
     /// where it says so, the film has the samples that are finished by then, tile after tile, and no others. Where
-    /// `continuation` goes on changes no bit. Throws Error{LimitExceeded} where the scene is too large for the device,
-    /// Error{DeviceLost}.
+    /// `continuation` goes on changes no bit.
+    ///
+    /// Where a Vulkan call fails, the device is opened anew and given half as much at a time, up to three times, and the
+    /// render goes on from a copy of the film; after the last failure the result has what the copy has. Throws
+    /// Error{LimitExceeded} where the scene is too large for the limits of the device.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                                 const std::function<void(double)> &onProgress = {},
                                 Timeline *timeline = nullptr, const std::function<bool()> &shouldStop = {},
@@ -56,6 +66,12 @@ class Renderer {
 
   private:
     struct State;
+
+    /// One try: adds to the result what is missing, and keeps film and rays in step. `isBegun`: the film may have samples.
+    void renderOnce(const PackedScene &scene, const RenderSettings &settings, bool isBegun,
+                    const std::function<void(double)> &onProgress, Timeline *timeline,
+                    const std::function<bool()> &shouldStop, SnapshotTaker *snapshots, Result &result);
+
     std::unique_ptr<State> state_;
 };
 

@@ -211,7 +211,8 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         }
     };
     // Pass after pass over the whole image, so that one that is stopped early has samples everywhere.
-    for (std::uint32_t begin = job_.sampleBegin + fewestInFilm_; begin < job_.sampleEnd && !totals.isStopped;) {
+    for (std::uint32_t begin = job_.sampleBegin + fewestInFilm_;
+         begin < job_.sampleEnd && !totals.isStopped;) {
         const std::uint32_t end = begin + std::min(samplesInPass, job_.sampleEnd - begin);
         for (int tile = 0; tile < tilesAcross * tilesDown && !totals.isStopped; ++tile) {
             dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);

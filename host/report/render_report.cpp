@@ -37,6 +37,7 @@ std::string formatReport(const RenderReport &report) {
         json["resumed"] = {{"checkpoint", report.resumed->checkpoint},
                            {"samples", report.resumed->sampleCount},
                            {"rays", raysToJson(report.resumed->rays)}};
+    json["faults"] = report.faults;
     json["rays"] = raysToJson(report.rays);
     json["dispatches"] = report.timing.dispatchCount;
     json["seconds"] = {{"load", report.loadSeconds},

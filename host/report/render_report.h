@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hyalite {
 
@@ -36,6 +37,8 @@ struct RenderReport {
     RendererIdentity device;
     std::string output;
     FinishedWork finished;
+    std::vector<std::string>
+        faults;            ///< Vulkan calls that failed, and that the render went on after but for the last
     std::string stoppedBy; ///< what ended the render before all was finished; empty: nothing did
     std::optional<ResumedWork> resumed;
     RayCounts rays; ///< traced for the image, before and now

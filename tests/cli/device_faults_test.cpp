@@ -60,7 +60,7 @@ std::vector<long> chooseCalls(const std::string &function, long count) {
 
 class DeviceFaults : public FaultyDevice {
   protected:
-    /// Expects the one fault to be told and nothing to be left.
+    /// Expects the first fault to be told and nothing to be left.
     void expectTold(const Outcome &outcome, const std::string &function, const std::string &result) const {
         EXPECT_EQ(outcome.exitCode, exitCodeOf(result)) << outcome;
         // The loader asks for extensions, too, while it makes a device.
@@ -68,7 +68,7 @@ class DeviceFaults : public FaultyDevice {
                                 contains(outcome.errors, "vkCreateDevice for ");
         EXPECT_TRUE(isOfLoader || contains(outcome.errors, function + " for ")) << outcome;
         EXPECT_TRUE(contains(outcome.errors, result)) << outcome;
-        EXPECT_EQ(lastTally.faults, std::vector<std::string>{function});
+        EXPECT_EQ(lastTally.faults.front(), function);
         EXPECT_TRUE(lastTally.alive.empty()) << ::testing::PrintToString(lastTally.alive);
         EXPECT_EQ(entries(), std::set<std::string>{}) << "files are left";
     }
@@ -77,8 +77,10 @@ class DeviceFaults : public FaultyDevice {
     void failEachCall(const std::string &line, const std::string &fakes) {
         ASSERT_EQ(runHere(line, "", fakes).exitCode, 0);
         EXPECT_TRUE(lastTally.alive.empty()) << ::testing::PrintToString(lastTally.alive);
-        for (const std::string &name : entries())
-            std::filesystem::remove(folder / name);
+        const bool hasPicture = entries().contains("a.pfm");
+        const std::string wanted = hasPicture ? load("a.pfm") : "";
+        std::filesystem::remove(folder / "a.pfm");
+        int recoveredCount = 0;
         const std::map<std::string, long> calls = lastTally.calls;
         for (const auto &[function, count] : calls)
             for (const long call : chooseCalls(function, count)) {
@@ -91,11 +93,20 @@ class DeviceFaults : public FaultyDevice {
                     const Outcome outcome = runHere(line, fault, fakes);
                     if (lastTally.faults.empty() && function == "vkGetCalibratedTimestampsEXT")
                         continue; // how often clocks are read depends on the time
-                    expectTold(outcome, function, result);
+                    // What fails once while the device renders is done again.
+                    if (outcome.exitCode == 0 && contains(outcome.errors, "note: " + function)) {
+                        EXPECT_TRUE(contains(outcome.errors, result)) << outcome;
+                        EXPECT_TRUE(load("a.pfm") == wanted);
+                        std::filesystem::remove(folder / "a.pfm");
+                        ++recoveredCount;
+                    } else {
+                        expectTold(outcome, function, result);
+                    }
                     if (HasFailure())
                         return;
                 }
             }
+        EXPECT_EQ(recoveredCount > 0, hasPicture);
         for (const auto &[function, count] : calls)
             visited.insert(function);
     }
@@ -125,14 +136,14 @@ TEST_F(DeviceFaults, TheLayerKnowsEveryCallThatCanFail) {
 }
 
 TEST_F(DeviceFaults, EachCallOfARenderIsChecked) {
-    failEachCall("render spheres --quiet -o " + (folder / "a.png").string() + small, "calibrated");
+    failEachCall("render spheres --quiet -o " + (folder / "a.pfm").string() + small, "calibrated");
     for (const char *function : {"vkGetCalibratedTimestampsEXT", "vkCreateBufferView", "vkWaitForFences",
                                  "vkEnumerateInstanceExtensionProperties"})
         EXPECT_TRUE(visited.contains(function)) << function;
 }
 
 TEST_F(DeviceFaults, EachCallOfARenderThroughStagingBuffersIsChecked) {
-    failEachCall("render spheres --quiet -o " + (folder / "a.png").string() + small, "discrete");
+    failEachCall("render spheres --quiet -o " + (folder / "a.pfm").string() + small, "discrete");
 }
 
 TEST_F(DeviceFaults, EachCallOfTheListOfDevicesIsChecked) { failEachCall("devices", ""); }
@@ -141,17 +152,19 @@ TEST_F(DeviceFaults, EveryCommandTellsThem) {
     struct Case {
         std::string line;
         std::string function;
-        int call;
+        std::string call;
         std::string result;
     };
     const Case cases[] = {
-        {"render spheres -o a.png", "vkQueueSubmit", 4, "VK_ERROR_DEVICE_LOST"},
-        {"render spheres -o a.pfm --report r.json", "vkAllocateMemory", 12, "VK_ERROR_OUT_OF_DEVICE_MEMORY"},
-        {"compare spheres --report r.json", "vkWaitForFences", 4, "VK_ERROR_DEVICE_LOST"},
-        {"profile spheres --repeat 1 --report r.json", "vkGetQueryPoolResults", 5,
+        {"render spheres -o a.png", "vkQueueSubmit", "3+", "VK_ERROR_DEVICE_LOST"},
+        {"render spheres -o a.pfm --report r.json", "vkAllocateMemory", "12+",
+         "VK_ERROR_OUT_OF_DEVICE_MEMORY"},
+        {"compare spheres --report r.json", "vkWaitForFences", "3+", "VK_ERROR_DEVICE_LOST"},
+        {"profile spheres --repeat 1 --report r.json", "vkGetQueryPoolResults", "5+",
          "VK_ERROR_OUT_OF_HOST_MEMORY"},
-        {"profile spheres --repeat 1 -o a.png", "vkCreateComputePipelines", 2, "VK_ERROR_OUT_OF_HOST_MEMORY"},
-        {"devices --json", "vkCreateInstance", 1, "VK_ERROR_INITIALIZATION_FAILED"},
+        {"profile spheres --repeat 1 -o a.png", "vkCreateComputePipelines", "2+",
+         "VK_ERROR_OUT_OF_HOST_MEMORY"},
+        {"devices --json", "vkCreateInstance", "1", "VK_ERROR_INITIALIZATION_FAILED"},
     };
     for (const Case &c : cases)
         for (const bool isValidated : {false, true}) {
@@ -168,7 +181,7 @@ TEST_F(DeviceFaults, AFailingDispatchIsNamed) {
     const Outcome outcome =
         runFaulty("render spheres -o a.png --crop 16,24,8,16 --width 32 --height 32 --spp 3",
                   "vkWaitForFences:4:VK_ERROR_DEVICE_LOST");
-    EXPECT_EQ(outcome.exitCode, 6);
+    EXPECT_EQ(outcome.exitCode, 0) << "it is done again: " << outcome;
     EXPECT_TRUE(contains(outcome.errors, "kernel whitted skip-list-x2, tile (16, 8), samples 0 to 3"))
         << outcome;
 }

@@ -35,7 +35,7 @@ TEST_F(RenderReport, HasAllItsKeys) {
         const nlohmann::json report = renderReport("sheet.json" + small + " --device " + device);
         EXPECT_EQ(keysOf(report), (std::set<std::string>{"program", "commandLine", "scene", "sceneHash",
                                                          "output", "device", "image", "settings", "triangles",
-                                                         "finished", "resumed", "rays", "dispatches",
+                                                         "finished", "faults", "resumed", "rays", "dispatches",
                                                          "seconds"}));
         EXPECT_EQ(keysOf(report.at("finished")),
                   (std::set<std::string>{"isComplete", "pixels", "samples", "stoppedBy"}));

@@ -39,6 +39,7 @@ namespace {
     X(vkCreatePipelineLayout)                                                                                \
     X(vkCreateQueryPool)                                                                                     \
     X(vkCreateShaderModule)                                                                                  \
+    X(vkDeviceWaitIdle)                                                                                      \
     X(vkEndCommandBuffer)                                                                                    \
     X(vkGetQueryPoolResults)                                                                                 \
     X(vkMapMemory)                                                                                           \

@@ -1,0 +1,123 @@
+// Renders on a device that fails on the way: they go on, to the same bits, or keep what is finished.
+#include "host/image/image_file.h"
+#include "tests/cli/fault_process.h"
+
+#include <fmt/format.h>
+
+namespace hyalite::testing {
+namespace {
+
+/// Four tiles of a software device, and so four dispatches after those of the start: the arithmetic's check, clearing the
+/// film, and the warm-up.
+const std::string fourTiles = " --width 512 --height 512 --spp 1 --device 0";
+constexpr int dispatchesOfTheStart = 3;
+
+class DeviceRecovery : public FaultyDevice {
+  protected:
+    [[nodiscard]] std::string path(const std::string &name) const { return (folder / name).string(); }
+
+    [[nodiscard]] Outcome render(const std::string &faults, const std::string &options = {}) {
+        return runHere("render spheres --quiet --report " + path("r.json") + " -o " + path("a.pfm") +
+                           fourTiles + options,
+                       faults);
+    }
+    [[nodiscard]] nlohmann::json report() const { return nlohmann::json::parse(load("r.json")); }
+};
+
+TEST_F(DeviceRecovery, AFaultInAnyDispatchChangesNoBit) {
+    ASSERT_EQ(render("").exitCode, 0);
+    const std::string wanted = load("a.pfm");
+    const nlohmann::json rays = report().at("rays");
+    EXPECT_EQ(report().at("faults"), nlohmann::json::array());
+    const long submits = lastTally.calls.at("vkQueueSubmit");
+    ASSERT_EQ(submits, dispatchesOfTheStart + 4);
+    for (const char *fault :
+         {"vkQueueSubmit:{}:VK_ERROR_DEVICE_LOST", "vkWaitForFences:{}:VK_ERROR_DEVICE_LOST",
+          "vkWaitForFences:{}:VK_ERROR_OUT_OF_HOST_MEMORY", "vkQueueSubmit:{}:VK_ERROR_OUT_OF_DEVICE_MEMORY"})
+        for (long call = 2; call <= submits; ++call) {
+            const Outcome outcome = render(fmt::format(fmt::runtime(fault), call));
+            SCOPED_TRACE(fmt::format(fmt::runtime(fault), call));
+            EXPECT_EQ(outcome.exitCode, 0) << outcome;
+            EXPECT_TRUE(load("a.pfm") == wanted);
+            EXPECT_EQ(report().at("rays"), rays);
+            EXPECT_EQ(lastTally.calls.at("vkCreateDevice"), 2);
+            EXPECT_TRUE(lastTally.alive.empty()) << ::testing::PrintToString(lastTally.alive);
+            // Told even where it is quiet, with the dispatch.
+            const std::string told = report().at("faults").at(0);
+            EXPECT_TRUE(contains(outcome.errors, "note: " + told + ";")) << outcome;
+            if (call > dispatchesOfTheStart) {
+                EXPECT_TRUE(contains(told, "kernel whitted skip-list-x2, tile (")) << told;
+                EXPECT_TRUE(contains(told, "samples 0 to 1")) << told;
+            }
+        }
+}
+
+TEST_F(DeviceRecovery, ADeviceThatFailsForGoodLeavesWhatIsFinished) {
+    ASSERT_EQ(render("").exitCode, 0);
+    const Image whole = readImage(folder / "a.pfm").image;
+    for (const auto &[fault, exitCode] : {std::pair{"vkQueueSubmit:6+:VK_ERROR_DEVICE_LOST", 6},
+                                          {"vkWaitForFences:6+:VK_ERROR_DEVICE_LOST", 6},
+                                          {"vkQueueSubmit:6+:VK_ERROR_OUT_OF_DEVICE_MEMORY", 5},
+                                          {"vkCreateDevice:2+:VK_ERROR_INITIALIZATION_FAILED,"
+                                           "vkQueueSubmit:6:VK_ERROR_DEVICE_LOST",
+                                           6}}) {
+        const Outcome outcome = render(fault);
+        SCOPED_TRACE(fault);
+        EXPECT_EQ(outcome.exitCode, exitCode) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "stopped by the device: ")) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "opened anew 3 times")) << outcome;
+        EXPECT_EQ(lastTally.calls.at("vkCreateDevice"), 4);
+        EXPECT_TRUE(lastTally.alive.empty());
+        // The copies of the film are made by the clock, but for the first, after the first tile.
+        const long pixels = report().at("finished").at("pixels");
+        EXPECT_TRUE(pixels == 256 * 256 || pixels == 2 * 256 * 256) << pixels;
+        EXPECT_EQ(report().at("faults").size(), 4u);
+        const Image image = readImage(folder / "a.pfm").image;
+        int differentCount = 0;
+        for (int y = 0; y < 512; ++y)
+            for (int x = 0; x < 512; ++x)
+                differentCount +=
+                    image.at(x, y) != (y < 256 && x < pixels / 256 ? whole.at(x, y) : glm::vec3(0.0f));
+        EXPECT_EQ(differentCount, 0);
+    }
+}
+
+TEST_F(DeviceRecovery, WithoutASampleNothingIsWritten) {
+    for (const char *fault :
+         {"vkQueueSubmit:2+:VK_ERROR_DEVICE_LOST", "vkAllocateMemory:8+:VK_ERROR_OUT_OF_DEVICE_MEMORY"}) {
+        const Outcome outcome = render(fault);
+        EXPECT_EQ(outcome.exitCode, contains(fault, "LOST") ? 6 : 5) << outcome;
+        EXPECT_EQ(entries(), std::set<std::string>{}) << fault;
+    }
+}
+
+TEST_F(DeviceRecovery, AWaitIsLongButNotEndless) {
+    ASSERT_EQ(render("").exitCode, 0);
+    const std::string wanted = load("a.pfm");
+    // One slice of it is nothing.
+    const Outcome slow = render("vkWaitForFences:5:VK_TIMEOUT");
+    EXPECT_EQ(slow.exitCode, 0) << slow;
+    EXPECT_EQ(slow.errors, "");
+    EXPECT_TRUE(load("a.pfm") == wanted);
+    // In a process of its own: what may still run is never freed.
+    const Outcome hanging =
+        runFaulty("render spheres -o a.pfm --report r.json" + fourTiles, "vkWaitForFences:6+:VK_TIMEOUT");
+    EXPECT_EQ(hanging.exitCode, 6) << hanging;
+    EXPECT_TRUE(contains(hanging.errors, "tile (0, 256)")) << hanging;
+    EXPECT_TRUE(contains(hanging.errors, "VK_TIMEOUT")) << hanging;
+    EXPECT_TRUE(contains(hanging.errors, "stopped by the device: ")) << hanging;
+    EXPECT_EQ(lastTally.alive.at("vkCreateDevice"), 4);
+}
+
+TEST_F(DeviceRecovery, BothRendersOfAComparisonSurvive) {
+    const Outcome outcome =
+        runFaulty("compare spheres --width 64 --height 64 --spp 2 --against 0 --device 0",
+                  "vkQueueSubmit:5:VK_ERROR_DEVICE_LOST,vkQueueSubmit:9:VK_ERROR_DEVICE_LOST");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(contains(outcome.output, "equal, bit for bit")) << outcome;
+    EXPECT_EQ(lastTally.faults.size(), 2u);
+    EXPECT_TRUE(lastTally.alive.empty());
+}
+
+} // namespace
+} // namespace hyalite::testing
