@@ -140,6 +140,14 @@ struct EmitterRecord {
     uint isTwoSided;
 };
 
+// What a view shows of the first hit.
+
+const uint viewNormal = 0u; // for shading, from [-1, 1] to [0, 1]
+const uint viewDepth = 1u;  // distance from the eye
+const uint viewAlbedo = 2u; // of diffuse surfaces; 1 for others
+const uint viewId = 3u;     // a colour for each primitive
+const uint viewOcclusion = 4u;
+
 // ---- What is the same for a whole render
 
 const uint samplerCentre = 0u;
@@ -165,7 +173,7 @@ struct FrameRecord {
     vec3 gridMiddle;     // of the skip lists' boxes: plane q is at gridMiddle + gridScale * q
     uint skipListLength; // nodes of one list
     vec3 gridScale;
-    uint pad0;
+    float occlusionDistance; // what is further away hides no sky
 };
 
 // ---- What changes with each dispatch

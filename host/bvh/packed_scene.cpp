@@ -35,6 +35,7 @@ layout::FrameRecord packFrame(const Scene &scene) {
     frame.imagePlane = glm::vec3(forward);
     frame.seed = scene.settings.seed;
     frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);
+    frame.occlusionDistance = static_cast<float>(scene.settings.occlusionDistance);
     frame.lightCount = static_cast<std::uint32_t>(scene.lights.size());
     frame.background = scene.background;
     frame.shadowThroughGlass = scene.shadowThroughGlass;
@@ -161,10 +162,14 @@ std::uint64_t PackedScene::contentHash() const {
     layout::FrameRecord seen = frame;
     seen.seed = 0;
     seen.maxDepth = 0;
+    seen.occlusionDistance = 0.0f;
+    std::vector<layout::MaterialRecord> seenMaterials = materials;
+    for (layout::MaterialRecord &material : seenMaterials)
+        material.emitterDensity = 0.0f; // which only some integrators need
     std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)));
     hash = hashBytes(std::as_bytes(std::span(spheres)), hash);
     hash = hashBytes(std::as_bytes(std::span(lights)), hash);
-    hash = hashBytes(std::as_bytes(std::span(materials)), hash);
+    hash = hashBytes(std::as_bytes(std::span(seenMaterials)), hash);
     // Trees put the triangles into orders of their own, and each has its id: their sum is the same in any order.
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -176,6 +181,24 @@ std::uint64_t PackedScene::contentHash() const {
         sum += hashBytes(std::as_bytes(std::span(&seenTriangle, 1)));
     }
     return hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
+}
+
+std::uint32_t viewOf(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::AmbientOcclusion:
+        return layout::viewOcclusion;
+    case Integrator::Depth:
+        return layout::viewDepth;
+    case Integrator::Albedo:
+        return layout::viewAlbedo;
+    case Integrator::Id:
+        return layout::viewId;
+    case Integrator::Normal:
+    case Integrator::Whitted:
+    case Integrator::Path:
+        break;
+    }
+    return layout::viewNormal;
 }
 
 PackedScene packScene(const Scene &scene, const Bvh &bvh) {

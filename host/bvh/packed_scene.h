@@ -32,6 +32,9 @@ struct PackedScene {
     [[nodiscard]] std::uint64_t contentHash() const;
 };
 
+/// What a kernel shows of the first hit for an integrator that is a view; 0 for others.
+[[nodiscard]] std::uint32_t viewOf(Integrator integrator);
+
 /// `scene` is valid, and `bvh` was built from its triangles.
 [[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh);
 

@@ -55,6 +55,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     RenderSettings &settings = scene.settings;
     settings.samplesPerPixel = options.samplesPerPixel.value_or(settings.samplesPerPixel);
     settings.integrator = options.integrator.value_or(settings.integrator);
+    settings.occlusionDistance = options.occlusionDistance.value_or(settings.occlusionDistance);
     settings.maxDepth = options.maxDepth.value_or(settings.maxDepth);
     settings.tree = options.tree.value_or(settings.tree);
     settings.leafSize = options.leafSize.value_or(settings.leafSize);
@@ -138,7 +139,11 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
 
     const char *tracing = "Tracing";
     addChoice(command, "--integrator", options.integrator, integratorNames,
-              "whitted: direct light, mirrors and both branches at glass; path: light on all its ways")
+              "whitted: direct light, mirrors and both branches at glass; path: light on all its ways; ao: "
+              "ambient occlusion; normal, depth, albedo, id: views of what is seen first")
+        ->group(tracing);
+    addNumber(command, "--ao-distance", options.occlusionDistance, limits::occlusionDistance,
+              "for ao: what is further away hides no sky; default: everything hides it")
         ->group(tracing);
     addNumber(
         command, "--max-depth", options.maxDepth, limits::maxDepth,

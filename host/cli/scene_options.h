@@ -23,6 +23,7 @@ struct SceneOptions {
     std::optional<int> height;
     std::optional<int> samplesPerPixel;
     std::optional<Integrator> integrator;
+    std::optional<double> occlusionDistance;
     std::optional<int> maxDepth;
     std::optional<TreeKind> tree;
     std::optional<int> leafSize;

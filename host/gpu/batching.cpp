@@ -4,6 +4,10 @@
 #include "pathSkipTwoSlots.h"
 #include "pathStackOneSlot.h"
 #include "pathStackTwoSlots.h"
+#include "viewSkipOneSlot.h"
+#include "viewSkipTwoSlots.h"
+#include "viewStackOneSlot.h"
+#include "viewStackTwoSlots.h"
 #include "whittedSkipOneSlot.h"
 #include "whittedSkipTwoSlots.h"
 #include "whittedStackOneSlot.h"
@@ -55,7 +59,10 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator 
     const std::array<Words, 4> path{pathStackOneSlot, pathStackTwoSlots, pathSkipOneSlot, pathSkipTwoSlots};
     const std::size_t index =
         (batching.traversal == Traversal::SkipList ? 2u : 0u) + (batching.slotsPerInvocation == 2 ? 1u : 0u);
-    return integrator == Integrator::Path ? path[index] : whitted[index];
+    const std::array<Words, 4> view{viewStackOneSlot, viewStackTwoSlots, viewSkipOneSlot, viewSkipTwoSlots};
+    if (integrator == Integrator::Whitted)
+        return whitted[index];
+    return integrator == Integrator::Path ? path[index] : view[index];
 }
 
 std::string_view kernelName(const Batching &batching) {

@@ -127,6 +127,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantHasDielectric] = scene.hasDielectric;
     constants[layout::constantHasEmission] = scene.hasEmission;
     constants[layout::constantEmitterCount] = static_cast<std::uint32_t>(scene.emitters.size());
+    constants[layout::constantView] = viewOf(job_.integrator);
     constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
     constants[layout::constantStackSize] = stackSize_;
     constants[layout::constantIsTracing] = job_.isTraced;

@@ -1,6 +1,7 @@
 #include "host/reference/renderer.h"
 
 #include "host/reference/path.h"
+#include "host/reference/view.h"
 #include "host/reference/whitted.h"
 
 #include <omp.h>
@@ -149,9 +150,11 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 template <class Real, class Counter, class Use>
 auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, const Use &use) {
     const auto sampler = static_cast<std::uint32_t>(settings.sampler);
+    if (settings.integrator == Integrator::Whitted)
+        return use([&] { return WhittedIntegrator<Real, Counter>(scene, sampler); });
     if (settings.integrator == Integrator::Path)
         return use([&] { return PathIntegrator<Real, Counter>(scene, sampler); });
-    return use([&] { return WhittedIntegrator<Real, Counter>(scene, sampler); });
+    return use([&] { return ViewIntegrator<Real, Counter>(scene, sampler, viewOf(settings.integrator)); });
 }
 
 template <class Real>

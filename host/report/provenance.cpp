@@ -53,6 +53,7 @@ nlohmann::ordered_json settingsToJson(const RenderSettings &settings) {
     return {{"integrator", nameOf(settings.integrator)},
             {"spp", settings.samplesPerPixel},
             {"maxDepth", settings.maxDepth},
+            {"occlusionDistance", settings.occlusionDistance},
             {"bvh", nameOf(settings.tree)},
             {"leafSize", settings.leafSize},
             {"sampler", nameOf(settings.sampler)},

@@ -59,6 +59,7 @@ inline constexpr Interval framedExtent{1e-12, 1e12};  ///< box diagonal of a mes
 inline constexpr Interval samplesPerPixel{1, 65536};
 inline constexpr Interval maxDepth{1, layout::maxPathDepth};
 inline constexpr Interval leafSize{1, 64};
+inline constexpr Interval occlusionDistance{0.0, 1e15, false};
 inline constexpr Interval seed{0, 4294967295.0};
 inline constexpr Interval exposureStops{-100.0, 100.0};
 

@@ -14,8 +14,13 @@ template <class Value> using Name = std::pair<std::string_view, Value>;
 inline constexpr std::array<Name<MaterialKind>, 3> materialNames{{{"diffuse", MaterialKind::Diffuse},
                                                                   {"mirror", MaterialKind::Mirror},
                                                                   {"dielectric", MaterialKind::Dielectric}}};
-inline constexpr std::array<Name<Integrator>, 2> integratorNames{
-    {{"whitted", Integrator::Whitted}, {"path", Integrator::Path}}};
+inline constexpr std::array<Name<Integrator>, 7> integratorNames{{{"whitted", Integrator::Whitted},
+                                                                  {"path", Integrator::Path},
+                                                                  {"ao", Integrator::AmbientOcclusion},
+                                                                  {"normal", Integrator::Normal},
+                                                                  {"depth", Integrator::Depth},
+                                                                  {"albedo", Integrator::Albedo},
+                                                                  {"id", Integrator::Id}}};
 inline constexpr std::array<Name<TreeKind>, 3> treeNames{
     {{"midpoint", TreeKind::Midpoint}, {"sah", TreeKind::Sah}, {"none", TreeKind::None}}};
 inline constexpr std::array<Name<SamplerKind>, 2> samplerNames{

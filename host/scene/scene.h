@@ -70,15 +70,16 @@ struct TriangleMesh {
     std::uint32_t materialIndex = 0;
 };
 
-enum class Integrator { Whitted, Path };
+enum class Integrator { Whitted, Path, AmbientOcclusion, Normal, Depth, Albedo, Id };
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 
 /// What a render does with the scene; the command line may override each of them.
 struct RenderSettings {
     Integrator integrator = Integrator::Whitted;
-    int samplesPerPixel = 16; ///< in [1, 65536]
-    int maxDepth = 7;         ///< segments of a path, the primary ray being the first; in [1, 32]
+    int samplesPerPixel = 16;        ///< in [1, 65536]
+    double occlusionDistance = 1e15; ///< AmbientOcclusion: what is further away hides no sky; > 0
+    int maxDepth = 7;                ///< segments of a path, the primary ray being the first; in [1, 32]
     TreeKind tree = TreeKind::Midpoint;
     int leafSize = 8; ///< most triangles in a leaf, where they can be separated; in [1, 64]
     SamplerKind sampler = SamplerKind::Sobol;

@@ -126,6 +126,8 @@ RenderSettings readSettings(const JsonObject &object) {
     settings.integrator = object.choice("integrator", integratorNames, settings.integrator);
     settings.samplesPerPixel = object.integer("spp", limits::samplesPerPixel, settings.samplesPerPixel);
     settings.maxDepth = object.integer("maxDepth", limits::maxDepth, settings.maxDepth);
+    settings.occlusionDistance =
+        object.number("occlusionDistance", limits::occlusionDistance, settings.occlusionDistance);
     settings.tree = object.choice("bvh", treeNames, settings.tree);
     settings.leafSize = object.integer("leafSize", limits::leafSize, settings.leafSize);
     settings.sampler = object.choice("sampler", samplerNames, settings.sampler);

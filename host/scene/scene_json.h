@@ -42,7 +42,9 @@
 //       "translate"      vector, default [0, 0, 0]
 //     } ],
 //     "settings": {
-//       "integrator"     "whitted" (default) or "path"
+//       "integrator"     "whitted" (default), "path", "ao" (ambient occlusion), or what is seen first: "normal",
+//                        "depth", "albedo" or "id"
+//       "occlusionDistance"  more than 0, default 1e15: for "ao", what is further away hides no sky
 //       "spp"            samples a pixel, from 1 to 65536, default 16
 //       "maxDepth"       segments of a path, from 1 to 32, default 7
 //       "bvh"            "midpoint" (default), "sah" or "none"
@@ -102,8 +104,8 @@ inline constexpr auto sphere =
 inline constexpr auto mesh =
     std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material"});
 inline constexpr auto settings =
-    std::to_array<std::string_view>({"integrator", "spp", "maxDepth", "bvh", "leafSize", "sampler", "seed",
-                                     "exposure", "shadowThroughGlass"});
+    std::to_array<std::string_view>({"integrator", "occlusionDistance", "spp", "maxDepth", "bvh", "leafSize",
+                                     "sampler", "seed", "exposure", "shadowThroughGlass"});
 
 } // namespace scene_keys
 } // namespace hyalite

@@ -124,6 +124,7 @@ void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checke
 void checkSettings(const RenderSettings &settings, const Checked &checked) {
     checked.within(limits::samplesPerPixel, settings.samplesPerPixel, "spp");
     checked.within(limits::maxDepth, settings.maxDepth, "maxDepth");
+    checked.within(limits::occlusionDistance, settings.occlusionDistance, "occlusionDistance");
     checked.within(limits::leafSize, settings.leafSize, "leafSize");
     checked.within(limits::exposureStops, settings.exposureStops, "exposure");
 }

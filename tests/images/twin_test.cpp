@@ -137,6 +137,17 @@ TEST(Twins, AgreeOnPathsFromTheOtherSampler) {
     expectTwins(scene);
 }
 
+TEST(Twins, AgreeOnEveryView) {
+    for (const Integrator integrator : {Integrator::AmbientOcclusion, Integrator::Normal, Integrator::Depth,
+                                        Integrator::Albedo, Integrator::Id}) {
+        Scene scene = pathScene(48, 40, 3);
+        scene.settings.integrator = integrator;
+        scene.settings.occlusionDistance = 12.0;
+        for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+            expectTwins(scene, {.traversal = traversal});
+    }
+}
+
 TEST(Twins, AgreeOnWhittedEmission) {
     Scene scene = pathScene(48, 48, 2);
     scene.settings.integrator = Integrator::Whitted;

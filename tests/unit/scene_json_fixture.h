@@ -75,7 +75,7 @@ inline nlohmann::json completeScene() {
         "spheres": [{"centre": [4, 5, 6], "radius": 7, "material": "ice", "inwardNormal": true}],
         "meshes": [{"file": "triangle.obj", "scale": 2, "rotateDegrees": [0, 0, 90],
                     "translate": [0, 0, -5], "material": "paper"}],
-        "settings": {"integrator": "whitted", "spp": 32, "maxDepth": 12, "bvh": "sah", "leafSize": 4,
+        "settings": {"integrator": "whitted", "occlusionDistance": 7.5, "spp": 32, "maxDepth": 12, "bvh": "sah", "leafSize": 4,
                      "sampler": "centre", "seed": 4294967295, "exposure": -1.5, "shadowThroughGlass": 0.5}
     })");
 }

@@ -59,6 +59,7 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
 
     EXPECT_EQ(scene.settings.samplesPerPixel, 32);
     EXPECT_EQ(scene.settings.maxDepth, 12);
+    EXPECT_EQ(scene.settings.occlusionDistance, 7.5);
     EXPECT_EQ(scene.settings.tree, TreeKind::Sah);
     EXPECT_EQ(scene.settings.leafSize, 4);
     EXPECT_EQ(scene.settings.sampler, SamplerKind::Centre);

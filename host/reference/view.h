@@ -1,0 +1,118 @@
+// Views of what primary rays meet, and ambient occlusion. Twin: shaders/view.glsl.
+//
+// Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with everything
+// further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", 1998.
+#pragma once
+
+#include "host/reference/camera.h"
+#include "host/reference/closest_hit.h"
+#include "host/reference/hit_surface.h"
+#include "host/reference/random.h"
+#include "host/reference/sampling.h"
+#include "host/report/ray_counts.h"
+
+#include <vector>
+
+namespace hyalite::reference {
+
+/// A colour for each number, in [0.2, 1).
+template <class Real> [[nodiscard]] Vec3<Real> idColour(std::uint32_t id) {
+    const glm::uvec3 bits = hashKeys({id, 1, 2});
+    return Real(0.2) +
+           Real(0.8) * Vec3<Real>(unitReal<Real>(bits.x), unitReal<Real>(bits.y), unitReal<Real>(bits.z));
+}
+
+/// From [-1, 1] to [0, 1], as normal maps do.
+template <class Real> [[nodiscard]] Vec3<Real> normalColour(const Vec3<Real> &normal) {
+    return Real(0.5) + Real(0.5) * normal;
+}
+
+/// Looks at what camera samples meet. One instance a thread: it keeps the counts.
+template <class Real, class Counter = NoCounter> class ViewIntegrator {
+  public:
+    /// `view` is one of layout::view...
+    ViewIntegrator(const PackedScene &scene, std::uint32_t samplerKind, std::uint32_t view)
+        : scene_(scene), samplerKind_(samplerKind), view_(view) {}
+
+    /// What one sample of a pixel of the whole image shows. `shift` moves it by so many pixels, to learn how the picture
+    /// changes around it.
+    [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
+                                            const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
+        const Vec2<Real> offset =
+            samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed) + shift;
+        ++counts_.primary;
+        sampleIndex_ = sampleIndex;
+        const Ray<Real> ray{Vec3<Real>(scene_.frame.eye), primaryDirection(scene_.frame, pixel, offset)};
+        traceEvent(layout::traceRayOrigin, 0, ray.origin);
+        traceEvent(layout::traceRayDirection, 0, ray.direction);
+        const Hit<Real> hit = closestHit(scene_, ray, counter_);
+        traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
+        if (hit.primitive == layout::noPrimitive)
+            return show(Vec3<Real>(Real(view_ == layout::viewOcclusion ? 1 : 0)));
+        std::uint32_t materialIndex;
+        const Surface<Real> surface = hitSurface(scene_, ray, hit, materialIndex);
+        traceEvent(layout::traceSurfacePosition, 0, surface.position);
+        traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
+        const layout::MaterialRecord &material = scene_.materials[materialIndex];
+        switch (view_) {
+        case layout::viewNormal:
+            return show(normalColour(surface.normal));
+        case layout::viewDepth:
+            return show(Vec3<Real>(hit.distance));
+        case layout::viewId:
+            return show(idColour<Real>(hit.primitive));
+        case layout::viewAlbedo:
+            return show(material.kind == layout::materialDiffuse ? Vec3<Real>(material.albedo)
+                                                                 : Vec3<Real>(Real(1)));
+        default:
+            return seeSky(ray, surface, hit.primitive, pixel);
+        }
+    }
+
+    [[nodiscard]] const RayCounts &counts() const { return counts_; }
+    /// Of the traversal.
+    [[nodiscard]] const Counter &counter() const { return counter_; }
+
+    /// From now on, what the rays do is appended to `events`, which must outlive the integrator.
+    void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
+
+  private:
+    void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
+        if (events_ != nullptr)
+            events_->push_back({quantity, sampleIndex_, 1, integer, glm::vec3(value), 0});
+    }
+
+    [[nodiscard]] Vec3<Real> show(const Vec3<Real> &value) {
+        traceEvent(layout::traceRadiance, 0, value);
+        return value;
+    }
+
+    [[nodiscard]] Vec3<Real> seeSky(const Ray<Real> &ray, Surface<Real> surface, std::uint32_t primitive,
+                                    const glm::uvec2 &pixel) {
+        if (dotProduct(ray.direction, surface.geometricNormal) > 0) {
+            surface.normal = -surface.normal;
+            surface.geometricNormal = -surface.geometricNormal;
+        }
+        const glm::uvec2 bits = sampleBits(pairKeys(pixel, scene_.frame.seed, 1), sampleIndex_);
+        const Vec3<Real> direction = sampleCosine(surface.normal, unitReals<Real>(bits));
+        if (!(dotProduct(surface.geometricNormal, direction) > 0))
+            return Vec3<Real>(Real(0));
+        ++counts_.shadow;
+        const Ray<Real> toSky{spawnPoint(surface, direction), direction, primitive};
+        const Real length = static_cast<Real>(scene_.frame.occlusionDistance);
+        const bool isBlocked = isAnythingBefore(scene_, toSky, length, layout::noPrimitive, counter_);
+        traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
+                   Vec3<Real>(Real(0)));
+        return isBlocked ? Vec3<Real>(Real(0)) : show(Vec3<Real>(Real(1)));
+    }
+
+    const PackedScene &scene_;
+    const std::uint32_t samplerKind_;
+    const std::uint32_t view_;
+    RayCounts counts_;
+    Counter counter_;
+    std::vector<layout::TraceEvent> *events_ = nullptr;
+    std::uint32_t sampleIndex_ = 0;
+};
+
+} // namespace hyalite::reference

@@ -1,0 +1,68 @@
+// Entry kernel: the views, RAYS path slots an invocation, over a stack or a skip list (SKIP_LIST=1).
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#if SKIP_LIST
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
+
+#include "layout.h"
+
+layout(local_size_x_id = 0) in;
+
+#include "bindings.glsl"
+
+const bool lightPassesGlass = false;
+const bool raysHaveTargets = false;
+const bool hasBounces = false;
+
+#include "scene_data.glsl"
+#include "arithmetic.glsl"
+#include "vector.glsl"
+#include "random.glsl"
+#include "camera.glsl"
+#include "box.glsl"
+#include "triangle.glsl"
+#include "sphere.glsl"
+#include "functions.glsl"
+#include "sampling.glsl"
+#include "surface.glsl"
+#include "preloaded.glsl"
+#include "path_slots.glsl"
+#include "film.glsl"
+#include "meet_triangle.glsl"
+#if SKIP_LIST
+#include "traverse_skip.glsl"
+#else
+#include "traverse_stack.glsl"
+#endif
+#include "rays.glsl"
+#include "view.glsl"
+
+void main() {
+    loadConstants();
+    preload();
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+        placeSlot(slot);
+        loadFilm(slot);
+        loadSlot(slot, film[slot].sampleCount);
+    }
+    // The same for all lanes that share a pixel.
+    bool isOutOfSteps = false;
+    do {
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            if (path[slot].stage == stageNextSample)
+                beginSample(slot);
+        advancePaths();
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            addRoundToFilm(slot);
+        stepsTaken += 1u;
+        isOutOfSteps = !isTrueForAllAbreast(stepsTaken < dispatch.stepBudget);
+    } while (isUnfinished() && !isOutOfSteps);
+    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+        storeFilm(slot);
+        storeSlot(slot);
+    }
+    addProgress();
+}

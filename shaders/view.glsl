@@ -1,0 +1,113 @@
+// Views of what primary rays meet, and ambient occlusion. Twin: host/reference/view.h.
+//
+// Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with everything
+// further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", 1998.
+
+layout(constant_id = constantView) const uint view = viewNormal;
+
+void beginSample(uint slot) {
+    path[slot].sampleRadiance = vec3(0.0);
+    path[slot].throughput = vec3(1.0);
+    path[slot].stage = stageSampleDone;
+    if (path[slot].sampleIndex < dispatch.sampleEnd) {
+        uvec2 pixel = imagePixel[slot];
+        vec3 direction = primaryDirection(pixel, samplePixel(pixel, path[slot].sampleIndex, frame.seed));
+        startRay(slot, frame.eye, direction, noPrimitive, 1u, noMaterial);
+        rayCounts[slot].x += 1u;
+    }
+}
+
+void show(uint slot, vec3 value) {
+    path[slot].sampleRadiance = value;
+    traceEvent(slot, traceRadiance, 0u, value);
+}
+
+// A colour for each number, in [0.2, 1).
+vec3 idColour(uint id) {
+    uvec3 bits = hashKeys(uvec3(id, 1u, 2u));
+    precise vec3 colour = 0.2 + 0.8 * vec3(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z));
+    return colour;
+}
+
+// From [-1, 1] to [0, 1], as normal maps do.
+vec3 normalColour(vec3 normal) {
+    precise vec3 colour = 0.5 + 0.5 * normal;
+    return colour;
+}
+
+// Stage: the nearest hit is known.
+void shadeHit(uint slot) {
+    traceNearestHit(slot);
+    path[slot].stage = stageSampleDone;
+    if (path[slot].hitPrimitive == noPrimitive) {
+        show(slot, vec3(view == viewOcclusion ? 1.0 : 0.0));
+        return;
+    }
+    uint materialIndex;
+    Surface surface = hitSurface(slot, materialIndex);
+    traceEvent(slot, traceSurfacePosition, 0u, surface.position);
+    traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
+    if (view == viewNormal)
+        show(slot, normalColour(surface.normal));
+    if (view == viewDepth)
+        show(slot, vec3(path[slot].rayLength));
+    if (view == viewId)
+        show(slot, idColour(path[slot].hitPrimitive));
+    if (view == viewAlbedo) {
+        MaterialRecord material = fetchMaterial(materialIndex);
+        show(slot, material.kind == materialDiffuse ? material.albedo : vec3(1.0));
+    }
+    if (view == viewOcclusion) {
+        bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
+        path[slot].surfacePosition = surface.position;
+        path[slot].surfaceError = surface.error;
+        path[slot].surfaceNormal = isBehind ? -surface.normal : surface.normal;
+        path[slot].surfaceGeometricNormal = isBehind ? -surface.geometricNormal : surface.geometricNormal;
+        path[slot].surfacePrimitive = path[slot].hitPrimitive;
+        path[slot].stage = stageNextLight;
+    }
+}
+
+// Stage: look at a point of the sky.
+void aimAtLight(uint slot) {
+    uvec2 bits = sampleBits(pairKeys(imagePixel[slot], frame.seed, 1u), path[slot].sampleIndex);
+    vec3 direction = sampleCosine(path[slot].surfaceNormal, unitFloats(bits));
+    path[slot].stage = stageSampleDone;
+    if (dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0)
+        beginShadow(slot, direction, frame.occlusionDistance);
+}
+
+// Stage: the ray has left, or met something.
+void addLight(uint slot) {
+    path[slot].stage = stageSampleDone;
+    bool isVisible = path[slot].hitPrimitive == noPrimitive;
+    traceEvent(slot, traceVisibility, isVisible ? visibilityClear : visibilityBlocked, vec3(0.0));
+    if (isVisible)
+        show(slot, vec3(1.0));
+}
+
+// Runs the samples that the slots have begun to their end, or until the step budget is spent.
+void advancePaths() {
+    do {
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            if (path[slot].stage == stageNewRay)
+                beginClosest(slot);
+        if (hasTriangles)
+            traverse(stageClosest, false);
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            if (path[slot].stage == stageClosest && !isTraversing(slot))
+                shadeHit(slot);
+        stepsTaken += 1u + sphereIterations;
+        if (view == viewOcclusion) {
+            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+                if (path[slot].stage == stageNextLight)
+                    aimAtLight(slot);
+            if (hasTriangles)
+                traverse(stageShadow, true);
+            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+                if (path[slot].stage == stageShadow && !isTraversing(slot))
+                    addLight(slot);
+            stepsTaken += 1u + sphereIterations;
+        }
+    } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
+}
