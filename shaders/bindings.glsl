@@ -16,6 +16,7 @@ layout(constant_id = constantHasDielectric) const bool hasDielectric = true;
 layout(constant_id = constantSampler) const uint samplerKind = samplerSobol;
 layout(constant_id = constantStackSize) const uint stackSize = maxTreeDepth;
 layout(constant_id = constantIsCounting) const bool isCounting = false;
+layout(constant_id = constantShowsCost) const bool showsCost = false;
 layout(constant_id = constantIsTracing) const bool isTracing = false;
 layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
 layout(constant_id = constantSamplesAbreast) const uint samplesAbreast = 1u;

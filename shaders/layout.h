@@ -356,7 +356,8 @@ const uint constantIsCounting = 13u;         // count the work of the traversal
 const uint constantEmitterCount = 14u;
 const uint constantHasEmission = 15u; // materials of primitives that emit
 const uint constantView = 16u;        // which view
-const uint constantCount = 17u;
+const uint constantShowsCost = 17u;   // samples are the work that they take: nodes, boxes, triangles
+const uint constantCount = 18u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);

@@ -40,8 +40,12 @@ void stopTraversal(uint slot) {
 
 void visitNode(uint slot, BoxRay ray) {
     NodePair node = fetchNode(path[slot].cursorNode);
-    if (isCounting)
-        workCounts.xy += uvec2(1u, (node.left != noNode ? 1u : 0u) + (node.right != noNode ? 1u : 0u));
+    if (isCounting) {
+        uint boxes = (node.left != noNode ? 1u : 0u) + (node.right != noNode ? 1u : 0u);
+        workCounts.xy += uvec2(1u, boxes);
+        if (showsCost)
+            path[slot].sampleRadiance = add(path[slot].sampleRadiance, vec3(1.0, float(boxes), 0.0));
+    }
     vec2 left = boxInterval(ray, node.leftLower, node.leftUpper);
     vec2 right = boxInterval(ray, node.rightLower, node.rightUpper);
     bool isLeftHit = node.left != noNode && left.x <= lesser(left.y, path[slot].rayLength);
@@ -58,8 +62,11 @@ void visitNode(uint slot, BoxRay ray) {
 void visitTriangle(uint slot, TriangleRay ray, BoxRay boxRay, const bool isShadow) {
     uint record = path[slot].cursorTriangle;
     TriangleRecord triangle = fetchTriangle(record);
-    if (isCounting)
+    if (isCounting) {
         workCounts.z += 1u;
+        if (showsCost)
+            path[slot].sampleRadiance = add(path[slot].sampleRadiance, vec3(0.0, 0.0, 1.0));
+    }
     bool isLast = (triangle.flags & triangleEndsLeaf) != 0u;
     uint next = record + 1u;
     if (isLast)

@@ -72,7 +72,8 @@ void leaveScene(uint slot) {
     vec3 throughput = path[slot].throughput;
     if (hasDielectric && path[slot].rayMedium != noMaterial)
         throughput *= fetchMaterial(path[slot].rayMedium).segmentTint;
-    path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, frame.background);
+    if (!showsCost)
+        path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, frame.background);
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     endPath(slot);
 }
@@ -99,7 +100,7 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
     bool isSeenFromFront = dotProduct(direction, surface.geometricNormal) < 0.0;
-    if (hasEmission && (isSeenFromFront || material.isTwoSided != 0u)) {
+    if (hasEmission && !showsCost && (isSeenFromFront || material.isTwoSided != 0u)) {
         path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, path[slot].throughput, material.emission);
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
@@ -152,7 +153,7 @@ void addLight(uint slot) {
     bool isDimmed = hasDielectric && path[slot].isLightDimmed != 0u;
     traceEvent(slot, traceVisibility, isVisible ? (isDimmed ? visibilityDimmed : visibilityClear) : visibilityBlocked,
                vec3(path[slot].lightIndex));
-    if (isVisible) {
+    if (isVisible && !showsCost) {
         float squaredDistance = path[slot].rayLength * path[slot].rayLength;
         float cosine = dotProduct(path[slot].surfaceNormal, path[slot].rayDirection);
         vec3 irradiance = lightIntensity(path[slot].lightIndex) * divide(cosine, squaredDistance);

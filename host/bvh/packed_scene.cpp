@@ -196,6 +196,7 @@ std::uint32_t viewOf(Integrator integrator) {
     case Integrator::Normal:
     case Integrator::Whitted:
     case Integrator::Path:
+    case Integrator::Cost:
         break;
     }
     return layout::viewNormal;

@@ -32,8 +32,8 @@ std::string driverBesideName(const std::string &driver, const std::string &name)
 
 class CpuBackend : public Backend {
   public:
-    CpuBackend(reference::Precision precision, int threadCount, bool isCounting)
-        : precision_(precision), threadCount_(threadCount), isCounting_(isCounting) {}
+    CpuBackend(reference::Precision precision, int threadCount)
+        : precision_(precision), threadCount_(threadCount) {}
 
     [[nodiscard]] std::string name() const override {
         return precision_ == reference::Precision::Float32 ? "cpu" : "cpu-double";
@@ -58,7 +58,7 @@ class CpuBackend : public Backend {
         Stopwatch watch;
         reference::Result result =
             reference::render(scene.packed, settings, scene.crop,
-                              {precision_, threadCount_, onProgress, isCounting_, shouldStop},
+                              {precision_, threadCount_, onProgress, false, shouldStop},
                               std::move(continuation));
         const Span span = watch.lap();
         if (timeline != nullptr) {
@@ -95,7 +95,6 @@ class CpuBackend : public Backend {
 
     reference::Precision precision_;
     int threadCount_;
-    bool isCounting_;
 };
 
 class DeviceBackend : public Backend {
@@ -108,7 +107,7 @@ class DeviceBackend : public Backend {
         const gpu::ArithmeticChoice &choice = renderer_.arithmetic();
         return {device_.name, device_.driver,
                 fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason),
-                std::string(renderer_.kernelName()), renderer_.kernelHash(integrator)};
+                std::string(renderer_.kernelName(integrator)), renderer_.kernelHash(integrator)};
     }
     [[nodiscard]] std::string unpromisedBits() const override { return gpu::explainUnpromisedBits(device_); }
     [[nodiscard]] std::string precision() const override {
@@ -183,9 +182,9 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
         throw Error(ExitCode::Usage,
                     fmt::format("--kernel is for Vulkan devices: --device {} has none to choose from", name));
     if (name == "cpu")
-        return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount, batching.isCounting);
+        return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
     if (name == "cpu-double")
-        return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount, batching.isCounting);
+        return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
     return std::make_unique<DeviceBackend>(gpu::chooseDevice(listDevices(), name), batching);
 }
 

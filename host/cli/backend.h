@@ -21,7 +21,7 @@ struct BackendResult {
     Film film;
     RayCounts rays; ///< traced by this call
     RenderTiming timing; ///< only renderSeconds on the CPU
-    WorkCounts work;     ///< all 0 unless the batching asked for counting
+    WorkCounts work;     ///< all 0 unless the integrator is the cost
     std::vector<std::string>
         faults{}; ///< Vulkan calls that failed; after all of them, or all but the last, it went on
     std::optional<Error>

@@ -327,6 +327,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
                            : isPassed                    ? "equal within the tolerance"
                                                          : "NOT equal");
     }
+    const RenderSettings &settings = scene.loaded.scene.settings;
     nlohmann::ordered_json origin = provenanceToJson(provenanceOf(scene, commandLine));
     origin["first"] = rendererToJson(first->identity(scene.loaded.scene.settings.integrator));
     origin["second"] = rendererToJson(second->identity(scene.loaded.scene.settings.integrator));

@@ -2,7 +2,7 @@
 #include "host/cli/backend.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
-#include "host/image/image_file.h"
+#include "host/image/film_file.h"
 #include "host/image/png.h"
 #include "host/image/tone_map.h"
 #include "host/report/baseline.h"
@@ -25,6 +25,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace hyalite {
 
@@ -44,6 +45,7 @@ struct ProfileOptions {
     std::string csv;
     std::string trace;
     std::string html;
+    std::string heatMap;
     std::string baseline;
     std::string maxRegression = "5%";
     std::optional<Gate> gate;
@@ -71,19 +73,22 @@ struct Outputs {
     std::optional<AtomicFile> csv;
     std::optional<AtomicFile> trace;
     std::optional<AtomicFile> html;
+    std::optional<AtomicFile> heatMap;
 
     explicit Outputs(const ProfileOptions &options) {
         requireDistinctFiles({{"--output", options.output},
                               {"--report", options.report},
                               {"--csv", options.csv},
                               {"--trace", options.trace},
-                              {"--html", options.html}},
+                              {"--html", options.html},
+                              {"--heatmap", options.heatMap}},
                              {resolveScene(options.scene.scene).string(), options.baseline});
         open(image, options.output);
         open(report, options.report);
         open(csv, options.csv);
         open(trace, options.trace);
         open(html, options.html);
+        open(heatMap, options.heatMap);
     }
 
   private:
@@ -117,9 +122,20 @@ std::vector<Attribute> originOf(const Profile &profile) {
     return attributesOf(provenanceToJson(profile.origin, profile.device));
 }
 
-std::vector<std::byte> pngOf(const Image &image, const Profile &profile) {
-    return encodePng(image.width(), image.height(), toneMap(image, profile.origin.settings.exposureStops),
-                     originOf(profile));
+std::vector<std::byte> pngOf(const Drawing &drawing, const Profile &profile) {
+    return encodePng(drawing.width, drawing.height, drawing.rgb, originOf(profile));
+}
+
+/// Renders the work of a traversal with a stack, whichever kernel is measured, and writes down what it came to.
+Drawing countWork(const ProfileOptions &options, PreparedScene &scene, Profile &profile) {
+    const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads);
+    RenderSettings &settings = scene.loaded.scene.settings;
+    const Integrator measured = std::exchange(settings.integrator, Integrator::Cost);
+    const BackendResult result = renderWithProgress(*counter, scene, "counting", options.isQuiet);
+    settings.integrator = measured;
+    profile.work = result.work;
+    profile.workHistogram = binWork(testsPerSample(result.film));
+    return drawCost(result.film);
 }
 
 RayCounts raysOf(const Frame &frame) {
@@ -168,7 +184,7 @@ PreparedScene prepare(const ProfileOptions &options, const std::string &commandL
     backend = openBackend(options.device, options.threads, batchingFor(options.kernel));
     profile.hostStages.push_back({"open the device", watch.lap()});
     profile.origin = provenanceOf(scene, commandLine);
-    profile.device = backend->identity(scene.loaded.scene.settings.integrator);
+    profile.device = backend->identity(profile.origin.settings.integrator);
     profile.sceneBytes = scene.packed.sizeBytes();
     return scene;
 }
@@ -195,6 +211,8 @@ void printMeasured(const Profile &profile) {
 }
 
 ExitCode runProfile(const ProfileOptions &options, const std::string &commandLine) {
+    if (!options.heatMap.empty() && imageFormatOf(options.heatMap) != ImageFormat::Png)
+        throw Error(ExitCode::Usage, fmt::format("--heatmap {}: the heat map is a .png", options.heatMap));
     const ImageFormat format = options.output.empty() ? ImageFormat::Png : imageFormatOf(options.output);
     const double maxRegression = parsePercent("--max-regression", options.maxRegression);
     std::optional<ProfileFigures> baseline;
@@ -203,7 +221,7 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     Outputs outputs(options);
     Profile profile;
     std::unique_ptr<Backend> backend;
-    const PreparedScene scene = prepare(options, commandLine, backend, profile);
+    PreparedScene scene = prepare(options, commandLine, backend, profile);
     if (outputs.image && format == ImageFormat::Png)
         requirePngSize(options.output, profile.origin.width, profile.origin.height);
     if (outputs.html)
@@ -231,18 +249,15 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     std::optional<Film> film;
     for (int i = 1; i <= options.repeatCount; ++i)
         film = renderFrame(*backend, scene, fmt::format("repeat {}", i), true, profile, options.isQuiet);
-    if (options.isCounting) {
-        gpu::Batching counting;
-        counting.isCounting = true;
-        const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads, counting);
-        profile.work = renderWithProgress(*counter, scene, "counting", options.isQuiet).work;
-    }
+    std::vector<std::byte> heatMapPng;
+    if (options.isCounting || outputs.heatMap || (outputs.html && scene.packed.hasTriangles))
+        heatMapPng = pngOf(countWork(options, scene, profile), profile);
     if (outputs.image) {
         Stopwatch watch;
         const Image image = film->toImage();
         Picture picture(image);
         picture.attributes = originOf(profile);
-        writeImage(*outputs.image, format, picture, profile.origin.settings.exposureStops);
+        writeFilm(*outputs.image, format, *film, picture, profile.origin.settings);
         outputs.image->commit();
         profile.hostStages.push_back({"write", watch.lap()});
     }
@@ -251,7 +266,12 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     store(outputs.csv, profileCsv(profile));
     store(outputs.trace, jsonText(profileToTrace(profile)));
     if (outputs.html)
-        store(outputs.html, profileHtml(profile, pngOf(film->toImage(), profile)));
+        store(outputs.html,
+              profileHtml(profile, pngOf(drawFilm(*film, profile.origin.settings), profile), heatMapPng));
+    if (outputs.heatMap) {
+        outputs.heatMap->write(heatMapPng);
+        outputs.heatMap->commit();
+    }
     if (!baseline)
         return ExitCode::Ok;
     const Gate gate = options.gate.value_or(Gate::All);
@@ -288,8 +308,10 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
             "write a timeline that ui.perfetto.dev and chrome://tracing open");
     command->add_flag("--counts", options->isCounting,
                       "render once more and count nodes, boxes and triangles of a traversal with a stack");
+    addFile(*command, "--heatmap", options->heatMap, "FILE.png",
+            "the same, and write how many boxes and triangles each pixel tests, in false colours");
     addFile(*command, "--html", options->html, "FILE.html",
-            "write a page with the image, the figures and where they come from");
+            "the same, and write a page with the image, the heat map, the figures and where they come from");
     addFile(*command, "--baseline", options->baseline, "FILE.json",
             "compare with an older --report; a regression is exit code 1");
     command

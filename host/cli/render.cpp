@@ -4,7 +4,7 @@
 #include "host/cli/options.h"
 #include "host/cli/snapshots.h"
 #include "host/cli/stop.h"
-#include "host/image/image_file.h"
+#include "host/image/film_file.h"
 #include "host/image/png.h"
 #include "host/report/message.h"
 #include "host/report/quantities.h"
@@ -115,7 +115,7 @@ void writeResult(AtomicFile &file, ImageFormat format, ToneCurve tone, const Fil
     picture.crop = film.crop;
     picture.layers = filmLayers(film);
     picture.attributes = attributesOf(provenanceToJson(report.origin, report.device));
-    writeImage(file, format, picture, scene.loaded.scene.settings.exposureStops, tone);
+    writeFilm(file, format, film, picture, scene.loaded.scene.settings, tone);
 }
 
 ExitCode runRender(const RenderOptions &options, const std::string &commandLine) {

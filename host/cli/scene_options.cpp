@@ -140,7 +140,9 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     const char *tracing = "Tracing";
     addChoice(command, "--integrator", options.integrator, integratorNames,
               "whitted: direct light, mirrors and both branches at glass; path: light on all its ways; ao: "
-              "ambient occlusion; normal, depth, albedo, id: views of what is seen first")
+              "ambient occlusion; normal, depth, albedo, id: views of what is seen first; cost: how many boxes "
+              "and triangles the rays of whitted test, as a PNG in false colours, or as a PFM of nodes, boxes "
+              "and triangles")
         ->group(tracing);
     addNumber(command, "--ao-distance", options.occlusionDistance, limits::occlusionDistance,
               "for ao: what is further away hides no sky; default: everything hides it")

@@ -60,7 +60,7 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator 
     const std::size_t index =
         (batching.traversal == Traversal::SkipList ? 2u : 0u) + (batching.slotsPerInvocation == 2 ? 1u : 0u);
     const std::array<Words, 4> view{viewStackOneSlot, viewStackTwoSlots, viewSkipOneSlot, viewSkipTwoSlots};
-    if (integrator == Integrator::Whitted)
+    if (isWhitted(integrator))
         return whitted[index];
     return integrator == Integrator::Path ? path[index] : view[index];
 }

@@ -2,6 +2,7 @@
 
 #include "host/gpu/check.h"
 #include "host/gpu/device.h"
+#include "host/error.h"
 #include "host/gpu/tile_renderer.h"
 #include "host/report/hash.h"
 
@@ -58,12 +59,13 @@ RayCounts sumOf(RayCounts a, const RayCounts &b) {
 struct Renderer::State {
     DeviceInfo info;
     std::optional<Device> device; ///< none where it failed, and could not be opened again
+    Batching wanted;
     Batching batching;
     ArithmeticChoice arithmetic;
 
-    State(const DeviceInfo &deviceInfo, const Batching &wanted)
-        : info(deviceInfo), device(std::in_place, info, transfers(wanted)), batching(completed(wanted, info)),
-          arithmetic(chooseArithmetic(*device, wanted.arithmetic)) {
+    State(const DeviceInfo &deviceInfo, const Batching &asked)
+        : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked),
+          batching(completed(asked, info)), arithmetic(chooseArithmetic(*device, asked.arithmetic)) {
         batching.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
     }
 
@@ -71,8 +73,23 @@ struct Renderer::State {
         return batching.isStaged ? Transfers::Staged : Transfers::Automatic;
     }
 
-    SceneBuffers upload(const PackedScene &scene) {
-        return SceneBuffers(*device, scene, batching.traversal == Traversal::SkipList);
+    /// How an integrator renders.
+    [[nodiscard]] Batching batchingFor(Integrator integrator) const {
+        if (integrator != Integrator::Cost)
+            return batching;
+        if (wanted.traversal == Traversal::SkipList)
+            throw Error(ExitCode::Usage,
+                        fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
+                                    "allowed: stack, stack-x2, or auto",
+                                    gpu::kernelName(batching)));
+        Batching counting = batching;
+        counting.isCounting = true;
+        counting.traversal = Traversal::Stack;
+        return completed(counting, info);
+    }
+
+    SceneBuffers upload(const PackedScene &scene, const Batching &used) {
+        return SceneBuffers(*device, scene, used.traversal == Traversal::SkipList);
     }
 
     /// The same device anew, for half as much at a time. Throws DeviceFault.
@@ -99,10 +116,12 @@ Renderer &Renderer::operator=(Renderer &&) noexcept = default;
 
 const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
 
-std::string_view Renderer::kernelName() const { return gpu::kernelName(state_->batching); }
+std::string_view Renderer::kernelName(Integrator integrator) const {
+    return gpu::kernelName(state_->batchingFor(integrator));
+}
 
 std::uint64_t Renderer::kernelHash(Integrator integrator) const {
-    return hashBytes(std::as_bytes(kernelWords(state_->batching, integrator)));
+    return hashBytes(std::as_bytes(kernelWords(state_->batchingFor(integrator), integrator)));
 }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
@@ -150,7 +169,8 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     };
     if (timeline != nullptr)
         timeline->clock = state_->device->timestamps().describe();
-    const SceneBuffers buffers = state_->upload(scene);
+    const Batching batching = state_->batchingFor(settings.integrator);
+    const SceneBuffers buffers = state_->upload(scene, batching);
     result.timing.uploadSeconds = endStage("upload");
 
     for (const Crop &band : cutIntoBands(crop, state_->info)) {
@@ -169,7 +189,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         if (isBegun)
             job.film = bandPixels;
         const RayCounts raysBefore = result.rays;
-        TileRenderer tiles(*state_->device, buffers, state_->batching, job);
+        TileRenderer tiles(*state_->device, buffers, batching, job);
         result.timing.pipelineSeconds += endStage("buffers");
         tiles.makeKernel();
         result.timing.pipelineSeconds += endStage("pipeline");
@@ -223,8 +243,9 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
         true};
     if (!state_->device)
         state_->reopen();
-    const SceneBuffers buffers = state_->upload(scene);
-    TileRenderer tiles(*state_->device, buffers, state_->batching, job);
+    const Batching batching = state_->batchingFor(settings.integrator);
+    const SceneBuffers buffers = state_->upload(scene, batching);
+    TileRenderer tiles(*state_->device, buffers, batching, job);
     tiles.makeKernel();
     (void)tiles.run({});
     return tiles.readTrace();

@@ -24,7 +24,7 @@ struct Result {
     Film film;
     RayCounts rays; ///< of the samples that were added to the film
     RenderTiming timing;
-    WorkCounts work; ///< all 0 unless the batching asks for counting
+    WorkCounts work; ///< all 0 unless the batching asks for counting, or the integrator is the cost
     std::vector<std::string>
         faults{}; ///< Vulkan calls that failed, each with its object or dispatch, in their order
     std::optional<Error>
@@ -42,8 +42,8 @@ class Renderer {
     /// Which / and sqrt the kernels run.
     [[nodiscard]] const ArithmeticChoice &arithmetic() const;
 
-    /// The word for the kernel that renders, and a hash of its SPIR-V.
-    [[nodiscard]] std::string_view kernelName() const;
+    /// The word for the kernel of an integrator, and a hash of its SPIR-V.
+    [[nodiscard]] std::string_view kernelName(Integrator integrator) const;
     [[nodiscard]] std::uint64_t kernelHash(Integrator integrator) const;
 
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
@@ -53,7 +53,8 @@ class Renderer {
     ///
     /// Where a Vulkan call fails, the device is opened anew and given half as much at a time, up to three times, and the
     /// render goes on from a copy of the film; after the last failure the result has what the copy has. Throws
-    /// Error{LimitExceeded} where the scene is too large for the limits of the device.
+    /// Error{LimitExceeded} where the scene is too large for the limits of the device, Error{Usage} where the
+    /// cost, which is that of a traversal with a stack, is asked of another kernel.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                                 const std::function<void(double)> &onProgress = {},
                                 Timeline *timeline = nullptr, const std::function<bool()> &shouldStop = {},

@@ -110,7 +110,7 @@ void TileRenderer::warmUp(Kernel &kernel) {
 
 TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     const PackedScene &scene = job_.scene;
-    const bool isSplitting = job_.integrator == Integrator::Whitted && scene.hasDielectric;
+    const bool isSplitting = isWhitted(job_.integrator) && scene.hasDielectric;
     const std::uint32_t mostPending = isSplitting ? scene.frame.maxDepth - 1 : 0;
     const bool keepsPending = !isResumable && mostPending <= layout::mostPendingInRegisters;
     Buffer paths(device_, "the path slots", BufferUse::Storage,
@@ -135,6 +135,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantSamplesAbreast] = samplesAbreast_;
     constants[layout::constantIsResumable] = isResumable;
     constants[layout::constantIsCounting] = batching_.isCounting;
+    constants[layout::constantShowsCost] = job_.integrator == Integrator::Cost;
     constants[layout::constantPendingInRegisters] = keepsPending ? mostPending : 0;
     const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,   &buffers_.spheres,
                                                                  &buffers_.lights,  &buffers_.materials,

@@ -15,17 +15,24 @@ struct NoCounter {
 
 struct WorkCounter {
     WorkCounts counts;
+    glm::vec3 sample{
+        0.0f}; ///< nodes, boxes and triangles since it was last set to 0, added up as the kernel does
 
     void visitNode(const layout::NodePair &node) {
-        ++counts.nodesVisited;
-        counts.boxesTested +=
+        const unsigned boxes =
             (node.left != layout::noNode ? 1u : 0u) + (node.right != layout::noNode ? 1u : 0u);
+        ++counts.nodesVisited;
+        counts.boxesTested += boxes;
+        sample += glm::vec3(1.0f, static_cast<float>(boxes), 0.0f);
     }
     /// `count` subtrees wait while the ray goes into another one.
     void waitSubtrees(std::size_t count) {
         counts.deepestStack = std::max<std::uint64_t>(counts.deepestStack, count);
     }
-    void testTriangle() { ++counts.trianglesTested; }
+    void testTriangle() {
+        ++counts.trianglesTested;
+        sample.z += 1.0f;
+    }
 };
 
 } // namespace hyalite::reference

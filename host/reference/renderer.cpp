@@ -16,6 +16,19 @@ namespace hyalite::reference {
 
 namespace {
 
+/// Samples of the cost are the work that they take.
+template <class Real> class CostIntegrator : public WhittedIntegrator<Real, WorkCounter> {
+  public:
+    using WhittedIntegrator<Real, WorkCounter>::WhittedIntegrator;
+
+    [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
+                                            const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
+        this->counter().sample = glm::vec3(0.0f);
+        static_cast<void>(WhittedIntegrator<Real, WorkCounter>::sampleRadiance(pixel, sampleIndex, shift));
+        return Vec3<Real>(this->counter().sample);
+    }
+};
+
 /// Adds samples to `film` until it has `sampleCount`: `isLast` is asked after each. Returns how many were added.
 template <class Real, class SampleIntegrator, class IsLast>
 std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel, std::uint32_t sampleCount,
@@ -150,7 +163,10 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 template <class Real, class Counter, class Use>
 auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, const Use &use) {
     const auto sampler = static_cast<std::uint32_t>(settings.sampler);
-    if (settings.integrator == Integrator::Whitted)
+    if constexpr (std::is_same_v<Counter, WorkCounter>)
+        if (settings.integrator == Integrator::Cost)
+            return use([&] { return CostIntegrator<Real>(scene, sampler); });
+    if (settings.integrator == Integrator::Whitted || settings.integrator == Integrator::Cost)
         return use([&] { return WhittedIntegrator<Real, Counter>(scene, sampler); });
     if (settings.integrator == Integrator::Path)
         return use([&] { return PathIntegrator<Real, Counter>(scene, sampler); });
@@ -183,7 +199,7 @@ Result render(const PackedScene &scene, const RenderSettings &settings, const Cr
             });
     };
     const bool isDouble = options.precision == Precision::Float64;
-    if (options.isCounting)
+    if (options.isCounting || settings.integrator == Integrator::Cost)
         return isDouble ? renderAs.template operator()<double, WorkCounter>()
                         : renderAs.template operator()<float, WorkCounter>();
     return isDouble ? renderAs.template operator()<double, NoCounter>()

@@ -44,7 +44,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
 
     [[nodiscard]] const RayCounts &counts() const { return counts_; }
     /// Of the traversal.
-    [[nodiscard]] const Counter &counter() const { return counter_; }
+    [[nodiscard]] Counter &counter() { return counter_; }
 
     /// From now on, what the paths do is appended to `events`, which must outlive the integrator.
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }

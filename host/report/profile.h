@@ -5,6 +5,7 @@
 #include "host/report/statistics.h"
 #include "host/report/timeline.h"
 #include "host/report/work_counts.h"
+#include "host/report/work_histogram.h"
 
 #include <cstdint>
 #include <optional>
@@ -27,6 +28,7 @@ struct Profile {
     std::string verification; ///< against what, or why not
     bool isVerified = false;
     std::optional<WorkCounts> work;      ///< of a frame; nothing where nobody asked
+    std::vector<WorkBin> workHistogram;  ///< of the same frame
     std::uint64_t sceneBytes = 0;        ///< of the scene's arrays
     std::vector<StageRecord> hostStages; ///< outside of frames: load, build, open, write
     std::vector<Frame> frames; ///< in the order in which they were rendered; at least one is measured

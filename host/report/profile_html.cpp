@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -28,6 +29,8 @@ main { max-width: 1100px; margin: 0 auto; }
 h1 { font-size: 24px; line-height: 1.25; margin: 0 0 4px; }
 h2 { font-size: 17px; margin: 32px 0 8px; }
 p { margin: 0 0 12px; color: var(--dim); }
+td.tests i { display: block; height: 10px; border-radius: 2px; background: #4477aa; min-width: 1px; }
+th.tests, td.tests { width: 100%; min-width: 120px; }
 p.note { margin-top: 8px; font-size: 13px; }
 .top { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 16px; align-items: start; }
 .top img { width: 100%; height: auto; display: block; border-radius: 6px; background: #000; }
@@ -140,6 +143,42 @@ std::string rayTable(const std::vector<KernelSummary> &kernels) {
     return tableOf(rows);
 }
 
+/// How the work is spread over the pixels.
+std::string histogram(const std::vector<WorkBin> &bins) {
+    std::uint64_t pixelCount = 0;
+    std::uint64_t most = 1;
+    for (const WorkBin &bin : bins) {
+        pixelCount += bin.pixelCount;
+        most = std::max(most, bin.pixelCount);
+    }
+    std::string rows =
+        "<tr><th>tests per sample</th><th>pixels</th><th>share</th><th class=\"tests\"></th></tr>\n";
+    for (const WorkBin &bin : bins)
+        rows += fmt::format("<tr><td>{:.0f} to {:.0f}</td><td>{}</td><td>{}</td><td class=\"tests\"><i "
+                            "style=\"width:{:.1f}%\"></i></td></tr>\n",
+                            bin.begin, bin.end, bin.pixelCount,
+                            shareText(static_cast<double>(bin.pixelCount) / static_cast<double>(pixelCount)),
+                            100.0 * static_cast<double>(bin.pixelCount) / static_cast<double>(most));
+    return tableOf(rows);
+}
+
+/// The heat map, what it came to, and how it is spread.
+std::string workOf(const Profile &profile, std::span<const std::byte> heatMapPng) {
+    std::string html =
+        fmt::format("<div class=\"top\">\n<img alt=\"Box and triangle tests of each pixel, in false "
+                    "colours\" src=\"data:image/png;base64,{}\">\n<div>\n",
+                    base64(heatMapPng));
+    if (profile.work)
+        html += fmt::format(
+            "<p>{}, {}, {}, deepest stack {}</p>\n", roundedText(profile.work->nodesVisited, "inner nodes"),
+            roundedText(profile.work->boxesTested, "boxes"),
+            roundedText(profile.work->trianglesTested, "triangles"), profile.work->deepestStack);
+    return html + histogram(profile.workHistogram) +
+           "<p class=\"note\">Of a traversal with a stack: equal on every device and on the CPU, whichever "
+           "kernel was "
+           "measured.</p>\n</div>\n</div>\n";
+}
+
 std::string provenance(const Profile &profile) {
     const Provenance &origin = profile.origin;
     const RenderSettings &settings = origin.settings;
@@ -206,7 +245,8 @@ std::string base64(std::span<const std::byte> bytes) {
     return text;
 }
 
-std::string profileHtml(const Profile &profile, std::span<const std::byte> png) {
+std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
+                        std::span<const std::byte> heatMapPng) {
     const std::vector<StageSummary> stages = summariseStages(profile);
     const std::vector<KernelSummary> kernels = summariseKernels(profile);
     const StageSummary frame = summariseFrame(profile);
@@ -269,6 +309,8 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png) 
         rows += timesRow(kernel.times);
     html += "<h2>Kernels</h2>\n" + tableOf(rows);
     html += "<h2>Rays of a frame</h2>\n" + rayTable(kernels);
+    if (!heatMapPng.empty())
+        html += "<h2>Where the rays have work</h2>\n" + workOf(profile, heatMapPng);
     html += "<h2>What was measured, and how</h2>\n" + provenance(profile);
     return html + "</main>\n</body>\n</html>\n";
 }

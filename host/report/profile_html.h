@@ -16,7 +16,8 @@ namespace hyalite {
 /// RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
-/// `png` is the image that was rendered, encoded.
-[[nodiscard]] std::string profileHtml(const Profile &profile, std::span<const std::byte> png);
+/// `png` is the image that was rendered, encoded, and `heatMapPng` its work, where it was counted.
+[[nodiscard]] std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
+                                      std::span<const std::byte> heatMapPng = {});
 
 } // namespace hyalite

@@ -32,6 +32,21 @@ std::string row(const StageSummary &stage) {
         millisText(stage.launch.max), stage.firstMillis ? millisText(*stage.firstMillis) : "-");
 }
 
+/// A line for each bin, with a bar as long as its share of the pixels.
+std::string workTable(const std::vector<WorkBin> &bins) {
+    std::uint64_t pixelCount = 0;
+    for (const WorkBin &bin : bins)
+        pixelCount += bin.pixelCount;
+    std::string text = fmt::format("\n{:<24}{:>9}{:>10}\n", "tests per sample", "pixels", "share");
+    for (const WorkBin &bin : bins) {
+        const double share = static_cast<double>(bin.pixelCount) / static_cast<double>(pixelCount);
+        const std::string bar(static_cast<std::size_t>(share * 40.0 + 0.5), '#');
+        text += fmt::format("{:<24}{:>9}{:>10}{}{}\n", fmt::format("{:.0f} to {:.0f}", bin.begin, bin.end),
+                            bin.pixelCount, shareText(share), bar.empty() ? "" : "  ", bar);
+    }
+    return text;
+}
+
 } // namespace
 
 std::string profileTable(const Profile &profile) {
@@ -67,6 +82,8 @@ std::string profileTable(const Profile &profile) {
         text += fmt::format("work of a stack traversal: {} nodes, {} boxes, {} triangles, deepest stack {}\n",
                             profile.work->nodesVisited, profile.work->boxesTested,
                             profile.work->trianglesTested, profile.work->deepestStack);
+    if (!profile.workHistogram.empty())
+        text += workTable(profile.workHistogram);
     return text;
 }
 

@@ -14,13 +14,14 @@ template <class Value> using Name = std::pair<std::string_view, Value>;
 inline constexpr std::array<Name<MaterialKind>, 3> materialNames{{{"diffuse", MaterialKind::Diffuse},
                                                                   {"mirror", MaterialKind::Mirror},
                                                                   {"dielectric", MaterialKind::Dielectric}}};
-inline constexpr std::array<Name<Integrator>, 7> integratorNames{{{"whitted", Integrator::Whitted},
+inline constexpr std::array<Name<Integrator>, 8> integratorNames{{{"whitted", Integrator::Whitted},
                                                                   {"path", Integrator::Path},
                                                                   {"ao", Integrator::AmbientOcclusion},
                                                                   {"normal", Integrator::Normal},
                                                                   {"depth", Integrator::Depth},
                                                                   {"albedo", Integrator::Albedo},
-                                                                  {"id", Integrator::Id}}};
+                                                                  {"id", Integrator::Id},
+                                                                  {"cost", Integrator::Cost}}};
 inline constexpr std::array<Name<TreeKind>, 3> treeNames{
     {{"midpoint", TreeKind::Midpoint}, {"sah", TreeKind::Sah}, {"none", TreeKind::None}}};
 inline constexpr std::array<Name<SamplerKind>, 2> samplerNames{

@@ -70,7 +70,21 @@ struct TriangleMesh {
     std::uint32_t materialIndex = 0;
 };
 
-enum class Integrator { Whitted, Path, AmbientOcclusion, Normal, Depth, Albedo, Id };
+enum class Integrator {
+    Whitted,
+    Path,
+    AmbientOcclusion,
+    Normal,
+    Depth,
+    Albedo,
+    Id,
+    Cost ///< the work of Whitted's rays: inner nodes, boxes and triangles as red, green and blue
+};
+/// Whether it sends the rays of Whitted's integrator.
+[[nodiscard]] constexpr bool isWhitted(Integrator integrator) {
+    return integrator == Integrator::Whitted || integrator == Integrator::Cost;
+}
+
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 

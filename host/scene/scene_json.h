@@ -43,7 +43,7 @@
 //     } ],
 //     "settings": {
 //       "integrator"     "whitted" (default), "path", "ao" (ambient occlusion), or what is seen first: "normal",
-//                        "depth", "albedo" or "id"
+//                        "depth", "albedo" or "id", or "cost"
 //       "occlusionDistance"  more than 0, default 1e15: for "ao", what is further away hides no sky
 //       "spp"            samples a pixel, from 1 to 65536, default 16
 //       "maxDepth"       segments of a path, from 1 to 32, default 7

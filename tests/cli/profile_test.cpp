@@ -1,4 +1,5 @@
 // `hyalite profile` as a user types it.
+#include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
 #include "tests/unit/trace_rules.h"
 
@@ -119,6 +120,43 @@ TEST_F(ProfileCommand, WritesATimelineThatKeepsTheRulesOfItsFormat) {
         // Of the repeats, and of the verification where there is one.
         EXPECT_EQ(traceSlices(trace, "frame").size(), device == "cpu" ? 2u : 3u);
     }
+}
+
+TEST_F(ProfileCommand, AHeatMapIsThePictureOfTheCost) {
+    store("sheet.obj", wavySheetObj(8));
+    store("sheet.json", wavySheetScene());
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const nlohmann::json report =
+            profile("sheet.json --heatmap heat.png --html page.html --device " + device + small);
+        ASSERT_EQ(run("render sheet.json --integrator cost -o cost.png --quiet --device " + device +
+                      " --width 32 --height 24 --spp 2")
+                      .exitCode,
+                  0);
+        EXPECT_EQ(readImage(folder / "heat.png").image.pixels(),
+                  readImage(folder / "cost.png").image.pixels());
+        EXPECT_EQ(report.at("settings").at("integrator"), "whitted");
+        std::uint64_t pixelCount = 0;
+        for (const nlohmann::json &bin : report.at("work").at("testsPerSample"))
+            pixelCount += bin.at("pixels").get<std::uint64_t>();
+        EXPECT_EQ(pixelCount, 32u * 24u);
+        EXPECT_TRUE(contains(load("page.html"), "tests per sample"));
+    }
+    expectFailure("profile sheet.json --heatmap heat.pfm" + small, 2, {"--heatmap", ".png"});
+    expectFailure("render sheet.json --integrator cost --kernel skip-list -o a.png --quiet --device " +
+                      softwareDevice(),
+                  2, {"skip-list", "stack"});
+}
+
+TEST_F(ProfileCommand, TheCostIsEqualOnDeviceAndCpu) {
+    store("sheet.obj", wavySheetObj(8));
+    store("sheet.json", wavySheetScene());
+    const std::string line = "sheet.json --integrator cost --width 32 --height 24 --spp 2 --device ";
+    const std::string onDevice = renderPfm(line + softwareDevice());
+    EXPECT_EQ(onDevice, renderPfm(line + "cpu"));
+    EXPECT_EQ(onDevice, renderPfm(line + softwareDevice() + " --kernel stack"));
+    EXPECT_NE(onDevice, renderPfm(line + "cpu --bvh sah"));
+    EXPECT_EQ(run("compare sheet.json --integrator cost" + small.substr(0, small.find(" --repeat"))).exitCode,
+              0);
 }
 
 TEST_F(ProfileCommand, ABaselineCatchesASlowerKernelAndMoreWork) {

@@ -68,14 +68,30 @@ TEST(ProfileHtml, HasTheFiguresAndWhereTheyComeFrom) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 
+TEST(ProfileHtml, HasTheHeatMapAndTheHistogramWhereWorkWasCounted) {
+    Profile profile = handMadeProfile({1.0});
+    EXPECT_EQ(pageOf(profile).find("tests per sample"), std::string::npos);
+    profile.work = WorkCounts{10, 20, 30, 4};
+    profile.workHistogram = {{1.0, 2.0, 75}, {2.0, 4.0, 25}};
+    const std::array<std::byte, 3> image{std::byte{1}, std::byte{2}, std::byte{3}};
+    const std::array<std::byte, 3> heatMap{std::byte{'f'}, std::byte{'o'}, std::byte{'o'}};
+    const std::string page = profileHtml(profile, image, heatMap);
+    expectWellFormed(page);
+    for (const char *part : {"base64,Zm9v\"", "1 to 2</td><td>75</td><td>75.0 %", "2 to 4</td><td>25</td>",
+                             "width:33.3%", "deepest stack 4"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
 TEST(ProfileHtml, NamesMayHoldAnything) {
     Profile profile = handMadeProfile({1.0});
     profile.origin.commandLine = "hyalite profile '<b>&\"c\"</b>.json'";
-    profile.device.name = "</title><img>";
+    profile.device.name = "</title><img>\x1b\xff";
     profile.frames.back().timeline.stages[0].name = "\"><p>";
     const std::string page = pageOf(profile);
     expectWellFormed(page);
     EXPECT_NE(page.find("'&lt;b&gt;&amp;&quot;c&quot;&lt;/b&gt;.json'"), std::string::npos);
+    EXPECT_EQ(page.find('\x1b'), std::string::npos);
+    EXPECT_EQ(page.find('\xff'), std::string::npos);
     EXPECT_EQ(htmlText("a < b & c > \"d\""), "a &lt; b &amp; c &gt; &quot;d&quot;");
 }
 

@@ -1,0 +1,66 @@
+// Pictures of the cost: the work of each pixel, equal on every device and on the CPU, and adding up to the counts.
+#include "tests/images/rendering.h"
+
+#include "host/error.h"
+#include "host/image/film_file.h"
+
+#include <gtest/gtest.h>
+
+namespace hyalite {
+namespace {
+
+Scene costOf(const std::string &name, int samplesPerPixel) {
+    Scene scene = testing::shippedScene(name, 40, 30, samplesPerPixel);
+    scene.settings.integrator = Integrator::Cost;
+    return scene;
+}
+
+TEST(Cost, IsEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
+    for (const char *name : {"cat", "spheres-nested"}) {
+        const Scene scene = costOf(name, 3);
+        const reference::Result onCpu = testing::renderOnCpu(scene);
+        for (const gpu::Batching &batching : {gpu::Batching{}, gpu::Batching{.slotsPerInvocation = 1},
+                                              gpu::Batching{.steps = 100, .slotsPerInvocation = 2}}) {
+            const gpu::Result onDevice = testing::renderOnDevice(scene, batching);
+            EXPECT_EQ(testing::differingPixels(onDevice.film, onCpu.film), 0u) << name;
+            EXPECT_EQ(onDevice.work, onCpu.work) << name;
+            EXPECT_EQ(onDevice.rays, onCpu.rays) << name;
+        }
+    }
+}
+
+TEST(Cost, OfAllPixelsIsTheCountOfTheFrame) {
+    const reference::Result result = testing::renderOnCpu(costOf("cat", 4));
+    glm::dvec3 sum(0.0);
+    for (const layout::FilmPixel &pixel : result.film.pixels)
+        sum += glm::dvec3(pixel.sum);
+    EXPECT_EQ(sum.x, static_cast<double>(result.work.nodesVisited));
+    EXPECT_EQ(sum.y, static_cast<double>(result.work.boxesTested));
+    EXPECT_EQ(sum.z, static_cast<double>(result.work.trianglesTested));
+    EXPECT_GT(sum.z, 0.0);
+    double tests = 0.0;
+    for (const float perSample : testsPerSample(result.film))
+        tests += 4.0 * static_cast<double>(perSample);
+    EXPECT_EQ(tests, sum.y + sum.z);
+}
+
+TEST(Cost, FollowsTheRaysOfThePicture) {
+    Scene scene = costOf("spheres-nested", 2);
+    const reference::Result cost = testing::renderOnCpu(scene);
+    scene.settings.integrator = Integrator::Whitted;
+    EXPECT_EQ(cost.rays, testing::renderOnCpu(scene).rays);
+}
+
+TEST(Cost, IsNotThatOfASkipList) {
+    const Scene scene = costOf("cat", 1);
+    try {
+        (void)testing::renderOnDevice(scene, {.traversal = gpu::Traversal::SkipList});
+        ADD_FAILURE() << "rendered";
+    } catch (const Error &error) {
+        EXPECT_EQ(error.exitCode, ExitCode::Usage);
+        EXPECT_NE(std::string(error.what()).find("skip-list"), std::string::npos) << error.what();
+    }
+}
+
+} // namespace
+} // namespace hyalite
