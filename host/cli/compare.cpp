@@ -329,8 +329,8 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     }
     const RenderSettings &settings = scene.loaded.scene.settings;
     nlohmann::ordered_json origin = provenanceToJson(provenanceOf(scene, commandLine));
-    origin["first"] = rendererToJson(first->identity(scene.loaded.scene.settings.integrator));
-    origin["second"] = rendererToJson(second->identity(scene.loaded.scene.settings.integrator));
+    origin["first"] = rendererToJson(first->identity(settings.integrator));
+    origin["second"] = rendererToJson(second->identity(settings.integrator));
     if (heatMapFile) {
         writePng(*heatMapFile, imageA.width(), imageA.height(), heatMap(comparison.flipMap),
                  attributesOf(origin));

@@ -62,7 +62,7 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
         for (const WorkKind &kind : workKinds)
             json["work"]["stackTraversal"][kind.name] = *profile.work.*kind.count;
     for (const WorkBin &bin : profile.workHistogram)
-        json["work"]["testsPerSample"].push_back(
+        json["testsPerSample"].push_back(
             {{"from", bin.begin}, {"to", bin.end}, {"pixels", bin.pixelCount}});
     return json;
 }

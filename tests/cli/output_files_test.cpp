@@ -32,7 +32,7 @@ std::vector<Case> allFiles() {
             {render + " -o a.hdr", "a.hdr"},
             {render + " -o a.pfm --partial 1e-4", "a.pfm"},
             {"render spheres -o b.pfm --report r.json" + tiny, "r.json"},
-            {"render spheres -o b.pfm --checkpoint c" + tiny, "c"},
+            {"render spheres -o b.pfm --checkpoint r.checkpoint" + tiny, "r.checkpoint"},
             {compare + " --diff d.png", "d.png"},
             {compare + " --report r.json", "r.json"},
             {"diff one.pfm other.pfm --diff d.png", "d.png"},
@@ -78,7 +78,7 @@ TEST_F(EachFile, StaysAsItWasOnAFullDisk) {
 TEST_F(EachFile, IsRefusedBeforeAnyWorkWhereItsFolderIsMissing) {
     for (const Case &each : allFiles()) {
         std::string line = each.line;
-        line.insert(line.rfind(each.file), "missing/");
+        line.insert(line.rfind(" " + each.file) + 1, "missing/");
         const std::set<std::string> before = entries();
         const Outcome outcome = run(line);
         EXPECT_EQ(outcome.exitCode, 7) << line << '\n' << outcome;

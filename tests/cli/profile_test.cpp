@@ -136,7 +136,7 @@ TEST_F(ProfileCommand, AHeatMapIsThePictureOfTheCost) {
                   readImage(folder / "cost.png").image.pixels());
         EXPECT_EQ(report.at("settings").at("integrator"), "whitted");
         std::uint64_t pixelCount = 0;
-        for (const nlohmann::json &bin : report.at("work").at("testsPerSample"))
+        for (const nlohmann::json &bin : report.at("testsPerSample"))
             pixelCount += bin.at("pixels").get<std::uint64_t>();
         EXPECT_EQ(pixelCount, 32u * 24u);
         EXPECT_TRUE(contains(load("page.html"), "tests per sample"));

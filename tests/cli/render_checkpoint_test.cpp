@@ -152,7 +152,10 @@ TEST_F(RenderCheckpoint, AnotherRendersIsRefusedWithWhatDiffers) {
              {"--crop 0,4,0,4", "crop: 0,24,0,16 there, 0,4,0,4 here"},
              {"--fov 31", "scene and camera: "},
              {"--background 0,0,1", "scene and camera: "}}) {
-        const std::string message = expectFailure(line + " --resume " + option, 3, {"'c'", difference});
+        std::string changed = line + " --resume ";
+        if (const std::size_t width = changed.find("--width 24 "); option.starts_with("--width"))
+            changed.erase(width, std::string("--width 24 ").size());
+        const std::string message = expectFailure(changed + option, 3, {"'c'", difference});
         EXPECT_TRUE(contains(message, "--resume")) << message;
     }
     store("square.obj", squareObj() + "v 0 0 1\nf 1 2 5\n");
@@ -173,13 +176,13 @@ TEST_F(RenderCheckpoint, ADamagedOneFallsBackToTheOlderAndSaysSo) {
         store("c", damaged);
         const Outcome outcome = run(line + " --resume --quiet");
         EXPECT_EQ(outcome.exitCode, 0) << outcome;
-        EXPECT_TRUE(contains(outcome.errors, "'c'") && contains(outcome.errors, "older c.1")) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "c: ") && contains(outcome.errors, "older c.1")) << outcome;
         EXPECT_EQ(load("a.pfm"), wanted);
         EXPECT_EQ(report().at("resumed").at("checkpoint"), "c.1");
     }
     store("c", "x");
     store("c.1", "y");
-    expectFailure(line + " --resume", 3, {"'c'", "'c.1'"});
+    expectFailure(line + " --resume", 3, {" c: ", " c.1: "});
 }
 
 TEST_F(RenderCheckpoint, WithoutOneItBeginsAnewAndSaysSo) {

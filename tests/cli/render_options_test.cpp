@@ -218,9 +218,15 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
                                        "sampler": "centre", "exposure": 2}})");
     const nlohmann::json own = renderReport("own.json --device cpu");
     EXPECT_EQ(own.at("image"), (nlohmann::json{{"width", 9}, {"height", 7}}));
-    const nlohmann::json wanted{
-        {"integrator", "whitted"}, {"spp", 3},  {"maxDepth", 4},       {"bvh", "sah"},
-        {"leafSize", 2},           {"seed", 5}, {"sampler", "centre"}, {"exposure", 2.0}};
+    const nlohmann::json wanted{{"integrator", "whitted"},
+                                {"spp", 3},
+                                {"maxDepth", 4},
+                                {"bvh", "sah"},
+                                {"leafSize", 2},
+                                {"seed", 5},
+                                {"sampler", "centre"},
+                                {"exposure", 2.0},
+                                {"occlusionDistance", 1e15}};
     EXPECT_EQ(own.at("settings"), wanted);
     const nlohmann::json overridden = renderReport("own.json --width 4 --spp 2" + onCpu);
     EXPECT_EQ(overridden.at("image"), (nlohmann::json{{"width", 4}, {"height", 7}}));
@@ -230,9 +236,9 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
 
 TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
     const nlohmann::json report = renderReport("empty.json --crop 0,1,0,1" + onCpu);
-    const nlohmann::json wanted{{"integrator", "whitted"}, {"spp", 16},      {"maxDepth", 7},
-                                {"bvh", "midpoint"},       {"leafSize", 8},  {"seed", 0},
-                                {"sampler", "sobol"},      {"exposure", 0.0}};
+    const nlohmann::json wanted{{"integrator", "whitted"}, {"spp", 16},       {"maxDepth", 7},
+                                {"bvh", "midpoint"},       {"leafSize", 8},   {"seed", 0},
+                                {"sampler", "sobol"},      {"exposure", 0.0}, {"occlusionDistance", 1e15}};
     EXPECT_EQ(report.at("settings"), wanted);
     expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});
 }

@@ -277,14 +277,14 @@ TEST_F(RenderOutput, ARenderThatIsKilledLeavesNothingBehind) {
 
 TEST_F(RenderOutput, MessagesNeverEndUpInTheImage) {
     // The lowest free descriptor is that of a closed stream: the next file that is opened gets it.
-    ASSERT_EQ(run("render spheres -o wanted.png" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o wanted.pfm" + small).exitCode, 0);
     for (const bool isErrors : {false, true}) {
         Surroundings closed;
         (isErrors ? closed.errors : closed.output) = Stream::Closed;
-        const Outcome outcome = runIn(closed, "render spheres -o a.png --report r.json" + small);
+        const Outcome outcome = runIn(closed, "render spheres -o a.pfm --report r.json" + small);
         // Either answer is right: done in silence, or refused for want of a place for the messages.
         if (outcome.exitCode == 0) {
-            EXPECT_EQ(load("a.png"), load("wanted.png")) << (isErrors ? "stderr" : "stdout");
+            EXPECT_EQ(load("a.pfm"), load("wanted.pfm")) << (isErrors ? "stderr" : "stdout");
         }
         EXPECT_LT(outcome.exitCode, 128) << outcome;
     }

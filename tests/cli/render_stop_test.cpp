@@ -54,12 +54,12 @@ TEST_F(RenderStop, ASignalWritesWhatTheDeviceHasFinished) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Outcome outcome =
             runIn(signalled(signal),
-                  "render spheres -o a.png --report report.json --device " + softwareDevice() + manyTiles);
+                  "render spheres -o a.pfm --report report.json --device " + softwareDevice() + manyTiles);
         EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome;
-        const nlohmann::json finished = expectPart("a.png", 2048, nameOf(signal));
+        const nlohmann::json finished = expectPart("a.pfm", 2048, nameOf(signal));
         for (const std::string &part :
              {std::string("stopping"), std::string("stopped by ") + nameOf(signal),
-              std::to_string(finished.at("pixels").get<long>()) + " of 4194304 pixels", std::string("a.png")})
+              std::to_string(finished.at("pixels").get<long>()) + " of 4194304 pixels", std::string("a.pfm")})
             EXPECT_TRUE(contains(outcome.errors, part)) << part << '\n' << outcome;
         EXPECT_TRUE(contains(outcome.output, "up to 4 spp")) << outcome;
         std::filesystem::remove(folder / "report.json");

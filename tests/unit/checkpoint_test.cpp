@@ -170,7 +170,7 @@ TEST_F(CheckpointTest, WhereBothAreDamagedBothReasonsAreTold) {
     store(path.string() + ".1", "");
     const std::string message = refusal();
     for (const std::string &part :
-         {path.string() + "'", path.string() + ".1'", std::string("not a checkpoint"), std::string("empty")})
+         {path.string() + ": ", path.string() + ".1: ", std::string("not a checkpoint"), std::string("empty")})
         EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 

@@ -60,8 +60,8 @@ TEST(FalseColours, AreThoseOfTheHeatMapAboveALegend) {
 TEST(FalseColours, SmallDrawingsHaveALegendToo) {
     const Drawing drawing = falseColours(1, 1, std::array{3.0f}, "box and triangle tests per sample");
     EXPECT_GE(drawing.width, textWidth("box and triangle tests per sample; most: 3", 1));
-    EXPECT_EQ(colourAt(drawing, drawing.width / 2, 0), magma(0.6f));
-    EXPECT_NE(colourAt(drawing, 0, 0), magma(0.6f));
+    EXPECT_EQ(colourAt(drawing, drawing.width / 2, 0), magma(1.0f));
+    EXPECT_NE(colourAt(drawing, 0, 0), magma(1.0f));
 }
 
 TEST(DrawText, StaysInItsBoxAndScales) {

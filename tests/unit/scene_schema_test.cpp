@@ -106,9 +106,9 @@ TEST_F(SceneSchema, SchemaAndLoaderListTheSameNames) {
             scene[Pointer(place)] = name;
             EXPECT_EQ(refusal(scene.dump()), "") << place;
         }
-        scene[Pointer(place)] = "?";
+        scene[Pointer(place)] = "no such name";
         const std::string message = refusal(scene.dump());
-        // found "?"; allowed: "a", "b": four quotation marks a pair of names, two for the "?"
+        // found "no such name"; allowed: "a", "b": four quotation marks a pair of names, two for what was found
         EXPECT_EQ(static_cast<std::size_t>(std::count(message.begin(), message.end(), '"')),
                   2 + 2 * names.size())
             << message;
