@@ -31,6 +31,7 @@ std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
 
 /// How often a render that failed is tried again.
 constexpr int mostRetries = 3;
+constexpr int pathTileSide = 64; // pixels
 constexpr std::uint32_t leastSteps = 256; // of a dispatch that is cut in halves
 
 /// When to copy the film to the host, as a device that is lost takes its own with it: often, but for a hundredth of the
@@ -75,6 +76,13 @@ struct Renderer::State {
 
     /// How an integrator renders.
     [[nodiscard]] Batching batchingFor(Integrator integrator) const {
+        if (integrator == Integrator::Path && info.isSoftware()) {
+            // A sample takes several times as long, and what a dispatch cannot finish is expensive to write down.
+            Batching small = batching;
+            small.tileWidth = std::min(small.tileWidth, pathTileSide);
+            small.tileHeight = std::min(small.tileHeight, pathTileSide);
+            return small;
+        }
         if (integrator != Integrator::Cost)
             return batching;
         if (wanted.traversal == Traversal::SkipList)
