@@ -18,19 +18,10 @@ uvec2 vertexBits(uint slot, uint pair) {
     return sampleBits(pairKeys(imagePixel[slot], frame.seed, number), path[slot].sampleIndex);
 }
 
-// Stage: the primary ray of the next sample.
 void beginSample(uint slot) {
-    path[slot].sampleRadiance = vec3(0.0);
-    path[slot].throughput = vec3(1.0);
+    sendPrimaryRay(slot);
     path[slot].scatterDensity = 0.0;
     path[slot].mediaInside = 0u;
-    path[slot].stage = stageSampleDone;
-    if (path[slot].sampleIndex < dispatch.sampleEnd) {
-        uvec2 pixel = imagePixel[slot];
-        vec3 direction = primaryDirection(pixel, samplePixel(pixel, path[slot].sampleIndex, frame.seed));
-        startRay(slot, frame.eye, direction, noPrimitive, 1u, noMaterial);
-        rayCounts[slot].x += 1u;
-    }
 }
 
 void endPath(uint slot) { path[slot].stage = stageSampleDone; }
@@ -160,13 +151,8 @@ void shadeHit(uint slot) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
-        path[slot].surfacePosition = surface.position;
-        path[slot].surfaceError = surface.error;
-        path[slot].surfaceNormal = surface.normal;
-        path[slot].surfaceGeometricNormal = surface.geometricNormal;
-        path[slot].surfacePrimitive = path[slot].hitPrimitive;
+        standOn(slot, surface);
         path[slot].throughput *= material.albedo;
-        path[slot].stage = stageNextLight;
         return;
     }
     if (!survivesRoulette(slot))
@@ -226,42 +212,15 @@ void addLight(uint slot) {
     scatter(slot);
 }
 
-// Follows rays until they meet a diffuse surface or end.
-void followPaths() {
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageNewRay)
-            beginClosest(slot);
-    if (hasTriangles)
-        traverse(stageClosest, false);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageClosest && !isTraversing(slot))
-            shadeHit(slot);
-    stepsTaken += 1u + sphereIterations;
-}
-
 // Of the search for an emitter, in all slots.
 uint searchIterations() { return emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u; }
 
-// Lights the surfaces where paths stand, and scatters them.
-void lightPaths() {
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageNextLight)
-            aimAtLight(slot);
-    if (hasTriangles)
-        traverse(stageShadow, true);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageShadow && !isTraversing(slot))
-            addLight(slot);
-    stepsTaken += 1u + sphereIterations + searchIterations();
-}
-
-// Runs the samples that the slots have begun to their end, or until the step budget is spent.
 void advancePaths() {
     do {
         do
-            followPaths();
+            traceRays();
         while (hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
-        lightPaths();
-        stepsTaken += 1u;
+        lightSurfaces();
+        stepsTaken += 1u + searchIterations();
     } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }

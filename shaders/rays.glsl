@@ -11,6 +11,19 @@ void startRay(uint slot, vec3 origin, vec3 direction, uint excluded, uint depth,
     path[slot].stage = stageNewRay;
 }
 
+// Begins the next sample with its primary ray, or says that the pixel needs no more.
+void sendPrimaryRay(uint slot) {
+    path[slot].sampleRadiance = vec3(0.0);
+    path[slot].throughput = vec3(1.0);
+    path[slot].stage = stageSampleDone;
+    if (path[slot].sampleIndex < dispatch.sampleEnd) {
+        uvec2 pixel = imagePixel[slot];
+        vec3 direction = primaryDirection(pixel, samplePixel(pixel, path[slot].sampleIndex, frame.seed));
+        startRay(slot, frame.eye, direction, noPrimitive, 1u, noMaterial);
+        rayCounts[slot].x += 1u;
+    }
+}
+
 bool isTarget(uint slot, uint primitive) { return raysHaveTargets && path[slot].rayTarget == primitive; }
 
 void meetSphere(uint slot, uint i, vec4 shape) {
@@ -81,6 +94,16 @@ Surface hitSurface(uint slot, out uint materialIndex) {
     SphereRecord sphere = fetchSphere(path[slot].hitRecord);
     materialIndex = sphere.materialIndex;
     return sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
+}
+
+// Stands on the surface that the ray has met, to light it.
+void standOn(uint slot, Surface surface) {
+    path[slot].surfacePosition = surface.position;
+    path[slot].surfaceError = surface.error;
+    path[slot].surfaceNormal = surface.normal;
+    path[slot].surfaceGeometricNormal = surface.geometricNormal;
+    path[slot].surfacePrimitive = path[slot].hitPrimitive;
+    path[slot].stage = stageNextLight;
 }
 
 void traceNearestHit(uint slot) {

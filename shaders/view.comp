@@ -38,31 +38,7 @@ const bool hasBounces = false;
 #include "traverse_stack.glsl"
 #endif
 #include "rays.glsl"
+#include "integrate.glsl"
 #include "view.glsl"
 
-void main() {
-    loadConstants();
-    preload();
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        placeSlot(slot);
-        loadFilm(slot);
-        loadSlot(slot, film[slot].sampleCount);
-    }
-    // The same for all lanes that share a pixel.
-    bool isOutOfSteps = false;
-    do {
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            if (path[slot].stage == stageNextSample)
-                beginSample(slot);
-        advancePaths();
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            addRoundToFilm(slot);
-        stepsTaken += 1u;
-        isOutOfSteps = !isTrueForAllAbreast(stepsTaken < dispatch.stepBudget);
-    } while (isUnfinished() && !isOutOfSteps);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        storeFilm(slot);
-        storeSlot(slot);
-    }
-    addProgress();
-}
+void main() { integrate(); }

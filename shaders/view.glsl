@@ -5,17 +5,7 @@
 
 layout(constant_id = constantView) const uint view = viewNormal;
 
-void beginSample(uint slot) {
-    path[slot].sampleRadiance = vec3(0.0);
-    path[slot].throughput = vec3(1.0);
-    path[slot].stage = stageSampleDone;
-    if (path[slot].sampleIndex < dispatch.sampleEnd) {
-        uvec2 pixel = imagePixel[slot];
-        vec3 direction = primaryDirection(pixel, samplePixel(pixel, path[slot].sampleIndex, frame.seed));
-        startRay(slot, frame.eye, direction, noPrimitive, 1u, noMaterial);
-        rayCounts[slot].x += 1u;
-    }
-}
+void beginSample(uint slot) { sendPrimaryRay(slot); }
 
 void show(uint slot, vec3 value) {
     path[slot].sampleRadiance = value;
@@ -59,12 +49,11 @@ void shadeHit(uint slot) {
     }
     if (view == viewOcclusion) {
         bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
-        path[slot].surfacePosition = surface.position;
-        path[slot].surfaceError = surface.error;
-        path[slot].surfaceNormal = isBehind ? -surface.normal : surface.normal;
-        path[slot].surfaceGeometricNormal = isBehind ? -surface.geometricNormal : surface.geometricNormal;
-        path[slot].surfacePrimitive = path[slot].hitPrimitive;
-        path[slot].stage = stageNextLight;
+        if (isBehind) {
+            surface.normal = -surface.normal;
+            surface.geometricNormal = -surface.geometricNormal;
+        }
+        standOn(slot, surface);
     }
 }
 
@@ -86,28 +75,10 @@ void addLight(uint slot) {
         show(slot, vec3(1.0));
 }
 
-// Runs the samples that the slots have begun to their end, or until the step budget is spent.
 void advancePaths() {
     do {
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            if (path[slot].stage == stageNewRay)
-                beginClosest(slot);
-        if (hasTriangles)
-            traverse(stageClosest, false);
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            if (path[slot].stage == stageClosest && !isTraversing(slot))
-                shadeHit(slot);
-        stepsTaken += 1u + sphereIterations;
-        if (view == viewOcclusion) {
-            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-                if (path[slot].stage == stageNextLight)
-                    aimAtLight(slot);
-            if (hasTriangles)
-                traverse(stageShadow, true);
-            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-                if (path[slot].stage == stageShadow && !isTraversing(slot))
-                    addLight(slot);
-            stepsTaken += 1u + sphereIterations;
-        }
+        traceRays();
+        if (view == viewOcclusion)
+            lightSurfaces();
     } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }

@@ -3,23 +3,10 @@
 // Twin: host/reference/whitted.h, where the same happens ray by ray.
 //
 // A path slot works through the samples of one pixel and, for each, through the tree of rays that glass makes of it.
-// Stages follow each other so that all slots of a subgroup that are about the same work do it together; each stage
-// does nothing for slots that are elsewhere.
 
 const float inversePi = 0.31830988618379067;
 
-// Stage: the primary ray of the next sample.
-void beginSample(uint slot) {
-    path[slot].sampleRadiance = vec3(0.0);
-    path[slot].throughput = vec3(1.0);
-    path[slot].stage = stageSampleDone;
-    if (path[slot].sampleIndex < dispatch.sampleEnd) {
-        uvec2 pixel = imagePixel[slot];
-        vec3 direction = primaryDirection(pixel, samplePixel(pixel, path[slot].sampleIndex, frame.seed));
-        startRay(slot, frame.eye, direction, noPrimitive, 1u, noMaterial);
-        rayCounts[slot].x += 1u;
-    }
-}
+void beginSample(uint slot) { sendPrimaryRay(slot); }
 
 // A path has come to its end: another one of the sample may wait.
 void endPath(uint slot) {
@@ -110,14 +97,9 @@ void shadeHit(uint slot) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
-        path[slot].surfacePosition = surface.position;
-        path[slot].surfaceError = surface.error;
-        path[slot].surfaceNormal = surface.normal;
-        path[slot].surfaceGeometricNormal = surface.geometricNormal;
-        path[slot].surfacePrimitive = path[slot].hitPrimitive;
+        standOn(slot, surface);
         path[slot].surfaceWeight = path[slot].throughput * (material.albedo * inversePi);
         path[slot].lightIndex = 0u;
-        path[slot].stage = stageNextLight;
     } else if (path[slot].rayDepth < frame.maxDepth) {
         if (isGlass)
             splitAtGlass(slot, surface, material, materialIndex, isEntering);
@@ -174,37 +156,15 @@ void followPaths() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (hasDielectric && path[slot].stage == stageNextRay)
             takePendingRay(slot);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageNewRay)
-            beginClosest(slot);
-    if (hasTriangles)
-        traverse(stageClosest, false);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageClosest && !isTraversing(slot))
-            shadeHit(slot);
-    stepsTaken += 1u + sphereIterations;
+    traceRays();
 }
 
-// Lights the surface where a path stands.
-void lightPaths() {
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageNextLight)
-            aimAtLight(slot);
-    if (hasTriangles)
-        traverse(stageShadow, true);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageShadow && !isTraversing(slot))
-            addLight(slot);
-    stepsTaken += 1u + sphereIterations;
-}
-
-// Runs the samples that the slots have begun to their end, or until the step budget is spent.
 void advancePaths() {
     do {
         do
             followPaths();
         while (hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
-        lightPaths();
+        lightSurfaces();
         stepsTaken += 1u;
     } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }
