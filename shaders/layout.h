@@ -221,10 +221,10 @@ struct DispatchProgress {
     uint reflectionRays;
     uint refractionRays;
     uint bounceRays; // scattered by diffuse surfaces
+    // The rest only where constantIsCounting is set.
+    uint traversalPasses; // of subgroups through the loops of the traversal
+    uint busySlots;       // that had a node or a triangle to look at, in all passes
     uint pad0;
-    uint pad1;
-    uint pad2;
-    // Only where constantIsCounting is set, by the kernels over a stack.
     uint nodesVisited;
     uint boxesTested;
     uint trianglesTested;

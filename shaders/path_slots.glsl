@@ -21,6 +21,8 @@ uvec4 finishedRayCounts = uvec4(0u); // of all others
 uint bounceCounts[RAYS];               // of unfinished samples: rays that diffuse surfaces scatter
 uint finishedBounceCount = 0u;
 uvec4 workCounts = uvec4(0u);         // nodes, boxes, triangles, deepest stack: only where isCounting
+uvec2 passCounts = uvec2(0u);         // passes of the subgroup through the traversal, slots busy in them: likewise
+uint busySlotsBefore = 0u;            // the present pass
 
 uint slotCount() { return dispatch.tileWidth * dispatch.tileHeight * samplesAbreast; }
 
@@ -106,6 +108,14 @@ bool isSpeaker() { return true; }
 #endif
 
 void addProgress() {
+    if (isCounting) {
+        atomicAdd(progress.nodesVisited, workCounts.x);
+        atomicAdd(progress.boxesTested, workCounts.y);
+        atomicAdd(progress.trianglesTested, workCounts.z);
+        atomicMax(progress.deepestStack, workCounts.w);
+        atomicAdd(progress.traversalPasses, passCounts.x);
+        atomicAdd(progress.busySlots, passCounts.y);
+    }
     uint unfinished = 0u;
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         unfinished += path[slot].stage != stageDone ? 1u : 0u;
@@ -130,12 +140,31 @@ void addProgress() {
         atomicAdd(progress.refractionRays, rays.w);
     if (hasBounces)
         atomicAdd(progress.bounceRays, bounces);
-    if (isCounting) {
-        atomicAdd(progress.nodesVisited, workCounts.x);
-        atomicAdd(progress.boxesTested, workCounts.y);
-        atomicAdd(progress.trianglesTested, workCounts.z);
-        atomicMax(progress.deepestStack, workCounts.w);
-    }
+}
+
+// Counts nodes, boxes and triangles that a slot looks at.
+void countWork(uint slot, uvec3 work) {
+    if (!isCounting)
+        return;
+    workCounts.xyz += work;
+    if (showsCost)
+        path[slot].sampleRadiance = add(path[slot].sampleRadiance, vec3(work));
+}
+
+// Counts a pass of the subgroup through a loop of the traversal: one of those lanes does that had something to do in it.
+void countPass() {
+    if (!isCounting || passCounts.y == busySlotsBefore)
+        return;
+    passCounts.x += subgroupElect() ? 1u : 0u;
+    busySlotsBefore = passCounts.y;
+}
+
+// Counts a slot in a pass, and what it looks at, if anything.
+void countSlot(uint slot, bool isBusy, uvec3 work) {
+    if (!isCounting || !isBusy)
+        return;
+    passCounts.y += 1u;
+    countWork(slot, work);
 }
 
 // Keeps what a path did, for those who search for a difference.

@@ -3,8 +3,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#if SKIP_LIST
 #extension GL_KHR_shader_subgroup_basic : require
+#if SKIP_LIST
 #extension GL_KHR_shader_subgroup_shuffle : require
 #endif
 

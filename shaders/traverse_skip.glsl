@@ -94,14 +94,17 @@ void traverse(uint stage, const bool isShadow) {
         do {
             isAnySearching = false;
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+                countSlot(slot, cursor[slot].isSearching, uvec3(1u, 1u, 0u));
                 visitNode(cursor[slot], gridRay[slot], path[slot].rayLength);
                 isAnySearching = isAnySearching || cursor[slot].isSearching;
             }
+            countPass();
             stepsTaken += 1u;
         } while (isAnySearching && stepsTaken < dispatch.stepBudget);
         do {
             isRunning = false;
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+                countSlot(slot, cursor[slot].leaf != 0, uvec3(0u, 0u, 1u));
                 if (cursor[slot].leaf != 0) {
                     uint record = uint(cursor[slot].leaf) & ~leafFlag;
                     TriangleRecord triangle = fetchTriangle(record);
@@ -113,6 +116,7 @@ void traverse(uint stage, const bool isShadow) {
                 }
                 isRunning = isRunning || cursor[slot].leaf != 0;
             }
+            countPass();
             stepsTaken += 1u;
         } while (isRunning && stepsTaken < dispatch.stepBudget);
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)

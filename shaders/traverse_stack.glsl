@@ -40,12 +40,7 @@ void stopTraversal(uint slot) {
 
 void visitNode(uint slot, BoxRay ray) {
     NodePair node = fetchNode(path[slot].cursorNode);
-    if (isCounting) {
-        uint boxes = (node.left != noNode ? 1u : 0u) + (node.right != noNode ? 1u : 0u);
-        workCounts.xy += uvec2(1u, boxes);
-        if (showsCost)
-            path[slot].sampleRadiance = add(path[slot].sampleRadiance, vec3(1.0, float(boxes), 0.0));
-    }
+    countWork(slot, uvec3(1u, (node.left != noNode ? 1u : 0u) + (node.right != noNode ? 1u : 0u), 0u));
     vec2 left = boxInterval(ray, node.leftLower, node.leftUpper);
     vec2 right = boxInterval(ray, node.rightLower, node.rightUpper);
     bool isLeftHit = node.left != noNode && left.x <= lesser(left.y, path[slot].rayLength);
@@ -62,11 +57,7 @@ void visitNode(uint slot, BoxRay ray) {
 void visitTriangle(uint slot, TriangleRay ray, BoxRay boxRay, const bool isShadow) {
     uint record = path[slot].cursorTriangle;
     TriangleRecord triangle = fetchTriangle(record);
-    if (isCounting) {
-        workCounts.z += 1u;
-        if (showsCost)
-            path[slot].sampleRadiance = add(path[slot].sampleRadiance, vec3(0.0, 0.0, 1.0));
-    }
+    countWork(slot, uvec3(0u, 0u, 1u));
     bool isLast = (triangle.flags & triangleEndsLeaf) != 0u;
     uint next = record + 1u;
     if (isLast)
@@ -90,12 +81,14 @@ void traverse(uint stage, const bool isShadow) {
     do {
         isRunning = false;
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+            countSlot(slot, path[slot].stage == stage && isTraversing(slot), uvec3(0u));
             if (path[slot].stage == stage && path[slot].cursorNode != noNode)
                 visitNode(slot, boxRay[slot]);
             if (path[slot].stage == stage && path[slot].cursorTriangle != noNode)
                 visitTriangle(slot, triangleRay[slot], boxRay[slot], isShadow);
             isRunning = isRunning || (path[slot].stage == stage && isTraversing(slot));
         }
+        countPass();
         stepsTaken += 1u;
     } while (isRunning && stepsTaken < dispatch.stepBudget);
 }

@@ -56,10 +56,9 @@ class CpuBackend : public Backend {
                                        Continuation continuation) override {
         const RenderSettings &settings = scene.loaded.scene.settings;
         Stopwatch watch;
-        reference::Result result =
-            reference::render(scene.packed, settings, scene.crop,
-                              {precision_, threadCount_, onProgress, false, shouldStop},
-                              std::move(continuation));
+        reference::Result result = reference::render(
+            scene.packed, settings, scene.crop, {precision_, threadCount_, onProgress, false, shouldStop},
+            std::move(continuation));
         const Span span = watch.lap();
         if (timeline != nullptr) {
             timeline->clock = "the host's clock, from call to return";
@@ -68,7 +67,7 @@ class CpuBackend : public Backend {
         }
         RenderTiming timing;
         timing.renderSeconds = span.seconds();
-        return {std::move(result.film), result.rays, timing, result.work};
+        return {std::move(result.film), result.rays, timing, result.work, {}};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
@@ -126,7 +125,7 @@ class DeviceBackend : public Backend {
         gpu::Result result = renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop,
                                               onProgress, timeline, shouldStop, std::move(continuation));
         return {std::move(result.film), result.rays,   result.timing, result.work,
-                result.faults,          result.failure};
+                result.lanes,           result.faults, result.failure};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {

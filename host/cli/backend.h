@@ -19,9 +19,10 @@ namespace hyalite {
 
 struct BackendResult {
     Film film;
-    RayCounts rays; ///< traced by this call
+    RayCounts rays;      ///< traced by this call
     RenderTiming timing; ///< only renderSeconds on the CPU
-    WorkCounts work;     ///< all 0 unless the integrator is the cost
+    WorkCounts work;     ///< all 0 unless counting was asked for, or the integrator is the cost
+    LaneCounts lanes{};  ///< of a device, likewise
     std::vector<std::string>
         faults{}; ///< Vulkan calls that failed; after all of them, or all but the last, it went on
     std::optional<Error>
@@ -34,7 +35,8 @@ class Backend {
 
     [[nodiscard]] virtual std::string name() const = 0;        ///< "cpu", or as the device calls itself
     [[nodiscard]] virtual std::string description() const = 0; ///< for people
-    [[nodiscard]] virtual RendererIdentity identity(Integrator integrator) const = 0; ///< as what renders with it
+    [[nodiscard]] virtual RendererIdentity
+    identity(Integrator integrator) const = 0; ///< as what renders with it
     /// Why images may differ from the CPU twin's in their bits, or empty where they may not.
     [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
     /// Backends that say the same add samples of the same bits to a film, and a film gives them all that they need to go

@@ -126,6 +126,16 @@ std::vector<std::byte> pngOf(const Drawing &drawing, const Profile &profile) {
     return encodePng(drawing.width, drawing.height, drawing.rgb, originOf(profile));
 }
 
+/// Renders once more, and counts what the traversal of the measured kernel does.
+KernelWork countKernelWork(const ProfileOptions &options, const PreparedScene &scene) {
+    gpu::Batching batching = batchingFor(options.kernel);
+    batching.isCounting = true;
+    const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads, batching);
+    const BackendResult result =
+        renderWithProgress(*counter, scene, "counting the kernel's work", options.isQuiet);
+    return {counter->identity(scene.loaded.scene.settings.integrator).kernel, result.work, result.lanes};
+}
+
 /// Renders the work of a traversal with a stack, whichever kernel is measured, and writes down what it came to.
 Drawing countWork(const ProfileOptions &options, PreparedScene &scene, Profile &profile) {
     const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads);
@@ -252,6 +262,8 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     std::vector<std::byte> heatMapPng;
     if (options.isCounting || outputs.heatMap || (outputs.html && scene.packed.hasTriangles))
         heatMapPng = pngOf(countWork(options, scene, profile), profile);
+    if (options.isCounting && !isReference)
+        profile.kernelWork = countKernelWork(options, scene);
     if (outputs.image) {
         Stopwatch watch;
         const Image image = film->toImage();
@@ -307,7 +319,8 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     addFile(*command, "--trace", options->trace, "FILE.json",
             "write a timeline that ui.perfetto.dev and chrome://tracing open");
     command->add_flag("--counts", options->isCounting,
-                      "render once more and count nodes, boxes and triangles of a traversal with a stack");
+                      "render twice more and count nodes, boxes and triangles of a traversal with a stack, "
+                      "and of the kernel's own, and how busy its lanes are");
     addFile(*command, "--heatmap", options->heatMap, "FILE.png",
             "the same, and write how many boxes and triangles each pixel tests, in false colours");
     addFile(*command, "--html", options->html, "FILE.html",

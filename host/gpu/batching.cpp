@@ -32,8 +32,6 @@ Batching completed(Batching batching, const DeviceInfo &device) {
     // lavapipe stops a subgroup in silence after 65,535 loop iterations of all of its lanes together. The lanes count
     // for themselves, and lanes that diverge add up.
     const std::uint32_t limit = 65535u / (std::max(device.subgroupSize, 1u) + 1u);
-    if (batching.isCounting)
-        batching.traversal = Traversal::Stack;
     if (batching.traversal == Traversal::Automatic)
         batching.traversal =
             device.isSoftware() && batching.kernel.empty() ? Traversal::SkipList : Traversal::Stack;

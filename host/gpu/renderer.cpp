@@ -1,8 +1,8 @@
 #include "host/gpu/renderer.h"
 
+#include "host/error.h"
 #include "host/gpu/check.h"
 #include "host/gpu/device.h"
-#include "host/error.h"
 #include "host/gpu/tile_renderer.h"
 #include "host/report/hash.h"
 
@@ -31,7 +31,7 @@ std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
 
 /// How often a render that failed is tried again.
 constexpr int mostRetries = 3;
-constexpr int pathTileSide = 64; // pixels
+constexpr int pathTileSide = 64;          // pixels
 constexpr std::uint32_t leastSteps = 256; // of a dispatch that is cut in halves
 
 /// When to copy the film to the host, as a device that is lost takes its own with it: often, but for a hundredth of the
@@ -231,6 +231,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
                     raysSoFar);
             });
         result.work += totals.work;
+        result.lanes += totals.lanes;
         result.timing.dispatchCount += totals.dispatchCount;
         result.timing.pipelineSeconds += tiles.lateBuildSeconds();
         result.timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();

@@ -24,7 +24,8 @@ struct Result {
     Film film;
     RayCounts rays; ///< of the samples that were added to the film
     RenderTiming timing;
-    WorkCounts work; ///< all 0 unless the batching asks for counting, or the integrator is the cost
+    WorkCounts work;    ///< all 0 unless the batching asks for counting, or the integrator is the cost
+    LaneCounts lanes{}; ///< likewise
     std::vector<std::string>
         faults{}; ///< Vulkan calls that failed, each with its object or dispatch, in their order
     std::optional<Error>

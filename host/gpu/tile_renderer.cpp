@@ -43,6 +43,10 @@ WorkCounts workOf(const layout::DispatchProgress &counters) {
     return {counters.nodesVisited, counters.boxesTested, counters.trianglesTested, counters.deepestStack};
 }
 
+LaneCounts lanesOf(const layout::DispatchProgress &counters, std::uint32_t slotsPerSubgroup) {
+    return {counters.traversalPasses, counters.busySlots, slotsPerSubgroup};
+}
+
 } // namespace
 
 TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching,
@@ -94,7 +98,8 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
 }
 
 void TileRenderer::makeKernel() {
-    if (batching_.traversal == Traversal::Stack || job_.isTraced)
+    // What is dropped and done again would be counted twice.
+    if (batching_.traversal == Traversal::Stack || job_.isTraced || batching_.isCounting)
         resumable_.emplace(makeProgram(true));
     else
         direct_.emplace(makeProgram(false));
@@ -181,6 +186,8 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         samplesFinished += step.counters.finishedSamples;
         totals.rays += raysOf(step.counters);
         totals.work += workOf(step.counters);
+        totals.lanes += lanesOf(step.counters, device_.info().subgroupSize *
+                                                   static_cast<std::uint32_t>(batching_.slotsPerInvocation));
         if (timeline != nullptr)
             timeline->dispatches.push_back(describe(kernel, step, isResumed));
         isResumed = true;

@@ -26,13 +26,15 @@ struct Job {
     std::uint32_t sampleBegin;
     std::uint32_t sampleEnd;
     bool isTraced;
-    std::span<const layout::FilmPixel> film{}; ///< to be added to, in place of an empty one; needed only to begin
+    std::span<const layout::FilmPixel>
+        film{}; ///< to be added to, in place of an empty one; needed only to begin
 };
 
 /// What the tiles of a job came to.
 struct TileTotals {
     RayCounts rays;
-    WorkCounts work; ///< all 0 unless counting was asked for
+    WorkCounts work;    ///< all 0 unless counting was asked for
+    LaneCounts lanes{}; ///< likewise
     std::uint64_t dispatchCount = 0;
     bool isStopped = false; ///< as was asked for after the last dispatch
 };

@@ -66,9 +66,6 @@ ProfileFigures figuresOf(const Json &json) {
     for (const Json &kernel : json.at("kernels")) {
         const std::string name = kernel.at("name").get<std::string>();
         figures.kernels.push_back(timesOf(name, kernel.at("frameMillis")));
-        figures.work.push_back({"launches of " + name, wholeNumber<std::uint64_t>(kernel.at("launches"))});
-        figures.work.push_back(
-            {"invocations of " + name, wholeNumber<std::uint64_t>(kernel.at("invocations"))});
     }
     figures.frame = timesOf("frame", json.at("frameMillis"));
     addCounts(json.at("work"), "", figures.work);

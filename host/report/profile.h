@@ -22,14 +22,23 @@ struct Frame {
     Timeline timeline;
 };
 
+/// What the traversal of the measured kernel did.
+struct KernelWork {
+    std::string kernel;
+    WorkCounts work;
+    LaneCounts lanes;
+};
+
 struct Profile {
     Provenance origin;
     RendererIdentity device;
     std::string verification; ///< against what, or why not
     bool isVerified = false;
-    std::optional<WorkCounts> work;      ///< of a frame; nothing where nobody asked
-    std::vector<WorkBin> workHistogram;  ///< of the same frame
-    std::uint64_t sceneBytes = 0;        ///< of the scene's arrays
+    std::optional<WorkCounts> work; ///< of a frame with a stack; nothing where nobody asked
+    std::optional<KernelWork>
+        kernelWork;                     ///< of a frame of the device's own kernel; nothing where nobody asked
+    std::vector<WorkBin> workHistogram; ///< of the same frame
+    std::uint64_t sceneBytes = 0;       ///< of the scene's arrays
     std::vector<StageRecord> hostStages; ///< outside of frames: load, build, open, write
     std::vector<Frame> frames; ///< in the order in which they were rendered; at least one is measured
 };

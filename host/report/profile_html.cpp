@@ -173,10 +173,20 @@ std::string workOf(const Profile &profile, std::span<const std::byte> heatMapPng
             "<p>{}, {}, {}, deepest stack {}</p>\n", roundedText(profile.work->nodesVisited, "inner nodes"),
             roundedText(profile.work->boxesTested, "boxes"),
             roundedText(profile.work->trianglesTested, "triangles"), profile.work->deepestStack);
-    return html + histogram(profile.workHistogram) +
-           "<p class=\"note\">Of a traversal with a stack: equal on every device and on the CPU, whichever "
-           "kernel was "
-           "measured.</p>\n</div>\n</div>\n";
+    html += histogram(profile.workHistogram) +
+            "<p class=\"note\">Of a traversal with a stack: equal on every device and on the CPU, whichever "
+            "kernel was measured.</p>\n";
+    if (profile.kernelWork) {
+        const auto &[kernel, work, lanes] = *profile.kernelWork;
+        html +=
+            fmt::format("<p>{}: {}, {}; {} of {} path slots, {} of them busy</p>\n"
+                        "<p class=\"note\">Of the kernel that was measured: passes depend on the device "
+                        "and on how work was cut.</p>\n",
+                        htmlText(kernel), roundedText(work.nodesVisited, "nodes"),
+                        roundedText(work.trianglesTested, "triangles"), roundedText(lanes.passes, "passes"),
+                        lanes.slotsPerSubgroup, shareText(lanes.busyShare()));
+    }
+    return html + "</div>\n</div>\n";
 }
 
 std::string provenance(const Profile &profile) {

@@ -61,9 +61,17 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
     if (profile.work)
         for (const WorkKind &kind : workKinds)
             json["work"]["stackTraversal"][kind.name] = *profile.work.*kind.count;
+    if (profile.kernelWork) {
+        for (const WorkKind &kind : workKinds)
+            json["work"][profile.kernelWork->kernel][kind.name] = profile.kernelWork->work.*kind.count;
+        const LaneCounts &lanes = profile.kernelWork->lanes;
+        json["lanes"] = {{"passes", lanes.passes},
+                         {"busySlots", lanes.busySlots},
+                         {"slotsPerSubgroup", lanes.slotsPerSubgroup},
+                         {"busyShare", lanes.busyShare()}};
+    }
     for (const WorkBin &bin : profile.workHistogram)
-        json["testsPerSample"].push_back(
-            {{"from", bin.begin}, {"to", bin.end}, {"pixels", bin.pixelCount}});
+        json["testsPerSample"].push_back({{"from", bin.begin}, {"to", bin.end}, {"pixels", bin.pixelCount}});
     return json;
 }
 

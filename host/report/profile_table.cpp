@@ -82,6 +82,13 @@ std::string profileTable(const Profile &profile) {
         text += fmt::format("work of a stack traversal: {} nodes, {} boxes, {} triangles, deepest stack {}\n",
                             profile.work->nodesVisited, profile.work->boxesTested,
                             profile.work->trianglesTested, profile.work->deepestStack);
+    if (profile.kernelWork) {
+        const auto &[kernel, work, lanes] = *profile.kernelWork;
+        text += fmt::format("work of the kernel {}: {} nodes, {} boxes, {} triangles\n", kernel,
+                            work.nodesVisited, work.boxesTested, work.trianglesTested);
+        text += fmt::format("lanes of this device: {} passes of {} path slots, {} of them busy\n",
+                            lanes.passes, lanes.slotsPerSubgroup, shareText(lanes.busyShare()));
+    }
     if (!profile.workHistogram.empty())
         text += workTable(profile.workHistogram);
     return text;

@@ -72,7 +72,8 @@ TEST_F(ProfileCommand, CountsTheSameWorkOnDeviceAndCpu) {
         "cat --counts --no-verify --width 32 --height 24 --spp 1 --repeat 1 --warmup 0 --device ";
     const nlohmann::json onDevice = profile(line + softwareDevice()).at("work");
     const nlohmann::json onCpu = profile(line + "cpu").at("work");
-    EXPECT_EQ(onDevice, onCpu);
+    EXPECT_EQ(onDevice.at("rays"), onCpu.at("rays"));
+    EXPECT_EQ(onDevice.at("stackTraversal"), onCpu.at("stackTraversal"));
     EXPECT_GT(onCpu.at("stackTraversal").at("nodesVisited").get<int>(), 32 * 24);
     EXPECT_GT(onCpu.at("stackTraversal").at("deepestStack").get<int>(), 1);
     EXPECT_FALSE(profile("spheres --device cpu" + small).at("work").contains("stackTraversal"));

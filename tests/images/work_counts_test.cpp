@@ -13,6 +13,15 @@ WorkCounts countOnCpu(const Scene &scene) {
     return reference::render(testing::pack(scene), scene.settings, crop, options).work;
 }
 
+gpu::Batching counting(gpu::Traversal traversal, int slotsPerInvocation, std::uint32_t steps = 0) {
+    gpu::Batching batching;
+    batching.traversal = traversal;
+    batching.slotsPerInvocation = slotsPerInvocation;
+    batching.steps = steps;
+    batching.isCounting = true;
+    return batching;
+}
+
 TEST(WorkCounts, AreEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
     for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
         Scene scene = testing::shippedScene("cat", 40, 30, 2);
@@ -24,11 +33,39 @@ TEST(WorkCounts, AreEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
         EXPECT_GT(onCpu.trianglesTested, 0u);
         EXPECT_GT(onCpu.deepestStack, 1u);
         EXPECT_LE(onCpu.deepestStack, layout::maxTreeDepth);
-        EXPECT_EQ(testing::renderOnDevice(scene, {.slotsPerInvocation = 1, .isCounting = true}).work, onCpu);
-        EXPECT_EQ(
-            testing::renderOnDevice(scene, {.steps = 100, .slotsPerInvocation = 2, .isCounting = true}).work,
-            onCpu);
+        EXPECT_EQ(testing::renderOnDevice(scene, counting(gpu::Traversal::Stack, 1)).work, onCpu);
+        EXPECT_EQ(testing::renderOnDevice(scene, counting(gpu::Traversal::Stack, 2, 100)).work, onCpu);
     }
+}
+
+TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
+    for (const char *name : {"cat", "cornell"}) {
+        Scene scene = testing::shippedScene(name, 40, 30, 3);
+        const gpu::Result whole = testing::renderOnDevice(scene, counting(gpu::Traversal::SkipList, 1));
+        EXPECT_GT(whole.work.nodesVisited, 40u * 30u * 3u) << name;
+        EXPECT_EQ(whole.work.boxesTested, whole.work.nodesVisited) << name;
+        EXPECT_GT(whole.work.trianglesTested, 0u) << name;
+        EXPECT_EQ(whole.work.deepestStack, 0u) << name;
+        gpu::Batching cut = counting(gpu::Traversal::SkipList, 2, 100);
+        cut.tileWidth = 16;
+        cut.samplesAbreast = 2;
+        EXPECT_EQ(testing::renderOnDevice(scene, cut).work, whole.work) << name;
+    }
+}
+
+// One ray keeps one of the lanes busy, however many there are; and every node and every triangle is looked at in a pass.
+TEST(LaneCounts, AreThoseOfTheRaysThatAreTraced) {
+    const Scene scene = testing::shippedScene("cat", 64, 64, 8);
+    const gpu::Result result = testing::renderOnDevice(scene, counting(gpu::Traversal::SkipList, 2));
+    EXPECT_EQ(result.lanes.busySlots, result.work.nodesVisited + result.work.trianglesTested);
+    EXPECT_GE(result.lanes.slotsPerSubgroup, 2u);
+    EXPECT_GT(result.lanes.busyShare(), 1.0 / result.lanes.slotsPerSubgroup);
+    EXPECT_LT(result.lanes.busyShare(), 1.0);
+    const Scene onePixel = testing::shippedScene("cat", 1, 1, 1);
+    const gpu::Result alone = testing::renderOnDevice(onePixel, counting(gpu::Traversal::SkipList, 1));
+    EXPECT_EQ(alone.lanes.passes, alone.lanes.busySlots);
+    const gpu::Result withStack = testing::renderOnDevice(onePixel, counting(gpu::Traversal::Stack, 1));
+    EXPECT_EQ(withStack.lanes.passes, withStack.lanes.busySlots);
 }
 
 TEST(WorkCounts, AreLeftOutUnlessAskedFor) {
