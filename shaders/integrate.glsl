@@ -9,6 +9,9 @@ void aimAtLight(uint slot);   // stageNextLight: on a surface that is to be lit
 void addLight(uint slot);     // stageShadow: the shadow ray has arrived, or was stopped
 void advancePaths();          // runs samples to their end, or until the step budget is spent
 
+// What a pass does beside traversals, in steps of one: by the time that both take on lavapipe.
+const uint workPerPass = 32u + sphereCount;
+
 // Traces the rays that are ready, and shades what they meet.
 void traceRays() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
@@ -20,6 +23,7 @@ void traceRays() {
         if (path[slot].stage == stageClosest && !isTraversing(slot))
             shadeHit(slot);
     stepsTaken += 1u + sphereIterations;
+    passWork += workPerPass;
 }
 
 // Lights the surfaces where paths stand.
@@ -33,11 +37,13 @@ void lightSurfaces() {
         if (path[slot].stage == stageShadow && !isTraversing(slot))
             addLight(slot);
     stepsTaken += 1u + sphereIterations;
+    passWork += workPerPass;
 }
 
 void integrate() {
     loadConstants();
     preload();
+    shareWork();
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
         placeSlot(slot);
         loadFilm(slot);

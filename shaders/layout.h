@@ -109,9 +109,10 @@ struct MaterialRecord {
     uint kind;
     vec3 segmentTint; // Whitted: factor on all that a segment inside this dielectric returns
     float refractiveIndex;
-    vec3 emission;        // radiance on the side of the normal, on both where isTwoSided
-    float emitterDensity; // path: with which density, per unit of area, a light sample lies at a point that emits
-    vec3 absorption;      // path: of this dielectric, per unit of length
+    vec3 emission; // radiance on the side of the normal, on both where isTwoSided
+    float
+        emitterDensity; // path: with which density, per unit of area, a light sample lies at a point that emits
+    vec3 absorption;    // path: of this dielectric, per unit of length
     uint isTwoSided;
 };
 
@@ -177,8 +178,9 @@ struct FrameRecord {
 };
 
 // ---- What changes with each dispatch
-// A dispatch works on one tile of the film, one path slot a pixel. `stepBudget` bounds the loop iterations of a
-// slot; what is not finished by then waits in the path buffer for a dispatch with `isResumed` set.
+// A dispatch works on one tile of the film, `samplesAbreast` path slots a pixel. `stepBudget` bounds the loop iterations
+// of a slot, and `workBudget` the work of all: slots that begin when it is done make one pass only. What is not finished
+// by then waits in the path buffer for a dispatch with `isResumed` set.
 
 struct DispatchConstants {
     uint cropX; // pixel of the whole image where the film begins
@@ -197,8 +199,8 @@ struct DispatchConstants {
     // that gives each thread one range of workgroups then spreads every part of the image over all threads.
     uint interleave;
     uint traceCapacity; // events in the trace buffer
+    uint workBudget;    // of DispatchProgress::workDone
     uint pad0;
-    uint pad1;
 };
 
 // ---- Results
@@ -216,15 +218,15 @@ struct DispatchProgress {
     uint stackOverflows; // subtrees that found no room to wait: 0 in any valid tree
     uint finishedSamples;
     uint traceEvents; // wanted: more than the trace buffer holds are not kept
-    uint primaryRays;
+    uint primaryRays; // rays are those of samples that came into the film
     uint shadowRays;
     uint reflectionRays;
     uint refractionRays;
     uint bounceRays; // scattered by diffuse surfaces
+    uint workDone;   // in steps of a traversal, roughly: of each subgroup that of the busiest lane, or of each lane
     // The rest only where constantIsCounting is set.
     uint traversalPasses; // of subgroups through the loops of the traversal
     uint busySlots;       // that had a node or a triangle to look at, in all passes
-    uint pad0;
     uint nodesVisited;
     uint boxesTested;
     uint trianglesTested;
@@ -302,8 +304,13 @@ struct PathRecord {
     float scatterDensity;  // of the direction of the current ray, per solid angle; 0: it had no choice
     uint rayTarget;        // the primitive that the shadow ray is aimed at
     uint mediaInside;      // the glass around the current ray, see media.glsl
+    // Rays of the samples that are not in the film:
+    uint primaryRays;
+    uint shadowRays;
+    uint reflectionRays;
+    uint refractionRays;
+    uint bounceRays;
     uint pad0;
-    uint pad1;
 };
 
 // A ray that a dielectric has split off, to be traced later: at most one for each level of depth.
@@ -346,8 +353,8 @@ const uint constantHasSpecular = 3u; // mirrors or dielectrics
 const uint constantHasDielectric = 4u;
 const uint constantSampler = 5u;
 const uint constantStackSize = 6u;
-const uint constantIsTracing = 7u;     // write what path slot 0 does into the trace buffer
-const uint constantExactDivision = 8u; // the device's own / and sqrt are correctly rounded
+const uint constantIsTracing = 7u;      // write what path slot 0 does into the trace buffer
+const uint constantExactDivision = 8u;  // the device's own / and sqrt are correctly rounded
 const uint constantSamplesAbreast = 9u; // slots of one pixel: a power of two, at most the subgroup's size
 const uint constantIsResumable = 10u;   // unfinished slots wait in the path buffer
 const uint constantLightCount = 11u;
@@ -373,7 +380,7 @@ static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 byte
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
 static_assert(sizeof(DispatchProgress) == 64);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
-static_assert(sizeof(PathRecord) == 208 && offsetof(PathRecord, rayTarget) == 192);
+static_assert(sizeof(PathRecord) == 224 && offsetof(PathRecord, rayTarget) == 192);
 static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
 } // namespace hyalite::layout
 #endif

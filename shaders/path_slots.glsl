@@ -14,10 +14,12 @@ uint filmIndex[RAYS];
 bool isSlotUsed[RAYS]; // a tile may reach beyond the film
 
 uint stepsTaken = 0u;         // loop iterations of this dispatch
+uint stepsForfeited = 0u;     // of them, those that were not made, as others had done all the work of the dispatch
+uint passWork = 0u;           // of all else that takes time, in steps that take as long
 uint stackOverflowCount = 0u;
 uint finishedSampleCount = 0u;
 uvec4 rayCounts[RAYS];               // of unfinished samples: primary, shadow, reflection, refraction
-uvec4 finishedRayCounts = uvec4(0u); // of all others
+uvec4 finishedRayCounts = uvec4(0u); // of those that came into the film
 uint bounceCounts[RAYS];               // of unfinished samples: rays that diffuse surfaces scatter
 uint finishedBounceCount = 0u;
 uvec4 workCounts = uvec4(0u);         // nodes, boxes, triangles, deepest stack: only where isCounting
@@ -62,12 +64,21 @@ void placeSlot(uint slot) {
                        filmPixel.y < dispatch.filmHeight;
 }
 
+// Leaves the slots one pass where others have done the work of the whole dispatch.
+void shareWork() {
+    stepsForfeited = progress.workDone >= dispatch.workBudget ? dispatch.stepBudget : 0u;
+    stepsTaken = stepsForfeited;
+}
+
 // Goes on with what waits, or else after the `samplesInFilm` samples that the pixel has.
 void loadSlot(uint slot, uint samplesInFilm) {
     rayCounts[slot] = uvec4(0u);
     bounceCounts[slot] = 0u;
     if (isResumable && dispatch.isResumed != 0u && isSlotUsed[slot]) {
         path[slot] = pathRecords[slotIndex[slot]];
+        rayCounts[slot] = uvec4(path[slot].primaryRays, path[slot].shadowRays, path[slot].reflectionRays,
+                                path[slot].refractionRays);
+        bounceCounts[slot] = path[slot].bounceRays;
         return;
     }
     uint firstSample = dispatch.sampleBegin + samplesInFilm;
@@ -82,8 +93,11 @@ void loadSlot(uint slot, uint samplesInFilm) {
 void storeSlot(uint slot) {
     if (!isResumable)
         return;
-    finishedRayCounts += rayCounts[slot];
-    finishedBounceCount += bounceCounts[slot];
+    path[slot].primaryRays = rayCounts[slot].x;
+    path[slot].shadowRays = rayCounts[slot].y;
+    path[slot].reflectionRays = rayCounts[slot].z;
+    path[slot].refractionRays = rayCounts[slot].w;
+    path[slot].bounceRays = bounceCounts[slot];
     if (isSlotUsed[slot])
         pathRecords[slotIndex[slot]] = path[slot];
 }
@@ -100,9 +114,20 @@ uint sumOfLanes(uint x) {
     return x;
 }
 
+uint mostOfLanes(uint x) {
+    x = max(x, gl_SubgroupSize > 1u ? subgroupShuffleXor(x, 1u) : 0u);
+    x = max(x, gl_SubgroupSize > 2u ? subgroupShuffleXor(x, 2u) : 0u);
+    x = max(x, gl_SubgroupSize > 4u ? subgroupShuffleXor(x, 4u) : 0u);
+    x = max(x, gl_SubgroupSize > 8u ? subgroupShuffleXor(x, 8u) : 0u);
+    x = max(x, gl_SubgroupSize > 16u ? subgroupShuffleXor(x, 16u) : 0u);
+    return x;
+}
+
 bool isSpeaker() { return gl_SubgroupInvocationID == 0u; }
 #else
 uint sumOfLanes(uint x) { return x; }
+
+uint mostOfLanes(uint x) { return x; }
 
 bool isSpeaker() { return true; }
 #endif
@@ -125,8 +150,10 @@ void addProgress() {
     uvec4 rays = uvec4(sumOfLanes(finishedRayCounts.x), sumOfLanes(finishedRayCounts.y),
                        sumOfLanes(finishedRayCounts.z), sumOfLanes(finishedRayCounts.w));
     uint bounces = hasBounces ? sumOfLanes(finishedBounceCount) : 0u;
+    uint work = mostOfLanes(stepsTaken - stepsForfeited + passWork);
     if (!isSpeaker())
         return;
+    atomicAdd(progress.workDone, work);
     if (unfinished != 0u)
         atomicAdd(progress.unfinishedSlots, unfinished);
     if (overflows != 0u)

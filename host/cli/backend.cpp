@@ -30,6 +30,8 @@ std::string driverBesideName(const std::string &driver, const std::string &name)
     return text;
 }
 
+constexpr Interval dispatchMillis{1.0, 10'000.0};
+
 class CpuBackend : public Backend {
   public:
     CpuBackend(reference::Precision precision, int threadCount)
@@ -222,17 +224,22 @@ void addThreadsOption(CLI::App &command, int &threadCount) {
 
 bool isReference(const std::string &name) { return name == "cpu" || name == "cpu-double"; }
 
-void addKernelOption(CLI::App &command, std::optional<gpu::KernelChoice> &kernel) {
-    addChoice(command, "--kernel", kernel, gpu::kernelNames,
+void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
+    addChoice(command, "--kernel", options.kernel, gpu::kernelNames,
               "how rays go through the tree on a Vulkan device; auto: as `hyalite devices` says. The image "
               "is the same");
+    addNumber(command, "--max-dispatch-ms", options.maxDispatchMillis, dispatchMillis,
+              "how long a dispatch on a Vulkan device should take, in milliseconds: long ones block a "
+              "display, short ones cost more. The image is the same")
+        ->default_str("100");
 }
 
-gpu::Batching batchingFor(const std::optional<gpu::KernelChoice> &kernel) {
+gpu::Batching batchingFor(const DeviceOptions &options) {
     gpu::Batching batching;
-    if (kernel) {
-        batching.traversal = kernel->traversal;
-        batching.slotsPerInvocation = kernel->slotsPerInvocation;
+    batching.dispatchSeconds = options.maxDispatchMillis * 1e-3;
+    if (options.kernel) {
+        batching.traversal = options.kernel->traversal;
+        batching.slotsPerInvocation = options.kernel->slotsPerInvocation;
     }
     return batching;
 }

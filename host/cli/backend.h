@@ -71,11 +71,17 @@ void addThreadsOption(CLI::App &command, int &threadCount);
 /// Whether openBackend opens the reference renderer by this name.
 [[nodiscard]] bool isReference(const std::string &name);
 
-/// Adds --kernel, for openBackend. `kernel` must outlive the command.
-void addKernelOption(CLI::App &command, std::optional<gpu::KernelChoice> &kernel);
+/// How a Vulkan device is to work; the image does not depend on it.
+struct DeviceOptions {
+    std::optional<gpu::KernelChoice> kernel;
+    double maxDispatchMillis = gpu::Batching{}.dispatchSeconds * 1e3;
+};
 
-/// What openBackend takes of it.
-[[nodiscard]] gpu::Batching batchingFor(const std::optional<gpu::KernelChoice> &kernel);
+/// Adds --kernel and --max-dispatch-ms, for openBackend. `options` must outlive the command.
+void addDeviceOptions(CLI::App &command, DeviceOptions &options);
+
+/// What openBackend takes of them.
+[[nodiscard]] gpu::Batching batchingFor(const DeviceOptions &options);
 
 /// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. `threadCount` of 0 means all; on
 /// lavapipe it holds for the first device that is opened. Throws Error{NoDevice}, and Error{Usage} where the reference

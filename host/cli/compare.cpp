@@ -31,7 +31,7 @@ struct CompareOptions {
     std::string tolerance = "0";
     double maxOutliers = 0.0;
     int threads = 0;
-    std::optional<gpu::KernelChoice> kernel;
+    DeviceOptions deviceOptions;
     std::string heatMap;
     std::string report;
     bool isStatistical = false;
@@ -206,10 +206,10 @@ struct Contestants {
 
 Contestants openContestants(const CompareOptions &options) {
     std::unique_ptr<Backend> first =
-        openBackend(options.device, options.threads, batchingFor(options.kernel));
+        openBackend(options.device, options.threads, batchingFor(options.deviceOptions));
     return {std::move(first),
             openBackend(options.against, options.threads,
-                        isReference(options.against) ? gpu::Batching{} : batchingFor(options.kernel))};
+                        isReference(options.against) ? gpu::Batching{} : batchingFor(options.deviceOptions))};
 }
 
 void printContestants(const PreparedScene &scene, const Contestants &contestants) {
@@ -374,7 +374,7 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
               "share of pixels that may be further off")
         ->default_str("0");
     addThreadsOption(*command, options->threads);
-    addKernelOption(*command, options->kernel);
+    addDeviceOptions(*command, options->deviceOptions);
     addFile(*command, "--diff", options->heatMap, "FILE.png",
             "write a heat map of the difference (HDR-FLIP)");
     addFile(*command, "--report", options->report, "FILE.json", "write all metrics");

@@ -35,7 +35,7 @@ struct ProfileOptions {
     SceneOptions scene;
     std::string device = "auto";
     int threads = 0;
-    std::optional<gpu::KernelChoice> kernel;
+    DeviceOptions deviceOptions;
     int warmupCount = 1;
     int repeatCount = 5;
     bool isUnverified = false;
@@ -128,7 +128,7 @@ std::vector<std::byte> pngOf(const Drawing &drawing, const Profile &profile) {
 
 /// Renders once more, and counts what the traversal of the measured kernel does.
 KernelWork countKernelWork(const ProfileOptions &options, const PreparedScene &scene) {
-    gpu::Batching batching = batchingFor(options.kernel);
+    gpu::Batching batching = batchingFor(options.deviceOptions);
     batching.isCounting = true;
     const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads, batching);
     const BackendResult result =
@@ -191,7 +191,7 @@ PreparedScene prepare(const ProfileOptions &options, const std::string &commandL
     profile.hostStages.push_back({"build", {loaded, loaded + nanos(scene.buildSeconds)}});
     requireFilmMemory(scene.crop, 2);
     watch = {};
-    backend = openBackend(options.device, options.threads, batchingFor(options.kernel));
+    backend = openBackend(options.device, options.threads, batchingFor(options.deviceOptions));
     profile.hostStages.push_back({"open the device", watch.lap()});
     profile.origin = provenanceOf(scene, commandLine);
     profile.device = backend->identity(profile.origin.settings.integrator);
@@ -304,7 +304,7 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
         ->type_name("DEVICE")
         ->capture_default_str();
     addThreadsOption(*command, options->threads);
-    addKernelOption(*command, options->kernel);
+    addDeviceOptions(*command, options->deviceOptions);
     addNumber(*command, "--warmup", options->warmupCount, warmupCounts,
               "renders before those that are measured")
         ->default_str("1");

@@ -32,7 +32,7 @@ struct RenderOptions {
     std::optional<ToneCurve> tone;
     std::string device = "auto";
     int threads = 0;
-    std::optional<gpu::KernelChoice> kernel;
+    DeviceOptions deviceOptions;
     std::string report;
     std::optional<double> timeLimitSeconds;
     std::string checkpoint;
@@ -101,11 +101,6 @@ std::optional<ResumedCheckpoint> resume(const RenderOptions &options, const Prep
     return resumed;
 }
 
-RayCounts sumOf(RayCounts a, const RayCounts &b) {
-    a += b;
-    return a;
-}
-
 void writeResult(AtomicFile &file, ImageFormat format, ToneCurve tone, const Film &film,
                  const PreparedScene &scene, const RenderReport &report) {
     const Image image = film.toImage();
@@ -143,7 +138,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         const CheckpointWriter writability(options.checkpoint, {}, false);
 
     std::future<std::unique_ptr<Backend>> opening =
-        beginOpeningBackend(options.device, options.threads, batchingFor(options.kernel));
+        beginOpeningBackend(options.device, options.threads, batchingFor(options.deviceOptions));
     const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
     if (format == ImageFormat::Png)
         requirePngSize(options.output, scene.crop.width(), scene.crop.height());
@@ -184,7 +179,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
             continuation.film = std::move(resumed->checkpoint.film);
         }
         periodicFiles.push_back({options.checkpointSeconds, [&](const Film &film, const RayCounts &rays) {
-                                     checkpoint->write(film, sumOf(raysBefore, rays));
+                                     checkpoint->write(film, raysBefore + rays);
                                  }});
     }
     if (options.partialSeconds)
@@ -217,7 +212,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
                                                  : "the time limit";
     report.faults = result.faults;
     report.timing = result.timing;
-    report.rays = sumOf(raysBefore, result.rays);
+    report.rays = raysBefore + result.rays;
     const Clock::time_point writeStart = Clock::now();
     std::optional<Error> checkpointFailure;
     if (checkpoint) {
@@ -267,7 +262,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
         ->capture_default_str();
     addToneOption(*command, options->tone);
     addThreadsOption(*command, options->threads);
-    addKernelOption(*command, options->kernel);
+    addDeviceOptions(*command, options->deviceOptions);
     addFile(*command, "--report", options->report, "FILE.json", "write what was done and how long it took");
     addNumber(*command, "--time-limit", options->timeLimitSeconds, timeLimits,
               "stop then, and write what is finished; loading and building do not count")

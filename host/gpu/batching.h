@@ -24,7 +24,7 @@ struct Batching {
     int tileHeight = 0;           ///< pixels, a multiple of 8; 0: by the device
     std::uint32_t steps = 0;      ///< loop iterations of a path slot in one dispatch; 0: by the device
     int slotsPerInvocation = 0;   ///< path slots of one invocation, 1 or 2; 0: by the device
-    double dispatchSeconds = 0.2; ///< how long a dispatch may take, after the first ones; > 0
+    double dispatchSeconds = 0.1; ///< how long a dispatch should take; > 0
     int samplesAbreast = 0;  ///< slots of one pixel: 1, 2, 4 or 8; 0: by the device and the samples wanted
     bool isStaged = false;   ///< transfer everything through staging buffers
     bool isCounting = false; ///< count the work of the traversal

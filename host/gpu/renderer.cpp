@@ -31,7 +31,6 @@ std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
 
 /// How often a render that failed is tried again.
 constexpr int mostRetries = 3;
-constexpr int pathTileSide = 64;          // pixels
 constexpr std::uint32_t leastSteps = 256; // of a dispatch that is cut in halves
 
 /// When to copy the film to the host, as a device that is lost takes its own with it: often, but for a hundredth of the
@@ -49,11 +48,6 @@ class FilmKeeper {
   private:
     std::int64_t dueNanos_ = 0;
 };
-
-RayCounts sumOf(RayCounts a, const RayCounts &b) {
-    a += b;
-    return a;
-}
 
 } // namespace
 
@@ -76,13 +70,6 @@ struct Renderer::State {
 
     /// How an integrator renders.
     [[nodiscard]] Batching batchingFor(Integrator integrator) const {
-        if (integrator == Integrator::Path && info.isSoftware()) {
-            // A sample takes several times as long, and what a dispatch cannot finish is expensive to write down.
-            Batching small = batching;
-            small.tileWidth = std::min(small.tileWidth, pathTileSide);
-            small.tileHeight = std::min(small.tileHeight, pathTileSide);
-            return small;
-        }
         if (integrator != Integrator::Cost)
             return batching;
         if (wanted.traversal == Traversal::SkipList)
@@ -212,7 +199,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
             },
             timeline, shouldStop,
             [&](const RayCounts &rays) {
-                const RayCounts raysSoFar = sumOf(raysBefore, rays);
+                const RayCounts raysSoFar = raysBefore + rays;
                 // Of lost dispatches work cannot be counted: a frame that counts begins anew.
                 if (!state_->batching.isCounting && keeper.isDue()) {
                     keeper.keep([&] { tiles.readFilm(bandPixels); });
@@ -236,7 +223,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         result.timing.pipelineSeconds += tiles.lateBuildSeconds();
         result.timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();
         tiles.readFilm(bandPixels);
-        result.rays = sumOf(raysBefore, totals.rays);
+        result.rays = raysBefore + totals.rays;
         endStage("readback");
         if (totals.isStopped)
             break;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <tuple>
 #include <utility>
 
 namespace hyalite::gpu {
@@ -18,8 +19,14 @@ constexpr std::uint32_t workgroupSize = 64;
 constexpr std::uint32_t samplesInPass = 64; // of each pixel, before any gets more
 constexpr std::uint32_t traceCapacity = 1u << 17;
 
-/// A tile is a whole number of blocks of 8x8 pixels, which are 64 slots.
-int fitTile(int pixels, int tile) { return std::min((pixels + 7) / 8 * 8, tile); }
+/// The largest tiles in which a kernel that ends with whole samples is helped out by one that can be resumed inside of
+/// them, to keep what waits small: dispatches of larger ones would be long.
+constexpr std::uint64_t mostLongPixels = 64 * 64;
+
+std::uint32_t fitTile(int pixels, int tile) {
+    const int blockSide = Tile::blockSide;
+    return static_cast<std::uint32_t>(std::min((pixels + blockSide - 1) / blockSide * blockSide, tile));
+}
 
 /// Samples of a pixel that run side by side: as many as leave few slots idle in the last round.
 std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
@@ -52,11 +59,10 @@ LaneCounts lanesOf(const layout::DispatchProgress &counters, std::uint32_t slots
 TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching,
                            const Job &job)
     : device_(device), buffers_(buffers), batching_(batching), job_(job),
-      tileWidth_(fitTile(job.crop.width(), batching.tileWidth)),
-      tileHeight_(fitTile(job.crop.height(), batching.tileHeight)),
       samplesAbreast_(fitSamplesAbreast(batching.samplesAbreast, job.sampleEnd - job.sampleBegin)),
-      slotCount_(static_cast<std::uint32_t>(tileWidth_) * static_cast<std::uint32_t>(tileHeight_) *
-                 samplesAbreast_),
+      largestTile_{0, 0, fitTile(job.crop.width(), batching.tileWidth),
+                   fitTile(job.crop.height(), batching.tileHeight)},
+      slotCount_(slotCount(largestTile_)),
       // One subtree waits for each level at most; kernels of a few sizes are enough.
       stackSize_(std::bit_ceil(
           std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth))),
@@ -68,7 +74,7 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
                   : 0),
       trace_(device, "the trace", BufferUse::Storage,
              job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0),
-      pace_(batching.dispatchSeconds, samplesAbreast_, batching.steps) {
+      pace_(batching.dispatchSeconds, samplesAbreast_, largestTile_.pixelCount()) {
     if (job.film.empty())
         film_.clear();
     else
@@ -84,17 +90,27 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
     dispatch_.cropY = static_cast<std::uint32_t>(job.crop.y0);
     dispatch_.filmWidth = static_cast<std::uint32_t>(job.crop.width());
     dispatch_.filmHeight = static_cast<std::uint32_t>(job.crop.height());
-    dispatch_.tileWidth = static_cast<std::uint32_t>(tileWidth_);
-    dispatch_.tileHeight = static_cast<std::uint32_t>(tileHeight_);
     dispatch_.sampleBegin = job.sampleBegin;
     dispatch_.stepBudget = batching.steps;
     dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
     // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
     dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
-    const std::uint32_t slotsPerRound =
-        workgroupSize * static_cast<std::uint32_t>(batching.slotsPerInvocation) * dispatch_.interleave;
-    groupCount_ = (slotCount_ + slotsPerRound - 1) / slotsPerRound * dispatch_.interleave;
     dispatch_.sampleEnd = job.sampleEnd;
+    moveTo(largestTile_);
+}
+
+std::uint32_t TileRenderer::slotCount(const Tile &tile) const {
+    return static_cast<std::uint32_t>(tile.pixelCount()) * samplesAbreast_;
+}
+
+void TileRenderer::moveTo(const Tile &tile) {
+    dispatch_.tileX = tile.x;
+    dispatch_.tileY = tile.y;
+    dispatch_.tileWidth = tile.width;
+    dispatch_.tileHeight = tile.height;
+    const std::uint32_t slotsPerRound =
+        workgroupSize * static_cast<std::uint32_t>(batching_.slotsPerInvocation) * dispatch_.interleave;
+    groupCount_ = (slotCount(tile) + slotsPerRound - 1) / slotsPerRound * dispatch_.interleave;
 }
 
 void TileRenderer::makeKernel() {
@@ -118,10 +134,14 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     const bool isSplitting = isWhitted(job_.integrator) && scene.hasDielectric;
     const std::uint32_t mostPending = isSplitting ? scene.frame.maxDepth - 1 : 0;
     const bool keepsPending = !isResumable && mostPending <= layout::mostPendingInRegisters;
+    const bool isHelper = isResumable && direct_.has_value();
+    const std::size_t slots =
+        isHelper ? std::min(slotCount_, static_cast<std::uint32_t>(mostLongPixels) * samplesAbreast_)
+                 : slotCount_;
     Buffer paths(device_, "the path slots", BufferUse::Storage,
-                 isResumable ? std::size_t{slotCount_} * sizeof(layout::PathRecord) : 0);
+                 isResumable ? slots * sizeof(layout::PathRecord) : 0);
     Buffer pending(device_, "the pending rays", bulkUse(batching_),
-                   keepsPending ? 0 : std::size_t{slotCount_} * mostPending * sizeof(layout::PendingRay));
+                   keepsPending ? 0 : slots * mostPending * sizeof(layout::PendingRay));
 
     SpecializationConstants constants{};
     constants[layout::constantWorkgroupSize] = workgroupSize;
@@ -173,16 +193,12 @@ Kernel &TileRenderer::resumableKernel(Timeline *timeline) {
 TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Timeline *timeline,
                              const std::function<bool()> &shouldStop,
                              const std::function<void(const RayCounts &)> &onPause) {
-    const int tilesAcross = (job_.crop.width() + tileWidth_ - 1) / tileWidth_;
-    const int tilesDown = (job_.crop.height() + tileHeight_ - 1) / tileHeight_;
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
     std::uint64_t samplesFinished = samplesInFilm_;
     TileTotals totals;
-    bool isResumed = false;
-    const auto dispatch = [&](Kernel &kernel) {
-        dispatch_.stepBudget = pace_.steps();
+    const auto dispatch = [&](Kernel &kernel, bool isResumed) {
         const Step step = runOnce(kernel);
-        pace_.learn(step.times.best().seconds());
+        pace_.learnWork(step.times.best().seconds(), step.counters.workDone);
         samplesFinished += step.counters.finishedSamples;
         totals.rays += raysOf(step.counters);
         totals.work += workOf(step.counters);
@@ -190,47 +206,81 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
                                                    static_cast<std::uint32_t>(batching_.slotsPerInvocation));
         if (timeline != nullptr)
             timeline->dispatches.push_back(describe(kernel, step, isResumed));
-        isResumed = true;
         ++totals.dispatchCount;
         if (onProgress)
             onProgress(static_cast<double>(samplesFinished) / samplesWanted);
         totals.isStopped = shouldStop && shouldStop();
         if (onPause && !totals.isStopped)
             onPause(totals.rays);
-        return step.counters;
+        return step;
     };
-    // The film says where each pixel stands: the samples of the tile up to `end` are wanted.
-    const auto fillTile = [&](std::uint32_t begin, std::uint32_t end) {
-        dispatch_.sampleEnd = begin;
-        while (dispatch_.sampleEnd < end && !totals.isStopped) {
-            dispatch_.sampleEnd += std::min(pace_.samples(), end - dispatch_.sampleEnd);
-            dispatch_.isResumed = 0;
-            isResumed = false;
-            layout::DispatchProgress last{};
-            last.unfinishedSlots = slotCount_;
-            if (direct_) {
-                do
-                    last = dispatch(direct_->kernel);
-                while (last.unfinishedSlots > 0 && last.finishedSamples > 0 && !totals.isStopped);
-            }
-            while (last.unfinishedSlots > 0 && !totals.isStopped) {
-                last = dispatch(resumableKernel(timeline));
+    // The film says where each pixel stands, so that a part can be halved at any time but inside of long samples.
+    const auto addSamples = [&](Part &part, std::uint32_t end) {
+        moveTo(part.tile);
+        const std::uint64_t pixels = part.tile.pixelCount();
+        dispatch_.sampleEnd = part.begin + std::min(pace_.samples(pixels), end - part.begin);
+        dispatch_.isResumed = 0;
+        double seconds = 0.0;
+        std::uint64_t finished = 0;
+        bool isResumed = false;
+        bool isUnfinished = true;
+        while (isUnfinished && !totals.isStopped) {
+            const bool isDirect = direct_ && !part.isLong;
+            const Step step = dispatch(isDirect ? direct_->kernel : resumableKernel(timeline), isResumed);
+            isResumed = true;
+            isUnfinished = step.counters.unfinishedSlots > 0;
+            seconds += step.times.best().seconds();
+            finished += step.counters.finishedSamples;
+            // What is there already is quickly given.
+            pace_.learnSamples(seconds,
+                               isUnfinished ? finished : pixels * (dispatch_.sampleEnd - part.begin));
+            if (!isDirect) {
                 dispatch_.isResumed = 1;
+                continue;
             }
+            part.isLong = isUnfinished && step.counters.finishedSamples == 0;
+            if (isUnfinished && mustHalve(part, end))
+                return;
         }
+        part.begin = dispatch_.sampleEnd;
+        part.isLong = false;
     };
     // Pass after pass over the whole image, so that one that is stopped early has samples everywhere.
     for (std::uint32_t begin = job_.sampleBegin + fewestInFilm_;
          begin < job_.sampleEnd && !totals.isStopped;) {
         const std::uint32_t end = begin + std::min(samplesInPass, job_.sampleEnd - begin);
-        for (int tile = 0; tile < tilesAcross * tilesDown && !totals.isStopped; ++tile) {
-            dispatch_.tileX = static_cast<std::uint32_t>(tile % tilesAcross * tileWidth_);
-            dispatch_.tileY = static_cast<std::uint32_t>(tile / tilesAcross * tileHeight_);
-            fillTile(begin, end);
+        std::vector<Part> waiting = cutFilm(begin);
+        while (!waiting.empty() && !totals.isStopped) {
+            Part &part = waiting.back();
+            if (part.begin == end || part.tile.x >= dispatch_.filmWidth ||
+                part.tile.y >= dispatch_.filmHeight) {
+                waiting.pop_back();
+            } else if (mustHalve(part, end)) {
+                Part half = part;
+                std::tie(half.tile, part.tile) = part.tile.halves();
+                waiting.push_back(half);
+            } else {
+                addSamples(part, end);
+            }
         }
         begin = end;
     }
     return totals;
+}
+
+std::vector<TileRenderer::Part> TileRenderer::cutFilm(std::uint32_t begin) const {
+    std::vector<Part> parts;
+    for (std::uint32_t y = 0; y < dispatch_.filmHeight; y += largestTile_.height)
+        for (std::uint32_t x = 0; x < dispatch_.filmWidth; x += largestTile_.width)
+            parts.push_back({{x, y, largestTile_.width, largestTile_.height}, begin, false});
+    std::ranges::reverse(parts);
+    return parts;
+}
+
+bool TileRenderer::mustHalve(const Part &part, std::uint32_t end) const {
+    const std::uint64_t most = pace_.pixels(end - part.begin);
+    return part.tile.canBeHalved() &&
+           part.tile.pixelCount() > (part.isLong ? std::min(most, mostLongPixels) : most);
 }
 
 void TileRenderer::readFilm(std::span<layout::FilmPixel> pixels) const {
@@ -250,6 +300,7 @@ std::size_t TileRenderer::filmPixelCount() const {
 TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     layout::DispatchProgress counters{};
     counters.traceEvents = traceEventCount_;
+    dispatch_.workBudget = pace_.work();
     progress_.upload(std::as_bytes(std::span(&counters, 1)));
     const RunTimes times = kernel.run(dispatch_, groupCount_);
     progress_.download(std::as_writable_bytes(std::span(&counters, 1)));
@@ -267,8 +318,8 @@ DispatchRecord TileRenderer::describe(const Kernel &kernel, const Step &step, bo
     record.kernel = kernel.name();
     record.tileX = job_.crop.x0 + static_cast<int>(dispatch_.tileX);
     record.tileY = job_.crop.y0 + static_cast<int>(dispatch_.tileY);
-    record.tileWidth = std::min(tileWidth_, job_.crop.x1 - record.tileX);
-    record.tileHeight = std::min(tileHeight_, job_.crop.y1 - record.tileY);
+    record.tileWidth = std::min(static_cast<int>(dispatch_.tileWidth), job_.crop.x1 - record.tileX);
+    record.tileHeight = std::min(static_cast<int>(dispatch_.tileHeight), job_.crop.y1 - record.tileY);
     record.sampleBegin = dispatch_.sampleBegin;
     record.sampleEnd = dispatch_.sampleEnd;
     record.isResumed = isResumed;

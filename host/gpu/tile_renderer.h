@@ -5,6 +5,7 @@
 #include "host/gpu/kernel.h"
 #include "host/gpu/pace.h"
 #include "host/gpu/scene_buffers.h"
+#include "host/gpu/tile.h"
 #include "host/image/film.h"
 #include "host/report/ray_counts.h"
 #include "host/report/timeline.h"
@@ -84,7 +85,20 @@ class TileRenderer {
         RunTimes times;
     };
 
+    /// A part of the film whose pixels want more samples.
+    struct Part {
+        Tile tile;
+        std::uint32_t begin; ///< all samples before it are in the film
+        bool isLong;         ///< a sample takes more than the steps of a slot in one dispatch
+    };
+
     [[nodiscard]] std::size_t filmPixelCount() const;
+    [[nodiscard]] std::uint32_t slotCount(const Tile &tile) const;
+    /// The largest tiles, the first one last.
+    [[nodiscard]] std::vector<Part> cutFilm(std::uint32_t begin) const;
+    /// Whether a part that wants samples up to `end` is too large for one dispatch.
+    [[nodiscard]] bool mustHalve(const Part &part, std::uint32_t end) const;
+    void moveTo(const Tile &tile);
     [[nodiscard]] Program makeProgram(bool isResumable);
     Kernel &resumableKernel(Timeline *timeline);
     Step runOnce(Kernel &kernel);
@@ -96,10 +110,9 @@ class TileRenderer {
     const SceneBuffers &buffers_;
     Batching batching_;
     Job job_;
-    int tileWidth_;
-    int tileHeight_;
     std::uint32_t samplesAbreast_;
-    std::uint32_t slotCount_; ///< of a tile
+    Tile largestTile_;
+    std::uint32_t slotCount_; ///< of the largest tile
     std::uint32_t stackSize_; ///< subtrees that can wait for one ray
     Buffer film_;
     Buffer progress_;

@@ -22,6 +22,7 @@ struct RayCounts {
         bounce += other.bounce;
         return *this;
     }
+    friend RayCounts operator+(RayCounts a, const RayCounts &b) { return a += b; }
     bool operator==(const RayCounts &) const = default;
 };
 

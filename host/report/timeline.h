@@ -62,7 +62,7 @@ struct DispatchRecord {
     std::uint32_t sampleBegin = 0; ///< the samples [sampleBegin, sampleEnd) of each pixel were asked for
     std::uint32_t sampleEnd = 0;
     bool isResumed = false; ///< goes on where the tile's last dispatch had spent its steps
-    RayCounts rays;         ///< begun in this dispatch
+    RayCounts rays;         ///< of the samples that it finished
     std::uint64_t invocations = 0;
     RunTimes times;
 };

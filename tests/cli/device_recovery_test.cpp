@@ -7,9 +7,9 @@
 namespace hyalite::testing {
 namespace {
 
-/// Four tiles of a software device, and so four dispatches after those of the start: the arithmetic's check, clearing the
-/// film, and the warm-up.
-const std::string fourTiles = " --width 512 --height 512 --spp 1 --device 0";
+/// With so much time for each, tiles double: of 32x32, 32x32, 64x32, 64x64 and 128x64 pixels.
+const std::string fiveTiles = " --width 128 --height 128 --spp 1 --max-dispatch-ms 10000 --device 0";
+/// The arithmetic's check, clearing the film, and the warm-up.
 constexpr int dispatchesOfTheStart = 3;
 
 class DeviceRecovery : public FaultyDevice {
@@ -18,7 +18,7 @@ class DeviceRecovery : public FaultyDevice {
 
     [[nodiscard]] Outcome render(const std::string &faults, const std::string &options = {}) {
         return runHere("render spheres --quiet --report " + path("r.json") + " -o " + path("a.pfm") +
-                           fourTiles + options,
+                           fiveTiles + options,
                        faults);
     }
     [[nodiscard]] nlohmann::json report() const { return nlohmann::json::parse(load("r.json")); }
@@ -30,7 +30,7 @@ TEST_F(DeviceRecovery, AFaultInAnyDispatchChangesNoBit) {
     const nlohmann::json rays = report().at("rays");
     EXPECT_EQ(report().at("faults"), nlohmann::json::array());
     const long submits = lastTally.calls.at("vkQueueSubmit");
-    ASSERT_EQ(submits, dispatchesOfTheStart + 4);
+    ASSERT_EQ(submits, dispatchesOfTheStart + 5);
     for (const char *fault :
          {"vkQueueSubmit:{}:VK_ERROR_DEVICE_LOST", "vkWaitForFences:{}:VK_ERROR_DEVICE_LOST",
           "vkWaitForFences:{}:VK_ERROR_OUT_OF_HOST_MEMORY", "vkQueueSubmit:{}:VK_ERROR_OUT_OF_DEVICE_MEMORY"})
@@ -70,14 +70,14 @@ TEST_F(DeviceRecovery, ADeviceThatFailsForGoodLeavesWhatIsFinished) {
         EXPECT_TRUE(lastTally.alive.empty());
         // The copies of the film are made by the clock, but for the first, after the first tile.
         const long pixels = report().at("finished").at("pixels");
-        EXPECT_TRUE(pixels == 256 * 256 || pixels == 2 * 256 * 256) << pixels;
+        EXPECT_TRUE(pixels == 32 * 32 || pixels == 2 * 32 * 32) << pixels;
         EXPECT_EQ(report().at("faults").size(), 4u);
         const Image image = readImage(folder / "a.pfm").image;
         int differentCount = 0;
-        for (int y = 0; y < 512; ++y)
-            for (int x = 0; x < 512; ++x)
+        for (int y = 0; y < 128; ++y)
+            for (int x = 0; x < 128; ++x)
                 differentCount +=
-                    image.at(x, y) != (y < 256 && x < pixels / 256 ? whole.at(x, y) : glm::vec3(0.0f));
+                    image.at(x, y) != (y < 32 && x < pixels / 32 ? whole.at(x, y) : glm::vec3(0.0f));
         EXPECT_EQ(differentCount, 0);
     }
 }
@@ -101,9 +101,9 @@ TEST_F(DeviceRecovery, AWaitIsLongButNotEndless) {
     EXPECT_TRUE(load("a.pfm") == wanted);
     // In a process of its own: what may still run is never freed.
     const Outcome hanging =
-        runFaulty("render spheres -o a.pfm --report r.json" + fourTiles, "vkWaitForFences:6+:VK_TIMEOUT");
+        runFaulty("render spheres -o a.pfm --report r.json" + fiveTiles, "vkWaitForFences:6+:VK_TIMEOUT");
     EXPECT_EQ(hanging.exitCode, 6) << hanging;
-    EXPECT_TRUE(contains(hanging.errors, "tile (0, 256)")) << hanging;
+    EXPECT_TRUE(contains(hanging.errors, "tile (0, 32)")) << hanging;
     EXPECT_TRUE(contains(hanging.errors, "VK_TIMEOUT")) << hanging;
     EXPECT_TRUE(contains(hanging.errors, "stopped by the device: ")) << hanging;
     EXPECT_EQ(lastTally.alive.at("vkCreateDevice"), 4);

@@ -146,5 +146,21 @@ TEST_F(RenderDevice, RepeatedRendersAreEqual) {
     EXPECT_EQ(renderPfm(line), renderPfm(line));
 }
 
+TEST_F(RenderDevice, TheLengthOfDispatchesChangesNothing) {
+    const std::string line = "spheres --width 96 --height 96 --spp 4 --device " + softwareDevice();
+    const std::string wanted = renderPfm(line);
+    for (const char *millis : {"1", "2.5", "10000"})
+        EXPECT_TRUE(renderPfm(line + " --max-dispatch-ms " + millis) == wanted) << millis;
+    const long few = renderReport(line + " --max-dispatch-ms 10000").at("dispatches");
+    const long many = renderReport(line + " --max-dispatch-ms 1").at("dispatches");
+    EXPECT_LT(few, many);
+}
+
+TEST_F(RenderDevice, TheLengthOfDispatchesHasLimits) {
+    for (const char *millis : {"0", "0.9", "-1", "10001", "nan", "x"})
+        expectFailure("render spheres -o a.png --max-dispatch-ms " + std::string(millis), 2,
+                      {"--max-dispatch-ms", "1 to 10000"});
+}
+
 } // namespace
 } // namespace hyalite::testing

@@ -43,7 +43,7 @@ Surroundings signalled(int signal) {
 
 const char *nameOf(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
 
-/// Sixty-four tiles of a software device.
+/// Hundreds of tiles of a software device, the first one of 32x32 pixels.
 const std::string manyTiles = " --width 2048 --height 2048 --spp 4";
 /// Hours of work.
 const std::string endless = " --width 512 --height 512 --spp 65536 --device cpu";
@@ -108,7 +108,7 @@ TEST_F(RenderStop, QuietSaysOnlyWhatIsMissing) {
 
 TEST_F(RenderStop, TilesThatADeviceHasFinishedAreThoseOfTheWholeRender) {
     const std::string device = " --device " + softwareDevice() + manyTiles;
-    const std::string firstTile = renderPfm("spheres --crop 0,256,0,256" + device);
+    const std::string firstTile = renderPfm("spheres --crop 0,32,0,32" + device);
     const Image wanted = readImage(folder / "rendered.pfm").image;
     std::filesystem::remove(folder / "rendered.pfm");
     for (const char *kernel : {"auto", "stack"}) {
@@ -117,12 +117,12 @@ TEST_F(RenderStop, TilesThatADeviceHasFinishedAreThoseOfTheWholeRender) {
         ASSERT_EQ(outcome.exitCode, 0) << outcome;
         EXPECT_TRUE(contains(outcome.errors, "stopped by the time limit")) << outcome;
         const nlohmann::json finished = expectPart("a.pfm", 2048, "the time limit");
-        EXPECT_EQ(finished.at("pixels"), 256 * 256);
-        EXPECT_EQ(finished.at("samples"), 256 * 256 * 4);
+        EXPECT_EQ(finished.at("pixels"), 32 * 32);
+        EXPECT_EQ(finished.at("samples"), 32 * 32 * 4);
         const Image image = readImage(folder / "a.pfm").image;
         int differentCount = 0;
-        for (int y = 0; y < 256; ++y)
-            for (int x = 0; x < 256; ++x)
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 32; ++x)
                 differentCount += image.at(x, y) != wanted.at(x, y);
         EXPECT_EQ(differentCount, 0) << kernel;
         EXPECT_EQ(litPixelCount(image), litPixelCount(wanted)) << "elsewhere it is black";

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -53,6 +54,40 @@ TEST(Timeline, HasARecordOfEachDispatch) {
     EXPECT_EQ(rays, all.result.rays);
     EXPECT_EQ(freshPixelCount, crop.width() * crop.height());
     EXPECT_GT(resumedCount, 0);
+}
+
+TEST(Timeline, ShortDispatchesAreManyAndChangeNoBit) {
+    for (const Integrator integrator : {Integrator::Whitted, Integrator::Path}) {
+        Scene scene = testing::shippedScene("spheres-nested", 96, 80, 4);
+        scene.settings.maxDepth = 8;
+        scene.settings.integrator = integrator;
+        const reference::Result wanted = testing::renderOnCpu(scene);
+        for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+            for (const double seconds : {1e-5, 1e-3, 10.0}) {
+                const Recorded all =
+                    record(scene, {0, 96, 0, 80}, {.dispatchSeconds = seconds, .traversal = traversal});
+                EXPECT_EQ(testing::differingPixels(all.result.film, wanted.film), 0u) << seconds;
+                EXPECT_EQ(all.result.rays, wanted.rays) << seconds;
+                const std::size_t count = all.timeline.dispatches.size();
+                if (seconds < 0.01)
+                    EXPECT_GE(count, 96u * 80u / 512u) << seconds;
+                else
+                    EXPECT_LE(count, 30u) << seconds;
+            }
+    }
+}
+
+// In the background samples take a microsecond, in the nested glass a thousand times as long.
+TEST(Timeline, DispatchesAreNotMuchLongerThanIsWanted) {
+    const Recorded all = record(testing::shippedScene("spheres-nested", 160, 160, 4), {0, 160, 0, 160},
+                                {.dispatchSeconds = 0.01});
+    std::vector<double> seconds;
+    for (const DispatchRecord &dispatch : all.timeline.dispatches)
+        seconds.push_back(dispatch.times.best().seconds());
+    std::ranges::sort(seconds);
+    EXPECT_GT(seconds.size(), 20u);
+    // One in ten may meet a machine that is busy with something else, and come to ten times as long.
+    EXPECT_LT(seconds.at(seconds.size() * 9 / 10), 0.1);
 }
 
 TEST(Timeline, NamesTheKernelThatRan) {
