@@ -1,6 +1,7 @@
 #include "host/cli/backend.h"
 #include "host/cli/commands.h"
 #include "host/cli/identity.h"
+#include "host/cli/layers.h"
 #include "host/cli/options.h"
 #include "host/cli/snapshots.h"
 #include "host/cli/stop.h"
@@ -13,9 +14,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +33,7 @@ struct RenderOptions {
     SceneOptions scene;
     std::string output;
     std::optional<ToneCurve> tone;
+    std::vector<Integrator> layers;
     std::string device = "auto";
     int threads = 0;
     DeviceOptions deviceOptions;
@@ -102,13 +106,14 @@ std::optional<ResumedCheckpoint> resume(const RenderOptions &options, const Prep
 }
 
 void writeResult(AtomicFile &file, ImageFormat format, ToneCurve tone, const Film &film,
-                 const PreparedScene &scene, const RenderReport &report) {
+                 const std::vector<ViewFilm> &views, const PreparedScene &scene, const RenderReport &report) {
     const Image image = film.toImage();
     Picture picture(image);
     picture.wholeWidth = scene.loaded.scene.camera.width;
     picture.wholeHeight = scene.loaded.scene.camera.height;
     picture.crop = film.crop;
     picture.layers = filmLayers(film);
+    std::ranges::move(viewLayers(views), std::back_inserter(picture.layers));
     picture.attributes = attributesOf(provenanceToJson(report.origin, report.device));
     writeFilm(file, format, film, picture, scene.loaded.scene.settings, tone);
 }
@@ -129,6 +134,9 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         throw Error(ExitCode::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
                     "not hold; use --device cpu or a Vulkan device");
+    if (!options.layers.empty() && format != ImageFormat::Exr)
+        throw Error(ExitCode::Usage,
+                    fmt::format("--layers are for .exr files: --output is {}", options.output));
     // Opened before the work begins, so that an output that cannot be written is known now.
     AtomicFile image(options.output);
     std::optional<AtomicFile> reportFile;
@@ -139,10 +147,11 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
 
     std::future<std::unique_ptr<Backend>> opening =
         beginOpeningBackend(options.device, options.threads, batchingFor(options.deviceOptions));
-    const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
     if (format == ImageFormat::Png)
         requirePngSize(options.output, scene.crop.width(), scene.crop.height());
-    requireFilmMemory(scene.crop, options.checkpoint.empty() && !options.partialSeconds ? 1 : 2);
+    requireFilmMemory(scene.crop, (options.checkpoint.empty() && !options.partialSeconds ? 1 : 2) +
+                                      static_cast<unsigned>(options.layers.size()));
     const RenderSettings &settings = scene.loaded.scene.settings;
     RenderReport report;
     report.origin = provenanceOf(scene, commandLine);
@@ -163,6 +172,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     Continuation continuation;
     RayCounts raysBefore;
     std::optional<CheckpointWriter> checkpoint;
+    std::vector<ViewFilm> views;
     std::vector<PeriodicFile> periodicFiles;
     if (!options.checkpoint.empty()) {
         const RenderIdentity identity = identityOf(scene, *backend);
@@ -185,7 +195,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     if (options.partialSeconds)
         periodicFiles.push_back({*options.partialSeconds, [&](const Film &film, const RayCounts &) {
                                      AtomicFile partial(options.output);
-                                     writeResult(partial, format, tone, film, scene, report);
+                                     writeResult(partial, format, tone, film, views, scene, report);
                                      partial.commit();
                                  }});
     PeriodicFiles snapshots(scene.crop, std::move(periodicFiles));
@@ -195,6 +205,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         return signals.first() != 0 ||
                (options.timeLimitSeconds && secondsSince(renderStart) >= *options.timeLimitSeconds);
     };
+    views = renderViews(*backend, scene, options.layers, options.isQuiet, shouldStop);
     const BackendResult result = renderWithProgress(*backend, scene, "render", options.isQuiet, nullptr,
                                                     shouldStop, std::move(continuation));
     snapshots.finish();
@@ -222,7 +233,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
             checkpointFailure.emplace(error);
         }
     }
-    writeResult(image, format, tone, result.film, scene, report);
+    writeResult(image, format, tone, result.film, views, scene, report);
     image.commit();
     report.writeSeconds = secondsSince(writeStart);
     report.totalSeconds = secondsSince(start);
@@ -261,6 +272,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
         ->type_name("DEVICE")
         ->capture_default_str();
     addToneOption(*command, options->tone);
+    addLayersOption(*command, options->layers);
     addThreadsOption(*command, options->threads);
     addDeviceOptions(*command, options->deviceOptions);
     addFile(*command, "--report", options->report, "FILE.json", "write what was done and how long it took");

@@ -1,4 +1,5 @@
 // The files that a render writes: their formats and sizes, and that they appear whole or not at all.
+#include "host/image/exr.h"
 #include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
 
@@ -62,6 +63,37 @@ TEST_F(RenderOutput, AnExrHasTheLinearColoursAndLayers) {
     for (const char *part :
          {"variance.R", "samples", "render spheres -o a.exr", "spheres.json", "hyalite 0."})
         EXPECT_TRUE(contains(bytes, part)) << part;
+}
+
+TEST_F(RenderOutput, LayersAreTheViews) {
+    const std::string size = " --width 24 --height 18 --device cpu --quiet";
+    ASSERT_EQ(run("render cat -o a.exr --spp 2 --layers id,albedo,normal,depth,id" + size).exitCode, 0);
+    const InputFile file(folder / "a.exr");
+    const auto expectSame = [&](const std::string &layer, const std::string &options) {
+        const Image wanted =
+            renderImage("cat --integrator " + layer + options + " --width 24 --height 18 --device cpu");
+        const Image found = readExr(file, layer);
+        ASSERT_EQ(found.pixels().size(), wanted.pixels().size());
+        for (std::size_t i = 0; i < found.pixels().size(); ++i)
+            ASSERT_EQ(found.pixels()[i], wanted.pixels()[i]) << layer << ", pixel " << i;
+    };
+    expectSame("albedo", " --spp 2");
+    expectSame("depth", " --spp 1 --sampler centre");
+    expectSame("id", " --spp 1 --sampler centre");
+    EXPECT_TRUE(hasExrLayer(file, "normal"));
+    for (const char *channel : {"normal.X", "normal.Y", "normal.Z"})
+        EXPECT_TRUE(contains(load("a.exr"), channel)) << channel;
+    // The image is the one without layers.
+    ASSERT_EQ(run("render cat -o b.exr --spp 2" + size).exitCode, 0);
+    EXPECT_TRUE(std::ranges::equal(readExr(file).pixels(), readExr(InputFile(folder / "b.exr")).pixels()));
+}
+
+TEST_F(RenderOutput, LayersThatCannotBeAreRefused) {
+    expectFailure("render cat -o a.png --layers albedo", 2, {"--layers", ".exr", "a.png"});
+    expectFailure("render cat -o a.exr --layers albedo,normals", 2,
+                  {"--layers", "normals", "normal", "depth"});
+    expectFailure("render cat -o a.exr --layers cost", 2, {"--layers", "cost", "albedo"});
+    EXPECT_TRUE(entries().empty());
 }
 
 TEST_F(RenderOutput, AnHdrIsWritten) {

@@ -1,0 +1,95 @@
+#include "host/cli/layers.h"
+
+#include "host/cli/options.h"
+#include "host/scene/names.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::array<Integrator, 4> allViews{Integrator::Albedo, Integrator::Normal, Integrator::Depth,
+                                             Integrator::Id};
+
+/// From what the view shows of a normal back to the normal.
+glm::vec3 normalOf(const glm::vec3 &colour) {
+    return colour == glm::vec3(0.0f) ? colour : 2.0f * colour - 1.0f;
+}
+
+Layer layerOf(const ViewFilm &of) {
+    const Film &film = of.film;
+    const bool isNormal = of.view == Integrator::Normal;
+    const int channelCount = of.view == Integrator::Depth ? 1 : 3;
+    const auto fillRow = [&film, isNormal, channelCount](int y, std::span<float> row) {
+        const auto width = static_cast<std::size_t>(film.crop.width());
+        float *next = row.data();
+        for (const layout::FilmPixel &pixel :
+             std::span(film.pixels).subspan(static_cast<std::size_t>(y) * width, width)) {
+            const glm::vec3 mean = pixel.sum / static_cast<float>(std::max(pixel.sampleCount, 1u));
+            const glm::vec3 value = isNormal ? normalOf(mean) : mean;
+            for (int channel = 0; channel < channelCount; ++channel)
+                *next++ = value[channel];
+        }
+    };
+    return {std::string(nameOf(of.view)), channelCount == 1 ? "" : isNormal ? "XYZ" : "RGB", fillRow};
+}
+
+} // namespace
+
+void addLayersOption(CLI::App &command, std::vector<Integrator> &views) {
+    std::array<std::string_view, allViews.size()> words;
+    std::transform(allViews.begin(), allViews.end(), words.begin(),
+                   [](Integrator view) { return nameOf(view); });
+    const auto read = [&views, words](const CLI::results_t &typed) {
+        for (const std::string &word : typed) {
+            const auto found = std::find(words.begin(), words.end(), word);
+            if (found == words.end())
+                refuseValue("--layers", word, quotedList(words) + suggestion(word, words));
+            const Integrator view = allViews[static_cast<std::size_t>(found - words.begin())];
+            if (std::find(views.begin(), views.end(), view) == views.end())
+                views.push_back(view);
+        }
+        return true;
+    };
+    command
+        .add_option("--layers", CLI::callback_t(read),
+                    "of an .exr, beside its colours: what primary rays meet")
+        ->delimiter(',')
+        ->expected(1, -1)
+        ->type_name(fmt::format("{},...", fmt::join(words, "|")));
+}
+
+std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
+                                  const std::vector<Integrator> &views, bool isQuiet,
+                                  const std::function<bool()> &shouldStop) {
+    RenderSettings &settings = scene.loaded.scene.settings;
+    const RenderSettings ofImage = settings;
+    std::vector<ViewFilm> films;
+    for (const Integrator view : views) {
+        settings.integrator = view;
+        if (view != Integrator::Albedo) {
+            settings.samplesPerPixel = 1;
+            settings.sampler = SamplerKind::Centre;
+        }
+        films.push_back({view, shouldStop() ? Film(scene.crop)
+                                            : renderWithProgress(backend, scene, std::string(nameOf(view)),
+                                                                 isQuiet, nullptr, shouldStop)
+                                                  .film});
+        settings = ofImage;
+    }
+    return films;
+}
+
+std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films) {
+    std::vector<Layer> layers;
+    for (const ViewFilm &film : films)
+        layers.push_back(layerOf(film));
+    return layers;
+}
+
+} // namespace hyalite
