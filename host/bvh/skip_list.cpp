@@ -177,4 +177,12 @@ SkipList makeSkipList(const PackedScene &scene) {
     return list;
 }
 
+std::uint64_t mostSkipListBytes(std::size_t pairCount) {
+    return std::uint64_t{listCount} * 2 * pairCount * sizeof(layout::SkipNode);
+}
+
+std::uint64_t skipListWorkBytes(std::size_t pairCount) {
+    return pairCount * (sizeof(PairPlan) + listCount * sizeof(std::uint32_t));
+}
+
 } // namespace hyalite

@@ -3,6 +3,8 @@
 
 #include "host/bvh/packed_scene.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace hyalite {
@@ -20,5 +22,9 @@ struct SkipList {
 /// one upper ones. A list for each octant of directions would save diffuse rays 3 % of their steps, and cost more than
 /// that: caches hold less of eight lists.
 [[nodiscard]] SkipList makeSkipList(const PackedScene &scene);
+
+/// The bytes of both lists of so many node pairs, at most, and of what making them takes beside.
+[[nodiscard]] std::uint64_t mostSkipListBytes(std::size_t pairCount);
+[[nodiscard]] std::uint64_t skipListWorkBytes(std::size_t pairCount);
 
 } // namespace hyalite

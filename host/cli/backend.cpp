@@ -2,6 +2,7 @@
 
 #include "host/cli/options.h"
 #include "host/error.h"
+#include "host/host_memory.h"
 #include "host/reference/renderer.h"
 #include "host/report/message.h"
 #include "host/report/progress.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <future>
 #include <new>
 #include <optional>
@@ -127,7 +127,7 @@ class DeviceBackend : public Backend {
         gpu::Result result = renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop,
                                               onProgress, timeline, shouldStop, std::move(continuation));
         return {std::move(result.film), result.rays,   result.timing, result.work,
-                result.lanes,           result.faults, result.failure};
+                result.lanes,           result.memory, result.faults, result.failure};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
@@ -138,15 +138,6 @@ class DeviceBackend : public Backend {
     gpu::DeviceInfo device_;
     gpu::Renderer renderer_;
 };
-
-/// The memory that can be had without pushing other programs out, where the system tells.
-std::optional<std::uint64_t> availableBytes() {
-    std::ifstream stream("/proc/meminfo");
-    for (std::string key, rest; stream >> key; std::getline(stream, rest))
-        if (std::uint64_t kibibytes = 0; key == "MemAvailable:" && stream >> kibibytes)
-            return kibibytes * 1024;
-    return std::nullopt;
-}
 
 /// A film and the image made of it: tone mapping and packing come on top of that and take less.
 std::uint64_t filmBytes(const Crop &crop) {
@@ -193,7 +184,7 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
 
 void requireFilmMemory(const Crop &crop, unsigned filmCount) {
     const std::uint64_t neededBytes = filmCount * filmBytes(crop);
-    const std::optional<std::uint64_t> available = availableBytes();
+    const std::optional<std::uint64_t> available = availableHostBytes();
     if (available && neededBytes > *available)
         refuseFilm(crop, neededBytes, sizeText(*available) + " are available");
 }

@@ -19,10 +19,11 @@ namespace hyalite {
 
 struct BackendResult {
     Film film;
-    RayCounts rays;      ///< traced by this call
-    RenderTiming timing; ///< only renderSeconds on the CPU
-    WorkCounts work;     ///< all 0 unless counting was asked for, or the integrator is the cost
-    LaneCounts lanes{};  ///< of a device, likewise
+    RayCounts rays;           ///< traced by this call
+    RenderTiming timing;      ///< only renderSeconds on the CPU
+    WorkCounts work;          ///< all 0 unless counting was asked for, or the integrator is the cost
+    LaneCounts lanes{};       ///< of a device, likewise
+    gpu::MemoryPlan memory{}; ///< what it took of a device at most, and of the host for it
     std::vector<std::string>
         faults{}; ///< Vulkan calls that failed; after all of them, or all but the last, it went on
     std::optional<Error>

@@ -223,6 +223,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
                                                  : "the time limit";
     report.faults = result.faults;
     report.timing = result.timing;
+    report.deviceBytes = result.memory.deviceBytes;
     report.rays = raysBefore + result.rays;
     const Clock::time_point writeStart = Clock::now();
     std::optional<Error> checkpointFailure;

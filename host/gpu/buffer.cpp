@@ -15,8 +15,6 @@ namespace {
 constexpr VkMemoryPropertyFlags hostMemory =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-constexpr std::size_t bytesPerTexel = 16;
-
 VkBufferUsageFlags usageFlags(BufferUse use) {
     constexpr VkBufferUsageFlags transfer =
         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
@@ -58,14 +56,7 @@ std::uint32_t chooseMemoryType(const Device &device, BufferUse use, std::uint32_
 Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t sizeBytes)
     : device_(&device), name_(std::move(name)), use_(use), sizeBytes_(sizeBytes > 0 ? sizeBytes : 16) {
     const std::string what = fmt::format("{}, {} bytes", name_, sizeBytes_);
-    if (use == BufferUse::Storage && sizeBytes_ > device.info().maxStorageBufferBytes)
-        throw Error(ExitCode::LimitExceeded,
-                    fmt::format("the buffer for {} is too large: {} allows {} bytes in a storage buffer",
-                                what, device.info().name, device.info().maxStorageBufferBytes));
-    if (use == BufferUse::Texels && sizeBytes_ / bytesPerTexel > device.info().maxTexelBufferElements)
-        throw Error(ExitCode::LimitExceeded,
-                    fmt::format("the buffer for {} is too large: {} allows {} texels of {} bytes", what,
-                                device.info().name, device.info().maxTexelBufferElements, bytesPerTexel));
+    requireBuffer({name_, use, sizeBytes_}, device.info());
     VkBufferCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     create.size = sizeBytes_;
@@ -110,6 +101,9 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
         mapped_ = static_cast<std::byte *>(address);
     }
 }
+
+Buffer::Buffer(Device &device, const BufferPlan &plan)
+    : Buffer(device, plan.name, plan.use, static_cast<std::size_t>(plan.sizeBytes)) {}
 
 void Buffer::upload(std::span<const std::byte> bytes) {
     assert(bytes.size() <= sizeBytes_);

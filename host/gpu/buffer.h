@@ -1,6 +1,7 @@
 // Buffers in device memory, filled and read by the host.
 #pragma once
 
+#include "host/gpu/buffer_plan.h"
 #include "host/gpu/device.h"
 #include "host/gpu/memory_claim.h"
 
@@ -10,20 +11,13 @@
 
 namespace hyalite::gpu {
 
-enum class BufferUse {
-    Uniform,  ///< small constants
-    Storage,  ///< the bulk: in device memory, which the host may not see
-    Texels,   ///< the same, read by kernels as texels of four 32-bit words
-    Counters, ///< storage that the host reads and writes between dispatches: in host memory
-    Staging,  ///< a stop-over of transfers, in host memory
-};
-
 /// A buffer with memory of its own. Where the host cannot see the memory, transfers go through a staging buffer.
 class Buffer {
   public:
     /// `name` is for messages. Buffers of 0 bytes get 16, as a binding needs some memory. The contents are
     /// undefined. Throws Error{LimitExceeded} where a limit of the device or its memory does not suffice.
     Buffer(Device &device, std::string name, BufferUse use, std::size_t sizeBytes);
+    Buffer(Device &device, const BufferPlan &plan);
 
     [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
     /// Of all texels; only for BufferUse::Texels.

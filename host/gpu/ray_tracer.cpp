@@ -34,8 +34,8 @@ struct RayScene::State {
     bool isDivisionExact;
 
     State(const DeviceInfo &info, const PackedScene &scene, bool isSkipListWanted)
-        : device(info), buffers(device, scene, isSkipListWanted), isSkipList(isSkipListWanted),
-          stackSize(stackSizeFor(scene)),
+        : device(info), buffers(device, scene, planScene(scene, isSkipListWanted), isSkipListWanted),
+          isSkipList(isSkipListWanted), stackSize(stackSizeFor(scene)),
           isDivisionExact(chooseArithmetic(device, Arithmetic::Automatic).isNative) {}
 };
 

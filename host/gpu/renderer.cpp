@@ -18,11 +18,12 @@ namespace hyalite::gpu {
 
 namespace {
 
-/// Bands of whole rows whose films fit into a storage buffer of the device, from top to bottom.
+/// Bands of whole rows whose films fit into a storage buffer of the device and a quarter of its memory, from top to bottom.
 std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
     const std::uint64_t rowBytes = static_cast<std::uint64_t>(crop.width()) * sizeof(layout::FilmPixel);
-    const int rows = static_cast<int>(std::clamp<std::uint64_t>(device.maxStorageBufferBytes / rowBytes, 1,
-                                                                static_cast<std::uint64_t>(crop.height())));
+    const std::uint64_t mostBytes = std::min(device.maxStorageBufferBytes, device.deviceMemoryBytes / 4);
+    const int rows = static_cast<int>(
+        std::clamp<std::uint64_t>(mostBytes / rowBytes, 1, static_cast<std::uint64_t>(crop.height())));
     std::vector<Crop> bands;
     for (int y = crop.y0; y < crop.y1; y += rows)
         bands.push_back({crop.x0, crop.x1, y, std::min(y + rows, crop.y1)});
@@ -83,8 +84,8 @@ struct Renderer::State {
         return completed(counting, info);
     }
 
-    SceneBuffers upload(const PackedScene &scene, const Batching &used) {
-        return SceneBuffers(*device, scene, used.traversal == Traversal::SkipList);
+    MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job) const {
+        return gpu::requireMemory(scene, job, device->isStagingPreferred(), info);
     }
 
     /// The same device anew, for half as much at a time. Throws DeviceFault.
@@ -165,26 +166,33 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     if (timeline != nullptr)
         timeline->clock = state_->device->timestamps().describe();
     const Batching batching = state_->batchingFor(settings.integrator);
-    const SceneBuffers buffers = state_->upload(scene, batching);
+    const bool isSkipList = batching.traversal == Traversal::SkipList;
+    const auto jobOf = [&](const Crop &band) {
+        return Job{scene,
+                   band,
+                   settings.integrator,
+                   settings.sampler,
+                   0,
+                   static_cast<std::uint32_t>(settings.samplesPerPixel),
+                   false};
+    };
+    const std::vector<Crop> bands = cutIntoBands(crop, state_->info);
+    const ScenePlan scenePlan = planScene(scene, isSkipList);
+    result.memory = state_->requireMemory(scenePlan, planJob(jobOf(bands.front()), batching, state_->info));
+    const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
     result.timing.uploadSeconds = endStage("upload");
 
-    for (const Crop &band : cutIntoBands(crop, state_->info)) {
+    for (const Crop &band : bands) {
         const std::size_t width = static_cast<std::size_t>(crop.width());
         const std::size_t bandBegin = static_cast<std::size_t>(band.y0 - crop.y0) * width;
         const std::size_t bandSize = static_cast<std::size_t>(band.height()) * width;
         const std::span<layout::FilmPixel> pixels = result.film.pixels;
         const std::span<layout::FilmPixel> bandPixels = pixels.subspan(bandBegin, bandSize);
-        Job job{scene,
-                band,
-                settings.integrator,
-                settings.sampler,
-                0,
-                static_cast<std::uint32_t>(settings.samplesPerPixel),
-                false};
+        Job job = jobOf(band);
         if (isBegun)
             job.film = bandPixels;
         const RayCounts raysBefore = result.rays;
-        TileRenderer tiles(*state_->device, buffers, batching, job);
+        TileRenderer tiles(*state_->device, buffers, batching, job, planJob(job, batching, state_->info));
         result.timing.pipelineSeconds += endStage("buffers");
         tiles.makeKernel();
         result.timing.pipelineSeconds += endStage("pipeline");
@@ -240,8 +248,12 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     if (!state_->device)
         state_->reopen();
     const Batching batching = state_->batchingFor(settings.integrator);
-    const SceneBuffers buffers = state_->upload(scene, batching);
-    TileRenderer tiles(*state_->device, buffers, batching, job);
+    const bool isSkipList = batching.traversal == Traversal::SkipList;
+    const ScenePlan scenePlan = planScene(scene, isSkipList);
+    const JobPlan jobPlan = planJob(job, batching, state_->info);
+    (void)state_->requireMemory(scenePlan, jobPlan);
+    const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
+    TileRenderer tiles(*state_->device, buffers, batching, job, jobPlan);
     tiles.makeKernel();
     (void)tiles.run({});
     return tiles.readTrace();

@@ -4,6 +4,7 @@
 #include "host/bvh/packed_scene.h"
 #include "host/error.h"
 #include "host/gpu/batching.h"
+#include "host/gpu/memory_plan.h"
 #include "host/image/film.h"
 #include "host/image/snapshots.h"
 #include "host/report/ray_counts.h"
@@ -24,8 +25,9 @@ struct Result {
     Film film;
     RayCounts rays; ///< of the samples that were added to the film
     RenderTiming timing;
-    WorkCounts work;    ///< all 0 unless the batching asks for counting, or the integrator is the cost
-    LaneCounts lanes{}; ///< likewise
+    WorkCounts work;     ///< all 0 unless the batching asks for counting, or the integrator is the cost
+    LaneCounts lanes{};  ///< likewise
+    MemoryPlan memory{}; ///< what it takes at most
     std::vector<std::string>
         faults{}; ///< Vulkan calls that failed, each with its object or dispatch, in their order
     std::optional<Error>

@@ -2,6 +2,7 @@
 
 #include "host/bvh/skip_list.h"
 
+#include <cassert>
 #include <span>
 #include <utility>
 
@@ -13,19 +14,11 @@ template <class Record> std::span<const std::byte> bytesOf(const std::vector<Rec
     return std::as_bytes(std::span(records));
 }
 
-Buffer uploaded(Device &device, const char *name, BufferUse use, std::span<const std::byte> bytes,
-                std::size_t sizeBytes) {
-    Buffer buffer(device, name, use, sizeBytes);
+Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byte> bytes) {
+    Buffer buffer(device, plan);
     buffer.upload(bytes);
     return buffer;
 }
-
-template <class Record>
-Buffer array(Device &device, const char *name, BufferUse use, const std::vector<Record> &records) {
-    return uploaded(device, name, use, bytesOf(records), bytesOf(records).size());
-}
-
-BufferUse arrayUse(bool isSkipList) { return isSkipList ? BufferUse::Texels : BufferUse::Storage; }
 
 struct Tree {
     Buffer nodes;
@@ -34,39 +27,34 @@ struct Tree {
 
 /// Uploads the tree, and adds to the frame constants what kernels need to know of skip lists. The lists on the host are
 /// gone when this returns: they are the largest part of a large scene.
-Tree uploadTree(Device &device, const PackedScene &scene, bool isSkipList) {
+Tree uploadTree(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
     if (!isSkipList)
-        return {array(device, "the nodes", BufferUse::Storage, scene.nodes), scene.frame};
+        return {uploaded(device, plan.nodes, bytesOf(scene.nodes)), scene.frame};
     const SkipList list = makeSkipList(scene);
     layout::FrameRecord frame = scene.frame;
     frame.gridMiddle = list.gridMiddle;
     frame.gridScale = list.gridScale;
     frame.skipListLength = list.length;
-    return {array(device, "the skip lists", BufferUse::Texels, list.nodes), frame};
-}
-
-Buffer uploadFrame(Device &device, const layout::FrameRecord &frame) {
-    return uploaded(device, "the frame constants", BufferUse::Uniform, std::as_bytes(std::span(&frame, 1)),
-                    sizeof frame);
+    BufferPlan nodes = plan.nodes;
+    nodes.sizeBytes = bytesOf(list.nodes).size();
+    assert(nodes.sizeBytes <= plan.nodes.sizeBytes);
+    return {uploaded(device, nodes, bytesOf(list.nodes)), frame};
 }
 
 } // namespace
 
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList)
-    : SceneBuffers(device, scene, isSkipList, uploadTree(device, scene, isSkipList)) {}
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList)
+    : SceneBuffers(device, scene, plan, uploadTree(device, scene, plan, isSkipList)) {}
 
 template <class Tree>
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList, Tree tree)
-    : frame(uploadFrame(device, tree.frame)),
-      spheres(uploaded(device, "the spheres", BufferUse::Uniform, bytesOf(scene.spheres),
-                       sizeof(layout::SphereRecord) * layout::maxSphereCount)),
-      sphereArray(array(device, "the spheres", arrayUse(isSkipList), scene.spheres)),
-      lights(uploaded(device, "the lights", BufferUse::Uniform, bytesOf(scene.lights),
-                      sizeof(layout::LightRecord) * layout::maxLightCount)),
-      materials(array(device, "the materials", arrayUse(isSkipList), scene.materials)),
-      nodes(std::move(tree.nodes)),
-      triangles(array(device, "the triangles", arrayUse(isSkipList), scene.triangles)),
-      normals(array(device, "the normals", arrayUse(isSkipList), scene.normals)),
-      emitters(array(device, "the emitters", arrayUse(isSkipList), scene.emitters)) {}
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, Tree tree)
+    : frame(uploaded(device, plan.frame, std::as_bytes(std::span(&tree.frame, 1)))),
+      spheres(uploaded(device, plan.spheres, bytesOf(scene.spheres))),
+      sphereArray(uploaded(device, plan.sphereArray, bytesOf(scene.spheres))),
+      lights(uploaded(device, plan.lights, bytesOf(scene.lights))),
+      materials(uploaded(device, plan.materials, bytesOf(scene.materials))), nodes(std::move(tree.nodes)),
+      triangles(uploaded(device, plan.triangles, bytesOf(scene.triangles))),
+      normals(uploaded(device, plan.normals, bytesOf(scene.normals))),
+      emitters(uploaded(device, plan.emitters, bytesOf(scene.emitters))) {}
 
 } // namespace hyalite::gpu

@@ -3,13 +3,14 @@
 
 #include "host/bvh/packed_scene.h"
 #include "host/gpu/buffer.h"
+#include "host/gpu/memory_plan.h"
 
 namespace hyalite::gpu {
 
 struct SceneBuffers {
-    /// Uploads everything, with the tree as node pairs in storage buffers, or as skip lists in texel buffers. Throws as
-    /// Buffer does.
-    SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList);
+    /// Uploads everything, with the tree as node pairs in storage buffers, or as skip lists in texel buffers, as was planned
+    /// for that. Throws as Buffer does.
+    SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList);
 
     Buffer frame;
     Buffer spheres;     ///< room for layout::maxSphereCount
@@ -22,7 +23,8 @@ struct SceneBuffers {
     Buffer emitters;
 
   private:
-    template <class Tree> SceneBuffers(Device &device, const PackedScene &scene, bool isSkipList, Tree tree);
+    template <class Tree>
+    SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, Tree tree);
 };
 
 } // namespace hyalite::gpu

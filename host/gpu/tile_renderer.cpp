@@ -17,29 +17,6 @@ namespace {
 
 constexpr std::uint32_t workgroupSize = 64;
 constexpr std::uint32_t samplesInPass = 64; // of each pixel, before any gets more
-constexpr std::uint32_t traceCapacity = 1u << 17;
-
-/// The largest tiles in which a kernel that ends with whole samples is helped out by one that can be resumed inside of
-/// them, to keep what waits small: dispatches of larger ones would be long.
-constexpr std::uint64_t mostLongPixels = 64 * 64;
-
-std::uint32_t fitTile(int pixels, int tile) {
-    const int blockSide = Tile::blockSide;
-    return static_cast<std::uint32_t>(std::min((pixels + blockSide - 1) / blockSide * blockSide, tile));
-}
-
-/// Samples of a pixel that run side by side: as many as leave few slots idle in the last round.
-std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
-    std::uint32_t abreast = static_cast<std::uint32_t>(most);
-    while (abreast > 1 && samples < 8 * ((samples + abreast - 1) / abreast * abreast - samples))
-        abreast /= 2;
-    return abreast;
-}
-
-/// Storage that a kernel over texel buffers sees as texels.
-BufferUse bulkUse(const Batching &batching) {
-    return batching.traversal == Traversal::SkipList ? BufferUse::Texels : BufferUse::Storage;
-}
 
 RayCounts raysOf(const layout::DispatchProgress &counters) {
     return {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays,
@@ -57,24 +34,11 @@ LaneCounts lanesOf(const layout::DispatchProgress &counters, std::uint32_t slots
 } // namespace
 
 TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching,
-                           const Job &job)
-    : device_(device), buffers_(buffers), batching_(batching), job_(job),
-      samplesAbreast_(fitSamplesAbreast(batching.samplesAbreast, job.sampleEnd - job.sampleBegin)),
-      largestTile_{0, 0, fitTile(job.crop.width(), batching.tileWidth),
-                   fitTile(job.crop.height(), batching.tileHeight)},
-      slotCount_(slotCount(largestTile_)),
-      // One subtree waits for each level at most; kernels of a few sizes are enough.
-      stackSize_(std::bit_ceil(
-          std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth))),
-      film_(device, "the film", BufferUse::Storage, filmPixelCount() * sizeof(layout::FilmPixel)),
-      progress_(device, "the counters", BufferUse::Counters, sizeof(layout::DispatchProgress)),
-      stacks_(device, "the traversal stacks", BufferUse::Storage,
-              job.scene.hasTriangles && batching.traversal == Traversal::Stack
-                  ? std::size_t{slotCount_} * stackSize_ * sizeof(std::uint32_t)
-                  : 0),
-      trace_(device, "the trace", BufferUse::Storage,
-             job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0),
-      pace_(batching.dispatchSeconds, samplesAbreast_, largestTile_.pixelCount()) {
+                           const Job &job, const JobPlan &plan)
+    : device_(device), buffers_(buffers), batching_(batching), job_(job), plan_(plan),
+      film_(device, plan.film), progress_(device, plan.progress), stacks_(device, plan.stacks),
+      trace_(device, plan.trace),
+      pace_(batching.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount()) {
     if (job.film.empty())
         film_.clear();
     else
@@ -96,11 +60,11 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
     // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
     dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
     dispatch_.sampleEnd = job.sampleEnd;
-    moveTo(largestTile_);
+    moveTo(plan.largestTile);
 }
 
 std::uint32_t TileRenderer::slotCount(const Tile &tile) const {
-    return static_cast<std::uint32_t>(tile.pixelCount()) * samplesAbreast_;
+    return static_cast<std::uint32_t>(tile.pixelCount()) * plan_.samplesAbreast;
 }
 
 void TileRenderer::moveTo(const Tile &tile) {
@@ -114,8 +78,7 @@ void TileRenderer::moveTo(const Tile &tile) {
 }
 
 void TileRenderer::makeKernel() {
-    // What is dropped and done again would be counted twice.
-    if (batching_.traversal == Traversal::Stack || job_.isTraced || batching_.isCounting)
+    if (!plan_.isDirect)
         resumable_.emplace(makeProgram(true));
     else
         direct_.emplace(makeProgram(false));
@@ -131,17 +94,9 @@ void TileRenderer::warmUp(Kernel &kernel) {
 
 TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     const PackedScene &scene = job_.scene;
-    const bool isSplitting = isWhitted(job_.integrator) && scene.hasDielectric;
-    const std::uint32_t mostPending = isSplitting ? scene.frame.maxDepth - 1 : 0;
-    const bool keepsPending = !isResumable && mostPending <= layout::mostPendingInRegisters;
-    const bool isHelper = isResumable && direct_.has_value();
-    const std::size_t slots =
-        isHelper ? std::min(slotCount_, static_cast<std::uint32_t>(mostLongPixels) * samplesAbreast_)
-                 : slotCount_;
-    Buffer paths(device_, "the path slots", BufferUse::Storage,
-                 isResumable ? slots * sizeof(layout::PathRecord) : 0);
-    Buffer pending(device_, "the pending rays", bulkUse(batching_),
-                   keepsPending ? 0 : slots * mostPending * sizeof(layout::PendingRay));
+    const WaitingPlan &waiting = isResumable && plan_.isDirect ? plan_.helperWaiting : plan_.waiting;
+    Buffer paths(device_, waiting.paths);
+    Buffer pending(device_, waiting.pending);
 
     SpecializationConstants constants{};
     constants[layout::constantWorkgroupSize] = workgroupSize;
@@ -154,14 +109,14 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantEmitterCount] = static_cast<std::uint32_t>(scene.emitters.size());
     constants[layout::constantView] = viewOf(job_.integrator);
     constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
-    constants[layout::constantStackSize] = stackSize_;
+    constants[layout::constantStackSize] = plan_.stackSize;
     constants[layout::constantIsTracing] = job_.isTraced;
     constants[layout::constantExactDivision] = batching_.arithmetic == Arithmetic::Native;
-    constants[layout::constantSamplesAbreast] = samplesAbreast_;
+    constants[layout::constantSamplesAbreast] = plan_.samplesAbreast;
     constants[layout::constantIsResumable] = isResumable;
     constants[layout::constantIsCounting] = batching_.isCounting;
     constants[layout::constantShowsCost] = job_.integrator == Integrator::Cost;
-    constants[layout::constantPendingInRegisters] = keepsPending ? mostPending : 0;
+    constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;
     const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,   &buffers_.spheres,
                                                                  &buffers_.lights,  &buffers_.materials,
                                                                  &buffers_.nodes,   &buffers_.triangles,
@@ -270,9 +225,9 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
 
 std::vector<TileRenderer::Part> TileRenderer::cutFilm(std::uint32_t begin) const {
     std::vector<Part> parts;
-    for (std::uint32_t y = 0; y < dispatch_.filmHeight; y += largestTile_.height)
-        for (std::uint32_t x = 0; x < dispatch_.filmWidth; x += largestTile_.width)
-            parts.push_back({{x, y, largestTile_.width, largestTile_.height}, begin, false});
+    for (std::uint32_t y = 0; y < dispatch_.filmHeight; y += plan_.largestTile.height)
+        for (std::uint32_t x = 0; x < dispatch_.filmWidth; x += plan_.largestTile.width)
+            parts.push_back({{x, y, plan_.largestTile.width, plan_.largestTile.height}, begin, false});
     std::ranges::reverse(parts);
     return parts;
 }
@@ -280,7 +235,7 @@ std::vector<TileRenderer::Part> TileRenderer::cutFilm(std::uint32_t begin) const
 bool TileRenderer::mustHalve(const Part &part, std::uint32_t end) const {
     const std::uint64_t most = pace_.pixels(end - part.begin);
     return part.tile.canBeHalved() &&
-           part.tile.pixelCount() > (part.isLong ? std::min(most, mostLongPixels) : most);
+           part.tile.pixelCount() > (part.isLong ? std::min(most, plan_.mostHelperPixels) : most);
 }
 
 void TileRenderer::readFilm(std::span<layout::FilmPixel> pixels) const {
@@ -309,7 +264,7 @@ TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
         throw Error(
             ExitCode::LimitExceeded,
             fmt::format("the traversal stack of {} entries overflowed: the tree of depth {} is damaged",
-                        stackSize_, job_.scene.treeDepth));
+                        plan_.stackSize, job_.scene.treeDepth));
     return {counters, times};
 }
 

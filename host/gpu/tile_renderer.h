@@ -2,7 +2,9 @@
 #pragma once
 
 #include "host/gpu/batching.h"
+#include "host/gpu/job.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/memory_plan.h"
 #include "host/gpu/pace.h"
 #include "host/gpu/scene_buffers.h"
 #include "host/gpu/tile.h"
@@ -17,19 +19,6 @@
 #include <vector>
 
 namespace hyalite::gpu {
-
-/// What a render is asked to do.
-struct Job {
-    const PackedScene &scene;
-    Crop crop;
-    Integrator integrator;
-    SamplerKind sampler;
-    std::uint32_t sampleBegin;
-    std::uint32_t sampleEnd;
-    bool isTraced;
-    std::span<const layout::FilmPixel>
-        film{}; ///< to be added to, in place of an empty one; needed only to begin
-};
 
 /// What the tiles of a job came to.
 struct TileTotals {
@@ -47,8 +36,9 @@ struct TileTotals {
 /// few samples.
 class TileRenderer {
   public:
-    /// `batching` is complete. Throws as Buffer does.
-    TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job);
+    /// `batching` is complete, and `plan` was made for it and the job. Throws as Buffer does.
+    TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job,
+                 const JobPlan &plan);
 
     /// Builds the kernel. Throws as Kernel does.
     void makeKernel();
@@ -110,10 +100,7 @@ class TileRenderer {
     const SceneBuffers &buffers_;
     Batching batching_;
     Job job_;
-    std::uint32_t samplesAbreast_;
-    Tile largestTile_;
-    std::uint32_t slotCount_; ///< of the largest tile
-    std::uint32_t stackSize_; ///< subtrees that can wait for one ray
+    JobPlan plan_;
     Buffer film_;
     Buffer progress_;
     Buffer stacks_;

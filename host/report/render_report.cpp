@@ -40,6 +40,9 @@ std::string formatReport(const RenderReport &report) {
     json["faults"] = report.faults;
     json["rays"] = raysToJson(report.rays);
     json["dispatches"] = report.timing.dispatchCount;
+    json["deviceBytes"] = nullptr;
+    if (report.deviceBytes > 0)
+        json["deviceBytes"] = report.deviceBytes;
     json["seconds"] = {{"load", report.loadSeconds},
                        {"build", report.buildSeconds},
                        {"upload", report.timing.uploadSeconds},

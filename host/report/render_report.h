@@ -41,7 +41,8 @@ struct RenderReport {
         faults;            ///< Vulkan calls that failed, and that the render went on after but for the last
     std::string stoppedBy; ///< what ended the render before all was finished; empty: nothing did
     std::optional<ResumedWork> resumed;
-    RayCounts rays; ///< traced for the image, before and now
+    RayCounts rays;                ///< traced for the image, before and now
+    std::uint64_t deviceBytes = 0; ///< of memory, at most: what a render on a device took; 0: on the CPU
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
     RenderTiming timing;

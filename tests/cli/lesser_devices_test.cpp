@@ -29,9 +29,24 @@ TEST_F(LesserDevices, GiveTheSameBits) {
     const std::string size = " --width 300 --height 280 --spp 1";
     const std::string wanted = renderHere(size + " --device cpu", "");
     for (const char *fakes :
-         {"", "small-buffers", "small-heap", "workgroup-128", "no-timestamps", "calibrated", "discrete",
-          "small-buffers,small-heap,workgroup-128,no-timestamps"})
+         {"", "small-buffers", "small-heap", "tiny-heap", "workgroup-128", "no-timestamps", "calibrated",
+          "discrete", "small-buffers,small-heap,workgroup-128,no-timestamps"})
         EXPECT_TRUE(renderHere(size + " --device 0", fakes) == wanted) << fakes;
+}
+
+TEST_F(LesserDevices, AreNotAskedForMoreMemoryThanTheyHave) {
+    store("large.obj", wavySheetObj(100));
+    for (const char *kernel : {"stack", "skip-list"}) {
+        const Outcome outcome = runHere("render " + path("large.obj") + " --quiet -o " + path("a.pfm") +
+                                            " --spp 1 --width 64 --height 64 --device 0 --kernel " + kernel,
+                                        "", "tiny-heap");
+        EXPECT_EQ(outcome.exitCode, 5) << outcome;
+        for (const char *part : {"which has 1.0 MiB", "the triangles: 937.5 KiB", "--device cpu"})
+            EXPECT_TRUE(contains(outcome.errors, part)) << part << '\n' << outcome;
+        EXPECT_EQ(lastTally.calls.at("vkCreateBuffer"), 2) << "of the check of the arithmetic";
+        EXPECT_TRUE(lastTally.alive.empty());
+        EXPECT_FALSE(entries().contains("a.pfm"));
+    }
 }
 
 TEST_F(LesserDevices, AreListedAsTheyAre) {

@@ -33,10 +33,10 @@ std::set<std::string> keysOf(const nlohmann::json &object) {
 TEST_F(RenderReport, HasAllItsKeys) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
         const nlohmann::json report = renderReport("sheet.json" + small + " --device " + device);
-        EXPECT_EQ(keysOf(report), (std::set<std::string>{"program", "commandLine", "scene", "sceneHash",
-                                                         "output", "device", "image", "settings", "triangles",
-                                                         "finished", "faults", "resumed", "rays", "dispatches",
-                                                         "seconds"}));
+        EXPECT_EQ(keysOf(report),
+                  (std::set<std::string>{"program", "commandLine", "scene", "sceneHash", "output", "device",
+                                         "image", "settings", "triangles", "finished", "faults", "resumed",
+                                         "rays", "dispatches", "deviceBytes", "seconds"}));
         EXPECT_EQ(keysOf(report.at("finished")),
                   (std::set<std::string>{"isComplete", "pixels", "samples", "stoppedBy"}));
         std::set<std::string> ofDevice{"name", "driver", "arithmetic"};
@@ -45,8 +45,8 @@ TEST_F(RenderReport, HasAllItsKeys) {
         EXPECT_EQ(keysOf(report.at("device")), ofDevice);
         EXPECT_EQ(keysOf(report.at("image")), (std::set<std::string>{"width", "height"}));
         EXPECT_EQ(keysOf(report.at("settings")),
-                  (std::set<std::string>{"integrator", "spp", "maxDepth", "occlusionDistance", "bvh", "leafSize", "sampler",
-                                         "seed", "exposure"}));
+                  (std::set<std::string>{"integrator", "spp", "maxDepth", "occlusionDistance", "bvh",
+                                         "leafSize", "sampler", "seed", "exposure"}));
         EXPECT_EQ(keysOf(report.at("rays")), (std::set<std::string>{"primary", "shadow", "reflection",
                                                                     "refraction", "bounce", "total"}));
         EXPECT_EQ(keysOf(report.at("seconds")),

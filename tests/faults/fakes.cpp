@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace hyalite::faults {
 
@@ -41,9 +42,10 @@ void fakeChain(void *next) {
 }
 
 void fakeMemory(VkPhysicalDeviceMemoryProperties &memory) {
-    if (plan().isFaked("small-heap"))
-        for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
-            memory.memoryHeaps[i].size = std::min<VkDeviceSize>(memory.memoryHeaps[i].size, 256u << 20);
+    for (const auto &[fake, mostBytes] : {std::pair{"small-heap", 256u << 20}, {"tiny-heap", 1u << 20}})
+        if (plan().isFaked(fake))
+            for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+                memory.memoryHeaps[i].size = std::min<VkDeviceSize>(memory.memoryHeaps[i].size, mostBytes);
 }
 
 void fakeQueueFamily(VkQueueFamilyProperties &family) {

@@ -12,6 +12,7 @@ namespace hyalite::faults {
 //   discrete         a discrete GPU: bulk data is staged, and the kernel for hardware runs
 //   small-buffers    1 MiB in a storage buffer, 65,536 texels in a texel buffer
 //   small-heap       heaps of 256 MiB
+//   tiny-heap        heaps of 1 MiB
 //   workgroup-128    workgroups of 128 invocations at most
 //   no-timestamps    queues without timestamps
 //   no-subgroups     subgroups without any operation

@@ -1,0 +1,25 @@
+// What a render is asked to do on a device.
+#pragma once
+
+#include "host/bvh/packed_scene.h"
+#include "host/image/film.h"
+#include "host/scene/scene.h"
+
+#include <cstdint>
+#include <span>
+
+namespace hyalite::gpu {
+
+struct Job {
+    const PackedScene &scene;
+    Crop crop;
+    Integrator integrator;
+    SamplerKind sampler;
+    std::uint32_t sampleBegin;
+    std::uint32_t sampleEnd;
+    bool isTraced;
+    std::span<const layout::FilmPixel>
+        film{}; ///< to be added to, in place of an empty one; needed only to begin
+};
+
+} // namespace hyalite::gpu

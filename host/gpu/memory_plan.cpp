@@ -1,0 +1,222 @@
+#include "host/gpu/memory_plan.h"
+
+#include "host/bvh/skip_list.h"
+#include "host/error.h"
+#include "host/host_memory.h"
+#include "host/report/quantities.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hyalite::gpu {
+
+namespace {
+
+constexpr std::uint64_t bytesPerTexel = 16;
+constexpr std::uint64_t mostWaitingBytes = 256u << 20;
+
+/// The largest tiles in which a kernel that ends with whole samples is helped out by one that can be resumed inside of
+/// them, to keep what waits small: dispatches of larger ones would be long.
+constexpr std::uint64_t mostHelperPixels = 64 * 64;
+constexpr std::uint64_t leastHelperPixels = 8 * 8; // a tile that cannot be halved
+
+/// A binding needs some memory.
+BufferPlan plan(const char *name, BufferUse use, std::uint64_t sizeBytes) {
+    return {name, use, std::max<std::uint64_t>(sizeBytes, 16)};
+}
+
+template <class Record>
+BufferPlan planArray(const char *name, BufferUse use, const std::vector<Record> &records) {
+    return plan(name, use, records.size() * sizeof(Record));
+}
+
+BufferUse bulkUse(bool isSkipList) { return isSkipList ? BufferUse::Texels : BufferUse::Storage; }
+
+std::uint32_t fitTile(int pixels, int tile) {
+    const int blockSide = Tile::blockSide;
+    return static_cast<std::uint32_t>(std::min((pixels + blockSide - 1) / blockSide * blockSide, tile));
+}
+
+/// Samples of a pixel that run side by side: as many as leave few slots idle in the last round.
+std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
+    std::uint32_t abreast = static_cast<std::uint32_t>(most);
+    while (abreast > 1 && samples < 8 * ((samples + abreast - 1) / abreast * abreast - samples))
+        abreast /= 2;
+    return abreast;
+}
+
+/// Of a kernel whose dispatches have so many slots. `isResumable`: it can stop inside of a sample.
+WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::uint64_t slots) {
+    const bool isSplitting = isWhitted(job.integrator) && job.scene.hasDielectric;
+    const std::uint32_t mostPending = isSplitting ? job.scene.frame.maxDepth - 1 : 0;
+    const bool keepsPending = !isResumable && mostPending <= layout::mostPendingInRegisters;
+    WaitingPlan waiting;
+    waiting.paths =
+        plan("the path slots", BufferUse::Storage, isResumable ? slots * sizeof(layout::PathRecord) : 0);
+    waiting.pending = plan("the pending rays", bulkUse(isSkipList),
+                           keepsPending ? 0 : slots * mostPending * sizeof(layout::PendingRay));
+    waiting.pendingInRegisters = keepsPending ? mostPending : 0;
+    return waiting;
+}
+
+/// Whether a device has room for what slots take, each buffer alone and all together.
+bool haveRoom(std::initializer_list<const BufferPlan *> buffers, const DeviceInfo &device) {
+    std::uint64_t sumBytes = 0;
+    for (const BufferPlan *buffer : buffers) {
+        if (buffer->sizeBytes > mostBytes(buffer->use, device))
+            return false;
+        sumBytes += buffer->sizeBytes;
+    }
+    return sumBytes <= std::min(mostWaitingBytes, device.deviceMemoryBytes / 4);
+}
+
+std::string listLargest(std::vector<const BufferPlan *> buffers) {
+    std::ranges::sort(buffers, [](const auto *a, const auto *b) { return a->sizeBytes > b->sizeBytes; });
+    std::string text;
+    for (const BufferPlan *buffer : std::span(buffers).first(3))
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", buffer->name, sizeText(buffer->sizeBytes));
+    return text;
+}
+
+} // namespace
+
+std::uint64_t mostBytes(BufferUse use, const DeviceInfo &device) {
+    if (use == BufferUse::Storage)
+        return device.maxStorageBufferBytes;
+    if (use == BufferUse::Texels)
+        return device.maxTexelBufferElements * bytesPerTexel + bytesPerTexel - 1;
+    return std::numeric_limits<std::uint64_t>::max();
+}
+
+void requireBuffer(const BufferPlan &plan, const DeviceInfo &device) {
+    if (plan.sizeBytes <= mostBytes(plan.use, device))
+        return;
+    const std::string what =
+        fmt::format("the buffer for {}, {} bytes, is too large", plan.name, plan.sizeBytes);
+    if (plan.use == BufferUse::Texels)
+        throw Error(ExitCode::LimitExceeded,
+                    fmt::format("{}: {} allows {} texels of {} bytes", what, device.name,
+                                device.maxTexelBufferElements, bytesPerTexel));
+    throw Error(ExitCode::LimitExceeded, fmt::format("{}: {} allows {} bytes in a storage buffer", what,
+                                                     device.name, device.maxStorageBufferBytes));
+}
+
+ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
+    const BufferUse use = bulkUse(isSkipList);
+    ScenePlan planned{
+        plan("the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord)),
+        plan("the spheres", BufferUse::Uniform, sizeof(layout::SphereRecord) * layout::maxSphereCount),
+        planArray("the spheres", use, scene.spheres),
+        plan("the lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxLightCount),
+        planArray("the materials", use, scene.materials),
+        planArray("the nodes", use, scene.nodes),
+        planArray("the triangles", use, scene.triangles),
+        planArray("the normals", use, scene.normals),
+        planArray("the emitters", use, scene.emitters)};
+    if (isSkipList) {
+        const std::uint64_t listBytes = mostSkipListBytes(scene.nodes.size());
+        planned.nodes = plan("the skip lists", use, scene.hasTriangles ? listBytes : 0);
+        planned.hostBytes = scene.hasTriangles ? listBytes + skipListWorkBytes(scene.nodes.size()) : 0;
+    }
+    return planned;
+}
+
+JobPlan planJob(const Job &job, const Batching &batching, const DeviceInfo &device) {
+    const bool isSkipList = batching.traversal == Traversal::SkipList;
+    const std::uint64_t filmPixels =
+        static_cast<std::uint64_t>(job.crop.width()) * static_cast<std::uint64_t>(job.crop.height());
+    JobPlan planned;
+    planned.samplesAbreast = fitSamplesAbreast(batching.samplesAbreast, job.sampleEnd - job.sampleBegin);
+    // One subtree waits for each level at most; kernels of a few sizes are enough.
+    planned.stackSize =
+        std::bit_ceil(std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth));
+    // What is dropped and done again would be counted twice, and traced twice.
+    planned.isDirect = isSkipList && !job.isTraced && !batching.isCounting;
+    planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
+    planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
+    planned.trace =
+        plan("the trace", BufferUse::Storage, job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0);
+    planned.largestTile = {0, 0, fitTile(job.crop.width(), batching.tileWidth),
+                           fitTile(job.crop.height(), batching.tileHeight)};
+    const auto planSlots = [&] {
+        const std::uint64_t slots = planned.largestTile.pixelCount() * planned.samplesAbreast;
+        planned.stacks = plan(
+            "the traversal stacks", BufferUse::Storage,
+            job.scene.hasTriangles && !isSkipList ? slots * planned.stackSize * sizeof(std::uint32_t) : 0);
+        planned.waiting = planWaiting(job, isSkipList, !planned.isDirect, slots);
+    };
+    planSlots();
+    while (!haveRoom({&planned.stacks, &planned.waiting.paths, &planned.waiting.pending}, device) &&
+           planned.largestTile.canBeHalved()) {
+        planned.largestTile = planned.largestTile.halves().first;
+        planSlots();
+    }
+    if (!planned.isDirect)
+        return planned;
+    planned.mostHelperPixels = std::min(planned.largestTile.pixelCount(), mostHelperPixels);
+    const auto planHelper = [&] {
+        planned.helperWaiting =
+            planWaiting(job, isSkipList, true, planned.mostHelperPixels * planned.samplesAbreast);
+    };
+    planHelper();
+    while (!haveRoom({&planned.helperWaiting.paths, &planned.helperWaiting.pending}, device) &&
+           planned.mostHelperPixels > leastHelperPixels) {
+        planned.mostHelperPixels = std::max(planned.mostHelperPixels / 2, leastHelperPixels);
+        planHelper();
+    }
+    return planned;
+}
+
+MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged,
+                         const DeviceInfo &device) {
+    const std::vector<const BufferPlan *> buffers{&scene.frame,
+                                                  &scene.spheres,
+                                                  &scene.sphereArray,
+                                                  &scene.lights,
+                                                  &scene.materials,
+                                                  &scene.nodes,
+                                                  &scene.triangles,
+                                                  &scene.normals,
+                                                  &scene.emitters,
+                                                  &job.film,
+                                                  &job.progress,
+                                                  &job.stacks,
+                                                  &job.trace,
+                                                  &job.waiting.paths,
+                                                  &job.waiting.pending,
+                                                  &job.helperWaiting.paths,
+                                                  &job.helperWaiting.pending};
+    MemoryPlan memory;
+    std::uint64_t largestBytes = 0;
+    for (const BufferPlan *buffer : buffers) {
+        requireBuffer(*buffer, device);
+        memory.deviceBytes += buffer->sizeBytes;
+        largestBytes = std::max(largestBytes, buffer->sizeBytes);
+    }
+    memory.hostBytes = scene.hostBytes + (isStaged ? largestBytes : 0);
+    const char *const remedy =
+        "render fewer triangles, smaller parts of the image with --crop, or with --device cpu";
+    if (memory.deviceBytes > device.deviceMemoryBytes)
+        throw Error(ExitCode::LimitExceeded,
+                    fmt::format("the render takes {} of the memory of {}, which has {} ({}); {}",
+                                sizeText(memory.deviceBytes), device.name, sizeText(device.deviceMemoryBytes),
+                                listLargest(buffers), remedy));
+    const std::uint64_t neededBytes = memory.hostBytes + (device.isSoftware() ? memory.deviceBytes : 0);
+    const std::optional<std::uint64_t> available = availableHostBytes();
+    if (available && neededBytes > *available)
+        throw Error(ExitCode::LimitExceeded,
+                    fmt::format("the render takes {} of memory beside the scene and the image, and {} are "
+                                "available ({}); {}",
+                                sizeText(neededBytes), sizeText(*available), listLargest(buffers), remedy));
+    return memory;
+}
+
+} // namespace hyalite::gpu
