@@ -2,6 +2,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/help_formatter.h"
 #include "host/error.h"
+#include "host/host_memory.h"
 #include "host/report/message.h"
 #include "host/report/shell.h"
 #include "host/scene/json_reader.h"
@@ -141,6 +142,7 @@ ExitCode runAndReport(std::span<char *> arguments) {
 } // namespace
 
 int main(int argumentCount, char **arguments) {
+    useOneHeap();
     openMissingStreams();
     const ExitCode code = runAndReport({arguments, static_cast<std::size_t>(argumentCount)});
     return static_cast<int>(finishOutput(code));
