@@ -5,10 +5,12 @@
 #   cmake/run.sh test                builds and runs all tests
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it
+#   cmake/run.sh sanitize            builds with the address and undefined behaviour sanitizers, and runs all tests
 #   cmake/run.sh fuzz SECONDS        feeds each reader of files with inputs made up by libFuzzer, for so many seconds
 #   cmake/run.sh ARGUMENT...         hyalite ARGUMENT..., for instance: render cat -o cat.png
 #
-# Where all packages are there already it needs neither root nor network. The build is in build/release, of fuzz in build/fuzz.
+# Where all packages are there already it needs neither root nor network. The build is in build/release, of sanitize in
+# build/sanitize, of fuzz in build/fuzz.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -85,6 +87,12 @@ test)
     ;;
 build)
     build_all "$(tests_as_before)"
+    ;;
+sanitize)
+    install_missing "${needed_for_tests[@]}"
+    build=$root/build/sanitize
+    build_all ON --preset sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo
+    ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;
 bench)
     install_missing "${needed_for_bench[@]}"
