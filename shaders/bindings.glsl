@@ -25,6 +25,20 @@ layout(constant_id = constantLightCount) const uint lightCount = 1u;
 layout(constant_id = constantPendingInRegisters) const uint pendingInRegisters = 0u;
 layout(constant_id = constantEmitterCount) const uint emitterCount = 0u;
 layout(constant_id = constantHasEmission) const bool hasEmission = true;
+// Drivers read all of a kernel before they leave out what constants tell them to: of scenes that need none of this, RICH=0
+// leaves it out before.
+#ifndef RICH
+#define RICH 1
+#endif
+#if RICH
+layout(constant_id = constantScattering) const uint scattering = 0u;
+layout(constant_id = constantLighting) const uint lighting = 0u;
+layout(constant_id = constantCamera) const uint camera = cameraPinhole;
+#else
+const uint scattering = 0u;
+const uint lighting = 0u;
+const uint camera = cameraPinhole;
+#endif
 
 // Entry kernels begin with loadConstants(), and everything else reads these copies: inside of loops and branches
 // lavapipe loads every word of a uniform buffer and of the push constants lane by lane.

@@ -12,8 +12,59 @@ vec3 onImagePlane(vec2 position, vec3 right, vec3 up, vec3 middle) {
     return point;
 }
 
-// The unit direction of the primary ray through `offset` in [0,1)^2 inside of `pixel`; see FrameRecord.
+// The unit direction of the primary ray of a pinhole through `offset` in [0,1)^2 inside of `pixel`; see FrameRecord.
 vec3 primaryDirection(uvec2 pixel, vec2 offset) {
     vec2 position = fromMiddle(pixel, offset, uvec2(frame.imageWidth, frame.imageHeight));
     return unitVector(onImagePlane(position, frame.pixelRight, frame.pixelUp, frame.imagePlane));
+}
+
+struct PrimaryRay {
+    vec3 origin;
+    vec3 direction; // unit length
+};
+
+// Through a point of a thin lens, which `u` in [0,1)^2 draws, to what a pinhole would show at the focus distance: Cook,
+// Porter and Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984.
+PrimaryRay throughLens(uvec2 pixel, vec2 offset, vec2 u) {
+    vec2 position = fromMiddle(pixel, offset, uvec2(frame.imageWidth, frame.imageHeight));
+    vec3 straight = onImagePlane(position, frame.pixelRight, frame.pixelUp, frame.imagePlane);
+    precise float radius = squareRoot(u.x) * frame.lensScale;
+    SineCosine angle = sineCosine(u.y);
+    precise vec2 onLens = vec2(radius * angle.cosine, radius * angle.sine);
+    precise vec3 aside = frame.pixelRight * onLens.x + frame.pixelUp * onLens.y;
+    precise vec3 direction = straight * frame.focusDistance - aside;
+    return PrimaryRay(add(frame.eye, aside), unitVector(direction));
+}
+
+// Parallel to the view direction.
+PrimaryRay alongView(uvec2 pixel, vec2 offset) {
+    vec2 position = fromMiddle(pixel, offset, uvec2(frame.imageWidth, frame.imageHeight));
+    return PrimaryRay(onImagePlane(position, frame.pixelRight, frame.pixelUp, frame.eye), unitVector(frame.imagePlane));
+}
+
+// By longitude and latitude: the image's middle is the view direction, its top row is up.
+PrimaryRay allAround(uvec2 pixel, vec2 offset) {
+    precise float x = float(pixel.x) + offset.x;
+    precise float y = float(pixel.y) + offset.y;
+    SineCosine longitude = sineCosine(divide(x, float(frame.imageWidth)));
+    precise float latitudeTurns = 0.5 * divide(y, float(frame.imageHeight));
+    SineCosine latitude = sineCosine(latitudeTurns);
+    precise float right = -longitude.sine * latitude.sine;
+    precise float forward = -longitude.cosine * latitude.sine;
+    precise vec3 direction = frame.pixelRight * right + frame.pixelUp * latitude.cosine + frame.imagePlane * forward;
+    return PrimaryRay(frame.eye, unitVector(direction));
+}
+
+const uint lensPair = 1024u; // of random numbers: beyond those of paths
+
+// The primary ray of a sample.
+PrimaryRay primaryRay(uvec2 pixel, uint sampleIndex) {
+    vec2 offset = samplePixel(pixel, sampleIndex, frame.seed);
+    if (camera == cameraLens)
+        return throughLens(pixel, offset, unitFloats(sampleBits(pairKeys(pixel, frame.seed, lensPair), sampleIndex)));
+    if (camera == cameraOrthographic)
+        return alongView(pixel, offset);
+    if (camera == cameraPanorama)
+        return allAround(pixel, offset);
+    return PrimaryRay(frame.eye, primaryDirection(pixel, offset));
 }

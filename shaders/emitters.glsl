@@ -1,12 +1,14 @@
-// Light that a surface is aimed at: point lights, spheres and triangles that emit. Twin: host/reference/emitters.h.
+// Light that a surface is aimed at: lights without size, spheres and triangles that emit, an image around. Twin: host/reference/emitters.h.
 
 struct LightSample {
     vec3 direction; // unit length, from the surface to the light
     float distance;
     vec3 radiance;  // divided by the density; of a point light the intensity / squared distance / probability
-    float density;  // per solid angle, the choice of the emitter included; 0: a point light
+    float density;  // per solid angle, the choice of the emitter included; 0: a light without size
     uint target;    // the primitive at its end
 };
+
+const float unboundedDistance = 3.4028234e38; // to what is at no place
 
 const LightSample noLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, noPrimitive);
 
@@ -16,6 +18,24 @@ LightSample samplePoint(EmitterRecord emitter, vec3 position) {
     precise float squaredDistance = distance * distance;
     precise float share = squaredDistance * emitter.probability;
     return LightSample(toLight * divide(1.0, distance), distance, emitter.emission * divide(1.0, share), 0.0, noPrimitive);
+}
+
+LightSample sampleSpot(EmitterRecord emitter, vec3 position) {
+    LightSample light = samplePoint(emitter, position);
+    light.radiance *= spotFalloff(light.direction, emitter.axis, emitter.cosineOuter, emitter.density);
+    return light;
+}
+
+LightSample sampleDirectional(EmitterRecord emitter) {
+    return LightSample(-emitter.axis, unboundedDistance, emitter.emission * divide(1.0, emitter.probability), 0.0,
+                       noPrimitive);
+}
+
+LightSample sampleSurroundings(EmitterRecord emitter, uvec2 bits) {
+    EnvironmentLight found = sampleEnvironment(bits);
+    float density = found.density * emitter.probability;
+    return LightSample(found.direction, unboundedDistance,
+                       density > 0.0 ? found.radiance * divide(1.0, density) : vec3(0.0), density, noPrimitive);
 }
 
 LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
@@ -75,13 +95,20 @@ uint chooseEmitter(uint bits) {
     return first;
 }
 
-// A point of an emitter as seen from `position`.
-LightSample sampleEmitter(uint index, vec3 position, vec2 u) {
+// A point of an emitter as seen from `position`, chosen by two numbers of 32 bits.
+LightSample sampleEmitter(uint index, vec3 position, uvec2 bits) {
     if (emitterCount == 0u)
         return noLight;
     EmitterRecord emitter = fetchEmitter(index);
     if (emitter.kind == emitterPoint)
         return samplePoint(emitter, position);
+    if ((lighting & lightsBySpots) != 0u && emitter.kind == emitterSpot)
+        return sampleSpot(emitter, position);
+    if ((lighting & lightsByDirections) != 0u && emitter.kind == emitterDirectional)
+        return sampleDirectional(emitter);
+    if ((lighting & lightsByEnvironment) != 0u && emitter.kind == emitterEnvironment)
+        return sampleSurroundings(emitter, bits);
+    vec2 u = unitFloats(bits);
     if (hasTriangles && emitter.kind == emitterTriangle)
         return sampleTriangleLight(emitter, position, u);
     return sampleSphereLight(emitter, position, u);

@@ -1,4 +1,4 @@
-// Sine, cosine and exponential from + - * alone, the same bits everywhere. Twin: host/reference/functions.h.
+// Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere. Twin: host/reference/functions.h.
 
 struct SineCosine {
     float sine;
@@ -17,6 +17,32 @@ SineCosine sineCosine(float turns) {
     float sine = isSwapped ? c : s;
     float cosine = isSwapped ? s : c;
     return SineCosine((quarter & 2) != 0 ? -sine : sine, ((quarter + 1) & 2) != 0 ? -cosine : cosine);
+}
+
+// The angle from the x axis to the vector (x, y), in turns, in [0, 1], within 1e-7. One of both is not 0. The Taylor
+// polynomial of the arc tangent to tan(1/16 turn), where it is within 2e-8; further up, of the angle to the diagonal.
+float turnsOf(float y, float x) {
+    float low = lesser(abs(x), abs(y));
+    float high = greater(abs(x), abs(y));
+    precise float limit = high * 0.41421356237309505;
+    bool isFar = low > limit;
+    precise float difference = low - high;
+    precise float sum = low + high;
+    float t = divide(isFar ? difference : low, isFar ? sum : high);
+    precise float tt = t * t;
+    precise float series =
+        -1.0 / 3.0 +
+        tt * (1.0 / 5.0 +
+              tt * (-1.0 / 7.0 + tt * (1.0 / 9.0 + tt * (-1.0 / 11.0 + tt * (1.0 / 13.0 + tt * (-1.0 / 15.0))))));
+    precise float angle = (t + t * tt * series) * 0.15915494309189535;
+    precise float eighth = angle + 0.125;
+    float turns = isFar ? eighth : angle;
+    precise float quarter = 0.25 - turns;
+    turns = abs(y) > abs(x) ? quarter : turns;
+    precise float mirrored = 0.5 - turns;
+    turns = x < 0.0 ? mirrored : turns;
+    precise float whole = 1.0 - turns;
+    return y < 0.0 ? whole : turns;
 }
 
 // e^-x for x >= 0: a power of 2 as an exponent, and the Taylor polynomial around the middle of what remains.

@@ -98,6 +98,8 @@ struct SkipNode {
 const uint materialDiffuse = 0u;
 const uint materialMirror = 1u;
 const uint materialDielectric = 2u;
+const uint materialConductor = 3u;
+const uint materialPrincipled = 4u;
 const uint noMaterial = 0xFFFFFFFFu;
 
 // Dielectrics come first among the materials, those of higher priority before others: what glass is where several overlap
@@ -105,7 +107,7 @@ const uint noMaterial = 0xFFFFFFFFu;
 const uint mostMedia = 8u; // dielectrics that the path integrator tells apart
 
 struct MaterialRecord {
-    vec3 albedo;
+    vec3 albedo; // of a conductor its reflectance seen head on, of a principled material its colour
     uint kind;
     vec3 segmentTint; // Whitted: factor on all that a segment inside this dielectric returns
     float refractiveIndex;
@@ -114,13 +116,53 @@ struct MaterialRecord {
         emitterDensity; // path: with which density, per unit of area, a light sample lies at a point that emits
     vec3 absorption;    // path: of this dielectric, per unit of length
     uint isTwoSided;
+    // What follows is read where constantScattering asks for it.
+    vec3 conductorIndex;      // real part of the refractive index
+    float alpha;              // of microfacets: roughness squared; 0: smooth
+    vec3 conductorExtinction; // imaginary part of the refractive index
+    float metallic;
+    vec3
+        averageReflectance; // of a conductor's Fresnel reflectance, over cos^2: what light loses that is reflected twice
+    float transmission;
+    float normalReflectance; // of a principled material that is no metal, seen head on
+    float clearcoat;
+    float clearcoatAlpha;
+    float pad0;
 };
+
+// What the materials of a scene need of the path integrator: bits of constantScattering.
+const uint scattersAtConductors = 1u; // conductors, smooth or rough
+const uint scattersAtRoughConductors = 2u;
+const uint scattersAtRoughGlass = 4u; // dielectrics, and principled materials that transmit
+const uint scattersAtPrincipled = 8u;
+const uint scattersAtRough = 14u; // any of those that need microfacets
+
+// What is looked up by index: rows of four numbers. First the energy of microfacets, see shaders/energy.glsl, where
+// constantScattering needs it; then the environment.
+struct TexelRecord {
+    vec3 value;
+    uint word; // another float, or an integer
+};
+
+const uint energyCosines = 32u; // nodes of the table over the cosine, and over the roughness
+const uint energyRoughnesses = 32u;
+const uint energyCellCount = (energyCosines - 1u) * (energyRoughnesses - 1u);
+const uint energyTexelCount = 2u * energyCellCount + energyRoughnesses - 1u;
+
+// Lights of no size, which both the Whitted integrator and the path integrator know.
+
+const uint lightPoint = 0u;
+const uint lightSpot = 1u;
+const uint lightDirectional = 2u;
 
 struct LightRecord {
     vec3 position;
-    float pad0;
-    vec3 intensity; // radiant intensity: power / (4 pi)
-    float pad1;
+    uint kind;
+    vec3
+        intensity; // radiant intensity, power / (4 pi), of a spot on its axis; irradiance of a directional light
+    float cosineOuter;  // of a spot: beyond this angle to its axis it is dark
+    vec3 axis;          // unit direction in which light leaves
+    float falloffScale; // of a spot: 1 / (cosine where it begins to fade - cosineOuter)
 };
 
 // What the path integrator can aim at: one of them is chosen for each shadow ray, with a probability that goes with its
@@ -129,23 +171,40 @@ struct LightRecord {
 const uint emitterPoint = 0u;
 const uint emitterSphere = 1u;
 const uint emitterTriangle = 2u;
+const uint emitterSpot = 3u;
+const uint emitterDirectional = 4u;
+const uint emitterEnvironment = 5u;
 
 struct EmitterRecord {
-    vec3 position; // of a point light
+    vec3 position; // of a point light or a spot
     uint kind;
-    vec3 emission; // radiant intensity of a point light, radiance of a surface
+    vec3 emission; // radiance of a surface; of lights their intensity, as above
     float probability;
     uint cumulative; // of 2^32 numbers, so many choose this emitter or one before it
     uint record;     // index among the sphere or the triangle records
-    float density;   // probability per unit of area of a triangle or a sphere
+    float density;   // probability per unit of area of a triangle or a sphere; falloffScale of a spot
     uint isTwoSided;
+    vec3 axis;         // of a spot or a directional light
+    float cosineOuter; // of a spot
 };
+
+// What else than points and surfaces lights a scene: bits of constantLighting.
+const uint lightsBySpots = 1u;
+const uint lightsByDirections = 2u;
+const uint lightsByEnvironment = 4u; // an image around the scene
+
+// ---- Cameras
+
+const uint cameraPinhole = 0u;
+const uint cameraLens = 1u;         // a thin lens
+const uint cameraOrthographic = 2u; // parallel rays
+const uint cameraPanorama = 3u;     // all directions, by longitude and latitude
 
 // What a view shows of the first hit.
 
 const uint viewNormal = 0u; // for shading, from [-1, 1] to [0, 1]
 const uint viewDepth = 1u;  // distance from the eye
-const uint viewAlbedo = 2u; // of diffuse surfaces; 1 for others
+const uint viewAlbedo = 2u; // or base colour, or reflectance of a metal; 1 for glass and mirrors
 const uint viewId = 3u;     // a colour for each primitive
 const uint viewOcclusion = 4u;
 
@@ -159,6 +218,8 @@ struct FrameRecord {
     uint imageWidth; // of the whole image, in pixels
     // The primary ray through the image position (x, y), in pixels with y down, has the direction
     //     pixelRight * (x - imageWidth/2) + pixelUp * (imageHeight/2 - y) + imagePlane
+    // where rays are parallel the first two terms are added to the eye, and for a panorama all three vectors are of unit
+    // length.
     vec3 pixelRight;
     uint imageHeight;
     vec3 pixelUp;
@@ -175,6 +236,16 @@ struct FrameRecord {
     uint skipListLength; // nodes of one list
     vec3 gridScale;
     float occlusionDistance; // what is further away hides no sky
+    // The environment: rows of texels from the top, the number of 2^32 that choose a texel of the row or one left of it in
+    // `word`; then for each row, in `word`, how many choose it or one above it, and in value.x with which probability.
+    uint environmentTexels; // the first one
+    uint environmentWidth;
+    uint environmentHeight;
+    float environmentTurns;       // about +y
+    float environmentProbability; // that it is chosen among all emitters
+    float lensScale;              // the lens' radius in units of pixelRight and pixelUp
+    float focusDistance;          // along the view direction
+    float radianceLimit;          // path: most that a path may add behind its first segment; 0: no limit
 };
 
 // ---- What changes with each dispatch
@@ -223,7 +294,8 @@ struct DispatchProgress {
     uint reflectionRays;
     uint refractionRays;
     uint bounceRays; // scattered by diffuse surfaces
-    uint workDone;   // in steps of a traversal, roughly: of each subgroup that of the busiest lane, or of each lane
+    uint
+        workDone; // in steps of a traversal, roughly: of each subgroup that of the busiest lane, or of each lane
     // The rest only where constantIsCounting is set.
     uint traversalPasses; // of subgroups through the loops of the traversal
     uint busySlots;       // that had a node or a triangle to look at, in all passes
@@ -272,6 +344,8 @@ const uint stageShadow = 5u;     // looking for anything between the surface and
 const uint stageSampleDone = 6u; // the sample waits for those of the pixel's other slots
 const uint stageDone = 7u;       // all samples of the pixel are in the film
 
+const uint seenFromBehind = 0x80000000u; // against the normal of the input
+
 struct PathRecord {
     vec3 rayOrigin;
     uint stage;
@@ -310,7 +384,7 @@ struct PathRecord {
     uint reflectionRays;
     uint refractionRays;
     uint bounceRays;
-    uint pad0;
+    uint surfaceMaterial; // where constantScattering needs it; with seenFromBehind
 };
 
 // A ray that a dielectric has split off, to be traced later: at most one for each level of depth.
@@ -342,7 +416,8 @@ const uint bindingStacks = 11u;  // stackSize references a slot
 const uint bindingTrace = 12u;
 const uint bindingSphereArray = 13u; // the spheres again, as texels
 const uint bindingEmitters = 14u;
-const uint bindingCount = 15u;
+const uint bindingTexels = 15u;
+const uint bindingCount = 16u;
 
 // ---- Specialization constants: what a scene does not use costs nothing
 
@@ -364,7 +439,10 @@ const uint constantEmitterCount = 14u;
 const uint constantHasEmission = 15u; // materials of primitives that emit
 const uint constantView = 16u;        // which view
 const uint constantShowsCost = 17u;   // samples are the work that they take: nodes, boxes, triangles
-const uint constantCount = 18u;
+const uint constantScattering = 18u;  // path: what the materials need
+const uint constantLighting = 19u;
+const uint constantCamera = 20u;
+const uint constantCount = 21u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);
@@ -372,10 +450,11 @@ static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) ==
 static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
 static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
-static_assert(sizeof(MaterialRecord) == 64 && offsetof(MaterialRecord, isTwoSided) == 60);
-static_assert(sizeof(EmitterRecord) == 48 && offsetof(EmitterRecord, isTwoSided) == 44);
-static_assert(sizeof(LightRecord) == 32 && offsetof(LightRecord, intensity) == 16);
-static_assert(sizeof(FrameRecord) == 144 && offsetof(FrameRecord, boundsUpper) == 96);
+static_assert(sizeof(MaterialRecord) == 128 && offsetof(MaterialRecord, normalReflectance) == 112);
+static_assert(sizeof(TexelRecord) == 16);
+static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, isTwoSided) == 44);
+static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
+static_assert(sizeof(FrameRecord) == 176 && offsetof(FrameRecord, boundsUpper) == 96);
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
 static_assert(sizeof(DispatchProgress) == 64);

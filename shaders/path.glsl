@@ -1,4 +1,4 @@
-// The path integrator: one path a sample, with next-event estimation at diffuse surfaces, combined with what scattered rays
+// The path integrator: one path a sample, with next-event estimation at diffuse and rough surfaces, combined with what scattered rays
 // find by multiple importance sampling, and Russian roulette. Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach,
 // "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 9 and 10.
 // Twin: host/reference/path.h, where the same happens vertex by vertex.
@@ -10,12 +10,18 @@ const uint pairChoice = 0u; // an emitter, or a side of an interface; and whethe
 const uint pairLight = 1u;
 const uint pairScatter = 2u;
 const uint pairsPerVertex = 3u;
+const uint firstPairOfLobes = 1u + pairsPerVertex * maxPathDepth; // and one more at rough surfaces, which chooses lobes
 
 const uint firstRouletteDepth = 4u; // segments that no path is denied
 
 uvec2 vertexBits(uint slot, uint pair) {
     uint number = 1u + pairsPerVertex * (path[slot].rayDepth - 1u) + pair;
     return sampleBits(pairKeys(imagePixel[slot], frame.seed, number), path[slot].sampleIndex);
+}
+
+vec2 lobeChoice(uint slot) {
+    uint number = firstPairOfLobes + path[slot].rayDepth - 1u;
+    return unitFloats(sampleBits(pairKeys(imagePixel[slot], frame.seed, number), path[slot].sampleIndex));
 }
 
 void beginSample(uint slot) {
@@ -27,7 +33,10 @@ void beginSample(uint slot) {
 void endPath(uint slot) { path[slot].stage = stageSampleDone; }
 
 void addRadiance(uint slot, vec3 weight, vec3 radiance) {
-    path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, weight, radiance);
+    vec3 added = weight * radiance;
+    if (frame.radianceLimit > 0.0 && path[slot].rayDepth > 1u)
+        added = lesser(added, vec3(frame.radianceLimit));
+    path[slot].sampleRadiance = add(path[slot].sampleRadiance, added);
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
 }
 
@@ -51,6 +60,18 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
         weight = powerHeuristic(path[slot].scatterDensity, density);
     }
     addRadiance(slot, path[slot].throughput * weight, material.emission);
+}
+
+// What comes from beyond the scene, weighted against aiming at it.
+void addSurroundings(uint slot) {
+    if ((lighting & lightsByEnvironment) == 0u) {
+        addRadiance(slot, path[slot].throughput, frame.background);
+        return;
+    }
+    EnvironmentLight found = environmentFrom(path[slot].rayDirection);
+    float density = found.density * frame.environmentProbability;
+    float weight = path[slot].scatterDensity > 0.0 ? powerHeuristic(path[slot].scatterDensity, density) : 1.0;
+    addRadiance(slot, path[slot].throughput * weight, found.radiance);
 }
 
 // What glass around the path leaves of light after this distance.
@@ -86,19 +107,32 @@ void reflectRay(uint slot, Surface surface, vec3 normal) {
     continueRay(slot, origin, direction, path[slot].hitPrimitive);
 }
 
-// At glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction, chosen with the
-// probability of its share.
+// The glass on both sides of a surface of glass.
+struct Crossing {
+    uint before; // counts as in media.glsl
+    uint beyond;
+    float eta;    // refractive index before divided by the one beyond
+    bool isNothing; // glass of higher priority is on both sides
+};
+
+Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {
+    uint inside = path[slot].mediaInside;
+    // A path that leaves glass which it has not entered began in it.
+    uint before = isEntering || mediumCount(inside, materialIndex) > 0u ? inside : enterMedium(inside, materialIndex);
+    uint beyond = isEntering ? enterMedium(inside, materialIndex) : leaveMedium(inside, materialIndex);
+    uint medium = mediumAround(before);
+    uint mediumBeyond = mediumAround(beyond);
+    return Crossing(before, beyond, divide(mediumIndex(medium), mediumIndex(mediumBeyond)), medium == mediumBeyond);
+}
+
+// At smooth glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction, chosen
+// with the probability of its share.
 void meetGlass(uint slot, Surface surface, uint materialIndex) {
     vec3 direction = path[slot].rayDirection;
-    uint inside = path[slot].mediaInside;
     bool isEntering = dotProduct(direction, surface.geometricNormal) < 0.0;
-    // A path that leaves glass which it has not entered began in it.
-    uint insideBefore = isEntering || mediumCount(inside, materialIndex) > 0u ? inside : enterMedium(inside, materialIndex);
-    uint insideBeyond = isEntering ? enterMedium(inside, materialIndex) : leaveMedium(inside, materialIndex);
-    uint before = mediumAround(insideBefore);
-    uint beyond = mediumAround(insideBeyond);
-    if (before == beyond) {
-        path[slot].mediaInside = insideBeyond;
+    Crossing crossing = crossingOf(slot, materialIndex, isEntering);
+    if (crossing.isNothing) {
+        path[slot].mediaInside = crossing.beyond;
         path[slot].scatterDensity = 0.0; // no light is aimed at through glass
         continueRay(slot, spawnPoint(surface.position, surface.error, surface.geometricNormal, direction), direction,
                     path[slot].hitPrimitive);
@@ -107,21 +141,50 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
     vec3 geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
     vec3 shadingFacing = isEntering ? surface.normal : -surface.normal;
     vec3 facing = dotProduct(direction, shadingFacing) < 0.0 ? shadingFacing : geometricFacing;
-    float eta = divide(mediumIndex(before), mediumIndex(beyond));
+    float eta = crossing.eta;
     Interface glass = meetInterface(direction, facing, eta);
     traceEvent(slot, traceReflectance, glass.reflectance == 1.0 ? 1u : 0u, vec3(glass.reflectance));
     if (unitFloat(vertexBits(slot, pairChoice).x) < glass.reflectance) {
-        path[slot].mediaInside = insideBefore;
+        path[slot].mediaInside = crossing.before;
         reflectRay(slot, surface, facing);
         return;
     }
-    path[slot].mediaInside = insideBeyond;
+    path[slot].mediaInside = crossing.beyond;
     precise float squaredEta = eta * eta;
     path[slot].throughput *= squaredEta;
     path[slot].scatterDensity = 0.0;
     rayCounts[slot].w += 1u;
     continueRay(slot, spawnPoint(surface.position, surface.error, surface.geometricNormal, glass.refracted), glass.refracted,
                 path[slot].hitPrimitive);
+}
+
+bool isGlass(MaterialRecord material) {
+    return material.kind == materialDielectric ||
+           ((scattering & scattersAtPrincipled) != 0u && material.kind == materialPrincipled && material.transmission > 0.0);
+}
+
+// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
+bool isSmooth(uint slot, MaterialRecord material, uint materialIndex, bool isEntering) {
+    if (material.kind == materialDiffuse)
+        return false;
+    if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material) && material.alpha > 0.0) {
+        Crossing crossing = crossingOf(slot, materialIndex, isEntering);
+        return crossing.isNothing || crossing.eta == 1.0;
+    }
+    return material.kind == materialMirror || material.alpha == 0.0;
+}
+
+// The reflectance of what is smooth and no glass.
+vec3 mirrorReflectance(uint slot, Surface surface, MaterialRecord material) {
+    if ((scattering & scattersAtConductors) == 0u || material.kind != materialConductor)
+        return vec3(1.0);
+    float cosine = abs(dotProduct(path[slot].rayDirection, surface.normal));
+    return conductorReflectance(lesser(cosine, 1.0), material.conductorIndex, material.conductorExtinction);
+}
+
+// Whether what is not smooth is black from behind.
+bool isBlackBehind(MaterialRecord material) {
+    return material.isTwoSided == 0u && (scattering == 0u || material.kind != materialConductor && !isGlass(material));
 }
 
 // Stage: the nearest hit is known.
@@ -131,7 +194,7 @@ void shadeHit(uint slot) {
     if (hasDielectric)
         path[slot].throughput *= transmittance(slot, path[slot].rayLength);
     if (path[slot].hitPrimitive == noPrimitive) {
-        addRadiance(slot, path[slot].throughput, frame.background);
+        addSurroundings(slot);
         return;
     }
     uint materialIndex;
@@ -144,31 +207,38 @@ void shadeHit(uint slot) {
         addEmission(slot, surface, material);
     if (path[slot].rayDepth >= frame.maxDepth)
         return;
-    if (!hasSpecular || material.kind == materialDiffuse) {
-        if (dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0) {
-            if (material.isTwoSided == 0u)
+    bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
+    if (scattering != 0u ? !isSmooth(slot, material, materialIndex, !isBehind)
+                         : !hasSpecular || material.kind == materialDiffuse) {
+        if (isBehind) {
+            if (isBlackBehind(material))
                 return;
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
         standOn(slot, surface);
-        path[slot].throughput *= material.albedo;
+        if (scattering != 0u)
+            path[slot].surfaceMaterial = materialIndex | (isBehind ? seenFromBehind : 0u);
+        else
+            path[slot].throughput *= material.albedo;
         return;
     }
     if (!survivesRoulette(slot))
         return;
-    if (hasDielectric && material.kind == materialDielectric)
+    if (hasDielectric && isGlass(material)) {
         meetGlass(slot, surface, materialIndex);
-    else
+    } else {
+        if (scattering != 0u)
+            path[slot].throughput *= mirrorReflectance(slot, surface, material);
         reflectRay(slot, surface, surface.normal);
+    }
 }
 
-// The path goes on from a diffuse surface, in a direction that was drawn when it was lit.
+// The path goes on from a surface, in a direction that was drawn when it was lit.
 void scatter(uint slot) {
     endPath(slot);
     vec3 direction = path[slot].scatterDirection;
-    bool isAbove = path[slot].scatterDensity > 0.0 && dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0;
-    if (!isAbove || !survivesRoulette(slot))
+    if (!(path[slot].scatterDensity > 0.0) || !survivesRoulette(slot))
         return;
     traceEvent(slot, traceScatter, floatBitsToUint(path[slot].scatterDensity), direction);
     bounceCounts[slot] += 1u;
@@ -177,20 +247,79 @@ void scatter(uint slot) {
                 direction, path[slot].surfacePrimitive);
 }
 
-// Stage: on a diffuse surface, draw the direction in which the path will go on, and aim at a light.
-void aimAtLight(uint slot) {
-    vec3 normal = path[slot].surfaceNormal;
-    path[slot].scatterDirection = sampleCosine(normal, unitFloats(vertexBits(slot, pairScatter)));
-    path[slot].scatterDensity = pdfCosine(dotProduct(normal, path[slot].scatterDirection));
+void aimAtNothing(uint slot, uint emitter) {
+    traceEvent(slot, traceVisibility, visibilityUnlit, vec3(emitter));
+    scatter(slot);
+}
+
+// Sends a shadow ray to what was chosen.
+void aimAt(uint slot, uint emitter, LightSample light) {
+    path[slot].rayTarget = light.target;
+    path[slot].lightIndex = emitter;
+    beginShadow(slot, light.direction, light.distance);
+}
+
+// On a surface with lobes: draws the direction in which the path will go on, and aims at a light.
+void aimFromRough(uint slot) {
+    uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
+    bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
+    MaterialRecord material = fetchMaterial(materialIndex);
+    vec3 geometricNormal = path[slot].surfaceGeometricNormal;
+    Crossing crossing = Crossing(path[slot].mediaInside, path[slot].mediaInside, 1.0, true);
+    if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
+        crossing = crossingOf(slot, materialIndex, !isBehind);
+    vec2 choice = lobeChoice(slot);
+    Rough rough = roughOf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, isBehind,
+                          crossing.eta, choice.x);
 
     uint emitter = chooseEmitter(vertexBits(slot, pairChoice).x);
-    LightSample light = sampleEmitter(emitter, path[slot].surfacePosition, unitFloats(vertexBits(slot, pairLight)));
+    LightSample light = sampleEmitter(emitter, path[slot].surfacePosition, vertexBits(slot, pairLight));
+    vec3 toLight = toLocal(rough.frame, light.direction);
+    bool isLightBeyond = dotProduct(geometricNormal, light.direction) <= 0.0;
+    Scattered lit = evaluateRough(rough, toLight);
+    bool isLit = largestComponent(light.radiance) > 0.0 && lit.density > 0.0 && isLightBeyond == (toLight.z <= 0.0);
+    float share = light.density > 0.0 ? powerHeuristic(light.density, lit.density) : 1.0;
+    path[slot].surfaceWeight = path[slot].throughput * (light.radiance * (lit.value * share));
+    if (hasDielectric) {
+        path[slot].mediaInside = isLightBeyond ? crossing.beyond : crossing.before;
+        path[slot].surfaceWeight *= transmittance(slot, light.distance);
+    }
+
+    vec3 drawn = drawRough(rough, unitFloats(vertexBits(slot, pairScatter)), choice.y);
+    vec3 direction = unitVector(toWorld(rough.frame, drawn));
+    Scattered scattered = evaluateRough(rough, drawn);
+    bool isBeyond = dotProduct(geometricNormal, direction) <= 0.0;
+    bool isPossible = scattered.density > 0.0 && isBeyond == (drawn.z <= 0.0);
+    path[slot].scatterDirection = direction;
+    path[slot].scatterDensity = isPossible ? scattered.density : 0.0;
+    if (hasDielectric)
+        path[slot].mediaInside = isBeyond ? crossing.beyond : crossing.before;
+    path[slot].throughput *= isPossible ? scattered.value * divide(1.0, scattered.density) : vec3(0.0);
+    if (isLit)
+        aimAt(slot, emitter, light);
+    else
+        aimAtNothing(slot, emitter);
+}
+
+// Stage: on a surface, draw the direction in which the path will go on, and aim at a light.
+void aimAtLight(uint slot) {
+    if (scattering != 0u) {
+        aimFromRough(slot);
+        return;
+    }
+    vec3 normal = path[slot].surfaceNormal;
+    vec3 direction = sampleCosine(normal, unitFloats(vertexBits(slot, pairScatter)));
+    bool isAbove = dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0;
+    path[slot].scatterDirection = direction;
+    path[slot].scatterDensity = isAbove ? pdfCosine(dotProduct(normal, direction)) : 0.0;
+
+    uint emitter = chooseEmitter(vertexBits(slot, pairChoice).x);
+    LightSample light = sampleEmitter(emitter, path[slot].surfacePosition, vertexBits(slot, pairLight));
     float cosine = dotProduct(normal, light.direction);
     bool isLit = largestComponent(light.radiance) > 0.0 && cosine > 0.0 &&
                  dotProduct(path[slot].surfaceGeometricNormal, light.direction) > 0.0;
     if (!isLit) {
-        traceEvent(slot, traceVisibility, visibilityUnlit, vec3(emitter));
-        scatter(slot);
+        aimAtNothing(slot, emitter);
         return;
     }
     float reflected = pdfCosine(cosine); // also the density of a scattered ray
@@ -198,9 +327,7 @@ void aimAtLight(uint slot) {
     path[slot].surfaceWeight = path[slot].throughput * (light.radiance * share);
     if (hasDielectric)
         path[slot].surfaceWeight *= transmittance(slot, light.distance);
-    path[slot].rayTarget = light.target;
-    path[slot].lightIndex = emitter;
-    beginShadow(slot, light.direction, light.distance);
+    aimAt(slot, emitter, light);
 }
 
 // Stage: the shadow ray has arrived, or was stopped.
@@ -213,7 +340,13 @@ void addLight(uint slot) {
 }
 
 // Of the search for an emitter, in all slots.
-uint searchIterations() { return emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u; }
+uint searchIterations() {
+    uint emitters = emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u;
+    uint texels = (lighting & lightsByEnvironment) != 0u
+                      ? RAYS * uint(findMSB(frame.environmentWidth) + findMSB(frame.environmentHeight) + 2)
+                      : 0u;
+    return emitters + texels;
+}
 
 void advancePaths() {
     do {

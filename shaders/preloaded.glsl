@@ -5,8 +5,7 @@ const uint unrolledSphereCount = 16u;
 
 vec4 sphereShapes[unrolledSphereCount]; // centre and radius
 uint transmissiveSpheres = 0u;          // a bit each
-vec3 firstLightPosition;
-vec3 firstLightIntensity;
+LightRecord firstLight;
 
 vec4 sphereShape(uint index) { return vec4(spheres[index].centre, spheres[index].radius); }
 
@@ -15,8 +14,7 @@ void preload() {
         sphereShapes[i] = sphereShape(i);
         transmissiveSpheres |= spheres[i].isTransmissive << i;
     }
-    firstLightPosition = lights[0].position;
-    firstLightIntensity = lights[0].intensity;
+    firstLight = lights[0];
 }
 
 bool isSphereTransmissive(uint index) {
@@ -24,6 +22,8 @@ bool isSphereTransmissive(uint index) {
                                               : spheres[index].isTransmissive != 0u;
 }
 
-vec3 lightPosition(uint index) { return lightCount == 1u ? firstLightPosition : lights[index].position; }
-
-vec3 lightIntensity(uint index) { return lightCount == 1u ? firstLightIntensity : lights[index].intensity; }
+LightRecord lightAt(uint index) {
+    if (lightCount == 1u)
+        return firstLight;
+    return lights[index];
+}

@@ -17,9 +17,8 @@ void sendPrimaryRay(uint slot) {
     path[slot].throughput = vec3(1.0);
     path[slot].stage = stageSampleDone;
     if (path[slot].sampleIndex < dispatch.sampleEnd) {
-        uvec2 pixel = imagePixel[slot];
-        vec3 direction = primaryDirection(pixel, samplePixel(pixel, path[slot].sampleIndex, frame.seed));
-        startRay(slot, frame.eye, direction, noPrimitive, 1u, noMaterial);
+        PrimaryRay ray = primaryRay(imagePixel[slot], path[slot].sampleIndex);
+        startRay(slot, ray.origin, ray.direction, noPrimitive, 1u, noMaterial);
         rayCounts[slot].x += 1u;
     }
 }

@@ -15,6 +15,8 @@ layout(set = 0, binding = bindingTriangles, rgba32ui) uniform restrict readonly 
 layout(set = 0, binding = bindingNormals, rgba32ui) uniform restrict readonly uimageBuffer normalTexels;
 layout(set = 0, binding = bindingEmitters, rgba32ui) uniform restrict readonly uimageBuffer emitterTexels;
 
+layout(set = 0, binding = bindingTexels, rgba32ui) uniform restrict readonly uimageBuffer texelTexels;
+
 layout(set = 0, binding = bindingSphereArray, rgba32ui) uniform restrict readonly uimageBuffer sphereTexels;
 
 SphereRecord fetchSphere(uint index) {
@@ -24,13 +26,25 @@ SphereRecord fetchSphere(uint index) {
 }
 
 MaterialRecord fetchMaterial(uint index) {
-    int row = int(index) * 4;
+    int row = int(index) * 8;
     uvec4 a = imageLoad(materialTexels, row);
     uvec4 b = imageLoad(materialTexels, row + 1);
     uvec4 c = imageLoad(materialTexels, row + 2);
     uvec4 d = imageLoad(materialTexels, row + 3);
+    uvec4 e = imageLoad(materialTexels, row + 4);
+    uvec4 f = imageLoad(materialTexels, row + 5);
+    uvec4 g = imageLoad(materialTexels, row + 6);
+    uvec4 h = imageLoad(materialTexels, row + 7);
     return MaterialRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),
-                          uintBitsToFloat(c.xyz), uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w);
+                          uintBitsToFloat(c.xyz), uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w,
+                          uintBitsToFloat(e.xyz), uintBitsToFloat(e.w), uintBitsToFloat(f.xyz), uintBitsToFloat(f.w),
+                          uintBitsToFloat(g.xyz), uintBitsToFloat(g.w), uintBitsToFloat(h.x), uintBitsToFloat(h.y),
+                          uintBitsToFloat(h.z), 0.0);
+}
+
+TexelRecord fetchTexel(uint index) {
+    uvec4 words = imageLoad(texelTexels, int(index));
+    return TexelRecord(uintBitsToFloat(words.xyz), words.w);
 }
 
 SkipNode fetchSkipNode(uint index) {
@@ -47,12 +61,13 @@ TriangleRecord fetchTriangle(uint index) {
 }
 
 EmitterRecord fetchEmitter(uint index) {
-    int row = int(index) * 3;
+    int row = int(index) * 4;
     uvec4 a = imageLoad(emitterTexels, row);
     uvec4 b = imageLoad(emitterTexels, row + 1);
     uvec4 c = imageLoad(emitterTexels, row + 2);
+    uvec4 d = imageLoad(emitterTexels, row + 3);
     return EmitterRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w), c.x, c.y,
-                         uintBitsToFloat(c.z), c.w);
+                         uintBitsToFloat(c.z), c.w, uintBitsToFloat(d.xyz), uintBitsToFloat(d.w));
 }
 
 NormalRecord fetchNormals(uint index) {
@@ -70,12 +85,15 @@ layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { Nod
 layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
 layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
 layout(set = 0, binding = bindingEmitters, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
+layout(set = 0, binding = bindingTexels, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
 
 SphereRecord fetchSphere(uint index) { return spheres[index]; }
 
 EmitterRecord fetchEmitter(uint index) { return emitters[index]; }
 
 MaterialRecord fetchMaterial(uint index) { return materials[index]; }
+
+TexelRecord fetchTexel(uint index) { return texels[index]; }
 
 NodePair fetchNode(uint index) { return nodes[index]; }
 

@@ -45,7 +45,8 @@ void shadeHit(uint slot) {
         show(slot, idColour(path[slot].hitPrimitive));
     if (view == viewAlbedo) {
         MaterialRecord material = fetchMaterial(materialIndex);
-        show(slot, material.kind == materialDiffuse ? material.albedo : vec3(1.0));
+        bool isClear = material.kind == materialMirror || material.kind == materialDielectric;
+        show(slot, isClear ? vec3(1.0) : material.albedo);
     }
     if (view == viewOcclusion) {
         bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;

@@ -55,12 +55,19 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
     rayCounts[slot].w += 1u;
 }
 
+// What rays find that leave the scene.
+vec3 radianceAround(vec3 direction) {
+    if ((lighting & lightsByEnvironment) != 0u)
+        return environmentRadianceAt(environmentPlace(direction));
+    return frame.background;
+}
+
 void leaveScene(uint slot) {
     vec3 throughput = path[slot].throughput;
     if (hasDielectric && path[slot].rayMedium != noMaterial)
         throughput *= fetchMaterial(path[slot].rayMedium).segmentTint;
     if (!showsCost)
-        path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, frame.background);
+        path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, radianceAround(path[slot].rayDirection));
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     endPath(slot);
 }
@@ -92,7 +99,9 @@ void shadeHit(uint slot) {
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
     endPath(slot);
-    if (!hasSpecular || material.kind == materialDiffuse) {
+    // Rough metals are mirrors here, and principled materials diffuse.
+    bool isPrincipled = (scattering & scattersAtPrincipled) != 0u && material.kind == materialPrincipled;
+    if (!hasSpecular || material.kind == materialDiffuse || isPrincipled) {
         if (material.isTwoSided != 0u && dotProduct(direction, surface.geometricNormal) > 0.0) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
@@ -101,10 +110,13 @@ void shadeHit(uint slot) {
         path[slot].surfaceWeight = path[slot].throughput * (material.albedo * inversePi);
         path[slot].lightIndex = 0u;
     } else if (path[slot].rayDepth < frame.maxDepth) {
-        if (isGlass)
+        if (isGlass) {
             splitAtGlass(slot, surface, material, materialIndex, isEntering);
-        else
+        } else {
+            if ((scattering & scattersAtConductors) != 0u && material.kind == materialConductor)
+                path[slot].throughput *= material.albedo;
             reflectRay(slot, surface, path[slot].rayMedium);
+        }
     }
 }
 
@@ -114,9 +126,14 @@ void aimAtLight(uint slot) {
         endPath(slot);
         return;
     }
-    vec3 toLight = subtract(lightPosition(path[slot].lightIndex), path[slot].surfacePosition);
+    LightRecord light = lightAt(path[slot].lightIndex);
+    vec3 toLight = subtract(light.position, path[slot].surfacePosition);
     float distance = vectorLength(toLight);
     vec3 direction = toLight * divide(1.0, distance);
+    if ((lighting & lightsByDirections) != 0u && light.kind == lightDirectional) {
+        distance = unbounded;
+        direction = -light.axis;
+    }
     bool isLit = dotProduct(path[slot].surfaceNormal, direction) > 0.0 &&
                  dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0;
     if (!isLit) {
@@ -136,13 +153,17 @@ void addLight(uint slot) {
     traceEvent(slot, traceVisibility, isVisible ? (isDimmed ? visibilityDimmed : visibilityClear) : visibilityBlocked,
                vec3(path[slot].lightIndex));
     if (isVisible && !showsCost) {
+        LightRecord light = lightAt(path[slot].lightIndex);
         float squaredDistance = path[slot].rayLength * path[slot].rayLength;
         float cosine = dotProduct(path[slot].surfaceNormal, path[slot].rayDirection);
-        vec3 irradiance = lightIntensity(path[slot].lightIndex) * divide(cosine, squaredDistance);
-        vec3 light = path[slot].surfaceWeight * irradiance;
+        bool isDirectional = (lighting & lightsByDirections) != 0u && light.kind == lightDirectional;
+        vec3 irradiance = light.intensity * (isDirectional ? cosine : divide(cosine, squaredDistance));
+        if ((lighting & lightsBySpots) != 0u && light.kind == lightSpot)
+            irradiance *= spotFalloff(path[slot].rayDirection, light.axis, light.cosineOuter, light.falloffScale);
+        vec3 reflected = path[slot].surfaceWeight * irradiance;
         if (isDimmed)
-            light *= frame.shadowThroughGlass;
-        path[slot].sampleRadiance = add(path[slot].sampleRadiance, light);
+            reflected *= frame.shadowThroughGlass;
+        path[slot].sampleRadiance = add(path[slot].sampleRadiance, reflected);
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
     path[slot].lightIndex += 1u;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace hyalite {
 
@@ -32,6 +31,30 @@ layout::EmitterRecord surfaceEmitter(std::uint32_t kind, std::size_t record,
     return emitter;
 }
 
+struct Candidate {
+    layout::EmitterRecord emitter;
+    double power; ///< 0 for what is infinitely far away
+    double area;  ///< 0 for what has none
+    bool isInfinite;
+};
+
+layout::EmitterRecord lightEmitter(const layout::LightRecord &light) {
+    layout::EmitterRecord emitter{};
+    emitter.kind = light.kind == layout::lightSpot          ? layout::emitterSpot
+                   : light.kind == layout::lightDirectional ? layout::emitterDirectional
+                                                            : layout::emitterPoint;
+    emitter.position = light.position;
+    emitter.emission = light.intensity;
+    emitter.axis = light.axis;
+    emitter.cosineOuter = light.cosineOuter;
+    if (light.kind == layout::lightSpot)
+        emitter.density = light.falloffScale;
+    return emitter;
+}
+
+/// The share of all directions that a spot lights.
+double coneShare(const layout::EmitterRecord &spot) { return 0.5 * (1.0 - double{spot.cosineOuter}); }
+
 /// Triangle records in the order of the input.
 std::vector<std::uint32_t> inInputOrder(const std::vector<layout::TriangleRecord> &triangles) {
     std::vector<std::uint32_t> records(triangles.size());
@@ -42,21 +65,19 @@ std::vector<std::uint32_t> inInputOrder(const std::vector<layout::TriangleRecord
 
 } // namespace
 
-void packEmitters(const Scene &scene, PackedScene &packed) {
-    std::vector<std::pair<layout::EmitterRecord, double>> found; // with power and area
-    std::vector<double> areas;
+void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
+    std::vector<Candidate> found;
     const auto add = [&](const layout::EmitterRecord &emitter, double power, double area) {
-        if (power > 0.0) {
-            found.emplace_back(emitter, power);
-            areas.push_back(area);
-        }
+        if (power > 0.0)
+            found.push_back({emitter, power, area, false});
     };
     for (std::size_t i = 0; i < packed.lights.size(); ++i) {
-        layout::EmitterRecord emitter{};
-        emitter.kind = layout::emitterPoint;
-        emitter.position = packed.lights[i].position;
-        emitter.emission = packed.lights[i].intensity;
-        add(emitter, mean(scene.lights[i].power), 0.0);
+        const double power = mean(scene.lights[i].power);
+        const layout::EmitterRecord emitter = lightEmitter(packed.lights[i]);
+        if (emitter.kind != layout::emitterDirectional)
+            add(emitter, power * (emitter.kind == layout::emitterSpot ? coneShare(emitter) : 1.0), 0.0);
+        else if (power > 0.0)
+            found.push_back({emitter, 0.0, 0.0, true});
     }
     for (std::size_t i = 0; i < packed.spheres.size(); ++i) {
         const layout::SphereRecord &sphere = packed.spheres[i];
@@ -72,22 +93,38 @@ void packEmitters(const Scene &scene, PackedScene &packed) {
             add(surfaceEmitter(layout::emitterTriangle, record, material), exitance(material) * area, area);
         }
 
-    double total = 0.0;
-    for (const auto &[emitter, power] : found)
-        total += power;
+    if (isLitAround) {
+        layout::EmitterRecord emitter{};
+        emitter.kind = layout::emitterEnvironment;
+        found.push_back({emitter, 0.0, 0.0, true});
+    }
+
+    double finiteTotal = 0.0;
+    for (const Candidate &candidate : found)
+        finiteTotal += candidate.power;
+    // What is infinitely far away has no power that could be compared: each is worth as much as all others together.
+    double total = finiteTotal;
+    for (Candidate &candidate : found)
+        if (candidate.isInfinite) {
+            candidate.power = finiteTotal > 0.0 ? finiteTotal : 1.0;
+            total += candidate.power;
+        }
     constexpr double all = 4294967296.0; // numbers of 32 bits
     double powerBefore = 0.0;
     double numbersBefore = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {
-        auto &[emitter, power] = found[i];
-        powerBefore += power;
+        layout::EmitterRecord &emitter = found[i].emitter;
+        const double area = found[i].area;
+        powerBefore += found[i].power;
         const double numbers = i + 1 == found.size() ? all : std::floor(powerBefore / total * all);
         if (numbers <= numbersBefore)
             continue; // chosen less than once in 2^32
         emitter.cumulative = static_cast<std::uint32_t>(std::fmin(numbers, all - 1.0));
         emitter.probability = static_cast<float>((numbers - numbersBefore) / all);
-        emitter.density =
-            areas[i] > 0.0 ? static_cast<float>((numbers - numbersBefore) / all / areas[i]) : 0.0f;
+        if (area > 0.0)
+            emitter.density = static_cast<float>((numbers - numbersBefore) / all / area);
+        if (emitter.kind == layout::emitterEnvironment)
+            packed.frame.environmentProbability = emitter.probability;
         numbersBefore = numbers;
         packed.emitters.push_back(emitter);
     }

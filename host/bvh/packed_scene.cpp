@@ -1,6 +1,8 @@
 #include "host/bvh/packed_scene.h"
 
 #include "host/bvh/emitters.h"
+#include "host/bvh/environment.h"
+#include "host/bvh/microfacet_energy.h"
 #include "host/report/hash.h"
 
 #include <glm/geometric.hpp>
@@ -23,15 +25,22 @@ layout::FrameRecord packFrame(const Scene &scene) {
     const glm::dvec3 forward = glm::normalize(camera.direction);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const glm::dvec3 up = glm::cross(right, forward);
-    const double focalLength =
-        camera.width / (2.0 * std::tan(glm::radians(camera.horizontalFovDegrees) / 2.0));
+    // Pixels in what pixelRight and pixelUp are measured in. In units of the focal length directions stay near unit length
+    // at every resolution.
+    double scale = camera.width / (2.0 * std::tan(glm::radians(camera.horizontalFovDegrees) / 2.0));
+    if (camera.kind == CameraKind::Orthographic)
+        scale = camera.width / camera.viewWidth;
+    else if (camera.kind == CameraKind::Panorama)
+        scale = 1.0;
     layout::FrameRecord frame{};
     frame.eye = glm::vec3(camera.position);
     frame.imageWidth = static_cast<std::uint32_t>(camera.width);
     frame.imageHeight = static_cast<std::uint32_t>(camera.height);
-    // In units of the focal length, so that directions stay near unit length at every resolution.
-    frame.pixelRight = glm::vec3(right / focalLength);
-    frame.pixelUp = glm::vec3(up / focalLength);
+    frame.pixelRight = glm::vec3(right / scale);
+    frame.pixelUp = glm::vec3(up / scale);
+    frame.lensScale = static_cast<float>(0.5 * camera.aperture * scale);
+    frame.focusDistance = static_cast<float>(camera.focusDistance);
+    frame.radianceLimit = static_cast<float>(scene.settings.radianceLimit);
     frame.imagePlane = glm::vec3(forward);
     frame.seed = scene.settings.seed;
     frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);
@@ -40,6 +49,62 @@ layout::FrameRecord packFrame(const Scene &scene) {
     frame.background = scene.background;
     frame.shadowThroughGlass = scene.shadowThroughGlass;
     return frame;
+}
+
+std::uint32_t cameraOf(const Camera &camera) {
+    switch (camera.kind) {
+    case CameraKind::Orthographic:
+        return layout::cameraOrthographic;
+    case CameraKind::Panorama:
+        return layout::cameraPanorama;
+    case CameraKind::Perspective:
+        break;
+    }
+    return camera.aperture > 0.0 ? layout::cameraLens : layout::cameraPinhole;
+}
+
+layout::LightRecord packLight(const Light &light) {
+    layout::LightRecord record{};
+    record.position = glm::vec3(light.position);
+    record.kind = static_cast<std::uint32_t>(light.kind);
+    record.intensity = glm::vec3(light.power / (4.0 * std::numbers::pi));
+    if (light.kind == LightKind::Point)
+        return record;
+    record.axis = glm::vec3(glm::normalize(light.direction));
+    if (light.kind == LightKind::Directional) {
+        record.intensity = glm::vec3(light.power);
+        return record;
+    }
+    const double outer = std::cos(glm::radians(light.angleDegrees));
+    const double inner = std::cos(glm::radians(light.angleDegrees * (1.0 - light.blend)));
+    constexpr double leastDifference = 1e-6; // of what fades at once
+    record.cosineOuter = static_cast<float>(outer);
+    record.falloffScale = static_cast<float>(1.0 / std::max(inner - outer, leastDifference));
+    return record;
+}
+
+/// GGX's alpha. Rougher than nothing is at least so rough that float32 resolves the peak of the reflection.
+float alphaOf(float roughness) {
+    constexpr float least = 0.04f;
+    const float used = std::max(roughness, least);
+    return used * used;
+}
+
+/// What a material needs of the path integrator.
+std::uint32_t scatteringOf(const Material &material) {
+    const bool isRough = material.roughness > 0.0f;
+    switch (material.kind) {
+    case MaterialKind::Dielectric:
+        return isRough ? layout::scattersAtRoughGlass : 0u;
+    case MaterialKind::Conductor:
+        return layout::scattersAtConductors | (isRough ? layout::scattersAtRoughConductors : 0u);
+    case MaterialKind::Principled:
+        return layout::scattersAtPrincipled | (isGlass(material) ? layout::scattersAtRoughGlass : 0u);
+    case MaterialKind::Diffuse:
+    case MaterialKind::Mirror:
+        break;
+    }
+    return 0;
 }
 
 layout::MaterialRecord packMaterial(const Material &material) {
@@ -51,6 +116,24 @@ layout::MaterialRecord packMaterial(const Material &material) {
     record.emission = material.emission;
     record.absorption = material.absorption;
     record.isTwoSided = material.twoSided ? 1u : 0u;
+    const bool isPrincipled = material.kind == MaterialKind::Principled;
+    record.alpha = material.roughness > 0.0f || isPrincipled ? alphaOf(material.roughness) : 0.0f;
+    if (material.kind == MaterialKind::Conductor) {
+        record.albedo = normalReflectance(material.conductorIndex, material.conductorExtinction);
+        record.conductorIndex = material.conductorIndex;
+        record.conductorExtinction = material.conductorExtinction;
+        for (int i = 0; i < 3; ++i)
+            record.averageReflectance[i] = static_cast<float>(
+                averageConductorReflectance(material.conductorIndex[i], material.conductorExtinction[i]));
+    }
+    if (isPrincipled) {
+        const float ratio = (material.refractiveIndex - 1.0f) / (material.refractiveIndex + 1.0f);
+        record.normalReflectance = std::min(2.0f * material.specular * (ratio * ratio), 1.0f);
+        record.metallic = material.metallic;
+        record.transmission = material.transmission;
+        record.clearcoat = material.clearcoat;
+        record.clearcoatAlpha = alphaOf(material.clearcoatRoughness);
+    }
     return record;
 }
 
@@ -59,8 +142,7 @@ std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials)
     std::vector<std::uint32_t> order(materials.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto rank = [&](std::uint32_t i) {
-        return materials[i].kind == MaterialKind::Dielectric ? -materials[i].priority
-                                                             : std::numeric_limits<int>::max();
+        return isGlass(materials[i]) ? -materials[i].priority : std::numeric_limits<int>::max();
     };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
@@ -154,8 +236,8 @@ void packNodes(const Bvh &bvh, PackedScene &packed) {
 std::size_t PackedScene::sizeBytes() const {
     return sizeof(frame) + spheres.size() * sizeof(spheres[0]) + lights.size() * sizeof(lights[0]) +
            materials.size() * sizeof(materials[0]) + emitters.size() * sizeof(emitters[0]) +
-           nodes.size() * sizeof(nodes[0]) + triangles.size() * sizeof(triangles[0]) +
-           normals.size() * sizeof(normals[0]);
+           texels.size() * sizeof(texels[0]) + nodes.size() * sizeof(nodes[0]) +
+           triangles.size() * sizeof(triangles[0]) + normals.size() * sizeof(normals[0]);
 }
 
 std::uint64_t PackedScene::contentHash() const {
@@ -163,6 +245,9 @@ std::uint64_t PackedScene::contentHash() const {
     seen.seed = 0;
     seen.maxDepth = 0;
     seen.occlusionDistance = 0.0f;
+    seen.radianceLimit = 0.0f;
+    seen.environmentTexels = 0; // and what follows is for some integrators only
+    seen.environmentProbability = 0.0f;
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials)
         material.emitterDensity = 0.0f; // which only some integrators need
@@ -170,6 +255,9 @@ std::uint64_t PackedScene::contentHash() const {
     hash = hashBytes(std::as_bytes(std::span(spheres)), hash);
     hash = hashBytes(std::as_bytes(std::span(lights)), hash);
     hash = hashBytes(std::as_bytes(std::span(seenMaterials)), hash);
+    hash = hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
+    if ((lighting & layout::lightsByEnvironment) != 0)
+        hash = hashBytes(std::as_bytes(std::span(texels).subspan(frame.environmentTexels)), hash);
     // Trees put the triangles into orders of their own, and each has its id: their sum is the same in any order.
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -206,6 +294,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
     assert(bvh.order.size() == triangleCount(scene));
     PackedScene packed;
     packed.frame = packFrame(scene);
+    packed.camera = cameraOf(scene.camera);
     packed.treeDepth = bvh.depth;
     packed.hasTriangles = !bvh.order.empty();
 
@@ -218,8 +307,12 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
     const auto useMaterial = [&](std::uint32_t index) {
         const MaterialKind kind = scene.materials[index].kind;
         packed.hasEmission = packed.hasEmission || scene.materials[index].emission != glm::vec3(0.0f);
-        packed.hasSpecular = packed.hasSpecular || kind != MaterialKind::Diffuse;
-        packed.hasDielectric = packed.hasDielectric || kind == MaterialKind::Dielectric;
+        const bool isOpaque = !isGlass(scene.materials[index]);
+        const bool isDiffuse =
+            kind == MaterialKind::Diffuse || (kind == MaterialKind::Principled && isOpaque);
+        packed.hasSpecular = packed.hasSpecular || !isDiffuse;
+        packed.hasDielectric = packed.hasDielectric || !isOpaque;
+        packed.scattering |= scatteringOf(scene.materials[index]);
     };
     for (const Sphere &sphere : scene.spheres) {
         useMaterial(sphere.materialIndex);
@@ -234,16 +327,20 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
     }
     for (const TriangleMesh &mesh : scene.meshes)
         useMaterial(mesh.materialIndex);
-    for (const PointLight &light : scene.lights) {
-        layout::LightRecord record{};
-        record.position = glm::vec3(light.position);
-        record.intensity = glm::vec3(light.power / (4.0 * std::numbers::pi));
-        packed.lights.push_back(record);
+    for (const Light &light : scene.lights) {
+        packed.lights.push_back(packLight(light));
+        packed.lighting |= light.kind == LightKind::Spot          ? layout::lightsBySpots
+                           : light.kind == LightKind::Directional ? layout::lightsByDirections
+                                                                  : 0u;
     }
     packTriangles(scene, bvh, packedMaterial, packed);
     packNodes(bvh, packed);
-    if (scene.settings.integrator == Integrator::Path)
-        packEmitters(scene, packed);
+    const bool isPath = scene.settings.integrator == Integrator::Path;
+    if (isPath && (packed.scattering & layout::scattersAtRough) != 0)
+        packed.texels = makeEnergyTexels();
+    const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
+    if (isPath)
+        packEmitters(scene, isLitAround, packed);
     if (packed.hasTriangles) {
         packed.frame.boundsLower = bvh.nodes.front().box.lower;
         packed.frame.boundsUpper = bvh.nodes.front().box.upper;

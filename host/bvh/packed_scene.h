@@ -11,8 +11,9 @@ struct PackedScene {
     layout::FrameRecord frame{};
     std::vector<layout::SphereRecord> spheres;
     std::vector<layout::LightRecord> lights;
-    std::vector<layout::MaterialRecord> materials; ///< dielectrics first, by falling priority
+    std::vector<layout::MaterialRecord> materials; ///< what light passes first, by falling priority
     std::vector<layout::EmitterRecord> emitters;   ///< for the path integrator only
+    std::vector<layout::TexelRecord> texels;       ///< what is looked up by index
     std::vector<layout::NodePair> nodes;           ///< never empty
     std::vector<layout::TriangleRecord> triangles; ///< leaf by leaf
     std::vector<layout::NormalRecord> normals;     ///< one for each triangle record
@@ -23,6 +24,16 @@ struct PackedScene {
     bool hasSpecular = false;
     bool hasDielectric = false;
     bool hasEmission = false;
+    std::uint32_t scattering =
+        0; ///< bits of layout::scattersAt...: what the materials need of the path integrator
+    std::uint32_t lighting = 0; ///< bits of layout::lightsBy...
+    std::uint32_t camera = layout::cameraPinhole;
+
+    /// Whether surfaces are diffuse, mirrors or clear glass, lit by point lights or by others of them, and seen through a
+    /// pinhole: kernels for these scenes know nothing else.
+    [[nodiscard]] bool isPlain() const {
+        return scattering == 0 && lighting == 0 && camera == layout::cameraPinhole;
+    }
 
     /// Of all arrays together: what a device has to hold of the scene.
     [[nodiscard]] std::size_t sizeBytes() const;

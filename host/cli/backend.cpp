@@ -40,7 +40,7 @@ class CpuBackend : public Backend {
     [[nodiscard]] std::string name() const override {
         return precision_ == reference::Precision::Float32 ? "cpu" : "cpu-double";
     }
-    [[nodiscard]] RendererIdentity identity(Integrator) const override {
+    [[nodiscard]] RendererIdentity identity(const PackedScene &, Integrator) const override {
         return {name(), "reference renderer", "native / and sqrt: IEEE 754", "", 0};
     }
     [[nodiscard]] std::string precision() const override {
@@ -104,11 +104,12 @@ class DeviceBackend : public Backend {
         : device_(device), renderer_(device, batching) {}
 
     [[nodiscard]] std::string name() const override { return device_.name; }
-    [[nodiscard]] RendererIdentity identity(Integrator integrator) const override {
+    [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
         const gpu::ArithmeticChoice &choice = renderer_.arithmetic();
         return {device_.name, device_.driver,
                 fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason),
-                std::string(renderer_.kernelName(integrator)), renderer_.kernelHash(integrator)};
+                std::string(renderer_.kernelName(scene, integrator)),
+                renderer_.kernelHash(scene, integrator)};
     }
     [[nodiscard]] std::string unpromisedBits() const override { return gpu::explainUnpromisedBits(device_); }
     [[nodiscard]] std::string precision() const override {

@@ -36,8 +36,8 @@ class Backend {
 
     [[nodiscard]] virtual std::string name() const = 0;        ///< "cpu", or as the device calls itself
     [[nodiscard]] virtual std::string description() const = 0; ///< for people
-    [[nodiscard]] virtual RendererIdentity
-    identity(Integrator integrator) const = 0; ///< as what renders with it
+    [[nodiscard]] virtual RendererIdentity identity(const PackedScene &scene,
+                                                    Integrator integrator) const = 0; ///< as what renders it
     /// Why images may differ from the CPU twin's in their bits, or empty where they may not.
     [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
     /// Backends that say the same add samples of the same bits to a film, and a film gives them all that they need to go

@@ -253,8 +253,8 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     if (reportFile) {
         settings.seed = scene.packed.frame.seed = firstSeed;
         nlohmann::ordered_json json = provenanceToJson(provenanceOf(scene, commandLine));
-        json["first"] = rendererToJson(contestants.first->identity(settings.integrator));
-        json["second"] = rendererToJson(contestants.second->identity(settings.integrator));
+        json["first"] = rendererToJson(contestants.first->identity(scene.packed, settings.integrator));
+        json["second"] = rendererToJson(contestants.second->identity(scene.packed, settings.integrator));
         json["seeds"] = {firstSeed, secondSeed};
         json["statistical"] = zTestToJson(result, options.zTest);
         json["passed"] = result.isPassed();
@@ -329,8 +329,8 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     }
     const RenderSettings &settings = scene.loaded.scene.settings;
     nlohmann::ordered_json origin = provenanceToJson(provenanceOf(scene, commandLine));
-    origin["first"] = rendererToJson(first->identity(settings.integrator));
-    origin["second"] = rendererToJson(second->identity(settings.integrator));
+    origin["first"] = rendererToJson(first->identity(scene.packed, settings.integrator));
+    origin["second"] = rendererToJson(second->identity(scene.packed, settings.integrator));
     if (heatMapFile) {
         writePng(*heatMapFile, imageA.width(), imageA.height(), heatMap(comparison.flipMap),
                  attributesOf(origin));

@@ -133,7 +133,8 @@ KernelWork countKernelWork(const ProfileOptions &options, const PreparedScene &s
     const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads, batching);
     const BackendResult result =
         renderWithProgress(*counter, scene, "counting the kernel's work", options.isQuiet);
-    return {counter->identity(scene.loaded.scene.settings.integrator).kernel, result.work, result.lanes};
+    return {counter->identity(scene.packed, scene.loaded.scene.settings.integrator).kernel, result.work,
+            result.lanes};
 }
 
 /// Renders the work of a traversal with a stack, whichever kernel is measured, and writes down what it came to.
@@ -194,7 +195,7 @@ PreparedScene prepare(const ProfileOptions &options, const std::string &commandL
     backend = openBackend(options.device, options.threads, batchingFor(options.deviceOptions));
     profile.hostStages.push_back({"open the device", watch.lap()});
     profile.origin = provenanceOf(scene, commandLine);
-    profile.device = backend->identity(profile.origin.settings.integrator);
+    profile.device = backend->identity(scene.packed, profile.origin.settings.integrator);
     profile.sceneBytes = scene.packed.sizeBytes();
     return scene;
 }

@@ -160,7 +160,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     report.buildSeconds = scene.buildSeconds;
 
     const std::unique_ptr<Backend> backend = opening.get();
-    report.device = backend->identity(settings.integrator);
+    report.device = backend->identity(scene.packed, settings.integrator);
     // Until all is written: at the last moment, most would be lost.
     const CaughtSignals signals(options.isQuiet);
     if (!options.isQuiet) {

@@ -61,6 +61,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     settings.leafSize = options.leafSize.value_or(settings.leafSize);
     settings.sampler = options.sampler.value_or(settings.sampler);
     settings.seed = options.seed.value_or(settings.seed);
+    settings.radianceLimit = options.radianceLimit.value_or(settings.radianceLimit);
     settings.exposureStops = options.exposureStops.value_or(settings.exposureStops);
     if (!options.background.empty())
         scene.background = glm::vec3(toVector(options.background));
@@ -68,6 +69,11 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Camera &camera = scene.camera;
     camera.width = options.width.value_or(camera.width);
     camera.height = options.height.value_or(camera.height);
+    if (options.fovDegrees && camera.kind != CameraKind::Perspective)
+        throw Error(ExitCode::Usage,
+                    fmt::format("--fov: found a camera of the type {}, which has no field of "
+                                "view; allowed: with a perspective one",
+                                nameIn(cameraNames, camera.kind)));
     camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
     if (loaded.autoFramed)
         camera = frameCamera(triangleBounds(scene.meshes.front()), camera.width, camera.height,
@@ -138,11 +144,12 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->group(view);
 
     const char *tracing = "Tracing";
-    addChoice(command, "--integrator", options.integrator, integratorNames,
-              "whitted: direct light, mirrors and both branches at glass; path: light on all its ways; ao: "
-              "ambient occlusion; normal, depth, albedo, id: views of what is seen first; cost: how many boxes "
-              "and triangles the rays of whitted test, as a PNG in false colours, or as a PFM of nodes, boxes "
-              "and triangles")
+    addChoice(
+        command, "--integrator", options.integrator, integratorNames,
+        "whitted: direct light, mirrors and both branches at glass; path: light on all its ways; ao: "
+        "ambient occlusion; normal, depth, albedo, id: views of what is seen first; cost: how many boxes "
+        "and triangles the rays of whitted test, as a PNG in false colours, or as a PFM of nodes, boxes "
+        "and triangles")
         ->group(tracing);
     addNumber(command, "--ao-distance", options.occlusionDistance, limits::occlusionDistance,
               "for ao: what is further away hides no sky; default: everything hides it")
@@ -151,6 +158,10 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         command, "--max-depth", options.maxDepth, limits::maxDepth,
         "segments of a path, the primary ray included; glass splits paths in two, so that each level may "
         "double the work")
+        ->group(tracing);
+    addNumber(command, "--clamp", options.radianceLimit, limits::radianceLimit,
+              "for path: most that a path may add, a channel, behind its first segment: less noise, and less "
+              "light; 0: no limit")
         ->group(tracing);
     addChoice(command, "--bvh", options.tree, treeNames,
               "how the tree is built; none: every ray tests every triangle")

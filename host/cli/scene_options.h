@@ -29,6 +29,7 @@ struct SceneOptions {
     std::optional<int> leafSize;
     std::optional<SamplerKind> sampler;
     std::optional<std::uint32_t> seed;
+    std::optional<double> radianceLimit;
     std::optional<double> exposureStops;
     std::optional<double> fovDegrees;
     std::vector<double> cameraPosition;

@@ -4,6 +4,14 @@
 #include "pathSkipTwoSlots.h"
 #include "pathStackOneSlot.h"
 #include "pathStackTwoSlots.h"
+#include "richPathSkipOneSlot.h"
+#include "richPathSkipTwoSlots.h"
+#include "richPathStackOneSlot.h"
+#include "richPathStackTwoSlots.h"
+#include "richWhittedSkipOneSlot.h"
+#include "richWhittedSkipTwoSlots.h"
+#include "richWhittedStackOneSlot.h"
+#include "richWhittedStackTwoSlots.h"
 #include "viewSkipOneSlot.h"
 #include "viewSkipTwoSlots.h"
 #include "viewStackOneSlot.h"
@@ -59,9 +67,15 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator 
     const std::size_t index =
         (batching.traversal == Traversal::SkipList ? 2u : 0u) + (batching.slotsPerInvocation == 2 ? 1u : 0u);
     const std::array<Words, 4> view{viewStackOneSlot, viewStackTwoSlots, viewSkipOneSlot, viewSkipTwoSlots};
+    const std::array<Words, 4> richWhitted{richWhittedStackOneSlot, richWhittedStackTwoSlots,
+                                           richWhittedSkipOneSlot, richWhittedSkipTwoSlots};
+    const std::array<Words, 4> richPath{richPathStackOneSlot, richPathStackTwoSlots, richPathSkipOneSlot,
+                                        richPathSkipTwoSlots};
     if (isWhitted(integrator))
-        return whitted[index];
-    return integrator == Integrator::Path ? path[index] : view[index];
+        return batching.isPlain ? whitted[index] : richWhitted[index];
+    if (integrator == Integrator::Path)
+        return batching.isPlain ? path[index] : richPath[index];
+    return view[index];
 }
 
 std::string_view kernelName(const Batching &batching) {

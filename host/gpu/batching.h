@@ -28,6 +28,7 @@ struct Batching {
     int samplesAbreast = 0;  ///< slots of one pixel: 1, 2, 4 or 8; 0: by the device and the samples wanted
     bool isStaged = false;   ///< transfer everything through staging buffers
     bool isCounting = false; ///< count the work of the traversal
+    bool isPlain = false;    ///< the kernel for plain scenes (PackedScene): the renderer knows
     Arithmetic arithmetic = Arithmetic::Automatic; ///< which / and sqrt run
     Traversal traversal = Traversal::Automatic;
     /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an

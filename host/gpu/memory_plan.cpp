@@ -120,7 +120,8 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
         planArray("the nodes", use, scene.nodes),
         planArray("the triangles", use, scene.triangles),
         planArray("the normals", use, scene.normals),
-        planArray("the emitters", use, scene.emitters)};
+        planArray("the emitters", use, scene.emitters),
+        planArray("the texels", use, scene.texels)};
     if (isSkipList) {
         const std::uint64_t listBytes = mostSkipListBytes(scene.nodes.size());
         planned.nodes = plan("the skip lists", use, scene.hasTriangles ? listBytes : 0);
@@ -186,6 +187,7 @@ MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStag
                                                   &scene.triangles,
                                                   &scene.normals,
                                                   &scene.emitters,
+                                                  &scene.texels,
                                                   &job.film,
                                                   &job.progress,
                                                   &job.stacks,

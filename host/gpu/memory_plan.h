@@ -22,6 +22,7 @@ struct ScenePlan {
     BufferPlan triangles;
     BufferPlan normals;
     BufferPlan emitters;
+    BufferPlan texels;
     std::uint64_t hostBytes = 0; ///< that making skip lists takes
 };
 

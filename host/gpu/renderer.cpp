@@ -69,10 +69,17 @@ struct Renderer::State {
         return batching.isStaged ? Transfers::Staged : Transfers::Automatic;
     }
 
-    /// How an integrator renders.
-    [[nodiscard]] Batching batchingFor(Integrator integrator) const {
-        if (integrator != Integrator::Cost)
-            return batching;
+    /// How an integrator renders a scene.
+    [[nodiscard]] Batching batchingFor(const PackedScene &scene, Integrator integrator) const {
+        if (integrator != Integrator::Cost) {
+            Batching used = batching;
+            used.isPlain = scene.isPlain();
+            // What rough surfaces and environments do is much code, and twice as much leaves no registers: 3 times slower.
+            const bool isLarge = scene.scattering != 0 || (scene.lighting & layout::lightsByEnvironment) != 0;
+            if (integrator == Integrator::Path && isLarge && wanted.slotsPerInvocation == 0)
+                used.slotsPerInvocation = 1;
+            return used;
+        }
         if (wanted.traversal == Traversal::SkipList)
             throw Error(ExitCode::Usage,
                         fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
@@ -80,6 +87,7 @@ struct Renderer::State {
                                     gpu::kernelName(batching)));
         Batching counting = batching;
         counting.isCounting = true;
+        counting.isPlain = scene.isPlain();
         counting.traversal = Traversal::Stack;
         return completed(counting, info);
     }
@@ -112,12 +120,12 @@ Renderer &Renderer::operator=(Renderer &&) noexcept = default;
 
 const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
 
-std::string_view Renderer::kernelName(Integrator integrator) const {
-    return gpu::kernelName(state_->batchingFor(integrator));
+std::string_view Renderer::kernelName(const PackedScene &scene, Integrator integrator) const {
+    return gpu::kernelName(state_->batchingFor(scene, integrator));
 }
 
-std::uint64_t Renderer::kernelHash(Integrator integrator) const {
-    return hashBytes(std::as_bytes(kernelWords(state_->batchingFor(integrator), integrator)));
+std::uint64_t Renderer::kernelHash(const PackedScene &scene, Integrator integrator) const {
+    return hashBytes(std::as_bytes(kernelWords(state_->batchingFor(scene, integrator), integrator)));
 }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
@@ -165,7 +173,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     };
     if (timeline != nullptr)
         timeline->clock = state_->device->timestamps().describe();
-    const Batching batching = state_->batchingFor(settings.integrator);
+    const Batching batching = state_->batchingFor(scene, settings.integrator);
     const bool isSkipList = batching.traversal == Traversal::SkipList;
     const auto jobOf = [&](const Crop &band) {
         return Job{scene,
@@ -247,7 +255,7 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
         true};
     if (!state_->device)
         state_->reopen();
-    const Batching batching = state_->batchingFor(settings.integrator);
+    const Batching batching = state_->batchingFor(scene, settings.integrator);
     const bool isSkipList = batching.traversal == Traversal::SkipList;
     const ScenePlan scenePlan = planScene(scene, isSkipList);
     const JobPlan jobPlan = planJob(job, batching, state_->info);

@@ -46,8 +46,8 @@ class Renderer {
     [[nodiscard]] const ArithmeticChoice &arithmetic() const;
 
     /// The word for the kernel of an integrator, and a hash of its SPIR-V.
-    [[nodiscard]] std::string_view kernelName(Integrator integrator) const;
-    [[nodiscard]] std::uint64_t kernelHash(Integrator integrator) const;
+    [[nodiscard]] std::string_view kernelName(const PackedScene &scene, Integrator integrator) const;
+    [[nodiscard]] std::uint64_t kernelHash(const PackedScene &scene, Integrator integrator) const;
 
     /// Renders `crop` of the scene's image. `onProgress` gets the finished share of the work, in [0, 1], after each
     /// dispatch, and `timeline`, where there is one, what was done when. `shouldStop` is asked after each dispatch:

@@ -55,6 +55,7 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
       materials(uploaded(device, plan.materials, bytesOf(scene.materials))), nodes(std::move(tree.nodes)),
       triangles(uploaded(device, plan.triangles, bytesOf(scene.triangles))),
       normals(uploaded(device, plan.normals, bytesOf(scene.normals))),
-      emitters(uploaded(device, plan.emitters, bytesOf(scene.emitters))) {}
+      emitters(uploaded(device, plan.emitters, bytesOf(scene.emitters))),
+      texels(uploaded(device, plan.texels, bytesOf(scene.texels))) {}
 
 } // namespace hyalite::gpu

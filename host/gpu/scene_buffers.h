@@ -21,6 +21,7 @@ struct SceneBuffers {
     Buffer triangles;
     Buffer normals;
     Buffer emitters;
+    Buffer texels;
 
   private:
     template <class Tree>

@@ -107,6 +107,9 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantHasDielectric] = scene.hasDielectric;
     constants[layout::constantHasEmission] = scene.hasEmission;
     constants[layout::constantEmitterCount] = static_cast<std::uint32_t>(scene.emitters.size());
+    constants[layout::constantScattering] = scene.scattering;
+    constants[layout::constantLighting] = scene.lighting;
+    constants[layout::constantCamera] = scene.camera;
     constants[layout::constantView] = viewOf(job_.integrator);
     constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
     constants[layout::constantStackSize] = plan_.stackSize;
@@ -124,7 +127,8 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
                                                                  &progress_,        &paths,
                                                                  &pending,          &stacks_,
                                                                  &trace_,           &buffers_.sphereArray,
-                                                                 &buffers_.emitters};
+                                                                 &buffers_.emitters,
+                                                                 &buffers_.texels};
     const std::string name =
         fmt::format("{} {}{}", nameOf(job_.integrator), kernelName(batching_),
                     isResumable && batching_.traversal == Traversal::SkipList ? ", resumable" : "");

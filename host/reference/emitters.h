@@ -1,7 +1,10 @@
-// Light that a surface is aimed at: point lights, spheres and triangles that emit. Twin: shaders/emitters.glsl.
+// Light that a surface is aimed at: lights without size, spheres and triangles that emit, an image around. Twin: shaders/emitters.glsl.
 #pragma once
 
 #include "host/bvh/packed_scene.h"
+#include "host/reference/environment.h"
+#include "host/reference/lights.h"
+#include "host/reference/random.h"
 #include "host/reference/sampling.h"
 #include "host/reference/sphere.h"
 #include "host/reference/surface.h"
@@ -16,7 +19,7 @@ template <class Real> struct LightSample {
     Vec3<Real> radiance{
         Real(0)};     ///< divided by the density; of a point light the intensity / squared distance /
                       ///< probability
-    Real density = 0; ///< per solid angle, the choice of the emitter included; 0: a point light
+    Real density = 0; ///< per solid angle, the choice of the emitter included; 0: a light without size
     std::uint32_t target = layout::noPrimitive; ///< the primitive at its end
 };
 
@@ -52,6 +55,31 @@ template <class Real>
     const Real share = distance * distance * static_cast<Real>(emitter.probability);
     return {toLight * (Real(1) / distance), distance, Vec3<Real>(emitter.emission) * (Real(1) / share),
             Real(0), layout::noPrimitive};
+}
+
+template <class Real>
+[[nodiscard]] LightSample<Real> sampleSpot(const layout::EmitterRecord &emitter, const Vec3<Real> &position) {
+    LightSample<Real> light = samplePoint(emitter, position);
+    light.radiance *= spotFalloff(light.direction, Vec3<Real>(emitter.axis),
+                                  static_cast<Real>(emitter.cosineOuter), static_cast<Real>(emitter.density));
+    return light;
+}
+
+template <class Real>
+[[nodiscard]] LightSample<Real> sampleDirectional(const layout::EmitterRecord &emitter) {
+    return {-Vec3<Real>(emitter.axis), unboundedDistance<Real>,
+            Vec3<Real>(emitter.emission) * (Real(1) / static_cast<Real>(emitter.probability)), Real(0),
+            layout::noPrimitive};
+}
+
+template <class Real>
+[[nodiscard]] LightSample<Real>
+sampleSurroundings(const PackedScene &scene, const layout::EmitterRecord &emitter, const glm::uvec2 &bits) {
+    const EnvironmentLight<Real> found = EnvironmentMap<Real>(scene).sample(bits);
+    const Real density = found.density * static_cast<Real>(emitter.probability);
+    return {found.direction, unboundedDistance<Real>,
+            density > 0 ? found.radiance * (Real(1) / density) : Vec3<Real>(Real(0)), density,
+            layout::noPrimitive};
 }
 
 template <class Real>
@@ -121,15 +149,22 @@ template <class Real>
     return static_cast<std::uint32_t>(chosen - emitters.begin());
 }
 
-/// A point of an emitter as seen from `position`.
+/// A point of an emitter as seen from `position`, chosen by two numbers of 32 bits.
 template <class Real>
 [[nodiscard]] LightSample<Real> sampleEmitter(const PackedScene &scene, std::uint32_t index,
-                                              const Vec3<Real> &position, const Vec2<Real> &u) {
+                                              const Vec3<Real> &position, const glm::uvec2 &bits) {
     if (scene.emitters.empty())
         return {};
     const layout::EmitterRecord &emitter = scene.emitters[index];
     if (emitter.kind == layout::emitterPoint)
         return samplePoint(emitter, position);
+    if (emitter.kind == layout::emitterSpot)
+        return sampleSpot(emitter, position);
+    if (emitter.kind == layout::emitterDirectional)
+        return sampleDirectional<Real>(emitter);
+    if (emitter.kind == layout::emitterEnvironment)
+        return sampleSurroundings<Real>(scene, emitter, bits);
+    const Vec2<Real> u = unitReals<Real>(bits);
     if (emitter.kind == layout::emitterTriangle)
         return sampleTriangleLight(scene, emitter, position, u);
     return sampleSphereLight(scene, emitter, position, u);

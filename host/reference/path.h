@@ -1,4 +1,4 @@
-// The path integrator: one path a sample, with next-event estimation at diffuse surfaces, combined with what scattered
+// The path integrator: one path a sample, with next-event estimation at diffuse and rough surfaces, combined with what scattered
 // rays find by multiple importance sampling, and Russian roulette. Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach,
 // "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 9 and 10.
 // Twin: shaders/path.glsl. Here a path is followed vertex by vertex; the order of all sums is the same.
@@ -14,6 +14,7 @@
 #include "host/reference/hit_surface.h"
 #include "host/reference/media.h"
 #include "host/reference/random.h"
+#include "host/reference/rough.h"
 #include "host/report/ray_counts.h"
 
 #include <bit>
@@ -32,8 +33,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     /// picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
-        const Vec2<Real> offset =
-            samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed) + shift;
+        const PrimaryRay<Real> primary = primaryRay(scene_, samplerKind_, pixel, sampleIndex, shift);
         ++counts_.primary;
         pixel_ = pixel;
         sampleIndex_ = sampleIndex;
@@ -42,8 +42,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         scatterDensity_ = 0;
         mediaInside_ = 0;
         depth_ = 1;
-        std::optional<Ray<Real>> ray =
-            Ray<Real>{Vec3<Real>(scene_.frame.eye), primaryDirection(scene_.frame, pixel, offset)};
+        std::optional<Ray<Real>> ray = Ray<Real>{primary.origin, primary.direction};
         while (ray) {
             ray = followRay(*ray);
             ++depth_;
@@ -64,6 +63,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     static constexpr std::uint32_t pairLight = 1;
     static constexpr std::uint32_t pairScatter = 2;
     static constexpr std::uint32_t pairsPerVertex = 3;
+    static constexpr std::uint32_t firstPairOfLobes =
+        1 + pairsPerVertex * layout::maxPathDepth; // and one more at rough surfaces, which chooses lobes
     static constexpr std::uint32_t firstRouletteDepth = 4; // segments that no path is denied
 
     void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
@@ -76,8 +77,16 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_);
     }
 
+    [[nodiscard]] Vec2<Real> lobeChoice() const {
+        const std::uint32_t number = firstPairOfLobes + depth_ - 1;
+        return unitReals<Real>(sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_));
+    }
+
     void addRadiance(const Vec3<Real> &weight, const Vec3<Real> &radiance) {
-        radiance_ = radiance_ + weight * radiance;
+        Vec3<Real> added = weight * radiance;
+        if (scene_.frame.radianceLimit > 0.0f && depth_ > 1)
+            added = lesser(added, Vec3<Real>(static_cast<Real>(scene_.frame.radianceLimit)));
+        radiance_ = radiance_ + added;
         traceEvent(layout::traceRadiance, 0, radiance_);
     }
 
@@ -104,6 +113,18 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             weight = powerHeuristic(scatterDensity_, density);
         }
         addRadiance(throughput_ * weight, Vec3<Real>(material.emission));
+    }
+
+    /// What comes from beyond the scene, weighted against aiming at it.
+    void addSurroundings(const Ray<Real> &ray) {
+        if ((scene_.lighting & layout::lightsByEnvironment) == 0) {
+            addRadiance(throughput_, Vec3<Real>(scene_.frame.background));
+            return;
+        }
+        const EnvironmentLight<Real> found = EnvironmentMap<Real>(scene_).from(ray.direction);
+        const Real density = found.density * static_cast<Real>(scene_.frame.environmentProbability);
+        const Real weight = scatterDensity_ > 0 ? powerHeuristic(scatterDensity_, density) : Real(1);
+        addRadiance(throughput_ * weight, found.radiance);
     }
 
     /// What glass around the path leaves of light after this distance.
@@ -140,21 +161,34 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return {spawnPoint(surface, direction), direction, primitive};
     }
 
-    /// At glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction, chosen
-    /// with the probability of its share.
+    /// The glass on both sides of a surface of glass.
+    struct Crossing {
+        std::uint32_t before; ///< counts as in media.h
+        std::uint32_t beyond;
+        Real eta;       ///< refractive index before divided by the one beyond
+        bool isNothing; ///< glass of higher priority is on both sides
+    };
+
+    [[nodiscard]] Crossing crossingOf(std::uint32_t materialIndex, bool isEntering) const {
+        // A path that leaves glass which it has not entered began in it.
+        const std::uint32_t before = isEntering || mediumCount(mediaInside_, materialIndex) > 0
+                                         ? mediaInside_
+                                         : enterMedium(mediaInside_, materialIndex);
+        const std::uint32_t beyond =
+            isEntering ? enterMedium(mediaInside_, materialIndex) : leaveMedium(mediaInside_, materialIndex);
+        const std::uint32_t medium = mediumAround(before);
+        const std::uint32_t mediumBeyond = mediumAround(beyond);
+        return {before, beyond, mediumIndex(medium) / mediumIndex(mediumBeyond), medium == mediumBeyond};
+    }
+
+    /// At smooth glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction,
+    /// chosen with the probability of its share.
     [[nodiscard]] Ray<Real> meetGlass(const Ray<Real> &ray, const Surface<Real> &surface,
                                       std::uint32_t materialIndex, std::uint32_t primitive) {
         const bool isEntering = dotProduct(ray.direction, surface.geometricNormal) < 0;
-        // A path that leaves glass which it has not entered began in it.
-        const std::uint32_t insideBefore = isEntering || mediumCount(mediaInside_, materialIndex) > 0
-                                               ? mediaInside_
-                                               : enterMedium(mediaInside_, materialIndex);
-        const std::uint32_t insideBeyond =
-            isEntering ? enterMedium(mediaInside_, materialIndex) : leaveMedium(mediaInside_, materialIndex);
-        const std::uint32_t before = mediumAround(insideBefore);
-        const std::uint32_t beyond = mediumAround(insideBeyond);
-        if (before == beyond) {
-            mediaInside_ = insideBeyond;
+        const Crossing crossing = crossingOf(materialIndex, isEntering);
+        if (crossing.isNothing) {
+            mediaInside_ = crossing.beyond;
             scatterDensity_ = 0; // no light is aimed at through glass
             return {spawnPoint(surface, ray.direction), ray.direction, primitive};
         }
@@ -162,18 +196,50 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const Vec3<Real> shadingFacing = isEntering ? surface.normal : -surface.normal;
         const Vec3<Real> facing =
             dotProduct(ray.direction, shadingFacing) < 0 ? shadingFacing : geometricFacing;
-        const Real eta = mediumIndex(before) / mediumIndex(beyond);
+        const Real eta = crossing.eta;
         const Interface<Real> glass = meetInterface(ray.direction, facing, eta);
         traceEvent(layout::traceReflectance, glass.reflectance == 1 ? 1 : 0, Vec3<Real>(glass.reflectance));
         if (unitReal<Real>(vertexBits(pairChoice).x) < glass.reflectance) {
-            mediaInside_ = insideBefore;
+            mediaInside_ = crossing.before;
             return reflect(ray, surface, facing, primitive);
         }
-        mediaInside_ = insideBeyond;
+        mediaInside_ = crossing.beyond;
         throughput_ *= eta * eta;
         scatterDensity_ = 0;
         ++counts_.refraction;
         return {spawnPoint(surface, glass.refracted), glass.refracted, primitive};
+    }
+
+    [[nodiscard]] static bool isGlass(const layout::MaterialRecord &material) {
+        return material.kind == layout::materialDielectric ||
+               (material.kind == layout::materialPrincipled && material.transmission > 0.0f);
+    }
+
+    /// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
+    [[nodiscard]] bool isSmooth(const layout::MaterialRecord &material, std::uint32_t materialIndex,
+                                bool isEntering) const {
+        if (material.kind == layout::materialDiffuse)
+            return false;
+        if (isGlass(material) && material.alpha > 0.0f) {
+            const Crossing crossing = crossingOf(materialIndex, isEntering);
+            return crossing.isNothing || crossing.eta == Real(1);
+        }
+        return material.kind == layout::materialMirror || material.alpha == 0.0f;
+    }
+
+    /// The reflectance of what is smooth and no glass.
+    [[nodiscard]] static Vec3<Real> mirrorReflectance(const Ray<Real> &ray, const Surface<Real> &surface,
+                                                      const layout::MaterialRecord &material) {
+        if (material.kind != layout::materialConductor)
+            return Vec3<Real>(Real(1));
+        const Real cosine = std::abs(dotProduct(ray.direction, surface.normal));
+        return conductorReflectance(lesser(cosine, Real(1)), Vec3<Real>(material.conductorIndex),
+                                    Vec3<Real>(material.conductorExtinction));
+    }
+
+    /// Whether what is not smooth is black from behind.
+    [[nodiscard]] static bool isBlackBehind(const layout::MaterialRecord &material) {
+        return material.isTwoSided == 0 && material.kind != layout::materialConductor && !isGlass(material);
     }
 
     /// What the path does next, or nothing.
@@ -184,7 +250,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         throughput_ *= transmittance(hit.distance);
         if (hit.primitive == layout::noPrimitive) {
-            addRadiance(throughput_, Vec3<Real>(scene_.frame.background));
+            addSurroundings(ray);
             return std::nullopt;
         }
         std::uint32_t materialIndex;
@@ -196,31 +262,96 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         addEmission(ray, hit, surface, material);
         if (depth_ >= scene_.frame.maxDepth)
             return std::nullopt;
-        if (material.kind == layout::materialDiffuse) {
-            if (dotProduct(ray.direction, surface.geometricNormal) > 0) {
-                if (material.isTwoSided == 0)
+        const bool isBehind = dotProduct(ray.direction, surface.geometricNormal) > 0;
+        if (!isSmooth(material, materialIndex, !isBehind)) {
+            if (isBehind) {
+                if (isBlackBehind(material))
                     return std::nullopt;
                 surface.normal = -surface.normal;
                 surface.geometricNormal = -surface.geometricNormal;
             }
+            if (scene_.scattering != 0)
+                return scatterFromRough(ray, surface, materialIndex, isBehind, hit.primitive);
             throughput_ *= Vec3<Real>(material.albedo);
-            return lightAndScatter(surface, hit.primitive);
+            return scatterFromDiffuse(surface, hit.primitive);
         }
         if (!survivesRoulette())
             return std::nullopt;
-        if (material.kind == layout::materialDielectric)
+        if (isGlass(material))
             return meetGlass(ray, surface, materialIndex, hit.primitive);
+        throughput_ *= mirrorReflectance(ray, surface, material);
         return reflect(ray, surface, surface.normal, hit.primitive);
     }
 
     /// On a diffuse surface: draws the direction in which the path goes on, and aims at a light.
-    [[nodiscard]] std::optional<Ray<Real>> lightAndScatter(const Surface<Real> &surface,
-                                                           std::uint32_t primitive) {
+    [[nodiscard]] std::optional<Ray<Real>> scatterFromDiffuse(const Surface<Real> &surface,
+                                                              std::uint32_t primitive) {
         const Vec3<Real> direction = sampleCosine(surface.normal, unitReals<Real>(vertexBits(pairScatter)));
-        scatterDensity_ = pdfCosine(dotProduct(surface.normal, direction));
-        addLight(surface, primitive);
-        if (!(scatterDensity_ > 0 && dotProduct(surface.geometricNormal, direction) > 0) ||
-            !survivesRoulette())
+        const bool isAbove = dotProduct(surface.geometricNormal, direction) > 0;
+        scatterDensity_ = isAbove ? pdfCosine(dotProduct(surface.normal, direction)) : Real(0);
+
+        const std::uint32_t emitter = chooseEmitter(scene_.emitters, vertexBits(pairChoice).x);
+        const LightSample<Real> light =
+            sampleEmitter<Real>(scene_, emitter, surface.position, vertexBits(pairLight));
+        const Real cosine = dotProduct(surface.normal, light.direction);
+        const bool isLit = largestComponent(light.radiance) > 0 && cosine > 0 &&
+                           dotProduct(surface.geometricNormal, light.direction) > 0;
+        const Real reflected = pdfCosine(cosine); // also the density of a scattered ray
+        const Real share =
+            light.density > 0 ? reflected * powerHeuristic(light.density, reflected) : reflected;
+        if (isLit)
+            aimAt(surface, emitter, light,
+                  throughput_ * (light.radiance * share) * transmittance(light.distance), primitive);
+        else
+            aimAtNothing(emitter);
+        return scatter(surface, direction, primitive);
+    }
+
+    /// On a surface with lobes: draws the direction in which the path will go on, and aims at a light.
+    [[nodiscard]] std::optional<Ray<Real>> scatterFromRough(const Ray<Real> &ray,
+                                                            const Surface<Real> &surface,
+                                                            std::uint32_t materialIndex, bool isBehind,
+                                                            std::uint32_t primitive) {
+        const layout::MaterialRecord &material = scene_.materials[materialIndex];
+        const Crossing crossing = isGlass(material) ? crossingOf(materialIndex, !isBehind)
+                                                    : Crossing{mediaInside_, mediaInside_, Real(1), true};
+        const Vec2<Real> choice = lobeChoice();
+        const Rough<Real> rough = roughOf(scene_.texels, material, ray.direction, surface.normal,
+                                          surface.geometricNormal, isBehind, crossing.eta, choice.x);
+
+        const std::uint32_t emitter = chooseEmitter(scene_.emitters, vertexBits(pairChoice).x);
+        const LightSample<Real> light =
+            sampleEmitter<Real>(scene_, emitter, surface.position, vertexBits(pairLight));
+        const Vec3<Real> toLight = toLocal(rough.frame, light.direction);
+        const bool isLightBeyond = dotProduct(surface.geometricNormal, light.direction) <= 0;
+        const Scattered<Real> lit = evaluateRough(rough, toLight);
+        const bool isLit =
+            largestComponent(light.radiance) > 0 && lit.density > 0 && isLightBeyond == (toLight.z <= 0);
+        if (isLit) {
+            const Real share = light.density > 0 ? powerHeuristic(light.density, lit.density) : Real(1);
+            mediaInside_ = isLightBeyond ? crossing.beyond : crossing.before;
+            const Vec3<Real> weight = throughput_ * (light.radiance * (lit.value * share));
+            aimAt(surface, emitter, light, weight * transmittance(light.distance), primitive);
+        } else {
+            aimAtNothing(emitter);
+        }
+
+        const Vec3<Real> drawn = drawRough(rough, unitReals<Real>(vertexBits(pairScatter)), choice.y);
+        const Vec3<Real> direction = unitVector(toWorld(rough.frame, drawn));
+        const Scattered<Real> scattered = evaluateRough(rough, drawn);
+        const bool isBeyond = dotProduct(surface.geometricNormal, direction) <= 0;
+        const bool isPossible = scattered.density > 0 && isBeyond == (drawn.z <= 0);
+        mediaInside_ = isBeyond ? crossing.beyond : crossing.before;
+        scatterDensity_ = isPossible ? scattered.density : Real(0);
+        if (isPossible)
+            throughput_ *= scattered.value * (Real(1) / scattered.density);
+        return scatter(surface, direction, primitive);
+    }
+
+    /// The path goes on from a surface.
+    [[nodiscard]] std::optional<Ray<Real>> scatter(const Surface<Real> &surface, const Vec3<Real> &direction,
+                                                   std::uint32_t primitive) {
+        if (!(scatterDensity_ > 0) || !survivesRoulette())
             return std::nullopt;
         traceEvent(layout::traceScatter, std::bit_cast<std::uint32_t>(static_cast<float>(scatterDensity_)),
                    direction);
@@ -228,27 +359,18 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return Ray<Real>{spawnPoint(surface, direction), direction, primitive};
     }
 
-    void addLight(const Surface<Real> &surface, std::uint32_t primitive) {
-        const std::uint32_t emitter = chooseEmitter(scene_.emitters, vertexBits(pairChoice).x);
-        const LightSample<Real> light =
-            sampleEmitter(scene_, emitter, surface.position, unitReals<Real>(vertexBits(pairLight)));
-        const Vec3<Real> emitterIndex(static_cast<Real>(emitter));
-        const Real cosine = dotProduct(surface.normal, light.direction);
-        const bool isLit = largestComponent(light.radiance) > 0 && cosine > 0 &&
-                           dotProduct(surface.geometricNormal, light.direction) > 0;
-        if (!isLit) {
-            traceEvent(layout::traceVisibility, layout::visibilityUnlit, emitterIndex);
-            return;
-        }
-        const Real reflected = pdfCosine(cosine); // also the density of a scattered ray
-        const Real share =
-            light.density > 0 ? reflected * powerHeuristic(light.density, reflected) : reflected;
-        const Vec3<Real> weight = throughput_ * (light.radiance * share) * transmittance(light.distance);
+    void aimAtNothing(std::uint32_t emitter) {
+        traceEvent(layout::traceVisibility, layout::visibilityUnlit, Vec3<Real>(static_cast<Real>(emitter)));
+    }
+
+    /// Sends a shadow ray to what was chosen.
+    void aimAt(const Surface<Real> &surface, std::uint32_t emitter, const LightSample<Real> &light,
+               const Vec3<Real> &weight, std::uint32_t primitive) {
         ++counts_.shadow;
         const Ray<Real> ray{spawnPoint(surface, light.direction), light.direction, primitive};
         const bool isBlocked = isAnythingBefore(scene_, ray, light.distance, light.target, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
-                   emitterIndex);
+                   Vec3<Real>(static_cast<Real>(emitter)));
         if (!isBlocked)
             addRadiance(weight, Vec3<Real>(Real(1)));
     }

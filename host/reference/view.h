@@ -38,11 +38,10 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
     /// changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
-        const Vec2<Real> offset =
-            samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed) + shift;
+        const PrimaryRay<Real> primary = primaryRay(scene_, samplerKind_, pixel, sampleIndex, shift);
         ++counts_.primary;
         sampleIndex_ = sampleIndex;
-        const Ray<Real> ray{Vec3<Real>(scene_.frame.eye), primaryDirection(scene_.frame, pixel, offset)};
+        const Ray<Real> ray{primary.origin, primary.direction};
         traceEvent(layout::traceRayOrigin, 0, ray.origin);
         traceEvent(layout::traceRayDirection, 0, ray.direction);
         const Hit<Real> hit = closestHit(scene_, ray, counter_);
@@ -62,8 +61,9 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         case layout::viewId:
             return show(idColour<Real>(hit.primitive));
         case layout::viewAlbedo:
-            return show(material.kind == layout::materialDiffuse ? Vec3<Real>(material.albedo)
-                                                                 : Vec3<Real>(Real(1)));
+            return show(material.kind == layout::materialMirror || material.kind == layout::materialDielectric
+                            ? Vec3<Real>(Real(1))
+                            : Vec3<Real>(material.albedo));
         default:
             return seeSky(ray, surface, hit.primitive, pixel);
         }

@@ -6,7 +6,9 @@
 #include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/dielectric.h"
+#include "host/reference/environment.h"
 #include "host/reference/hit_surface.h"
+#include "host/reference/lights.h"
 #include "host/reference/random.h"
 #include "host/reference/surface.h"
 #include "host/report/ray_counts.h"
@@ -25,15 +27,11 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     /// picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
-        const Vec2<Real> offset =
-            samplePixel<Real>(samplerKind_, pixel, sampleIndex, scene_.frame.seed) + shift;
+        const PrimaryRay<Real> primary = primaryRay(scene_, samplerKind_, pixel, sampleIndex, shift);
         ++counts_.primary;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
-        pending_.push_back({{Vec3<Real>(scene_.frame.eye), primaryDirection(scene_.frame, pixel, offset)},
-                            Vec3<Real>(Real(1)),
-                            1,
-                            layout::noMaterial});
+        pending_.push_back({{primary.origin, primary.direction}, Vec3<Real>(Real(1)), 1, layout::noMaterial});
         while (!pending_.empty()) {
             const Segment segment = pending_.back();
             pending_.pop_back();
@@ -73,7 +71,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         if (hit.primitive == layout::noPrimitive) {
             if (segment.medium != layout::noMaterial)
                 segment.throughput *= Vec3<Real>(scene_.materials[segment.medium].segmentTint);
-            radiance_ = radiance_ + segment.throughput * Vec3<Real>(scene_.frame.background);
+            radiance_ = radiance_ + segment.throughput * radianceAround(segment.ray.direction);
             traceEvent(layout::traceRadiance, 0, radiance_);
             return;
         }
@@ -94,13 +92,25 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             radiance_ = radiance_ + segment.throughput * Vec3<Real>(material.emission);
             traceEvent(layout::traceRadiance, 0, radiance_);
         }
-        if (material.kind == layout::materialDiffuse)
+        // Rough metals are mirrors here, and principled materials diffuse.
+        if (material.kind == layout::materialDiffuse || material.kind == layout::materialPrincipled)
             shadeDiffuse(segment, surface, material, hit.primitive);
         else if (segment.depth < scene_.frame.maxDepth && isGlass)
             splitAtGlass(segment, surface, material.refractiveIndex, materialIndex, isEntering,
                          hit.primitive);
         else if (segment.depth < scene_.frame.maxDepth)
-            reflect(segment, surface, segment.throughput, segment.medium, hit.primitive);
+            reflect(segment, surface,
+                    material.kind == layout::materialConductor
+                        ? segment.throughput * Vec3<Real>(material.albedo)
+                        : segment.throughput,
+                    segment.medium, hit.primitive);
+    }
+
+    /// What rays find that leave the scene.
+    [[nodiscard]] Vec3<Real> radianceAround(const Vec3<Real> &direction) const {
+        if ((scene_.lighting & layout::lightsByEnvironment) != 0)
+            return EnvironmentMap<Real>(scene_).radianceFrom(direction);
+        return Vec3<Real>(scene_.frame.background);
     }
 
     void shadeDiffuse(const Segment &segment, Surface<Real> surface, const layout::MaterialRecord &material,
@@ -112,8 +122,10 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         const Vec3<Real> weight = segment.throughput * (Vec3<Real>(material.albedo) * inversePi);
         for (const layout::LightRecord &light : scene_.lights) {
             const Vec3<Real> toLight = Vec3<Real>(light.position) - surface.position;
-            const Real distance = vectorLength(toLight);
-            const Vec3<Real> direction = toLight * (Real(1) / distance);
+            const bool isDirectional = light.kind == layout::lightDirectional;
+            const Real distance = isDirectional ? unboundedDistance<Real> : vectorLength(toLight);
+            const Vec3<Real> direction =
+                isDirectional ? -Vec3<Real>(light.axis) : toLight * (Real(1) / distance);
             const bool isLit = dotProduct(surface.normal, direction) > 0 &&
                                dotProduct(surface.geometricNormal, direction) > 0;
             const Vec3<Real> lightIndex(static_cast<Real>(&light - scene_.lights.data()));
@@ -133,7 +145,12 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                 continue;
             const Real squaredDistance = distance * distance;
             const Real cosine = dotProduct(surface.normal, direction);
-            const Vec3<Real> irradiance = Vec3<Real>(light.intensity) * (cosine / squaredDistance);
+            Vec3<Real> irradiance =
+                Vec3<Real>(light.intensity) * (isDirectional ? cosine : cosine / squaredDistance);
+            if (light.kind == layout::lightSpot)
+                irradiance *=
+                    spotFalloff(direction, Vec3<Real>(light.axis), static_cast<Real>(light.cosineOuter),
+                                static_cast<Real>(light.falloffScale));
             Vec3<Real> reflected = weight * irradiance;
             if (shadow.isDimmed)
                 reflected *= static_cast<Real>(scene_.frame.shadowThroughGlass);

@@ -58,6 +58,7 @@ nlohmann::ordered_json settingsToJson(const RenderSettings &settings) {
             {"leafSize", settings.leafSize},
             {"sampler", nameOf(settings.sampler)},
             {"seed", settings.seed},
+            {"clamp", settings.radianceLimit},
             {"exposure", settings.exposureStops}};
 }
 

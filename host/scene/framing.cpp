@@ -38,7 +38,7 @@ glm::dvec3 towards(double azimuthDegrees, double elevationDegrees) {
 
 /// A light that gives a neutral surface facing it at the box's centre the radiance wanted:
 /// radiance = power / (4 pi d^2) * albedo / pi.
-PointLight lightFrom(const glm::dvec3 &direction, double radiance, const Bounds &bounds) {
+Light lightFrom(const glm::dvec3 &direction, double radiance, const Bounds &bounds) {
     const double distance = lightDistance * halfDiagonal(bounds);
     const double power =
         radiance * 4.0 * std::numbers::pi * std::numbers::pi * distance * distance / double{neutralAlbedo};

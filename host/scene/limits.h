@@ -41,13 +41,20 @@ inline constexpr Interval coordinate{-1e15, 1e15};
 inline constexpr Interval directionLength{1e-100, 1e16}; ///< its square is neither 0 nor infinite
 inline constexpr double leastSineToUp = 1e-6;            ///< of the angle from the view direction to up
 inline constexpr Interval horizontalFovDegrees{0.0, 180.0, false, false};
+inline constexpr Interval aperture{0.0, 1e15};
+inline constexpr Interval focusDistance{0.0, 1e15, false};
+inline constexpr Interval viewWidth{0.0, 1e15, false};
 inline constexpr Interval imageSize{1, 32768}; ///< pixels, width and height alike
 
+inline constexpr Interval spotAngle{0.0, 180.0, false};
+inline constexpr Interval environmentScale{0.0, 1e15};
+inline constexpr Interval radianceLimit{0.0, 1e30};
 inline constexpr Interval power{0.0, 1e30};    ///< per channel
 inline constexpr Interval radiance{0.0, 1e30}; ///< of the background and of surfaces, per channel
 inline constexpr Interval fraction{0.0, 1.0};  ///< albedo, tint, light through glass
 inline constexpr Interval refractiveIndex{1.0, 10.0};
-inline constexpr Interval absorption{0.0, 1e30}; ///< per unit of length and channel
+inline constexpr Interval conductorIndex{0.0, 20.0}; ///< real and imaginary part, per channel
+inline constexpr Interval absorption{0.0, 1e30};     ///< per unit of length and channel
 inline constexpr Interval priority{-1000, 1000};
 inline constexpr Interval radius{0.0, 1e15, false};
 
@@ -69,6 +76,7 @@ inline constexpr Interval inspectedRays{1, 1e6}; ///< each meets all triangles
 inline constexpr std::size_t lightCount = layout::maxLightCount;
 inline constexpr std::size_t sphereCount = layout::maxSphereCount; ///< each ray tests all of them
 inline constexpr std::size_t mediumCount = layout::mostMedia;      ///< dielectrics, for the path integrator
+inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 22; ///< pixels: 64 MiB on the device
 inline constexpr std::size_t materialCount = 65536;
 inline constexpr std::size_t meshCount = 4096;
 inline constexpr std::size_t triangleCount = std::size_t{1} << 30; ///< of all meshes together

@@ -11,9 +11,11 @@ namespace hyalite {
 
 template <class Value> using Name = std::pair<std::string_view, Value>;
 
-inline constexpr std::array<Name<MaterialKind>, 3> materialNames{{{"diffuse", MaterialKind::Diffuse},
+inline constexpr std::array<Name<MaterialKind>, 5> materialNames{{{"diffuse", MaterialKind::Diffuse},
                                                                   {"mirror", MaterialKind::Mirror},
-                                                                  {"dielectric", MaterialKind::Dielectric}}};
+                                                                  {"dielectric", MaterialKind::Dielectric},
+                                                                  {"conductor", MaterialKind::Conductor},
+                                                                  {"principled", MaterialKind::Principled}}};
 inline constexpr std::array<Name<Integrator>, 8> integratorNames{{{"whitted", Integrator::Whitted},
                                                                   {"path", Integrator::Path},
                                                                   {"ao", Integrator::AmbientOcclusion},
@@ -22,6 +24,11 @@ inline constexpr std::array<Name<Integrator>, 8> integratorNames{{{"whitted", In
                                                                   {"albedo", Integrator::Albedo},
                                                                   {"id", Integrator::Id},
                                                                   {"cost", Integrator::Cost}}};
+inline constexpr std::array<Name<CameraKind>, 3> cameraNames{{{"perspective", CameraKind::Perspective},
+                                                              {"orthographic", CameraKind::Orthographic},
+                                                              {"panorama", CameraKind::Panorama}}};
+inline constexpr std::array<Name<LightKind>, 3> lightNames{
+    {{"point", LightKind::Point}, {"spot", LightKind::Spot}, {"directional", LightKind::Directional}}};
 inline constexpr std::array<Name<TreeKind>, 3> treeNames{
     {{"midpoint", TreeKind::Midpoint}, {"sah", TreeKind::Sah}, {"none", TreeKind::None}}};
 inline constexpr std::array<Name<SamplerKind>, 2> samplerNames{

@@ -4,6 +4,9 @@
 // Scene, `validateScene` (validate.h) checks it once, and everything downstream may rely on what it promises.
 #pragma once
 
+#include "host/image/image.h"
+#include "host/scene/metals.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -15,36 +18,79 @@
 
 namespace hyalite {
 
-/// A pinhole camera. Pixel (0,0) is top left and its centre is (0.5, 0.5).
+enum class CameraKind { Perspective, Orthographic, Panorama };
+
+/// Pixel (0,0) is top left and its centre is (0.5, 0.5).
 struct Camera {
+    CameraKind kind = CameraKind::Perspective;
     glm::dvec3 position{0.0, 0.0, 55.0};
     glm::dvec3 direction{0.0, 0.0, -1.0}; ///< of view; any length but zero
     glm::dvec3 up{0.0, 1.0, 0.0};         ///< not parallel to `direction`; any length but zero
-    double horizontalFovDegrees = 60.0;   ///< in (0, 180)
-    int width = 512;                      ///< pixels
-    int height = 512;                     ///< pixels
+    double horizontalFovDegrees = 60.0;   ///< Perspective: in (0, 180)
+    double aperture = 0.0;                ///< Perspective: diameter of a thin lens; 0: a pinhole
+    double focusDistance = 10.0; ///< Perspective: of the plane that is sharp, along the view direction; > 0
+    double viewWidth = 10.0;     ///< Orthographic: what the image's width shows; > 0
+    int width = 512;             ///< pixels
+    int height = 512;            ///< pixels
 };
 
-/// An isotropic point light. Its radiant intensity is power / (4 pi) in each channel.
-struct PointLight {
-    glm::dvec3 position{0.0};
-    glm::dvec3 power{0.0}; ///< per colour channel, >= 0
+enum class LightKind : std::uint32_t { Point = 0, Spot = 1, Directional = 2 };
+
+/// A light without size.
+struct Light {
+    glm::dvec3 position{0.0}; ///< Point, Spot
+    glm::dvec3 power{
+        0.0}; ///< per colour channel, >= 0; the radiant intensity is power / (4 pi), of a Spot on its
+              ///< axis; Directional: the irradiance of a surface that faces it
+    LightKind kind = LightKind::Point;
+    glm::dvec3 direction{0.0, -1.0, 0.0}; ///< Spot, Directional: in which light leaves; any length but zero
+    double angleDegrees = 30.0;           ///< Spot: from its axis to the dark; in (0, 180]
+    double blend = 0.2;                   ///< Spot: share of the angle in which it fades, from 0 to 1
 };
 
-enum class MaterialKind : std::uint32_t { Diffuse = 0, Mirror = 1, Dielectric = 2 };
+/// Light from all around: an image by longitude and latitude, whose middle is -z, whose top row is +y.
+struct Environment {
+    Image radiance;             ///< >= 0; empty: there is none
+    double rotateDegrees = 0.0; ///< about +y
+    float scale = 1.0f;         ///< factor on the image
+};
+
+enum class MaterialKind : std::uint32_t {
+    Diffuse = 0,
+    Mirror = 1,
+    Dielectric = 2,
+    Conductor = 3,
+    Principled = 4
+};
 
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Diffuse;
-    glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]
-    bool twoSided = false;        ///< Diffuse: turn the normal towards the viewer before shading
-    float refractiveIndex = 1.5f; ///< Dielectric: relative to the surroundings, in [1, 10]
+    glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]; Principled: its base colour
+    bool twoSided = false;        ///< Diffuse, Principled: turn the normal towards the viewer before shading
+    float refractiveIndex = 1.5f; ///< Dielectric, Principled: relative to the surroundings, in [1, 10]
     glm::vec3 segmentTint{
         1.0f}; ///< Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only
     glm::vec3 absorption{0.0f}; ///< Dielectric: per unit of length, >= 0; path only
     int priority = 0; ///< Dielectric: where several overlap, the glass of the highest is there; path only
-    glm::vec3 emission{0.0f}; ///< Diffuse: radiance on the side of the normal, on both where twoSided; >= 0
+    glm::vec3 emission{
+        0.0f}; ///< Diffuse, Principled: radiance on the side of the normal, on both where twoSided; >= 0
+    glm::vec3 conductorIndex =
+        metalNames[0].second.index; ///< Conductor: real part of the refractive index, in [0, 20]
+    glm::vec3 conductorExtinction = metalNames[0].second.extinction; ///< and its imaginary part, in [0, 20]
+    float roughness = 0.0f;    ///< Dielectric, Conductor, Principled: in [0, 1]
+    float metallic = 0.0f;     ///< Principled: in [0, 1], as are those that follow
+    float specular = 0.5f;     ///< reflectance seen head on, 0.5 being that of the refractive index
+    float transmission = 0.0f; ///< share of what is no metal that is glass
+    float clearcoat = 0.0f;    ///< and then transmission is 0
+    float clearcoatRoughness = 0.1f;
 };
+
+/// Whether light passes the material.
+[[nodiscard]] inline bool isGlass(const Material &material) {
+    return material.kind == MaterialKind::Dielectric ||
+           (material.kind == MaterialKind::Principled && material.transmission > 0.0f);
+}
 
 struct Sphere {
     glm::dvec3 centre{0.0};
@@ -98,12 +144,15 @@ struct RenderSettings {
     int leafSize = 8; ///< most triangles in a leaf, where they can be separated; in [1, 64]
     SamplerKind sampler = SamplerKind::Sobol;
     std::uint32_t seed = 0;
+    double radianceLimit =
+        0.0; ///< Path: most that a path adds behind its first segment, a channel; 0: no limit
     double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
 };
 
 struct Scene {
     Camera camera;
-    std::vector<PointLight> lights;
+    std::vector<Light> lights;
+    Environment environment;    ///< in place of the background, where there is one
     glm::vec3 background{0.0f}; ///< radiance of rays that leave the scene
     float shadowThroughGlass =
         1.0f; ///< factor on light that reaches a point through dielectrics alone; in [0, 1]

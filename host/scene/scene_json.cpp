@@ -1,5 +1,6 @@
 #include "host/scene/scene_json.h"
 
+#include "host/image/image_file.h"
 #include "host/scene/file_reach.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_reader.h"
@@ -16,10 +17,6 @@ namespace {
 
 using namespace std::string_view_literals;
 
-enum class LightKind { Point };
-
-constexpr std::array<Name<LightKind>, 1> lightKinds{{{"point", LightKind::Point}}};
-
 glm::dvec3 readDirection(const JsonObject &object, std::string_view key, const glm::dvec3 &fallback) {
     const glm::dvec3 direction = object.vector(key, limits::coordinate, fallback);
     if (!limits::directionLength.contains(glm::length(direction)))
@@ -30,11 +27,14 @@ glm::dvec3 readDirection(const JsonObject &object, std::string_view key, const g
 
 Camera readCamera(const JsonObject &object) {
     Camera camera;
+    camera.kind = object.choice("type", cameraNames, camera.kind);
     camera.position = object.vector("position", limits::coordinate, camera.position);
     camera.direction = readDirection(object, "direction", camera.direction);
     camera.up = readDirection(object, "up", camera.up);
     camera.horizontalFovDegrees =
         object.number("horizontalFov", limits::horizontalFovDegrees, camera.horizontalFovDegrees);
+    camera.aperture = object.number("aperture", limits::aperture, camera.aperture);
+    camera.viewWidth = object.number("viewWidth", limits::viewWidth, camera.viewWidth);
     camera.width = object.integer("width", limits::imageSize, camera.width);
     camera.height = object.integer("height", limits::imageSize, camera.height);
     if (const std::optional<JsonNode> target = object.find("target")) {
@@ -43,19 +43,66 @@ Camera readCamera(const JsonObject &object) {
         camera.direction = target->vector(limits::coordinate) - camera.position;
         if (!limits::directionLength.contains(glm::length(camera.direction)))
             target->fail("is the camera's own position; allowed: any other point");
+        camera.focusDistance = std::min(glm::length(camera.direction), limits::focusDistance.high);
     }
+    camera.focusDistance = object.number("focusDistance", limits::focusDistance, camera.focusDistance);
     return camera;
 }
 
-PointLight readLight(const JsonObject &object) {
-    static_cast<void>(object.choice("type", lightKinds));
-    return {object.vector("position", limits::coordinate), object.colour("power", limits::power)};
+Light readLight(const JsonNode &node) {
+    const JsonObject object(node);
+    Light light;
+    light.kind = object.choice("type", lightNames);
+    switch (light.kind) {
+    case LightKind::Point:
+        object.allowOnly(scene_keys::pointLight);
+        light.position = object.vector("position", limits::coordinate);
+        light.power = object.colour("power", limits::power);
+        break;
+    case LightKind::Spot:
+        object.allowOnly(scene_keys::spotLight);
+        light.position = object.vector("position", limits::coordinate);
+        light.power = object.colour("power", limits::power);
+        light.direction = readDirection(object, "direction", light.direction);
+        light.angleDegrees = object.number("angle", limits::spotAngle, light.angleDegrees);
+        light.blend = object.number("blend", limits::fraction, light.blend);
+        break;
+    case LightKind::Directional:
+        object.allowOnly(scene_keys::directionalLight);
+        light.power = object.colour("irradiance", limits::power);
+        light.direction = readDirection(object, "direction", light.direction);
+        break;
+    }
+    return light;
+}
+
+Environment readEnvironment(const JsonObject &object, const FileReach &reach) {
+    Environment environment;
+    const JsonNode file = object.at("file");
+    LoadedImage loaded = readImage(reach.resolve(file));
+    if (loaded.encoding != Encoding::Linear)
+        file.fail(
+            "found a PNG, whose numbers are not proportional to light; allowed: a .hdr, .exr or .pfm file");
+    environment.radiance = std::move(loaded.image);
+    const std::size_t count = environment.radiance.pixels().size();
+    if (count > limits::environmentTexelCount)
+        file.fail(fmt::format("found {} x {} pixels; allowed: at most {} in all: make the image smaller",
+                              environment.radiance.width(), environment.radiance.height(),
+                              limits::environmentTexelCount));
+    environment.scale =
+        static_cast<float>(object.number("scale", limits::environmentScale, environment.scale));
+    environment.rotateDegrees =
+        object.number("rotateDegrees", limits::rotateDegrees, environment.rotateDegrees);
+    return environment;
 }
 
 Material readMaterial(const std::string &name, const JsonObject &object) {
     Material material;
     material.name = name;
     material.kind = object.choice("type", materialNames);
+    const auto fraction = [&](std::string_view key, float fallback) {
+        return static_cast<float>(object.number(key, limits::fraction, fallback));
+    };
     switch (material.kind) {
     case MaterialKind::Diffuse:
         object.allowOnly(scene_keys::diffuse);
@@ -76,6 +123,36 @@ Material readMaterial(const std::string &name, const JsonObject &object) {
         material.absorption =
             glm::vec3(object.colour("absorption", limits::absorption, glm::dvec3(material.absorption)));
         material.priority = object.integer("priority", limits::priority, material.priority);
+        material.roughness = fraction("roughness", material.roughness);
+        break;
+    case MaterialKind::Conductor: {
+        object.allowOnly(scene_keys::conductor);
+        const Metal metal = object.choice("metal", metalNames, metalNames[0].second);
+        material.conductorIndex =
+            glm::vec3(object.colour("index", limits::conductorIndex, glm::dvec3(metal.index)));
+        material.conductorExtinction =
+            glm::vec3(object.colour("extinction", limits::conductorIndex, glm::dvec3(metal.extinction)));
+        material.roughness = fraction("roughness", material.roughness);
+        break;
+    }
+    case MaterialKind::Principled:
+        object.allowOnly(scene_keys::principled);
+        material.albedo =
+            glm::vec3(object.colour("baseColour", limits::fraction, glm::dvec3(material.albedo)));
+        material.metallic = fraction("metallic", material.metallic);
+        material.roughness = fraction("roughness", 0.5f);
+        material.specular = fraction("specular", material.specular);
+        material.refractiveIndex =
+            static_cast<float>(object.number("index", limits::refractiveIndex, material.refractiveIndex));
+        material.transmission = fraction("transmission", material.transmission);
+        material.absorption =
+            glm::vec3(object.colour("absorption", limits::absorption, glm::dvec3(material.absorption)));
+        material.priority = object.integer("priority", limits::priority, material.priority);
+        material.clearcoat = fraction("clearcoat", material.clearcoat);
+        material.clearcoatRoughness = fraction("clearcoatRoughness", material.clearcoatRoughness);
+        material.twoSided = object.boolean("twoSided", material.twoSided);
+        material.emission =
+            glm::vec3(object.colour("emission", limits::radiance, glm::dvec3(material.emission)));
         break;
     }
     return material;
@@ -132,6 +209,7 @@ RenderSettings readSettings(const JsonObject &object) {
     settings.leafSize = object.integer("leafSize", limits::leafSize, settings.leafSize);
     settings.sampler = object.choice("sampler", samplerNames, settings.sampler);
     settings.seed = object.integer("seed", limits::seed, settings.seed);
+    settings.radianceLimit = object.number("clamp", limits::radianceLimit, settings.radianceLimit);
     settings.exposureStops = object.number("exposure", limits::exposureStops, settings.exposureStops);
     return settings;
 }
@@ -150,10 +228,13 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &on
     loaded.file = file;
     Scene &scene = loaded.scene;
     scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
+    const FileReach reach(file, allowedPaths);
+    if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
+        scene.environment = readEnvironment(*environment, reach);
     if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera))
         scene.camera = readCamera(*camera);
     for (const JsonNode &light : top.elements("lights", limits::lightCount))
-        scene.lights.push_back(readLight({light, scene_keys::light}));
+        scene.lights.push_back(readLight(light));
     if (const std::optional<JsonNode> materials = top.find("materials"))
         for (const auto &[name, material] : JsonObject(*materials).members(limits::materialCount))
             scene.materials.push_back(readMaterial(name, JsonObject(material)));
@@ -170,7 +251,6 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &on
             onReading((static_cast<double>(scene.meshes.size()) + share) /
                       static_cast<double>(meshes.size()));
     };
-    const FileReach reach(file, allowedPaths);
     std::size_t triangleTotal = 0;
     for (const JsonNode &node : meshes) {
         ObjMesh mesh = readMesh({node, scene_keys::mesh}, scene.materials, reach, onReadingMesh);

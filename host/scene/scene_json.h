@@ -3,19 +3,33 @@
 //   {
 //     "$schema", "description"  texts, ignored
 //     "background"   colour, default black: radiance of rays that leave the scene
+//     "environment": {        in place of the background
+//       "file"           .hdr, .exr or .pfm, by longitude and latitude: the middle is -z, the top +y; of at most 2^22 pixels
+//       "scale"          factor, default 1
+//       "rotateDegrees"  about +y, default 0
+//     },
 //     "camera": {
+//       "type"           "perspective" (default), "orthographic" or "panorama"
 //       "position"       point, default [0, 0, 55]
 //       "target"         point to look at, or
 //       "direction"      vector of view, default [0, 0, -1]
 //       "up"             vector, default [0, 1, 0]; not parallel to the view
-//       "horizontalFov"  degrees in (0, 180), default 60
+//       "horizontalFov"  degrees in (0, 180), default 60; perspective only, and so
+//       "aperture"       diameter of a thin lens, default 0: a pinhole
+//       "focusDistance"  of the plane that is sharp, default: that of the target, or 10
+//       "viewWidth"      what the image's width shows, default 10; orthographic only
 //       "width", "height"  pixels from 1 to 32768, default 512
 //     },
-//     "lights": [ {           at most 16
-//       "type"           "point"
-//       "position"       point
-//       "power"          colour; the radiant intensity is power / (4 pi)
-//     } ],
+//     "lights": [             at most 16, each one of
+//       { "type": "point", "position": point,
+//                          "power": colour; the radiant intensity is power / (4 pi) }
+//       { "type": "spot", "position", "power": likewise, with the intensity on its axis;
+//                         "direction": vector, default [0, -1, 0];
+//                         "angle": degrees from the axis to the dark, in (0, 180], default 30;
+//                         "blend": share of the angle in which it fades, from 0 to 1, default 0.2 }
+//       { "type": "directional", "direction": vector, default [0, -1, 0]: in which the light travels;
+//                                "irradiance": colour, of a surface that faces it }
+//     ],
 //     "materials": { NAME: one of
 //       { "type": "diffuse", "albedo": colour in [0, 1], default 0.5;
 //                            "twoSided": true turns the normal to the viewer, default false;
@@ -26,7 +40,18 @@
 //                                              inside returns, whatever its length; integrator "whitted" only;
 //                               "absorption": colour per unit of length, at least 0, default 0; "path" only;
 //                               "priority": from -1000 to 1000, default 0: where several dielectrics overlap,
-//                                           the one of the highest is there; "path" only }
+//                                           the one of the highest is there; "path" only;
+//                               "roughness": in [0, 1], default 0: of microfacets; "path" only }
+//       { "type": "conductor", "metal": "aluminium" (default), "copper", "gold" or "silver";
+//                              "index", "extinction": colours from 0 to 20, real and imaginary part of the refractive
+//                                                     index in place of the metal's;
+//                              "roughness": in [0, 1], default 0; "path" only }
+//       { "type": "principled", "baseColour": colour in [0, 1], default 0.5;
+//                               "metallic", "specular", "transmission", "clearcoat": in [0, 1], default 0, but
+//                                                     specular 0.5; one of the last two must be 0;
+//                               "roughness", "clearcoatRoughness": in [0, 1], default 0.5 and 0.1;
+//                               "index", "absorption", "priority": as of a dielectric;
+//                               "twoSided", "emission": as of a diffuse material }
 //     },
 //     "spheres": [ {          at most 64
 //       "centre"         point
@@ -50,6 +75,7 @@
 //       "bvh"            "midpoint" (default), "sah" or "none"
 //       "leafSize"       triangles, from 1 to 64, default 8
 //       "sampler"        "sobol" (default) or "centre"
+//       "clamp"          most that a path adds, a channel, behind its first segment, default 0: no limit; "path" only
 //       "seed"           from 0 to 4294967295, default 0
 //       "exposure"       stops from -100 to 100, default 0
 //       "shadowThroughGlass"  factor on light that comes through glass alone, in [0, 1], default 1
@@ -90,22 +116,32 @@ struct LoadedScene {
 namespace scene_keys {
 
 inline constexpr auto top =
-    std::to_array<std::string_view>({"$schema", "description", "camera", "background", "lights", "materials",
-                                     "spheres", "meshes", "settings"});
-inline constexpr auto camera = std::to_array<std::string_view>(
-    {"position", "target", "direction", "up", "horizontalFov", "width", "height"});
-inline constexpr auto light = std::to_array<std::string_view>({"type", "position", "power"});
+    std::to_array<std::string_view>({"$schema", "description", "camera", "background", "environment",
+                                     "lights", "materials", "spheres", "meshes", "settings"});
+inline constexpr auto environment = std::to_array<std::string_view>({"file", "scale", "rotateDegrees"});
+inline constexpr auto camera =
+    std::to_array<std::string_view>({"type", "position", "target", "direction", "up", "horizontalFov",
+                                     "aperture", "focusDistance", "viewWidth", "width", "height"});
+inline constexpr auto pointLight = std::to_array<std::string_view>({"type", "position", "power"});
+inline constexpr auto spotLight =
+    std::to_array<std::string_view>({"type", "position", "power", "direction", "angle", "blend"});
+inline constexpr auto directionalLight = std::to_array<std::string_view>({"type", "direction", "irradiance"});
 inline constexpr auto diffuse = std::to_array<std::string_view>({"type", "albedo", "twoSided", "emission"});
 inline constexpr auto mirror = std::to_array<std::string_view>({"type"});
 inline constexpr auto dielectric =
-    std::to_array<std::string_view>({"type", "index", "segmentTint", "absorption", "priority"});
+    std::to_array<std::string_view>({"type", "index", "segmentTint", "absorption", "priority", "roughness"});
+inline constexpr auto conductor =
+    std::to_array<std::string_view>({"type", "metal", "index", "extinction", "roughness"});
+inline constexpr auto principled = std::to_array<std::string_view>(
+    {"type", "baseColour", "metallic", "roughness", "specular", "transmission", "index", "absorption",
+     "priority", "clearcoat", "clearcoatRoughness", "twoSided", "emission"});
 inline constexpr auto sphere =
     std::to_array<std::string_view>({"centre", "radius", "material", "inwardNormal"});
 inline constexpr auto mesh =
     std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material"});
 inline constexpr auto settings =
     std::to_array<std::string_view>({"integrator", "occlusionDistance", "spp", "maxDepth", "bvh", "leafSize",
-                                     "sampler", "seed", "exposure", "shadowThroughGlass"});
+                                     "sampler", "seed", "clamp", "exposure", "shadowThroughGlass"});
 
 } // namespace scene_keys
 } // namespace hyalite

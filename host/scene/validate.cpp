@@ -83,6 +83,9 @@ void checkCamera(const Camera &camera, const Checked &checked) {
     if (!(sineToUp >= limits::leastSineToUp))
         checked.refuse("up", "the view direction's own axis", "any other axis");
     checked.within(limits::horizontalFovDegrees, camera.horizontalFovDegrees, "horizontal field of view");
+    checked.within(limits::aperture, camera.aperture, "aperture");
+    checked.within(limits::focusDistance, camera.focusDistance, "focusDistance");
+    checked.within(limits::viewWidth, camera.viewWidth, "viewWidth");
     checked.within(limits::imageSize, camera.width, "width");
     checked.within(limits::imageSize, camera.height, "height");
 }
@@ -94,6 +97,18 @@ void checkMaterial(const Material &material, const Checked &checked) {
     checked.within(limits::absorption, material.absorption, "absorption");
     checked.within(limits::priority, material.priority, "priority");
     checked.within(limits::radiance, material.emission, "emission");
+    checked.within(limits::conductorIndex, material.conductorIndex, "index");
+    checked.within(limits::conductorIndex, material.conductorExtinction, "extinction");
+    checked.within(limits::fraction, material.roughness, "roughness");
+    checked.within(limits::fraction, material.metallic, "metallic");
+    checked.within(limits::fraction, material.specular, "specular");
+    checked.within(limits::fraction, material.transmission, "transmission");
+    checked.within(limits::fraction, material.clearcoat, "clearcoat");
+    checked.within(limits::fraction, material.clearcoatRoughness, "clearcoatRoughness");
+    if (material.clearcoat > 0.0f && material.transmission > 0.0f)
+        checked.refuse("clearcoat",
+                       fmt::format("{}, and a transmission of {}", material.clearcoat, material.transmission),
+                       "a clear coat on what is opaque: one of the two must be 0");
 }
 
 void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checked &checked) {
@@ -121,11 +136,22 @@ void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checke
     }
 }
 
+void checkEnvironment(const Environment &environment, const Checked &checked) {
+    checked.within(limits::rotateDegrees, environment.rotateDegrees, "rotateDegrees");
+    checked.within(limits::environmentScale, environment.scale, "scale");
+    checked.atMost(limits::environmentTexelCount, environment.radiance.pixels().size(), "pixels");
+    for (std::size_t i = 0; i < environment.radiance.pixels().size(); ++i)
+        if (const glm::vec3 scaled = environment.radiance.pixels()[i] * environment.scale;
+            !Checked::isWithin(limits::radiance, scaled))
+            checked.within(limits::radiance, scaled, fmt::format("radiance of pixel {}", i));
+}
+
 void checkSettings(const RenderSettings &settings, const Checked &checked) {
     checked.within(limits::samplesPerPixel, settings.samplesPerPixel, "spp");
     checked.within(limits::maxDepth, settings.maxDepth, "maxDepth");
     checked.within(limits::occlusionDistance, settings.occlusionDistance, "occlusionDistance");
     checked.within(limits::leafSize, settings.leafSize, "leafSize");
+    checked.within(limits::radianceLimit, settings.radianceLimit, "clamp");
     checked.within(limits::exposureStops, settings.exposureStops, "exposure");
 }
 
@@ -139,14 +165,15 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     whole.atMost(limits::meshCount, scene.meshes.size(), "meshes");
     whole.atMost(limits::triangleCount, triangleCount(scene), "triangles");
     whole.within(limits::radiance, scene.background, "background");
+    checkEnvironment(scene.environment, {sourceName, "environment"});
     whole.within(limits::fraction, scene.shadowThroughGlass, "shadowThroughGlass");
 
     if (scene.settings.integrator == Integrator::Path)
         whole.atMost(limits::mediumCount,
-                     static_cast<std::size_t>(std::count_if(
-                         scene.materials.begin(), scene.materials.end(),
-                         [](const Material &material) { return material.kind == MaterialKind::Dielectric; })),
-                     "dielectric materials for the integrator path");
+                     static_cast<std::size_t>(
+                         std::count_if(scene.materials.begin(), scene.materials.end(),
+                                       [](const Material &material) { return isGlass(material); })),
+                     "materials that light passes for the integrator path");
 
     checkCamera(scene.camera, {sourceName, "camera"});
     checkSettings(scene.settings, {sourceName, "settings"});
@@ -154,6 +181,9 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
         const Checked checked(sourceName, "light", i);
         checked.within(limits::coordinate, scene.lights[i].position, "position");
         checked.within(limits::power, scene.lights[i].power, "power");
+        checkDirection(checked, scene.lights[i].direction, "direction");
+        checked.within(limits::spotAngle, scene.lights[i].angleDegrees, "angle");
+        checked.within(limits::fraction, scene.lights[i].blend, "blend");
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         checkMaterial(scene.materials[i], {sourceName, "material", i, scene.materials[i].name});

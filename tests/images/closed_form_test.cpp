@@ -199,7 +199,7 @@ bool segmentMeetsBall(const dvec3 &from, const dvec3 &to, const dvec3 &centre, d
 }
 
 /// Lambert's law under a point light: power / (4 pi d^2) * albedo / pi * cos.
-dvec3 directLight(const PointLight &light, const dvec3 &albedo, const dvec3 &point, const dvec3 &normal) {
+dvec3 directLight(const Light &light, const dvec3 &albedo, const dvec3 &point, const dvec3 &normal) {
     const dvec3 toLight = light.position - point;
     const double squared = glm::dot(toLight, toLight);
     const double cosine = std::max(glm::dot(glm::normalize(normal), toLight) / std::sqrt(squared), 0.0);
@@ -215,7 +215,7 @@ double reflectanceOf(double index, double cosine) {
 
 // ---- Flat walls
 
-const PointLight warmLight{{0.0, 0.0, 0.0}, {1000.0, 500.0, 250.0}};
+const Light warmLight{{0.0, 0.0, 0.0}, {1000.0, 500.0, 250.0}};
 const glm::vec3 wallAlbedo(0.5f, 0.25f, 0.75f);
 const Wall wallAhead{{-32.0, -32.0, -10.0}, {64.0, 0.0, 0.0}, {0.0, 64.0, 0.0}};
 
@@ -227,7 +227,7 @@ Prediction wallPrediction(const Scene &scene, const Wall &wall, const dvec2 &pos
         return {0, dvec3(scene.background)};
     const dvec3 point = scene.camera.position + *t * direction;
     Prediction prediction{1};
-    for (const PointLight &light : scene.lights)
+    for (const Light &light : scene.lights)
         prediction.radiance += directLight(light, dvec3(wallAlbedo), point, wall.normal());
     return prediction;
 }
@@ -291,9 +291,9 @@ TEST(Lights, AddUp) {
     addWall(scene, wallAhead, addDiffuse(scene, wallAlbedo));
     scene.settings.sampler = SamplerKind::Centre;
     scene.settings.samplesPerPixel = 1;
-    const std::vector<PointLight> lights = {{{4.0, 1.0, -2.0}, warmLight.power},
-                                            {{-3.0, -5.0, 1.0}, {7.0, 70.0, 700.0}}};
-    const auto render = [&](const std::vector<PointLight> &some, bool onDevice) {
+    const std::vector<Light> lights = {{{4.0, 1.0, -2.0}, warmLight.power},
+                                       {{-3.0, -5.0, 1.0}, {7.0, 70.0, 700.0}}};
+    const auto render = [&](const std::vector<Light> &some, bool onDevice) {
         scene.lights = some;
         return onDevice ? testing::renderOnDevice(scene).film.toImage()
                         : testing::renderOnCpu(scene).film.toImage();
@@ -311,7 +311,7 @@ TEST(Lights, AddUp) {
 
 // ---- Shadows: whatever casts them stands beside the field of view
 
-const PointLight lightAside{{8.0, 6.0, 0.0}, {3000.0, 2000.0, 1000.0}};
+const Light lightAside{{8.0, 6.0, 0.0}, {3000.0, 2000.0, 1000.0}};
 
 /// The wall, where `factor` says how much of the light reaches a point of it; nothing: the region with no light.
 Formula shadowFormula(const Scene &scene, const std::function<std::pair<int, double>(const dvec3 &)> &visit) {

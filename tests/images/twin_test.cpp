@@ -137,6 +137,91 @@ TEST(Twins, AgreeOnPathsFromTheOtherSampler) {
     expectTwins(scene);
 }
 
+/// Every kind of material and of light at once.
+Scene materialScene(int width, int height, int samplesPerPixel) {
+    Scene scene = pathScene(width, height, samplesPerPixel);
+    scene.lights.push_back({.position = {0, 30, 30},
+                            .power = glm::dvec3(2e4),
+                            .kind = LightKind::Spot,
+                            .direction = {0, -1, -1},
+                            .angleDegrees = 35.0});
+    scene.lights.push_back(
+        {.power = glm::dvec3(0.5), .kind = LightKind::Directional, .direction = {1, -2, -1}});
+    scene.environment.radiance = Image(23, 11);
+    std::uint32_t bits = 1;
+    for (glm::vec3 &pixel : scene.environment.radiance.pixels()) {
+        bits = bits * 1664525u + 1013904223u;
+        pixel = glm::vec3(static_cast<float>(bits >> 24) / 256.0f);
+    }
+    scene.environment.rotateDegrees = 77.0;
+    const auto addBall = [&](const Material &material) {
+        scene.materials.push_back(material);
+        const auto index = static_cast<double>(scene.spheres.size());
+        scene.spheres.push_back({{-20.0 + 3.0 * index, -6.0, 14.0},
+                                 3.0,
+                                 static_cast<std::uint32_t>(scene.materials.size() - 1),
+                                 false});
+    };
+    Material metal;
+    metal.kind = MaterialKind::Conductor;
+    addBall(metal);
+    metal.roughness = 0.4f;
+    addBall(metal);
+    Material frosted;
+    frosted.kind = MaterialKind::Dielectric;
+    frosted.roughness = 0.3f;
+    frosted.absorption = glm::vec3(0.1f, 0.0f, 0.05f);
+    addBall(frosted);
+    Material varnish;
+    varnish.kind = MaterialKind::Principled;
+    varnish.roughness = 0.5f;
+    varnish.metallic = 0.3f;
+    varnish.clearcoat = 0.8f;
+    addBall(varnish);
+    varnish.clearcoat = 0.0f;
+    varnish.transmission = 0.6f;
+    addBall(varnish);
+    return scene;
+}
+
+TEST(Twins, AgreeOnEveryMaterialAndLight) {
+    Scene scene = materialScene(48, 48, 3);
+    for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+        for (const int slots : {1, 2})
+            expectTwins(scene, {.slotsPerInvocation = slots, .traversal = traversal});
+    expectTwins(scene, {.steps = 300, .traversal = gpu::Traversal::Stack}); // which resumes inside of paths
+    scene.settings.radianceLimit = 0.5;
+    expectTwins(scene);
+    scene.settings.integrator = Integrator::Whitted;
+    for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+        expectTwins(scene, {.traversal = traversal});
+}
+
+TEST(Twins, AgreeOnEachMaterialAlone) {
+    // Kernels leave out what a scene does not need, each in its own way.
+    const Scene all = materialScene(32, 32, 2);
+    for (std::size_t i = all.spheres.size() - 5; i < all.spheres.size(); ++i) {
+        Scene scene = all;
+        scene.meshes.clear();
+        scene.spheres = {all.spheres.front(), all.spheres[i]};
+        scene.spheres.back().centre = {0, 0, 20};
+        expectTwins(scene);
+    }
+}
+
+TEST(Twins, AgreeOnEveryCamera) {
+    for (const CameraKind kind : {CameraKind::Perspective, CameraKind::Orthographic, CameraKind::Panorama})
+        for (const Integrator integrator : {Integrator::Path, Integrator::Whitted, Integrator::Depth}) {
+            Scene scene = pathScene(40, 32, 2);
+            scene.settings.integrator = integrator;
+            scene.camera.kind = kind;
+            scene.camera.aperture = 1.5;
+            scene.camera.focusDistance = 40.0;
+            scene.camera.viewWidth = 60.0;
+            expectTwins(scene);
+        }
+}
+
 TEST(Twins, AgreeOnEveryView) {
     for (const Integrator integrator : {Integrator::AmbientOcclusion, Integrator::Normal, Integrator::Depth,
                                         Integrator::Albedo, Integrator::Id}) {

@@ -24,7 +24,8 @@ layout(set = 0, binding = 10, std430) readonly buffer PathBuffer { PathRecord pa
 layout(set = 0, binding = 11, std430) readonly buffer PendingBuffer { PendingRay pendings[]; };
 layout(set = 0, binding = 12, std430) readonly buffer SkipBuffer { SkipNode skips[]; };
 layout(set = 0, binding = 13, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
-layout(set = 0, binding = 14, std430) writeonly buffer WordBuffer { uint words[]; };
+layout(set = 0, binding = 14, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
+layout(set = 0, binding = 15, std430) writeonly buffer WordBuffer { uint words[]; };
 
 uint cursor = 0u;
 
@@ -55,5 +56,6 @@ void main() {
     FIELDS_PendingRay(GIVE, pendings[1])
     FIELDS_SkipNode(GIVE, skips[1])
     FIELDS_EmitterRecord(GIVE, emitters[1])
+    FIELDS_TexelRecord(GIVE, texels[1])
     FIELDS_DispatchConstants(GIVE, dispatch)
 }

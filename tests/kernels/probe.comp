@@ -13,16 +13,27 @@ layout(local_size_x_id = 0) in;
 #include "shaders/arithmetic.glsl"
 #include "shaders/vector.glsl"
 #include "shaders/random.glsl"
+#include "shaders/functions.glsl"
 #include "shaders/camera.glsl"
 #include "shaders/box.glsl"
 #include "shaders/triangle.glsl"
 #include "shaders/sphere.glsl"
 #include "shaders/dielectric.glsl"
 #include "shaders/media.glsl"
-#include "shaders/functions.glsl"
 #include "shaders/sampling.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/emitter_density.glsl"
+
+layout(set = 0, binding = bindingTexels, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
+
+TexelRecord fetchTexel(uint index) { return texels[index]; }
+
+#include "shaders/lights.glsl"
+#include "shaders/environment.glsl"
+#include "shaders/conductor.glsl"
+#include "shaders/microfacet.glsl"
+#include "shaders/energy.glsl"
+#include "shaders/rough.glsl"
 
 layout(set = 0, binding = bindingProbeInputs, std430) readonly buffer InputBuffer { uint inputWords[]; };
 layout(set = 0, binding = bindingProbeOutputs, std430) writeonly buffer OutputBuffer { uint outputWords[]; };
@@ -309,6 +320,116 @@ void main() {
         give(mediumCount(inside, material));
         give(enterMedium(inside, material));
         give(leaveMedium(inside, material));
+        break;
+    }
+    case probeTurnsOf: {
+        float y = takeFloat();
+        give(turnsOf(y, takeFloat()));
+        break;
+    }
+    case probeSpotFalloff: {
+        vec3 toSpot = takeVec3();
+        vec3 axis = takeVec3();
+        float cosineOuter = takeFloat();
+        give(spotFalloff(toSpot, axis, cosineOuter, takeFloat()));
+        break;
+    }
+    case probeEnvironmentFrom: {
+        EnvironmentLight light = environmentFrom(takeVec3());
+        give(light.radiance);
+        give(light.density);
+        break;
+    }
+    case probeSampleEnvironment: {
+        EnvironmentLight light = sampleEnvironment(takeUvec2());
+        give(light.direction);
+        give(light.radiance);
+        give(light.density);
+        break;
+    }
+    case probePrimaryRay: {
+        uvec2 pixel = takeUvec2();
+        PrimaryRay ray = primaryRay(pixel, takeUint());
+        give(ray.origin);
+        give(ray.direction);
+        break;
+    }
+    case probeConductorReflectance: {
+        float cosine = takeFloat();
+        vec3 index = takeVec3();
+        give(conductorReflectance(cosine, index, takeVec3()));
+        give(schlickReflectance(cosine, index));
+        break;
+    }
+    case probeFacets: {
+        vec3 view = takeVec3();
+        float alpha = takeFloat();
+        vec2 u = takeVec2();
+        vec3 light = takeVec3();
+        float stretchView = stretchOf(view, alpha);
+        vec3 facet = sampleVisibleFacet(view, alpha, u);
+        float density = facetDensity(facet, alpha);
+        give(stretchView);
+        give(facet);
+        give(density);
+        give(reflectionDensity(density, view, stretchView));
+        give(litShare(view.z, stretchView, light.z, stretchOf(light, alpha)));
+        give(facetBetween(view, light));
+        break;
+    }
+    case probeFacetsAcross: {
+        vec3 view = takeVec3();
+        vec3 light = takeVec3();
+        float alpha = takeFloat();
+        float eta = takeFloat();
+        vec3 facet = facetAcross(view, light, eta);
+        give(facet);
+        give(refractionDensity(facetDensity(facet, alpha), view, stretchOf(view, alpha), dotProduct(view, facet),
+                               dotProduct(light, facet), eta));
+        break;
+    }
+    case probeEnergy: {
+        float cosine = takeFloat();
+        float roughness = takeFloat();
+        Energy energy = energyOf(cosine, roughness);
+        Energy average = averageEnergy(roughness);
+        give(energy.white);
+        give(energy.grazing);
+        give(average.white);
+        give(average.grazing);
+        vec3 colour = takeVec3();
+        give(energyAt(energy, colour.x));
+        give(lateReflectance(colour, average.white));
+        break;
+    }
+    case probeRough: {
+        MaterialRecord material;
+        material.kind = takeUint();
+        material.albedo = takeVec3();
+        material.conductorIndex = takeVec3();
+        material.conductorExtinction = takeVec3();
+        material.averageReflectance = takeVec3();
+        material.alpha = takeFloat();
+        material.metallic = takeFloat();
+        material.transmission = takeFloat();
+        material.normalReflectance = takeFloat();
+        material.clearcoat = takeFloat();
+        material.clearcoatAlpha = takeFloat();
+        vec3 direction = takeVec3();
+        vec3 normal = takeVec3();
+        vec3 geometricNormal = takeVec3();
+        bool isBehind = takeUint() != 0u;
+        float eta = takeFloat();
+        vec2 choice = takeVec2();
+        Rough rough = roughOf(material, direction, normal, geometricNormal, isBehind, eta, choice.x);
+        vec3 drawn = drawRough(rough, takeVec2(), choice.y);
+        Scattered scattered = evaluateRough(rough, drawn);
+        Scattered lit = evaluateRough(rough, takeVec3());
+        give(drawn);
+        give(scattered.value);
+        give(scattered.density);
+        give(lit.value);
+        give(lit.density);
         break;
     }
     case probeSolidAngleDensity: {

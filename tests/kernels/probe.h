@@ -49,6 +49,16 @@ const uint probeMeetInterface = 34u;
 const uint probeMedia = 35u;
 const uint probeSolidAngleDensity = 36u;
 const uint probeSphereLightDensity = 37u;
+const uint probeConductorReflectance = 38u;
+const uint probeFacets = 39u;
+const uint probeFacetsAcross = 40u;
+const uint probeEnergy = 41u;
+const uint probeRough = 42u;
+const uint probeTurnsOf = 43u;
+const uint probeSpotFalloff = 44u;
+const uint probeEnvironmentFrom = 45u;
+const uint probeSampleEnvironment = 46u;
+const uint probePrimaryRay = 47u;
 
 // Two bindings and three specialization constants beyond those of the renderer's kernels.
 const uint bindingProbeInputs = bindingCount;

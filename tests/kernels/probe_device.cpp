@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -41,16 +42,22 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
             sizeBytes = probeInputCount * inputWords * sizeof(std::uint32_t);
         } else if (binding == bindingProbeOutputs) {
             sizeBytes = probeInputCount * outputWords * sizeof(std::uint32_t);
+        } else if (binding == layout::bindingTexels) {
+            sizeBytes = std::max(sizeBytes, std::span(scene.texels).size_bytes());
         }
         buffers_.push_back(
             std::make_unique<gpu::Buffer>(probeDevice(), fmt::format("binding {}", binding), use, sizeBytes));
     }
+    if (!scene.texels.empty())
+        buffers_[layout::bindingTexels]->upload(std::as_bytes(std::span(scene.texels)));
     buffers_[layout::bindingFrame]->upload(std::as_bytes(std::span(&scene.frame, 1)));
 
     std::array<std::uint32_t, probeConstantCount> constants{};
     constants[layout::constantWorkgroupSize] = workgroupSize;
     constants[layout::constantSampler] = scene.samplerKind;
     constants[layout::constantExactDivision] = arithmetic == gpu::Arithmetic::Native;
+    constants[layout::constantScattering] = scene.scattering;
+    constants[layout::constantCamera] = scene.camera;
     constants[constantProbedFunction] = function;
     constants[constantInputWords] = static_cast<std::uint32_t>(inputWords);
     constants[constantOutputWords] = static_cast<std::uint32_t>(outputWords);

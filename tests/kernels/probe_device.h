@@ -22,6 +22,9 @@ namespace hyalite::testing {
 struct ProbeScene {
     layout::FrameRecord frame{};
     std::uint32_t samplerKind = layout::samplerSobol;
+    std::vector<layout::TexelRecord> texels{};
+    std::uint32_t scattering = 0;
+    std::uint32_t camera = layout::cameraPinhole;
 };
 
 constexpr std::size_t probeInputCount = 65536; // of one dispatch

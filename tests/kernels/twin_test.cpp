@@ -1,10 +1,12 @@
 // Each function of shaders/*.glsl against its twin in host/reference: the same bits for the same input.
+#include "host/bvh/microfacet_energy.h"
 #include "host/reference/box.h"
 #include "host/reference/camera.h"
 #include "host/reference/dielectric.h"
 #include "host/reference/emitters.h"
 #include "host/reference/media.h"
 #include "host/reference/random.h"
+#include "host/reference/rough.h"
 #include "host/reference/sphere.h"
 #include "host/reference/surface.h"
 #include "host/reference/triangle.h"
@@ -12,6 +14,8 @@
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace hyalite::testing {
 namespace {
@@ -502,6 +506,205 @@ TEST(MediaTwin, CountsAndPriorities) {
         expected << reference::mediumAround(inside) << reference::mediumCount(inside, material)
                  << reference::enterMedium(inside, material) << reference::leaveMedium(inside, material);
     });
+}
+
+TEST(FunctionTwin, TurnsOf) {
+    expectTwin(probeTurnsOf, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 direction = draw.direction();
+        const float y = draw.chance(2) ? direction.y : draw.coordinate();
+        const float x = direction.x == 0.0f && y == 0.0f ? 1.0f : direction.x;
+        input << y << x;
+        expected << reference::turnsOf(y, x);
+    });
+}
+
+TEST(LightTwin, SpotFalloff) {
+    expectTwin(probeSpotFalloff, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 axis = draw.direction();
+        const vec3 toSpot = draw.chance(4) ? -axis : draw.direction();
+        const float cosineOuter = draw.unit() * 2.0f - 1.0f;
+        const float scale = 1.0f / (draw.unit() + 1e-6f);
+        input << toSpot << axis << cosineOuter << scale;
+        expected << reference::spotFalloff(toSpot, axis, cosineOuter, scale);
+    });
+}
+
+/// An environment of random texels, packed as the host does.
+PackedScene sceneUnderSky() {
+    Draw draw;
+    Scene scene;
+    scene.environment.radiance = Image(37, 19);
+    for (vec3 &pixel : scene.environment.radiance.pixels())
+        pixel = draw.chance(3) ? vec3(0.0f) : vec3(draw.unit(), draw.unit() * 9.0f, draw.unit());
+    scene.environment.rotateDegrees = 123.0;
+    return packScene(scene, buildBvh(TreeKind::None, {}, 1));
+}
+
+TEST(EnvironmentTwin, FromADirection) {
+    const PackedScene packed = sceneUnderSky();
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        const vec3 direction = draw.direction();
+        const auto light = reference::EnvironmentMap<float>(packed).from(direction);
+        input << direction;
+        expected << light.radiance << light.density;
+    };
+    expectTwin(probeEnvironmentFrom, call, {.frame = packed.frame, .texels = packed.texels});
+}
+
+TEST(EnvironmentTwin, Sampled) {
+    const PackedScene packed = sceneUnderSky();
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        const uvec2 bits(x, draw.word());
+        const auto light = reference::EnvironmentMap<float>(packed).sample(bits);
+        input << bits;
+        expected << light.direction << light.radiance << light.density;
+    };
+    expectTwin(probeSampleEnvironment, call, {.frame = packed.frame, .texels = packed.texels});
+}
+
+TEST(CameraTwin, PrimaryRay) {
+    for (const std::uint32_t camera :
+         {layout::cameraPinhole, layout::cameraLens, layout::cameraOrthographic, layout::cameraPanorama}) {
+        Draw views;
+        PackedScene packed;
+        packed.camera = camera;
+        packed.frame.eye = views.point();
+        packed.frame.imageWidth = 1 + views.index(4000);
+        packed.frame.imageHeight = 1 + views.index(4000);
+        packed.frame.imagePlane = views.direction();
+        packed.frame.pixelRight = 1e-3f * views.direction();
+        packed.frame.pixelUp = 1e-3f * views.direction();
+        packed.frame.lensScale = 5.0f;
+        packed.frame.focusDistance = 7.0f;
+        const auto call = [&](Draw &draw, Words &input, Words &expected) {
+            const std::uint32_t x = draw.index(packed.frame.imageWidth);
+            const uvec2 pixel(x, draw.index(packed.frame.imageHeight));
+            const std::uint32_t sample = draw.index(65536);
+            const auto ray = reference::primaryRay<float>(packed, layout::samplerSobol, pixel, sample);
+            input << pixel << sample;
+            expected << ray.origin << ray.direction;
+        };
+        expectTwin(probePrimaryRay, call, {.frame = packed.frame, .camera = camera});
+    }
+}
+
+// ---- Rough surfaces
+
+/// Above the plane, and not so low that float32 has nothing to say.
+vec3 drawAbove(Draw &draw) {
+    vec3 v = draw.direction();
+    v.z = std::abs(v.z) + 0.001f;
+    return reference::unitVector(v);
+}
+
+float drawAlpha(Draw &draw) { return draw.chance(8) ? 0.0016f : 0.002f + 0.998f * draw.unit(); }
+
+vec3 drawColour(Draw &draw) {
+    const float red = draw.unit();
+    const float green = draw.unit();
+    return {red, green, draw.chance(8) ? 0.0f : draw.unit()};
+}
+
+TEST(ConductorTwin, Reflectance) {
+    expectTwin(probeConductorReflectance, [](Draw &draw, Words &input, Words &expected) {
+        const float cosine = draw.chance(16) ? 1.0f : draw.unit();
+        const vec3 index = drawColour(draw) * 5.0f;
+        const vec3 extinction = drawColour(draw) * 9.0f + vec3(0.01f);
+        input << cosine << index << extinction;
+        expected << reference::conductorReflectance(cosine, index, extinction)
+                 << reference::schlickReflectance(cosine, index);
+    });
+}
+
+TEST(MicrofacetTwin, Reflecting) {
+    expectTwin(probeFacets, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 view = drawAbove(draw);
+        const float alpha = drawAlpha(draw);
+        const vec2 u = unitPair(draw);
+        const vec3 light = drawAbove(draw);
+        const float stretchView = reference::stretchOf(view, alpha);
+        const vec3 facet = reference::sampleVisibleFacet(view, alpha, u);
+        const float density = reference::facetDensity(facet, alpha);
+        input << view << alpha << u << light;
+        expected << stretchView << facet << density
+                 << reference::reflectionDensity(density, view, stretchView)
+                 << reference::litShare(view.z, stretchView, light.z, reference::stretchOf(light, alpha))
+                 << reference::facetBetween(view, light);
+    });
+}
+
+TEST(MicrofacetTwin, Refracting) {
+    expectTwin(probeFacetsAcross, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 view = drawAbove(draw);
+        const vec3 light = -drawAbove(draw);
+        const float alpha = drawAlpha(draw);
+        const float eta = draw.chance(2) ? 0.4f + 0.5f * draw.unit() : 1.1f + draw.unit();
+        const vec3 facet = reference::facetAcross(view, light, eta);
+        input << view << light << alpha << eta;
+        expected << facet
+                 << reference::refractionDensity(
+                        reference::facetDensity(facet, alpha), view, reference::stretchOf(view, alpha),
+                        reference::dotProduct(view, facet), reference::dotProduct(light, facet), eta);
+    });
+}
+
+TEST(EnergyTwin, OfTheTable) {
+    const std::vector<layout::TexelRecord> texels = makeEnergyTexels();
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        const float cosine = draw.chance(16) ? 1.0f : draw.unit();
+        const float roughness = draw.chance(16) ? 1.0f : draw.unit();
+        const vec3 colour = drawColour(draw);
+        const auto energy = reference::energyOf(texels, cosine, roughness);
+        const auto average = reference::averageEnergy(texels, roughness);
+        input << cosine << roughness << colour;
+        expected << energy.white << energy.grazing << average.white << average.grazing
+                 << reference::energyAt(energy, colour.x)
+                 << reference::lateReflectance(colour, average.white);
+    };
+    expectTwin(probeEnergy, call, {.texels = texels});
+}
+
+TEST(RoughTwin, DrawnAndEvaluated) {
+    const std::vector<layout::TexelRecord> texels = makeEnergyTexels();
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        layout::MaterialRecord material{};
+        constexpr std::array<std::uint32_t, 4> kinds{layout::materialDiffuse, layout::materialDielectric,
+                                                     layout::materialConductor, layout::materialPrincipled};
+        material.kind = kinds[draw.index(4)];
+        material.albedo = drawColour(draw);
+        material.conductorIndex = drawColour(draw) * 2.0f;
+        material.conductorExtinction = drawColour(draw) * 5.0f + vec3(0.01f);
+        material.averageReflectance = drawColour(draw);
+        material.alpha = drawAlpha(draw);
+        material.metallic = draw.chance(3) ? 0.0f : draw.unit();
+        material.transmission = draw.chance(2) ? 0.0f : draw.unit();
+        material.normalReflectance = 0.08f * draw.unit();
+        material.clearcoat = material.transmission > 0.0f || draw.chance(2) ? 0.0f : draw.unit();
+        material.clearcoatAlpha = drawAlpha(draw);
+        const vec3 geometricNormal = draw.direction();
+        const vec3 normal = draw.chance(2) ? geometricNormal : draw.direction();
+        vec3 direction = draw.direction();
+        if (reference::dotProduct(direction, geometricNormal) > 0.0f)
+            direction = -direction;
+        const bool isBehind = draw.chance(4);
+        const float eta = draw.chance(2) ? 0.4f + 0.5f * draw.unit() : 1.1f + draw.unit();
+        const vec2 choice = unitPair(draw);
+        const vec2 u = unitPair(draw);
+        const vec3 light = draw.chance(4) ? -drawAbove(draw) : drawAbove(draw);
+        input << material.kind << material.albedo << material.conductorIndex << material.conductorExtinction
+              << material.averageReflectance << material.alpha << material.metallic << material.transmission
+              << material.normalReflectance << material.clearcoat << material.clearcoatAlpha << direction
+              << normal << geometricNormal << static_cast<std::uint32_t>(isBehind) << eta << choice << u
+              << light;
+        const auto rough =
+            reference::roughOf(texels, material, direction, normal, geometricNormal, isBehind, eta, choice.x);
+        const vec3 drawn = reference::drawRough(rough, u, choice.y);
+        const auto scattered = reference::evaluateRough(rough, drawn);
+        const auto lit = reference::evaluateRough(rough, light);
+        expected << drawn << scattered.value << scattered.density << lit.value << lit.density;
+    };
+    expectTwin(probeRough, call, {.texels = texels, .scattering = 15u});
 }
 
 TEST(EmitterTwin, SolidAngleDensity) {

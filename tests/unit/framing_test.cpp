@@ -112,7 +112,7 @@ TEST(Framing, TheLightAtTheCentreIsTheSameForAnySize) {
         const Bounds bounds = triangleBounds(scene.meshes[0]);
         const glm::dvec3 centre = (bounds.low + bounds.high) / 2.0;
         ASSERT_EQ(scene.lights.size(), 2u);
-        const auto radiance = [&](const PointLight &light) {
+        const auto radiance = [&](const Light &light) {
             const glm::dvec3 toLight = light.position - centre;
             return light.power.x / (4 * std::numbers::pi * glm::dot(toLight, toLight)) * 0.8 /
                    std::numbers::pi;

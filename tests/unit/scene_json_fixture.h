@@ -17,12 +17,13 @@
 
 namespace hyalite {
 
-/// Writes scene files and loads them; a mesh of one triangle, triangle.obj, lies beside them.
+/// Writes scene files and loads them; a mesh of one triangle, triangle.obj, and an image, sky.pfm, lie beside them.
 class SceneFolder : public testing::Test {
   protected:
     void SetUp() override {
         std::filesystem::create_directories(folder);
         static_cast<void>(write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+        static_cast<void>(write("sky.pfm", "PF\n2 1\n-1\n" + std::string(24, '\0'))); // black
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
 
@@ -61,22 +62,33 @@ inline nlohmann::json completeScene() {
     return nlohmann::json::parse(R"({
         "$schema": "hyalite-scene.schema.json",
         "description": "all that there is",
-        "camera": {"position": [1, 2, 3], "target": [1, 2, -4], "up": [0, 2, 0], "horizontalFov": 45.5,
+        "camera": {"type": "perspective", "position": [1, 2, 3], "target": [1, 2, -4], "up": [0, 2, 0], "horizontalFov": 45.5,
+                   "aperture": 0.25, "focusDistance": 8.5, "viewWidth": 12,
                    "width": 333, "height": 217},
         "background": [0.1, 0.2, 0.3],
-        "lights": [{"type": "point", "position": [-10, 20, 40], "power": [1, 2, 3]}],
+        "environment": {"file": "sky.pfm", "scale": 0.5, "rotateDegrees": 30},
+        "lights": [{"type": "point", "position": [-10, 20, 40], "power": [1, 2, 3]},
+                   {"type": "spot", "position": [1, 2, 3], "power": 7, "direction": [0, 0, 2],
+                    "angle": 40, "blend": 0.5},
+                   {"type": "directional", "direction": [1, -1, 0], "irradiance": [3, 2, 1]}],
         "materials": {
             "paper": {"type": "diffuse", "albedo": [0.25, 0.5, 1], "twoSided": true,
                       "emission": [1, 2, 3]},
             "chrome": {"type": "mirror"},
             "ice": {"type": "dielectric", "index": 1.31, "segmentTint": 0.75,
-                    "absorption": [0.5, 0.25, 0], "priority": -2}
+                    "absorption": [0.5, 0.25, 0], "priority": -2, "roughness": 0.3},
+            "brass": {"type": "conductor", "metal": "copper", "index": [0.4, 0.5, 0.6], "extinction": 2,
+                      "roughness": 0.25},
+            "varnish": {"type": "principled", "baseColour": [0.1, 0.2, 0.3], "metallic": 0.125,
+                        "roughness": 0.375, "specular": 0.625, "transmission": 0, "index": 1.25,
+                        "absorption": 0.75, "priority": 4, "clearcoat": 0.875,
+                        "clearcoatRoughness": 0.0625, "twoSided": true, "emission": 5}
         },
         "spheres": [{"centre": [4, 5, 6], "radius": 7, "material": "ice", "inwardNormal": true}],
         "meshes": [{"file": "triangle.obj", "scale": 2, "rotateDegrees": [0, 0, 90],
                     "translate": [0, 0, -5], "material": "paper"}],
         "settings": {"integrator": "whitted", "occlusionDistance": 7.5, "spp": 32, "maxDepth": 12, "bvh": "sah", "leafSize": 4,
-                     "sampler": "centre", "seed": 4294967295, "exposure": -1.5, "shadowThroughGlass": 0.5}
+                     "sampler": "centre", "seed": 4294967295, "clamp": 9, "exposure": -1.5, "shadowThroughGlass": 0.5}
     })");
 }
 

@@ -26,11 +26,44 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(scene.camera.height, 217);
     EXPECT_EQ(scene.background, glm::vec3(0.1f, 0.2f, 0.3f));
 
-    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.camera.kind, CameraKind::Perspective);
+    EXPECT_EQ(scene.camera.aperture, 0.25);
+    EXPECT_EQ(scene.camera.focusDistance, 8.5);
+    EXPECT_EQ(scene.camera.viewWidth, 12.0);
+    EXPECT_EQ(scene.environment.radiance.width(), 2);
+    EXPECT_EQ(scene.environment.scale, 0.5f);
+    EXPECT_EQ(scene.environment.rotateDegrees, 30.0);
+
+    ASSERT_EQ(scene.lights.size(), 3u);
+    EXPECT_EQ(scene.lights[1].kind, LightKind::Spot);
+    EXPECT_EQ(scene.lights[1].direction, glm::dvec3(0, 0, 2));
+    EXPECT_EQ(scene.lights[1].angleDegrees, 40.0);
+    EXPECT_EQ(scene.lights[1].blend, 0.5);
+    EXPECT_EQ(scene.lights[2].kind, LightKind::Directional);
+    EXPECT_EQ(scene.lights[2].direction, glm::dvec3(1, -1, 0));
+    EXPECT_EQ(scene.lights[2].power, glm::dvec3(3, 2, 1));
     EXPECT_EQ(scene.lights[0].position, glm::dvec3(-10, 20, 40));
     EXPECT_EQ(scene.lights[0].power, glm::dvec3(1, 2, 3));
 
-    ASSERT_EQ(scene.materials.size(), 3u);
+    ASSERT_EQ(scene.materials.size(), 5u);
+    const Material &brass = scene.materials[0]; // in the order of the alphabet
+    EXPECT_EQ(brass.kind, MaterialKind::Conductor);
+    EXPECT_EQ(brass.conductorIndex, glm::vec3(0.4f, 0.5f, 0.6f));
+    EXPECT_EQ(brass.conductorExtinction, glm::vec3(2.0f));
+    EXPECT_EQ(brass.roughness, 0.25f);
+    const Material &varnish = scene.materials[4];
+    EXPECT_EQ(varnish.kind, MaterialKind::Principled);
+    EXPECT_EQ(varnish.albedo, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(varnish.metallic, 0.125f);
+    EXPECT_EQ(varnish.roughness, 0.375f);
+    EXPECT_EQ(varnish.specular, 0.625f);
+    EXPECT_EQ(varnish.refractiveIndex, 1.25f);
+    EXPECT_EQ(varnish.absorption, glm::vec3(0.75f));
+    EXPECT_EQ(varnish.priority, 4);
+    EXPECT_EQ(varnish.clearcoat, 0.875f);
+    EXPECT_EQ(varnish.clearcoatRoughness, 0.0625f);
+    EXPECT_TRUE(varnish.twoSided);
+    EXPECT_EQ(varnish.emission, glm::vec3(5.0f));
     ASSERT_EQ(scene.spheres.size(), 1u);
     EXPECT_EQ(scene.spheres[0].centre, glm::dvec3(4, 5, 6));
     EXPECT_EQ(scene.spheres[0].radius, 7.0);
@@ -42,6 +75,7 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(ice.segmentTint, glm::vec3(0.75f));
     EXPECT_EQ(ice.absorption, glm::vec3(0.5f, 0.25f, 0.0f));
     EXPECT_EQ(ice.priority, -2);
+    EXPECT_EQ(ice.roughness, 0.3f);
 
     ASSERT_EQ(scene.meshes.size(), 1u);
     ASSERT_EQ(scene.meshes[0].triangles.size(), 1u);
@@ -64,6 +98,7 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(scene.settings.leafSize, 4);
     EXPECT_EQ(scene.settings.sampler, SamplerKind::Centre);
     EXPECT_EQ(scene.settings.seed, 4294967295u);
+    EXPECT_EQ(scene.settings.radianceLimit, 9.0);
     EXPECT_EQ(scene.settings.exposureStops, -1.5);
     EXPECT_EQ(scene.shadowThroughGlass, 0.5f);
     EXPECT_NO_THROW(validateScene(scene, "complete"));
@@ -83,6 +118,33 @@ TEST_F(SceneJson, ANumberForAColourIsGrey) {
     EXPECT_EQ(load(R"({"background": 0.5})").background, glm::vec3(0.5f));
     const Scene scene = load(R"({"lights": [{"type": "point", "position": [0, 0, 0], "power": 1e5}]})");
     EXPECT_EQ(scene.lights.at(0).power, glm::dvec3(1e5));
+}
+
+TEST_F(SceneJson, AMetalHasItsIndexByName) {
+    const Scene scene =
+        load(R"({"materials": {"ring": {"type": "conductor", "metal": "gold", "extinction": 9}}})");
+    EXPECT_EQ(scene.materials.at(0).conductorIndex, metalNames[2].second.index);
+    EXPECT_EQ(scene.materials.at(0).conductorExtinction, glm::vec3(9.0f)) << "what is given beside it wins";
+    // Gold is yellow, and they all reflect most of red light.
+    const glm::vec3 gold = normalReflectance(metalNames[2].second.index, metalNames[2].second.extinction);
+    EXPECT_GT(gold.x, gold.y + 0.1f);
+    EXPECT_GT(gold.y, gold.z + 0.2f);
+    for (const auto &[name, metal] : metalNames)
+        EXPECT_GT(normalReflectance(metal.index, metal.extinction).x, 0.85f) << name;
+}
+
+TEST_F(SceneJson, ACameraIsFocusedOnItsTarget) {
+    const Scene scene = load(R"({"camera": {"position": [0, 3, 4], "target": [0, 0, 0], "aperture": 1}})");
+    EXPECT_EQ(scene.camera.focusDistance, 5.0);
+}
+
+TEST_F(SceneJson, AnEnvironmentIsLinear) {
+    EXPECT_TRUE(refusal(R"({"environment": {"file": "missing.hdr"}})").starts_with(" /environment/file: "));
+    static_cast<void>(write("sky.txt", "no image"));
+    EXPECT_NE(refusalOf(write("scene.json", R"({"environment": {"file": "sky.pfm", "scale": -1}})"))
+                  .find("allowed"),
+              std::string::npos);
+    EXPECT_THROW(static_cast<void>(load(R"({"environment": {"file": "sky.txt"}})")), Error);
 }
 
 TEST_F(SceneJson, AWholeNumberMayBeWrittenAsAFloat) {

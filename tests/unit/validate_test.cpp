@@ -110,7 +110,29 @@ INSTANTIATE_TEST_SUITE_P(
                  [](Scene &s) { s.materials[0].emission.y = -1.0f; }},
         Breakage{"material 0 (wall): absorption: found (nan, 0, 0)",
                  [](Scene &s) { s.materials[0].absorption.x = float(nan); }},
-        Breakage{"scene: dielectric materials for the integrator path: found 9",
+        Breakage{"material 0 (wall): roughness: found 1.5", [](Scene &s) { s.materials[0].roughness = 1.5f; }},
+        Breakage{"material 0 (wall): extinction: found (21, 21, 21)",
+                 [](Scene &s) { s.materials[0].conductorExtinction = glm::vec3(21.0f); }},
+        Breakage{"material 0 (wall): clearcoat: found 1, and a transmission of 0.5",
+                 [](Scene &s) {
+                     s.materials[0].clearcoat = 1.0f;
+                     s.materials[0].transmission = 0.5f;
+                 }},
+        Breakage{"camera: aperture: found -1", [](Scene &s) { s.camera.aperture = -1; }},
+        Breakage{"camera: focusDistance: found 0", [](Scene &s) { s.camera.focusDistance = 0; }},
+        Breakage{"camera: viewWidth: found 0", [](Scene &s) { s.camera.viewWidth = 0; }},
+        Breakage{"settings: clamp: found -1", [](Scene &s) { s.settings.radianceLimit = -1; }},
+        Breakage{"light 0: length of direction: found 0",
+                 [](Scene &s) { s.lights[0].direction = glm::dvec3(0); }},
+        Breakage{"light 0: angle: found 181", [](Scene &s) { s.lights[0].angleDegrees = 181; }},
+        Breakage{"light 0: blend: found 2", [](Scene &s) { s.lights[0].blend = 2; }},
+        Breakage{"environment: radiance of pixel 1: found (-2, 0, 0)",
+                 [](Scene &s) {
+                     s.environment.radiance = Image(2, 1);
+                     s.environment.radiance.at(1, 0).x = -1.0f;
+                     s.environment.scale = 2.0f;
+                 }},
+        Breakage{"scene: materials that light passes for the integrator path: found 9",
                  [](Scene &s) {
                      s.settings.integrator = Integrator::Path;
                      for (int i = 0; i < 9; ++i)

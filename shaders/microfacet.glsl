@@ -1,0 +1,70 @@
+// Rough surfaces of microfacets with the GGX distribution. Twin: host/reference/microfacet.h.
+//
+// All directions are unit vectors in the frame of the surface, whose normal is +z; `view` has z > 0 and leads back to
+// where the path comes from. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz,
+// "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, for the masking of both
+// directions together: G = 2 |o.z| |i.z| / (|o.z| stretch(i) + |i.z| stretch(o)).
+
+// How long `w` is seen from the stretched surface.
+float stretchOf(vec3 w, float alpha) {
+    precise float squaredAlpha = alpha * alpha;
+    precise float squaredSine = w.x * w.x + w.y * w.y;
+    precise float squared = squaredAlpha * squaredSine + w.z * w.z;
+    return squareRoot(squared);
+}
+
+// Microfacets with the normal `m`, per solid angle and unit of area.
+float facetDensity(vec3 m, float alpha) {
+    precise float squaredAlpha = alpha * alpha;
+    precise float squaredSine = m.x * m.x + m.y * m.y;
+    precise float spread = squaredSine + squaredAlpha * (m.z * m.z);
+    precise float squared = spread * spread;
+    precise float scaled = squaredAlpha * inversePi;
+    return divide(scaled, squared);
+}
+
+// A facet's normal with the density facetDensity G1 (view.m) / view.z of those that are seen: Dupuy and Benyoub,
+// "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
+vec3 sampleVisibleFacet(vec3 view, float alpha, vec2 u) {
+    vec3 stretched = unitVector(vec3(view.xy * alpha, view.z));
+    precise float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+    precise float squaredSine = 1.0 - z * z;
+    float sine = squareRoot(greater(squaredSine, 0.0));
+    SineCosine angle = sineCosine(u.x);
+    vec3 cap = add(vec3(sine * angle.cosine, sine * angle.sine, z), stretched);
+    return unitVector(vec3(cap.xy * alpha, cap.z));
+}
+
+// The density, per solid angle, of the direction that a visible facet reflects `view` to; `density` is that of the facets.
+float reflectionDensity(float density, vec3 view, float stretchView) {
+    precise float below = 2.0 * (view.z + stretchView);
+    return divide(density, below);
+}
+
+// How many of the facets that are seen are also lit: G / G1(view). `light` may be on the other side.
+float litShare(float viewHeight, float stretchView, float lightHeight, float stretchLight) {
+    float height = abs(lightHeight);
+    precise float above = height * (viewHeight + stretchView);
+    precise float below = viewHeight * stretchLight + height * stretchView;
+    return divide(above, below);
+}
+
+// The facet that reflects `view` to `light`.
+vec3 facetBetween(vec3 view, vec3 light) { return unitVector(add(view, light)); }
+
+// The facet that refracts `view` to `light`, on the other side, with z > 0 where there is one; `eta` is the refractive index
+// on the side of `view` divided by the other.
+vec3 facetAcross(vec3 view, vec3 light, float eta) {
+    precise vec3 across = view * eta + light;
+    vec3 m = unitVector(across);
+    return m.z < 0.0 ? -m : m;
+}
+
+// The density, per solid angle, of the direction to which visible facets refract: that of the facets that are seen, by
+// Walter's Jacobian (equation 17). `viewCosine` > 0 and `lightCosine` < 0 are those to the facet.
+float refractionDensity(float density, vec3 view, float stretchView, float viewCosine, float lightCosine, float eta) {
+    precise float seen = density * 2.0 * viewCosine * -lightCosine;
+    precise float sum = eta * viewCosine + lightCosine;
+    precise float below = (view.z + stretchView) * (sum * sum);
+    return divide(seen, below);
+}
