@@ -163,7 +163,6 @@ void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::ui
     packed.normals.resize(bvh.order.size());
     std::uint32_t firstIndex = 0; // of the mesh's triangles in the input
     for (const TriangleMesh &mesh : scene.meshes) {
-        const bool isTransmissive = scene.materials[mesh.materialIndex].kind == MaterialKind::Dielectric;
         const auto count = static_cast<std::int64_t>(mesh.triangles.size());
 #pragma omp parallel for schedule(static) if (isLong(count))
         for (std::int64_t i = 0; i < count; ++i) {
@@ -175,7 +174,9 @@ void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::ui
             triangle.v1 = mesh.positions[corner.positions.y];
             triangle.v2 = mesh.positions[corner.positions.z];
             triangle.primitiveId = layout::firstTriangleId + inputIndex;
-            triangle.materialIndex = packedMaterial[mesh.materialIndex];
+            const std::uint32_t material = mesh.materialOf(static_cast<std::size_t>(i));
+            const bool isTransmissive = scene.materials[material].kind == MaterialKind::Dielectric;
+            triangle.materialIndex = packedMaterial[material];
             triangle.flags = isTransmissive ? layout::triangleIsTransmissive : 0u;
             layout::NormalRecord &normals = packed.normals[position];
             const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
@@ -314,6 +315,16 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
         packed.hasDielectric = packed.hasDielectric || !isOpaque;
         packed.scattering |= scatteringOf(scene.materials[index]);
     };
+    const auto useMaterials = [&](const TriangleMesh &mesh) {
+        if (mesh.triangleMaterials.empty())
+            useMaterial(mesh.materialIndex);
+        std::vector<bool> isUsed(scene.materials.size(), false);
+        for (const std::uint32_t index : mesh.triangleMaterials)
+            isUsed[index] = true;
+        for (std::size_t i = 0; i < isUsed.size(); ++i)
+            if (isUsed[i])
+                useMaterial(static_cast<std::uint32_t>(i));
+    };
     for (const Sphere &sphere : scene.spheres) {
         useMaterial(sphere.materialIndex);
         layout::SphereRecord record{};
@@ -326,7 +337,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
         packed.spheres.push_back(record);
     }
     for (const TriangleMesh &mesh : scene.meshes)
-        useMaterial(mesh.materialIndex);
+        useMaterials(mesh);
     for (const Light &light : scene.lights) {
         packed.lights.push_back(packLight(light));
         packed.lighting |= light.kind == LightKind::Spot          ? layout::lightsBySpots

@@ -5,6 +5,7 @@
 #include "host/error.h"
 #include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
+#include "host/report/clean_text.h"
 #include "host/report/quantities.h"
 #include "host/scene/names.h"
 
@@ -38,6 +39,13 @@ void printMeshes(const PreparedScene &prepared) {
         fmt::print("  dropped    {}, {}\n", countText(report.degenerateTriangleCount, "degenerate triangle"),
                    countText(report.unusedStatementCount, "statement that is not geometry",
                              "statements that are not geometry"));
+        for (const std::string &library : report.lostLibraries)
+            fmt::print("  not read   {}: no such material library in the mesh's folder\n",
+                       cleanText(library));
+        if (report.unknownMaterialCount > 0)
+            fmt::print("  neutral    {}\n",
+                       countText(report.unknownMaterialCount, "material that no library has",
+                                 "materials that no library has"));
         fmt::print("  repaired   {}\n",
                    countText(report.lostNormalCount, "triangle without usable normals gets the geometric one",
                              "triangles without usable normals get the geometric one"));

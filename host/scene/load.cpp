@@ -30,9 +30,11 @@ void requireFile(const std::filesystem::path &file) {
 }
 
 LoadedScene loadBareMesh(const std::filesystem::path &file, const OnReading &onReading) {
-    ObjMesh mesh = loadObj(file, {}, onReading);
+    ObjMesh mesh = loadObj(file, {}, onReading, true);
     LoadedScene loaded;
     loaded.scene = frameMesh(std::move(mesh.mesh));
+    // The neutral one comes first, for triangles without a material.
+    loaded.scene.materials.insert(loaded.scene.materials.end(), mesh.materials.begin(), mesh.materials.end());
     loaded.file = file;
     loaded.meshReports = {mesh.report};
     loaded.autoFramed = true;

@@ -1,5 +1,6 @@
 #include "host/scene/obj.h"
 
+#include "host/scene/mtl.h"
 #include "host/scene/obj_lines.h"
 #include "host/scene/obj_mesh.h"
 #include "host/scene/obj_plain.h"
@@ -13,21 +14,91 @@
 #endif
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <istream>
 #include <streambuf>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace hyalite {
 
 namespace {
+
+/// The materials that an OBJ file names.
+class ObjMaterials {
+  public:
+    ObjMaterials(const std::filesystem::path &file, ObjMeshBuilder &meshBuilder)
+        : folder(file.parent_path()), builder(meshBuilder) {}
+
+    /// Takes a statement, if it is one of materials.
+    void take(std::string_view statement) {
+        if (const std::optional<std::string_view> name = argumentOf(statement, "mtllib"))
+            read(*name);
+        else if (const std::optional<std::string_view> used = argumentOf(statement, "usemtl"))
+            use(*used);
+    }
+
+    [[nodiscard]] std::vector<Material> give() { return std::move(materials); }
+
+  private:
+    /// What follows the keyword, without blanks around it.
+    static std::optional<std::string_view> argumentOf(std::string_view statement, std::string_view keyword) {
+        constexpr std::string_view blanks = " \t";
+        statement.remove_prefix(std::min(statement.find_first_not_of(blanks), statement.size()));
+        if (!statement.starts_with(keyword) || statement.find_first_of(blanks) != keyword.size())
+            return std::nullopt;
+        statement.remove_prefix(
+            std::min(statement.find_first_not_of(blanks, keyword.size()), statement.size()));
+        return statement.substr(0, statement.find_last_not_of(blanks) + 1);
+    }
+
+    /// A library that is not there is no error: many meshes have lost theirs. What lies outside of the folder is not
+    /// read, as a mesh may come from a stranger.
+    void read(std::string_view name) {
+        std::error_code error;
+        const std::filesystem::path base =
+            std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+        const std::filesystem::path library = std::filesystem::weakly_canonical(base / name, error);
+        const bool isInside =
+            std::mismatch(base.begin(), base.end(), library.begin(), library.end()).first == base.end();
+        if (error || !isInside || !std::filesystem::exists(library, error)) {
+            builder.report().lostLibraries.emplace_back(name);
+            return;
+        }
+        for (Material &material : loadMtl(library))
+            if (indexOf(material.name) == 0)
+                materials.push_back(std::move(material));
+    }
+
+    void use(std::string_view name) {
+        const std::uint32_t index = indexOf(name);
+        builder.report().unknownMaterialCount += index == 0;
+        builder.setMaterial(index);
+    }
+
+    /// From 1 on; 0: there is none.
+    [[nodiscard]] std::uint32_t indexOf(std::string_view name) const {
+        const auto found = std::find_if(materials.begin(), materials.end(),
+                                        [&](const Material &material) { return material.name == name; });
+        return found == materials.end() ? 0 : static_cast<std::uint32_t>(found - materials.begin() + 1);
+    }
+
+    std::filesystem::path folder;
+    ObjMeshBuilder &builder;
+    std::vector<Material> materials;
+};
 
 // Stands between the file and tinyobjloader, which knows no line numbers and trusts what it reads: hands on
 // one checked statement at a time, so that in a callback the current line is the statement's. Statements in the
 // plainest form, nearly all of a file, do not even get there.
 class CheckedObjSource : public std::streambuf {
   public:
-    CheckedObjSource(ObjLines &objLines, ObjMeshBuilder &meshBuilder, std::size_t &unusedCount,
-                     const OnReading &listener)
-        : lines(objLines), builder(meshBuilder), unusedStatementCount(unusedCount), onReading(listener) {}
+    /// `objMaterials` may be null: then materials are passed over.
+    CheckedObjSource(ObjLines &objLines, ObjMeshBuilder &meshBuilder, ObjMaterials *objMaterials,
+                     std::size_t &unusedCount, const OnReading &listener)
+        : lines(objLines), builder(meshBuilder), materials(objMaterials), unusedStatementCount(unusedCount),
+          onReading(listener) {}
 
   protected:
     int_type underflow() override {
@@ -39,6 +110,8 @@ class CheckedObjSource : public std::streambuf {
             if (!line)
                 return traits_type::eof();
             reportProgress();
+            if (materials != nullptr)
+                materials->take({line->data(), line->size()});
             const CheckedStatement statement = checkStatement(*line, lines);
             if (statement.kind == ObjStatement::Geometry) {
                 char *const begin = statement.text.data();
@@ -61,6 +134,7 @@ class CheckedObjSource : public std::streambuf {
 
     ObjLines &lines;
     ObjMeshBuilder &builder;
+    ObjMaterials *materials;
     std::size_t &unusedStatementCount;
     const OnReading &onReading;
     std::size_t nextReportBytes = stepBytes;
@@ -95,18 +169,22 @@ tinyobj::callback_t makeCallbacks() {
 
 } // namespace
 
-ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform,
-                const OnReading &onReading) {
+ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform, const OnReading &onReading,
+                bool readsMaterials) {
     ObjLines lines(file);
     ObjMeshBuilder builder(lines.fileName(), transform);
     std::size_t unusedStatementCount = 0;
-    CheckedObjSource source(lines, builder, unusedStatementCount, onReading);
+    ObjMaterials materials(file, builder);
+    CheckedObjSource source(lines, builder, readsMaterials ? &materials : nullptr, unusedStatementCount,
+                            onReading);
     std::istream stream(&source);
     stream.exceptions(std::ios::badbit); // so that an Error of the source passes through the stream
     CallbackData data{lines, builder};
     tinyobj::LoadObjWithCallback(stream, makeCallbacks(), &data);
     ObjMesh loaded = builder.finish();
     loaded.report.unusedStatementCount = unusedStatementCount;
+    if (!loaded.mesh.triangleMaterials.empty())
+        loaded.materials = materials.give();
     return loaded;
 }
 

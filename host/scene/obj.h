@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace hyalite {
 
@@ -28,7 +30,9 @@ struct MeshReport {
     /// finite, or the face has normals at some of its corners only.
     std::size_t lostNormalCount = 0;
 
-    std::size_t unusedStatementCount = 0; ///< `l`, `p`, unknown keywords: skipped
+    std::size_t unknownMaterialCount = 0;     ///< `usemtl` with a name that no library of the file has
+    std::vector<std::string> lostLibraries{}; ///< `mtllib` that is not there, or not in the mesh's folder
+    std::size_t unusedStatementCount = 0;     ///< `l`, `p`, unknown keywords: skipped
 };
 
 /// Told which share of a file is read, in [0, 1], ever so often: about every 4 MiB.
@@ -36,12 +40,15 @@ using OnReading = std::function<void(double share)>;
 
 struct ObjMesh {
     TriangleMesh mesh; ///< in world space; materialIndex is left 0
+    /// What its material libraries say, where they are read; mesh.triangleMaterials are indices from 1 on into these, and 0
+    /// for triangles without a material. Both are empty where no triangle has one.
+    std::vector<Material> materials{};
     MeshReport report;
 };
 
 /// Loads all faces of all groups of an OBJ file as one mesh. Faces may be v, v/vt, v//vn or v/vt/vn, with
-/// negative indices, and polygons of up to 65,536 corners, concave ones too (triangulate.h). Materials and
-/// texture coordinates are not read. Coordinates are transformed in double and rounded to float once. Normals
+/// negative indices, and polygons of up to 65,536 corners, concave ones too (triangulate.h). Texture
+/// coordinates are not read; materials are (mtl.h), if told, from libraries in the mesh's folder or below. Coordinates are transformed in double and rounded to float once. Normals
 /// are transformed with the mesh and normalised; a mesh turned inside out by a negative scale keeps its outward
 /// winding. Lines may end in LF, CR or CRLF, go on after a backslash, and hold 16 MiB; the file 4 GiB. Memory
 /// stays below 64 MiB + 64 times the file's size.
@@ -50,6 +57,6 @@ struct ObjMesh {
 /// range, numbers that are no finite floats, coordinates beyond 1e15 after the transform, and faces with fewer
 /// than three corners; Error{BadInput} when there is no triangle at all.
 [[nodiscard]] ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform = {},
-                              const OnReading &onReading = {});
+                              const OnReading &onReading = {}, bool readsMaterials = false);
 
 } // namespace hyalite

@@ -106,6 +106,14 @@ void ObjMeshBuilder::addNormal(const glm::dvec3 &normalObject) {
     result.mesh.normals.push_back(normal);
 }
 
+void ObjMeshBuilder::setMaterial(std::uint32_t index) {
+    material = index;
+    if (!hasMaterials && index != 0) {
+        hasMaterials = true;
+        result.mesh.triangleMaterials.assign(result.mesh.triangles.size(), 0);
+    }
+}
+
 void ObjMeshBuilder::addFace(std::span<const ObjCorner> corners, std::size_t line) {
     ++result.report.faceCount;
     face.clear();
@@ -122,7 +130,7 @@ void ObjMeshBuilder::addFace(std::span<const ObjCorner> corners, std::size_t lin
         return;
     }
     waitingFaces.push_back(
-        {static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(waitingCorners.size())});
+        {static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(waitingCorners.size()), material});
     waitingCorners.insert(waitingCorners.end(), face.begin(), face.end());
 }
 
@@ -194,6 +202,8 @@ void ObjMeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner 
         std::swap(triangle.normals.y, triangle.normals.z);
     }
     result.mesh.triangles.push_back(triangle);
+    if (hasMaterials)
+        result.mesh.triangleMaterials.push_back(material);
 }
 
 ObjMesh ObjMeshBuilder::finish() {
@@ -205,6 +215,7 @@ ObjMesh ObjMeshBuilder::finish() {
         const std::span<const Corner> corners(waitingCorners.data() + begin, end - begin);
         for (const Corner &corner : corners)
             requireDefined(corner, waitingFaces[i].line);
+        material = waitingFaces[i].material;
         cutFace(corners);
     }
     if (result.mesh.triangles.empty())

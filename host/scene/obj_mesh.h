@@ -21,7 +21,7 @@ struct ObjCorner {
 };
 
 /// Fed in the order of the file, at most 2^32 - 1 of each thing. OBJ files may name vertices before they define them:
-/// from the first face that does, faces wait until the end, as 8 bytes a corner and 8 a face.
+/// from the first face that does, faces wait until the end, as 8 bytes a corner and 12 a face.
 class ObjMeshBuilder {
   public:
     ObjMeshBuilder(std::string file, const MeshTransform &transform);
@@ -32,6 +32,11 @@ class ObjMeshBuilder {
 
     /// Takes a `vn`; one that is zero or not finite is kept as lost.
     void addNormal(const glm::dvec3 &normalObject);
+
+    /// Of the faces that follow: an index from 1 on, or 0 for none.
+    void setMaterial(std::uint32_t material);
+
+    [[nodiscard]] MeshReport &report() { return result.report; }
 
     /// Takes an `f` of three corners or more. Throws Error{BadInput} where a relative index leads before the first
     /// vertex or normal.
@@ -50,6 +55,7 @@ class ObjMeshBuilder {
     struct Face {
         std::uint32_t line;
         std::uint32_t cornerBegin;
+        std::uint32_t material;
     };
 
     struct FaceNormals {
@@ -66,6 +72,8 @@ class ObjMeshBuilder {
     glm::dmat3 rotation;
     double scale;
     glm::dvec3 translate;
+    std::uint32_t material = 0; ///< of the faces that are being cut
+    bool hasMaterials = false;
     std::vector<Corner> face; ///< the one that is being added
     std::vector<Corner> waitingCorners;
     std::vector<Face> waitingFaces;

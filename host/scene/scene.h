@@ -114,6 +114,11 @@ struct TriangleMesh {
     std::vector<glm::vec3> normals; ///< unit length
     std::vector<MeshTriangle> triangles;
     std::uint32_t materialIndex = 0;
+    std::vector<std::uint32_t> triangleMaterials{}; ///< in place of it, one for each triangle; or none at all
+
+    [[nodiscard]] std::uint32_t materialOf(std::size_t triangle) const {
+        return triangleMaterials.empty() ? materialIndex : triangleMaterials[triangle];
+    }
 };
 
 enum class Integrator {

@@ -113,6 +113,12 @@ void checkMaterial(const Material &material, const Checked &checked) {
 
 void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checked &checked) {
     checked.indexBelow(materialCount, mesh.materialIndex, "material");
+    if (!mesh.triangleMaterials.empty() && mesh.triangleMaterials.size() != mesh.triangles.size())
+        checked.refuse("materials of triangles", fmt::format("{}", mesh.triangleMaterials.size()),
+                       fmt::format("{}, or none", mesh.triangles.size()));
+    for (std::size_t i = 0; i < mesh.triangleMaterials.size(); ++i)
+        if (mesh.triangleMaterials[i] >= materialCount)
+            checked.indexBelow(materialCount, mesh.triangleMaterials[i], fmt::format("material of triangle {}", i));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         if (!Checked::isWithin(limits::coordinate, mesh.positions[i]))
             checked.within(limits::coordinate, mesh.positions[i], fmt::format("vertex {}", i));
