@@ -62,7 +62,7 @@ class ObjMaterials {
         const std::filesystem::path library = std::filesystem::weakly_canonical(base / name, error);
         const bool isInside =
             std::mismatch(base.begin(), base.end(), library.begin(), library.end()).first == base.end();
-        if (error || !isInside || !std::filesystem::exists(library, error)) {
+        if (error || !isInside || !std::filesystem::is_regular_file(library, error)) {
             builder.report().lostLibraries.emplace_back(name);
             return;
         }

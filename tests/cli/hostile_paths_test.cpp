@@ -141,7 +141,7 @@ TEST_F(HostilePaths, NothingButRegularFilesIsOpened) {
     expectFailure("profile spheres --spp 1 --baseline pipe.json", 3, {"a pipe"});
 }
 
-TEST_F(HostilePaths, MaterialLibrariesAreNotRead) {
+TEST_F(HostilePaths, WhatIsNoFileInTheFolderIsNoMaterialLibrary) {
     ASSERT_EQ(mkfifo((folder / "pipe.mtl").c_str(), 0600), 0);
     for (const char *library : {"pipe.mtl", "/dev/zero", "/proc/self/mem", ".", "missing.mtl"}) {
         store("mesh.obj", std::string("mtllib ") + library + "\nusemtl " + library + '\n' + triangle);
