@@ -215,32 +215,42 @@ TEST_F(RenderOptions, ExposureBrightensAPngAndNotAPfm) {
 TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
     store("own.json", R"({"camera": {"width": 9, "height": 7, "horizontalFov": 20},
                           "settings": {"spp": 3, "maxDepth": 4, "bvh": "sah", "leafSize": 2, "seed": 5,
-                                       "sampler": "centre", "exposure": 2}})");
+                                       "sampler": "centre", "clamp": 6, "exposure": 2}})");
     const nlohmann::json own = renderReport("own.json --device cpu");
     EXPECT_EQ(own.at("image"), (nlohmann::json{{"width", 9}, {"height", 7}}));
-    const nlohmann::json wanted{{"integrator", "whitted"},
-                                {"spp", 3},
-                                {"maxDepth", 4},
-                                {"bvh", "sah"},
-                                {"leafSize", 2},
-                                {"seed", 5},
-                                {"sampler", "centre"},
-                                {"exposure", 2.0},
-                                {"occlusionDistance", 1e15}};
+    const nlohmann::json wanted{{"integrator", "whitted"}, {"spp", 3},
+                                {"maxDepth", 4},           {"bvh", "sah"},
+                                {"leafSize", 2},           {"seed", 5},
+                                {"sampler", "centre"},     {"clamp", 6.0},
+                                {"exposure", 2.0},         {"occlusionDistance", 1e15}};
     EXPECT_EQ(own.at("settings"), wanted);
-    const nlohmann::json overridden = renderReport("own.json --width 4 --spp 2" + onCpu);
+    const nlohmann::json overridden = renderReport("own.json --width 4 --spp 2 --clamp 0.5" + onCpu);
     EXPECT_EQ(overridden.at("image"), (nlohmann::json{{"width", 4}, {"height", 7}}));
     EXPECT_EQ(overridden.at("settings").at("spp"), 2);
+    EXPECT_EQ(overridden.at("settings").at("clamp"), 0.5);
     EXPECT_EQ(overridden.at("settings").at("maxDepth"), 4);
 }
 
 TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
     const nlohmann::json report = renderReport("empty.json --crop 0,1,0,1" + onCpu);
-    const nlohmann::json wanted{{"integrator", "whitted"}, {"spp", 16},       {"maxDepth", 7},
-                                {"bvh", "midpoint"},       {"leafSize", 8},   {"seed", 0},
-                                {"sampler", "sobol"},      {"exposure", 0.0}, {"occlusionDistance", 1e15}};
+    const nlohmann::json wanted{{"integrator", "whitted"},
+                                {"spp", 16},
+                                {"maxDepth", 7},
+                                {"bvh", "midpoint"},
+                                {"leafSize", 8},
+                                {"seed", 0},
+                                {"sampler", "sobol"},
+                                {"exposure", 0.0},
+                                {"occlusionDistance", 1e15},
+                                {"clamp", 0.0}};
     EXPECT_EQ(report.at("settings"), wanted);
     expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});
+}
+
+TEST_F(RenderOptions, APanoramaHasNoFieldOfView) {
+    store("around.json", R"({"camera": {"type": "panorama", "width": 8, "height": 4}})");
+    EXPECT_EQ(run("render around.json -o around.pfm --device cpu").exitCode, 0);
+    expectFailure("render around.json -o around.pfm --fov 60", 2, {"--fov", "panorama", "perspective"});
 }
 
 } // namespace
