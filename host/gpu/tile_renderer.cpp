@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <ctime>
 #include <tuple>
 #include <utility>
 
@@ -120,13 +121,20 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantIsCounting] = batching_.isCounting;
     constants[layout::constantShowsCost] = job_.integrator == Integrator::Cost;
     constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;
-    const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,   &buffers_.spheres,
-                                                                 &buffers_.lights,  &buffers_.materials,
-                                                                 &buffers_.nodes,   &buffers_.triangles,
-                                                                 &buffers_.normals, &film_,
-                                                                 &progress_,        &paths,
-                                                                 &pending,          &stacks_,
-                                                                 &trace_,           &buffers_.sphereArray,
+    const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,
+                                                                 &buffers_.spheres,
+                                                                 &buffers_.lights,
+                                                                 &buffers_.materials,
+                                                                 &buffers_.nodes,
+                                                                 &buffers_.triangles,
+                                                                 &buffers_.normals,
+                                                                 &film_,
+                                                                 &progress_,
+                                                                 &paths,
+                                                                 &pending,
+                                                                 &stacks_,
+                                                                 &trace_,
+                                                                 &buffers_.sphereArray,
                                                                  &buffers_.emitters,
                                                                  &buffers_.texels};
     const std::string name =
@@ -157,7 +165,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     TileTotals totals;
     const auto dispatch = [&](Kernel &kernel, bool isResumed) {
         const Step step = runOnce(kernel);
-        pace_.learnWork(step.times.best().seconds(), step.counters.workDone);
+        pace_.learnWork(step.workSeconds, step.counters.workDone);
         samplesFinished += step.counters.finishedSamples;
         totals.rays += raysOf(step.counters);
         totals.work += workOf(step.counters);
@@ -188,7 +196,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
             const Step step = dispatch(isDirect ? direct_->kernel : resumableKernel(timeline), isResumed);
             isResumed = true;
             isUnfinished = step.counters.unfinishedSlots > 0;
-            seconds += step.times.best().seconds();
+            seconds += step.workSeconds;
             finished += step.counters.finishedSamples;
             // What is there already is quickly given.
             pace_.learnSamples(seconds,
@@ -261,7 +269,13 @@ TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     counters.traceEvents = traceEventCount_;
     dispatch_.workBudget = pace_.work();
     progress_.upload(std::as_bytes(std::span(&counters, 1)));
+    const std::clock_t begin = std::clock();
     const RunTimes times = kernel.run(dispatch_, groupCount_);
+    // A software device shares its processors with other programs. Smaller dispatches would only wait for them more often.
+    const double processorSeconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    const double workSeconds = device_.info().isSoftware()
+                                   ? std::min(times.best().seconds(), processorSeconds)
+                                   : times.best().seconds();
     progress_.download(std::as_writable_bytes(std::span(&counters, 1)));
     traceEventCount_ = counters.traceEvents;
     if (counters.stackOverflows > 0)
@@ -269,7 +283,7 @@ TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
             ExitCode::LimitExceeded,
             fmt::format("the traversal stack of {} entries overflowed: the tree of depth {} is damaged",
                         plan_.stackSize, job_.scene.treeDepth));
-    return {counters, times};
+    return {counters, times, workSeconds};
 }
 
 DispatchRecord TileRenderer::describe(const Kernel &kernel, const Step &step, bool isResumed) const {

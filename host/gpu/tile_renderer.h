@@ -73,6 +73,7 @@ class TileRenderer {
     struct Step {
         layout::DispatchProgress counters;
         RunTimes times;
+        double workSeconds; ///< what it took beside the others, without what it waited for processors
     };
 
     /// A part of the film whose pixels want more samples.
