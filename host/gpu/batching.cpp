@@ -28,9 +28,8 @@
 namespace hyalite::gpu {
 
 Batching completed(Batching batching, const DeviceInfo &device) {
-    // A software device has few cores, and what is finished or not begun of a tile costs it nearly as much as a ray; a GPU
-    // wants to be filled.
-    const int side = device.isSoftware() ? 128 : 512;
+    // A software device has few cores; a GPU wants to be filled.
+    const int side = device.isSoftware() ? 256 : 512;
     if (batching.tileWidth == 0)
         batching.tileWidth = side;
     if (batching.tileHeight == 0)
