@@ -63,9 +63,8 @@ struct MemoryPlan {
 };
 
 /// `isStaged`: transfers go through buffers of the host. Throws Error{LimitExceeded}, with the largest buffers and what to
-/// do, where the device allows a buffer to be less
-/// large, or has less memory, or the host has less to spare. Drivers would say so in the middle of a render, or take it
-/// from what keeps the system alive.
+/// do, where a buffer is larger than the device allows, or the device has less memory, or the host less to spare. Drivers
+/// would say so in the middle of a render, or take it from what keeps the system alive.
 MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged, const DeviceInfo &device);
 
 } // namespace hyalite::gpu
