@@ -3,6 +3,7 @@
 #include "host/reference/renderer.h"
 #include "host/reference/rough.h"
 #include "tests/unit/geometry_fixture.h"
+#include "tests/unit/radiance_fixture.h"
 
 #include <functional>
 
@@ -10,6 +11,9 @@ namespace hyalite::reference {
 namespace {
 
 using hyalite::testing::addQuad;
+using hyalite::testing::Estimate;
+using hyalite::testing::estimate;
+using hyalite::testing::expectRadiance;
 using hyalite::testing::packed;
 using hyalite::testing::Random;
 
@@ -36,32 +40,6 @@ Material grey(float albedo) {
     Material material;
     material.albedo = glm::vec3(albedo);
     return material;
-}
-
-struct Estimate {
-    double mean;
-    double error; // standard deviation of the mean, from the pixels
-};
-
-Estimate estimate(const Scene &scene, Precision precision = Precision::Float32) {
-    const Crop crop{0, scene.camera.width, 0, scene.camera.height};
-    const Image image = render(packed(scene), scene.settings, crop, {.precision = precision}).film.toImage();
-    double sum = 0.0;
-    double squares = 0.0;
-    for (const glm::vec3 &pixel : image.pixels()) {
-        sum += pixel.y;
-        squares += static_cast<double>(pixel.y) * pixel.y;
-    }
-    const double count = static_cast<double>(image.pixels().size());
-    const double mean = sum / count;
-    return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / (count - 1.0))};
-}
-
-void expectRadiance(const Scene &scene, double expected, double tolerance = 1e-3) {
-    const Estimate found = estimate(scene);
-    EXPECT_NEAR(found.mean, expected, tolerance * expected);
-    EXPECT_LT(std::abs(found.mean - expected), 4.0 * found.error + 2e-5 * expected)
-        << found.mean << " +- " << found.error << " instead of " << expected;
 }
 
 /// What the Whitted integrator shows must be the same: these lights have no size.

@@ -3,11 +3,15 @@
 
 #include "host/reference/renderer.h"
 #include "tests/unit/geometry_fixture.h"
+#include "tests/unit/radiance_fixture.h"
 
 namespace hyalite::reference {
 namespace {
 
 using hyalite::testing::addQuad;
+using hyalite::testing::Estimate;
+using hyalite::testing::estimate;
+using hyalite::testing::expectRadiance;
 using hyalite::testing::packed;
 
 constexpr double pi = std::numbers::pi;
@@ -52,34 +56,6 @@ void addWall(Scene &scene, std::uint32_t material, const glm::vec3 &corner, cons
     scene.meshes.emplace_back();
     scene.meshes.back().materialIndex = material;
     addQuad(scene.meshes.back(), corner, a, b);
-}
-
-struct Estimate {
-    double mean;
-    double
-        error; // standard deviation of the mean, from the pixels, whose samples are stratified each for itself
-};
-
-Estimate estimate(const Scene &scene, Precision precision = Precision::Float32) {
-    const Crop crop{0, scene.camera.width, 0, scene.camera.height};
-    const Image image = render(packed(scene), scene.settings, crop, {.precision = precision}).film.toImage();
-    const double count = static_cast<double>(image.pixels().size());
-    double sum = 0.0;
-    double squares = 0.0;
-    for (const glm::vec3 &pixel : image.pixels()) {
-        sum += pixel.y;
-        squares += static_cast<double>(pixel.y) * pixel.y;
-    }
-    const double mean = sum / count;
-    return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / (count - 1.0))};
-}
-
-/// Within `tolerance` of the closed form, relatively, and within 4 standard deviations where there is noise.
-void expectRadiance(const Scene &scene, double expected, double tolerance = 1e-3) {
-    const Estimate found = estimate(scene);
-    EXPECT_NEAR(found.mean, expected, tolerance * expected);
-    EXPECT_LT(std::abs(found.mean - expected), 4.0 * found.error + 2e-5 * expected)
-        << found.mean << " +- " << found.error;
 }
 
 TEST(PathFurnace, ABallUnderAnEvenSkyHasItsAlbedo) {
