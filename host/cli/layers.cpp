@@ -26,10 +26,8 @@ Layer layerOf(const ViewFilm &of) {
     const bool isNormal = of.view == Integrator::Normal;
     const int channelCount = of.view == Integrator::Depth ? 1 : 3;
     const auto fillRow = [&film, isNormal, channelCount](int y, std::span<float> row) {
-        const auto width = static_cast<std::size_t>(film.crop.width());
         float *next = row.data();
-        for (const layout::FilmPixel &pixel :
-             std::span(film.pixels).subspan(static_cast<std::size_t>(y) * width, width)) {
+        for (const layout::FilmPixel &pixel : rowOf(film, y)) {
             const glm::vec3 mean = pixel.sum / static_cast<float>(std::max(pixel.sampleCount, 1u));
             const glm::vec3 value = isNormal ? normalOf(mean) : mean;
             for (int channel = 0; channel < channelCount; ++channel)

@@ -4,14 +4,10 @@
 
 namespace hyalite {
 
-namespace {
-
 std::span<const layout::FilmPixel> rowOf(const Film &film, int y) {
     const auto width = static_cast<std::size_t>(film.crop.width());
     return std::span(film.pixels).subspan(static_cast<std::size_t>(y) * width, width);
 }
-
-} // namespace
 
 std::vector<Layer> filmLayers(const Film &film) {
     std::vector<Layer> layers;

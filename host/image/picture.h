@@ -34,6 +34,9 @@ struct Picture {
     std::vector<Attribute> attributes; ///< what made the picture, from what
 };
 
+/// Row y of the crop, from 0 on. `film` must outlive it.
+[[nodiscard]] std::span<const layout::FilmPixel> rowOf(const Film &film, int y);
+
 /// The film as layers: "variance" RGB, of the mean of the samples, see varianceOfMean(), unless no pixel has one; and
 /// "samples", their number. `film` must outlive them.
 [[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
