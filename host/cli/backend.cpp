@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <future>
 #include <new>
 #include <optional>
@@ -153,12 +152,6 @@ std::uint64_t filmBytes(const Crop &crop) {
                             crop.width(), crop.height(), sizeText(neededBytes), available));
 }
 
-/// lavapipe reads the number of its threads when its driver is loaded.
-void limitDriverThreads(int threadCount) {
-    if (threadCount > 0)
-        setenv("LP_NUM_THREADS", std::to_string(threadCount).c_str(), 1);
-}
-
 std::vector<gpu::DeviceInfo> listDevices() {
     try {
         return gpu::listDevices();
@@ -236,16 +229,17 @@ gpu::Batching batchingFor(const DeviceOptions &options) {
     return batching;
 }
 
-std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
+std::unique_ptr<Backend> openBackend(const std::string &name, const gpu::ProcessorUse &processors,
                                      const gpu::Batching &batching) {
-    limitDriverThreads(threadCount);
-    return open(name, threadCount, batching);
+    gpu::tellLavapipe(processors);
+    return open(name, processors.threadCount, batching);
 }
 
-std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name, int threadCount,
+std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name,
+                                                          const gpu::ProcessorUse &processors,
                                                           const gpu::Batching &batching) {
-    limitDriverThreads(threadCount); // here, as other threads may read the environment from now on
-    return std::async(std::launch::async, [=] { return open(name, threadCount, batching); });
+    gpu::tellLavapipe(processors); // here, as other threads may read the environment from now on
+    return std::async(std::launch::async, [=] { return open(name, processors.threadCount, batching); });
 }
 
 } // namespace hyalite

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/cli/scene_options.h"
+#include "host/gpu/processor_use.h"
 #include "host/gpu/renderer.h"
 #include "host/report/provenance.h"
 #include "host/report/ray_counts.h"
@@ -84,14 +85,16 @@ void addDeviceOptions(CLI::App &command, DeviceOptions &options);
 /// What openBackend takes of them.
 [[nodiscard]] gpu::Batching batchingFor(const DeviceOptions &options);
 
-/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. `threadCount` of 0 means all; on
-/// lavapipe it holds for the first device that is opened. Throws Error{NoDevice}, and Error{Usage} where the reference
-/// renderer is asked for a kernel.
-[[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name, int threadCount,
+/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. What `processors` asks of lavapipe holds
+/// where it is for the first device that is opened. Throws Error{NoDevice}, and Error{Usage} where the reference renderer
+/// is asked for a kernel.
+[[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name,
+                                                   const gpu::ProcessorUse &processors = {},
                                                    const gpu::Batching &batching = {});
 
 /// The same, while the caller does something else. A batching's kernel must outlive the opening.
-[[nodiscard]] std::future<std::unique_ptr<Backend>>
-beginOpeningBackend(const std::string &name, int threadCount, const gpu::Batching &batching = {});
+[[nodiscard]] std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name,
+                                                                        const gpu::ProcessorUse &processors,
+                                                                        const gpu::Batching &batching = {});
 
 } // namespace hyalite

@@ -204,11 +204,12 @@ struct Contestants {
     std::unique_ptr<Backend> second;
 };
 
-Contestants openContestants(const CompareOptions &options) {
+Contestants openContestants(const CompareOptions &options, const PackedScene &scene) {
+    const gpu::ProcessorUse processors{options.threads, scene.hasTriangles};
     std::unique_ptr<Backend> first =
-        openBackend(options.device, options.threads, batchingFor(options.deviceOptions));
+        openBackend(options.device, processors, batchingFor(options.deviceOptions));
     return {std::move(first),
-            openBackend(options.against, options.threads,
+            openBackend(options.against, processors,
                         isReference(options.against) ? gpu::Batching{} : batchingFor(options.deviceOptions))};
 }
 
@@ -238,7 +239,7 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
         throw Error(
             ExitCode::Usage,
             fmt::format("--against-seed {}: the first render has this seed; name another", secondSeed));
-    const Contestants contestants = openContestants(options);
+    const Contestants contestants = openContestants(options, scene.packed);
     if (!options.isQuiet) {
         printContestants(scene, contestants);
         fmt::print("seeds        {} and {}\n", firstSeed, secondSeed);
@@ -282,7 +283,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     if (heatMapFile)
         requirePngSize(options.heatMap, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, 2);
-    const Contestants contestants = openContestants(options);
+    const Contestants contestants = openContestants(options, scene.packed);
     Backend *const first = contestants.first.get();
     Backend *const second = contestants.second.get();
     const bool isAgainstOracle = options.against == "cpu-double";

@@ -130,7 +130,8 @@ std::vector<std::byte> pngOf(const Drawing &drawing, const Profile &profile) {
 KernelWork countKernelWork(const ProfileOptions &options, const PreparedScene &scene) {
     gpu::Batching batching = batchingFor(options.deviceOptions);
     batching.isCounting = true;
-    const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads, batching);
+    const std::unique_ptr<Backend> counter =
+        openBackend(options.device, {options.threads, scene.packed.hasTriangles}, batching);
     const BackendResult result =
         renderWithProgress(*counter, scene, "counting the kernel's work", options.isQuiet);
     return {counter->identity(scene.packed, scene.loaded.scene.settings.integrator).kernel, result.work,
@@ -139,7 +140,8 @@ KernelWork countKernelWork(const ProfileOptions &options, const PreparedScene &s
 
 /// Renders the work of a traversal with a stack, whichever kernel is measured, and writes down what it came to.
 Drawing countWork(const ProfileOptions &options, PreparedScene &scene, Profile &profile) {
-    const std::unique_ptr<Backend> counter = openBackend(options.device, options.threads);
+    const std::unique_ptr<Backend> counter =
+        openBackend(options.device, {options.threads, scene.packed.hasTriangles});
     RenderSettings &settings = scene.loaded.scene.settings;
     const Integrator measured = std::exchange(settings.integrator, Integrator::Cost);
     const BackendResult result = renderWithProgress(*counter, scene, "counting", options.isQuiet);
@@ -167,7 +169,7 @@ std::size_t differingPixelCount(const Film &a, const Film &b) {
 std::optional<std::string> verify(Backend &backend, const PreparedScene &scene, Profile &profile,
                                   bool isQuiet) {
     const Film film = renderFrame(backend, scene, "verification", false, profile, isQuiet);
-    const std::unique_ptr<Backend> twin = openBackend("cpu", 0);
+    const std::unique_ptr<Backend> twin = openBackend("cpu");
     Stopwatch watch;
     const BackendResult wanted = renderWithProgress(*twin, scene, "the CPU twin", isQuiet);
     profile.hostStages.push_back({"the CPU twin", watch.lap()});
@@ -192,7 +194,8 @@ PreparedScene prepare(const ProfileOptions &options, const std::string &commandL
     profile.hostStages.push_back({"build", {loaded, loaded + nanos(scene.buildSeconds)}});
     requireFilmMemory(scene.crop, 2);
     watch = {};
-    backend = openBackend(options.device, options.threads, batchingFor(options.deviceOptions));
+    backend = openBackend(options.device, {options.threads, scene.packed.hasTriangles},
+                          batchingFor(options.deviceOptions));
     profile.hostStages.push_back({"open the device", watch.lap()});
     profile.origin = provenanceOf(scene, commandLine);
     profile.device = backend->identity(scene.packed, profile.origin.settings.integrator);

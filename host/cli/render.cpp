@@ -145,9 +145,11 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     if (!options.checkpoint.empty())
         const CheckpointWriter writability(options.checkpoint, {}, false);
 
-    std::future<std::unique_ptr<Backend>> opening =
-        beginOpeningBackend(options.device, options.threads, batchingFor(options.deviceOptions));
-    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    std::future<std::unique_ptr<Backend>> opening;
+    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet, [&](bool hasMeshes) {
+        opening = beginOpeningBackend(options.device, {options.threads, hasMeshes},
+                                      batchingFor(options.deviceOptions));
+    });
     if (format == ImageFormat::Png)
         requirePngSize(options.output, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, (options.checkpoint.empty() && !options.partialSeconds ? 1 : 2) +

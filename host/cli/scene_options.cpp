@@ -15,6 +15,7 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace hyalite {
 
@@ -170,14 +171,16 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->group(tracing);
 }
 
-PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet) {
+PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
+                           std::function<void(bool hasMeshes)> onOutline) {
     using Clock = std::chrono::steady_clock;
     PreparedScene prepared;
     const Clock::time_point start = Clock::now();
     {
         ProgressLine progress("load", isQuiet);
-        prepared.loaded = loadScene(
-            options.scene, [&](double share) { progress.update(share); }, options.allowedPaths);
+        prepared.loaded =
+            loadScene(options.scene, {std::move(onOutline), [&](double share) { progress.update(share); }},
+                      options.allowedPaths);
     }
     applyOverrides(options, prepared.loaded);
     Scene &scene = prepared.loaded.scene;

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,8 +59,10 @@ struct PreparedScene {
 };
 
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for options that do not go
-/// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet.
-[[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet);
+/// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet. `onOutline` is
+/// told whether there are meshes before they are read.
+[[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
+                                         std::function<void(bool hasMeshes)> onOutline = {});
 
 /// What reports say of it.
 [[nodiscard]] Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine);

@@ -11,6 +11,7 @@
 #include <cctype>
 #include <charconv>
 #include <optional>
+#include <regex>
 
 namespace hyalite::gpu {
 
@@ -20,6 +21,19 @@ std::string lowerCase(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     return text;
+}
+
+/// lavapipe has the width of its vectors in its name, which depends on what it was told (processor_use.h).
+std::string withoutVectorWidth(const std::string &name) {
+    static const std::regex width(", [0-9]+ bits");
+    return std::regex_replace(name, width, "");
+}
+
+bool isNamed(const DeviceInfo &device, const std::string &wanted) {
+    const std::string name = lowerCase(device.name);
+    const std::string part = lowerCase(wanted);
+    return !part.empty() && (name.find(part) != std::string::npos ||
+                             withoutVectorWidth(name).find(withoutVectorWidth(part)) != std::string::npos);
 }
 
 std::string describeAll(const std::vector<DeviceInfo> &devices) {
@@ -102,10 +116,8 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo> &devices, const std::strin
         return *best;
     }
     const std::optional<int> index = parseIndex(wanted);
-    const std::string part = lowerCase(wanted);
     for (const DeviceInfo &device : devices) {
-        const bool isMeant = index ? device.index == *index
-                                   : !part.empty() && lowerCase(device.name).find(part) != std::string::npos;
+        const bool isMeant = index ? device.index == *index : isNamed(device, wanted);
         if (!isMeant)
             continue;
         if (!device.isUsable())

@@ -47,8 +47,8 @@ struct DeviceInfo {
 /// there is no loader, no driver or no device at all.
 [[nodiscard]] std::vector<DeviceInfo> listDevices();
 
-/// Chooses by "auto" (a hardware GPU before a software one), an index, or a part of a name, in any case. Throws
-/// Error{NoDevice} listing what there is, if none or an unusable one is meant.
+/// Chooses by "auto" (a hardware GPU before a software one), an index, or a part of a name, in any case and whatever
+/// the width of vectors in it. Throws Error{NoDevice} listing what there is, if none or an unusable one is meant.
 [[nodiscard]] DeviceInfo chooseDevice(const std::vector<DeviceInfo> &devices, const std::string &wanted);
 
 } // namespace hyalite::gpu

@@ -75,8 +75,11 @@ struct Renderer::State {
             Batching used = batching;
             used.isPlain = scene.isPlain();
             // What rough surfaces and environments do is much code, and twice as much leaves no registers: 3 times slower.
-            const bool isLarge = scene.scattering != 0 || (scene.lighting & layout::lightsByEnvironment) != 0;
-            if (integrator == Integrator::Path && isLarge && wanted.slotsPerInvocation == 0)
+            // Without a tree there is no waiting for its nodes, which a second ray would hide.
+            const bool isLarge =
+                integrator == Integrator::Path &&
+                (scene.scattering != 0 || (scene.lighting & layout::lightsByEnvironment) != 0);
+            if ((isLarge || !scene.hasTriangles) && wanted.slotsPerInvocation == 0)
                 used.slotsPerInvocation = 1;
             return used;
         }

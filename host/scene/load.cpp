@@ -29,8 +29,10 @@ void requireFile(const std::filesystem::path &file) {
                             isName ? fmt::format("; did you mean the shipped scene {}?", stem) : ""));
 }
 
-LoadedScene loadBareMesh(const std::filesystem::path &file, const OnReading &onReading) {
-    ObjMesh mesh = loadObj(file, {}, onReading, true);
+LoadedScene loadBareMesh(const std::filesystem::path &file, const LoadEvents &events) {
+    if (events.onOutline)
+        events.onOutline(true);
+    ObjMesh mesh = loadObj(file, {}, events.onReading, true);
     LoadedScene loaded;
     loaded.scene = frameMesh(std::move(mesh.mesh));
     // The neutral one comes first, for triangles without a material.
@@ -43,12 +45,12 @@ LoadedScene loadBareMesh(const std::filesystem::path &file, const OnReading &onR
 
 } // namespace
 
-LoadedScene loadScene(const std::string &argument, const OnReading &onReading,
+LoadedScene loadScene(const std::string &argument, const LoadEvents &events,
                       std::span<const std::filesystem::path> allowedPaths) {
     const std::filesystem::path file = resolveScene(argument);
     requireFile(file);
-    LoadedScene loaded = hasExtension(file, ".obj") ? loadBareMesh(file, onReading)
-                                                    : loadSceneFile(file, onReading, allowedPaths);
+    LoadedScene loaded =
+        hasExtension(file, ".obj") ? loadBareMesh(file, events) : loadSceneFile(file, events, allowedPaths);
     validateScene(loaded.scene, file.string());
     return loaded;
 }

@@ -11,7 +11,7 @@ namespace hyalite {
 
 /// Loads a scene file, a bare mesh (framed and lit) or a shipped scene by its name, and validates it. A scene file may
 /// name files in its own folder, in the assets and in `allowedPaths`. Throws Error{BadInput}.
-[[nodiscard]] LoadedScene loadScene(const std::string &argument, const OnReading &onReading = {},
+[[nodiscard]] LoadedScene loadScene(const std::string &argument, const LoadEvents &events = {},
                                     std::span<const std::filesystem::path> allowedPaths = {});
 
 } // namespace hyalite

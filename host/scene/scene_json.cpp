@@ -216,13 +216,17 @@ RenderSettings readSettings(const JsonObject &object) {
 
 } // namespace
 
-LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &onReading,
+LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &events,
                           std::span<const std::filesystem::path> allowedPaths) {
     const nlohmann::json document = readJsonFile(file);
     const std::string fileName = file.string();
     const JsonObject top({&document, &fileName}, scene_keys::top);
     for (const std::string_view ignored : {"$schema"sv, "description"sv})
         static_cast<void>(top.text(ignored, ""));
+
+    const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
+    if (events.onOutline)
+        events.onOutline(!meshes.empty());
 
     LoadedScene loaded;
     loaded.file = file;
@@ -245,11 +249,10 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &on
         scene.shadowThroughGlass = static_cast<float>(
             settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
     }
-    const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
     const auto onReadingMesh = [&](double share) {
-        if (onReading)
-            onReading((static_cast<double>(scene.meshes.size()) + share) /
-                      static_cast<double>(meshes.size()));
+        if (events.onReading)
+            events.onReading((static_cast<double>(scene.meshes.size()) + share) /
+                             static_cast<double>(meshes.size()));
     };
     std::size_t triangleTotal = 0;
     for (const JsonNode &node : meshes) {

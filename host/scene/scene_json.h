@@ -91,11 +91,19 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 namespace hyalite {
+
+/// What is told while a scene is loaded.
+struct LoadEvents {
+    std::function<void(bool hasMeshes)>
+        onOutline;       ///< once it is known which large files are to be read, before they are
+    OnReading onReading; ///< the share of all meshes that is read, each counting the same
+};
 
 struct LoadedScene {
     Scene scene;
@@ -108,8 +116,8 @@ struct LoadedScene {
 /// several values at once (is up parallel to the view?) is left to validateScene. Files outside of the scene's
 /// folder, the assets and `allowedPaths` are not read (file_reach.h). Throws Error{BadInput}
 /// naming the file, the key as a JSON path such as /spheres/3/radius (a syntax error: line and column), what
-/// was found and what is allowed. `onReading` is told the share of all meshes, each counting the same.
-[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const OnReading &onReading = {},
+/// was found and what is allowed.
+[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &events = {},
                                         std::span<const std::filesystem::path> allowedPaths = {});
 
 /// The keys of each object of a scene file.

@@ -182,7 +182,7 @@ TEST_F(DeviceFaults, AFailingDispatchIsNamed) {
         runFaulty("render spheres -o a.png --crop 16,24,8,16 --width 32 --height 32 --spp 3",
                   "vkWaitForFences:4:VK_ERROR_DEVICE_LOST");
     EXPECT_EQ(outcome.exitCode, 0) << "it is done again: " << outcome;
-    EXPECT_TRUE(contains(outcome.errors, "kernel whitted skip-list-x2, tile (16, 8), samples 0 to 3"))
+    EXPECT_TRUE(contains(outcome.errors, "kernel whitted skip-list, tile (16, 8), samples 0 to 3"))
         << outcome;
 }
 

@@ -46,7 +46,7 @@ TEST_F(DeviceRecovery, AFaultInAnyDispatchChangesNoBit) {
             const std::string told = report().at("faults").at(0);
             EXPECT_TRUE(contains(outcome.errors, "note: " + told + ";")) << outcome;
             if (call > dispatchesOfTheStart) {
-                EXPECT_TRUE(contains(told, "kernel whitted skip-list-x2, tile (")) << told;
+                EXPECT_TRUE(contains(told, "kernel whitted skip-list, tile (")) << told;
                 EXPECT_TRUE(contains(told, "samples 0 to 1")) << told;
             }
         }

@@ -27,7 +27,7 @@ TEST_F(ProfileCommand, VerifiesThenMeasures) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     for (const char *part : {"verified     equal to the CPU twin, bit for bit", "clock        timestamps",
                              "measured     2 frames, after 1 that is not", "\nupload ", "\npipeline ",
-                             "\nfirst dispatch ", "\ndispatches ", "\nreadback ", "\nwhitted skip-list-x2 "})
+                             "\nfirst dispatch ", "\ndispatches ", "\nreadback ", "\nwhitted skip-list "})
         EXPECT_TRUE(contains(outcome.output, part)) << part << '\n' << outcome;
 }
 
@@ -105,7 +105,7 @@ TEST_F(ProfileCommand, WritesALineForEachDispatch) {
     EXPECT_TRUE(csv.starts_with("frame,measured,dispatch,kernel,"));
     // Four tiles and more, in two frames; the first ones are small.
     EXPECT_GE(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 4);
-    EXPECT_TRUE(contains(csv, "\r\nrepeat 2,1,1,whitted skip-list-x2,32,0,32,24,0,1,0,")) << csv;
+    EXPECT_TRUE(contains(csv, "\r\nrepeat 2,1,1,whitted skip-list,32,0,32,24,0,1,0,")) << csv;
 }
 
 TEST_F(ProfileCommand, WritesATimelineThatKeepsTheRulesOfItsFormat) {
