@@ -1,4 +1,5 @@
 #include "host/bvh/bvh.h"
+#include "host/bvh/duplicates.h"
 #include "host/bvh/split.h"
 #include "host/bvh/wide_box.h"
 #include "host/error.h"
@@ -34,7 +35,15 @@ struct Task {
     std::uint32_t node;
     std::uint32_t begin;
     std::uint32_t end;
-    int depth; ///< inner nodes above
+    int depth;               ///< inner nodes above
+    bool isDistinct = false; ///< it is known that no two triangles are identical
+
+    [[nodiscard]] std::size_t size() const { return end - begin; }
+
+    [[nodiscard]] Task child(std::uint32_t childNode, std::uint32_t childBegin,
+                             std::uint32_t childEnd) const {
+        return {childNode, childBegin, childEnd, depth + 1, isDistinct};
+    }
 };
 
 /// A part of the tree while it is built: a leaf, two branches, or everything below it in one piece.
@@ -50,9 +59,10 @@ struct Branch {
 /// so does the tree: threads decide only who builds what.
 class Builder {
   public:
-    Builder(TreeKind kind, std::span<BuildTriangle> triangles, int leafSize)
+    /// `duplicates` may be null: then all triangles stay.
+    Builder(TreeKind kind, std::span<BuildTriangle> triangles, int leafSize, const Duplicates *duplicates)
         : split_(kind == TreeKind::Sah ? splitBySah : splitAtMidpoint), triangles_(triangles),
-          leafSize_(static_cast<std::size_t>(leafSize)) {}
+          leafSize_(static_cast<std::size_t>(leafSize)), duplicates_(duplicates) {}
 
     Bvh build() {
         const auto count = static_cast<std::uint32_t>(triangles_.size());
@@ -60,7 +70,7 @@ class Builder {
         root.node.box = boxOf(triangles_);
 #pragma omp parallel if (count > smallBranch)
 #pragma omp single
-        grow(root, 0, count, 0);
+        grow(root, {rootNode, 0, count, 0});
         if (failure_)
             std::rethrow_exception(failure_);
         Bvh bvh;
@@ -73,69 +83,77 @@ class Builder {
   private:
     static constexpr std::uint32_t smallBranch = 4096; ///< triangles
 
-    /// Reorders the triangles from `begin` to `end`; returns where the right child's begin, or `begin` for a leaf.
-    std::uint32_t divide(const Box &box, std::uint32_t begin, std::uint32_t end, int depth) const {
-        const std::span<BuildTriangle> range = triangles_.subspan(begin, end - begin);
-        std::size_t leftCount = 0;
-        if (range.size() > 1) {
-            if (!mustHalve(range.size(), depth))
-                leftCount = split_(range, box, leafSize_);
-            else if (range.size() > leafSize_)
-                leftCount = splitAtMedian(range, box);
-        }
-        return begin + static_cast<std::uint32_t>(leftCount);
+    [[nodiscard]] std::span<BuildTriangle> trianglesOf(const Task &task) const {
+        return triangles_.subspan(task.begin, task.size());
     }
 
-    [[nodiscard]] Box boxOfRange(std::uint32_t begin, std::uint32_t end) const {
-        return boxOf(triangles_.subspan(begin, end - begin));
+    /// Reorders the task's triangles; returns where the right child's begin, or the task's begin for a leaf.
+    ///
+    /// What is identical has one centroid, and goes the same way until a range cannot be cut by centroids. Only there it is
+    /// looked for, and what is dropped leaves the task at its end.
+    std::uint32_t divide(const Box &box, Task &task) const {
+        std::size_t leftCount = 0;
+        if (task.size() > 1 && !mustHalve(task.size(), task.depth))
+            leftCount = split_(trianglesOf(task), box, leafSize_);
+        if (leftCount == 0 && task.size() > 1 && duplicates_ != nullptr && !task.isDistinct) {
+            task.end = task.begin + static_cast<std::uint32_t>(duplicates_->setAside(trianglesOf(task)));
+            task.isDistinct = true;
+        }
+        if (leftCount == 0 && task.size() > leafSize_)
+            leftCount = splitAtMedian(trianglesOf(task), box);
+        return task.begin + static_cast<std::uint32_t>(leftCount);
     }
+
+    [[nodiscard]] Box boxOfTask(const Task &task) const { return boxOf(trianglesOf(task)); }
 
     /// Nothing may leave a task but through failure_.
-    void grow(Branch &branch, std::uint32_t begin, std::uint32_t end, int depth) {
+    void grow(Branch &branch, const Task &task) {
         try {
-            if (end - begin <= smallBranch)
-                growInOnePiece(branch, begin, end, depth);
+            if (task.size() <= smallBranch)
+                growInOnePiece(branch, task);
             else
-                growInTwo(branch, begin, end, depth);
+                growInTwo(branch, task);
         } catch (...) {
 #pragma omp critical(hyaliteBuildFailure)
             failure_ = std::current_exception();
         }
     }
 
-    void growInTwo(Branch &branch, std::uint32_t begin, std::uint32_t end, int depth) {
-        branch.deepest = depth;
-        const std::uint32_t middle = divide(branch.node.box, begin, end, depth);
-        if (middle == begin) {
-            branch.node.first = begin;
-            branch.node.count = end - begin;
+    void growInTwo(Branch &branch, Task task) {
+        branch.deepest = task.depth;
+        const std::uint32_t middle = divide(branch.node.box, task);
+        if (middle == task.begin) {
+            branch.node.first = task.begin;
+            branch.node.count = task.end - task.begin;
             return;
         }
         branch.left = std::make_unique<Branch>();
         branch.right = std::make_unique<Branch>();
         Branch *const left = branch.left.get();
-#pragma omp task default(none) firstprivate(left, begin, middle, depth)
+        const Task leftTask = task.child(rootNode, task.begin, middle);
+        const Task rightTask = task.child(rootNode, middle, task.end);
+#pragma omp task default(none) firstprivate(left, leftTask)
         {
-            left->node.box = boxOfRange(begin, middle);
-            grow(*left, begin, middle, depth + 1);
+            left->node.box = boxOfTask(leftTask);
+            grow(*left, leftTask);
         }
-        branch.right->node.box = boxOfRange(middle, end);
-        grow(*branch.right, middle, end, depth + 1);
+        branch.right->node.box = boxOfTask(rightTask);
+        grow(*branch.right, rightTask);
     }
 
     /// Depth-first with an explicit stack.
-    void growInOnePiece(Branch &branch, std::uint32_t begin, std::uint32_t end, int depth) const {
+    void growInOnePiece(Branch &branch, const Task &whole) const {
         // The branch's own node stands in front while its children are numbered from 0.
         std::vector<BvhNode> &nodes = branch.below;
-        std::vector<Task> tasks{{rootNode, begin, end, depth}};
+        std::vector<Task> tasks{whole};
         while (!tasks.empty()) {
-            const Task task = tasks.back();
+            Task task = tasks.back();
             tasks.pop_back();
             branch.deepest = std::max(branch.deepest, task.depth);
             const auto node = [&]() -> BvhNode & {
                 return task.node == rootNode ? branch.node : nodes[task.node];
             };
-            const std::uint32_t middle = divide(node().box, task.begin, task.end, task.depth);
+            const std::uint32_t middle = divide(node().box, task);
             if (middle == task.begin) {
                 node().first = task.begin;
                 node().count = task.end - task.begin;
@@ -143,10 +161,12 @@ class Builder {
             }
             const auto left = static_cast<std::uint32_t>(nodes.size());
             node().first = left;
-            nodes.push_back({boxOfRange(task.begin, middle), 0, 0});
-            nodes.push_back({boxOfRange(middle, task.end), 0, 0});
-            tasks.push_back({left + 1, middle, task.end, task.depth + 1});
-            tasks.push_back({left, task.begin, middle, task.depth + 1});
+            const Task leftTask = task.child(left, task.begin, middle);
+            const Task rightTask = task.child(left + 1, middle, task.end);
+            nodes.push_back({boxOfTask(leftTask), 0, 0});
+            nodes.push_back({boxOfTask(rightTask), 0, 0});
+            tasks.push_back(rightTask);
+            tasks.push_back(leftTask);
         }
     }
 
@@ -181,8 +201,45 @@ class Builder {
     SplitFunction split_;
     std::span<BuildTriangle> triangles_;
     std::size_t leafSize_;
+    const Duplicates *duplicates_;
     std::exception_ptr failure_; ///< of any task
 };
+
+/// Fills bvh.order, and moves leaves to where the triangles then are of which some were dropped.
+void orderTriangles(std::span<const BuildTriangle> triangles, Bvh &bvh) {
+    bvh.order.reserve(triangles.size());
+    for (const BuildTriangle &triangle : triangles)
+        if (triangle.inputIndex != Duplicates::dropped)
+            bvh.order.push_back(triangle.inputIndex);
+    if (bvh.order.size() == triangles.size())
+        return;
+    std::vector<std::uint32_t> positions; // in the order
+    positions.reserve(triangles.size());
+    std::uint32_t position = 0;
+    for (const BuildTriangle &triangle : triangles) {
+        positions.push_back(position);
+        position += triangle.inputIndex != Duplicates::dropped;
+    }
+    for (BvhNode &node : bvh.nodes)
+        if (node.isLeaf())
+            node.first = positions[node.first];
+}
+
+Bvh buildTree(TreeKind kind, std::span<BuildTriangle> triangles, int leafSize, const Duplicates *duplicates) {
+    assert(leafSize >= 1);
+    Bvh bvh;
+    if (triangles.empty())
+        return bvh;
+    if (kind != TreeKind::None) {
+        bvh = Builder(kind, triangles, leafSize, duplicates).build();
+    } else {
+        const std::size_t keptCount =
+            duplicates != nullptr ? duplicates->setAside(triangles) : triangles.size();
+        bvh.nodes.push_back({boxOf(triangles), 0, static_cast<std::uint32_t>(keptCount)});
+    }
+    orderTriangles(triangles, bvh);
+    return bvh;
+}
 
 } // namespace
 
@@ -220,16 +277,13 @@ std::vector<BuildTriangle> buildTriangles(const Scene &scene) {
 }
 
 Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize) {
-    assert(leafSize >= 1);
-    Bvh bvh;
-    if (kind != TreeKind::None && !triangles.empty())
-        bvh = Builder(kind, triangles, leafSize).build();
-    else if (!triangles.empty())
-        bvh.nodes.push_back({boxOf(triangles), 0, static_cast<std::uint32_t>(triangles.size())});
-    bvh.order.reserve(triangles.size());
-    for (const BuildTriangle &triangle : triangles)
-        bvh.order.push_back(triangle.inputIndex);
-    return bvh;
+    return buildTree(kind, triangles, leafSize, nullptr);
+}
+
+Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize) {
+    std::vector<BuildTriangle> triangles = buildTriangles(scene);
+    const Duplicates duplicates(scene);
+    return buildTree(kind, triangles, leafSize, &duplicates);
 }
 
 } // namespace hyalite

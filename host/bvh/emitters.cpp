@@ -57,9 +57,15 @@ double coneShare(const layout::EmitterRecord &spot) { return 0.5 * (1.0 - double
 
 /// Triangle records in the order of the input.
 std::vector<std::uint32_t> inInputOrder(const std::vector<layout::TriangleRecord> &triangles) {
-    std::vector<std::uint32_t> records(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        records[triangles[i].primitiveId - layout::firstTriangleId] = static_cast<std::uint32_t>(i);
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max(); // where a triangle was dropped
+    std::vector<std::uint32_t> records(triangles.size(), none);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const std::size_t index = triangles[i].primitiveId - layout::firstTriangleId;
+        if (index >= records.size())
+            records.resize(index + 1, none);
+        records[index] = static_cast<std::uint32_t>(i);
+    }
+    std::erase(records, none);
     return records;
 }
 

@@ -23,9 +23,7 @@ std::size_t splitAtMidpoint(std::span<BuildTriangle> range, const Box &box, std:
     const auto right = std::partition(range.begin(), range.end(), [=](const BuildTriangle &triangle) {
         return triangle.centroid[axis] < middle;
     });
-    if (right == range.begin() || right == range.end())
-        return splitAtMedian(range, box);
-    return static_cast<std::size_t>(right - range.begin());
+    return right == range.end() ? 0 : static_cast<std::size_t>(right - range.begin());
 }
 
 std::size_t splitAtMedian(std::span<BuildTriangle> range, const Box &box) {

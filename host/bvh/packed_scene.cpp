@@ -154,7 +154,8 @@ bool isLong(std::int64_t count) { return count > 8192; }
 
 void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::uint32_t> &packedMaterial,
                    PackedScene &packed) {
-    std::vector<std::uint32_t> positionInTree(bvh.order.size());
+    constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max(); // what the tree dropped
+    std::vector<std::uint32_t> positionInTree(triangleCount(scene), nowhere);
     const auto total = static_cast<std::int64_t>(bvh.order.size());
 #pragma omp parallel for schedule(static) if (isLong(total))
     for (std::int64_t i = 0; i < total; ++i)
@@ -169,6 +170,8 @@ void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::ui
             const MeshTriangle &corner = mesh.triangles[static_cast<std::size_t>(i)];
             const std::uint32_t inputIndex = firstIndex + static_cast<std::uint32_t>(i);
             const std::uint32_t position = positionInTree[inputIndex];
+            if (position == nowhere)
+                continue;
             layout::TriangleRecord &triangle = packed.triangles[position];
             triangle.v0 = mesh.positions[corner.positions.x];
             triangle.v1 = mesh.positions[corner.positions.y];
@@ -292,7 +295,7 @@ std::uint32_t viewOf(Integrator integrator) {
 }
 
 PackedScene packScene(const Scene &scene, const Bvh &bvh) {
-    assert(bvh.order.size() == triangleCount(scene));
+    assert(bvh.order.size() <= triangleCount(scene));
     PackedScene packed;
     packed.frame = packFrame(scene);
     packed.camera = cameraOf(scene.camera);

@@ -146,11 +146,9 @@ std::size_t splitBySah(std::span<BuildTriangle> range, const Box &box, std::size
     const Candidate best = range.size() == 2 ? cutOfPair(range) : bestCut(range, binnings);
     const double area = box.halfArea();
     const double leafCost = triangleCost * static_cast<double>(range.size()) * area;
-    const bool isLeafCheaper = best.axis < 0 || leafCost <= nodeCost * area + triangleCost * best.cost;
-    if (isLeafCheaper && range.size() <= leafSize)
+    const bool isLeafCheaper = leafCost <= nodeCost * area + triangleCost * best.cost;
+    if (best.axis < 0 || (isLeafCheaper && range.size() <= leafSize))
         return 0;
-    if (best.axis < 0)
-        return splitAtMedian(range, box);
     const Binning &binning = binnings[static_cast<std::size_t>(best.axis)];
     const auto right = std::partition(range.begin(), range.end(), [&](const BuildTriangle &triangle) {
         return binning.binOf(triangle.centroid[best.axis]) <= best.lastLeftBin;

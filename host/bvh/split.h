@@ -5,12 +5,12 @@
 
 namespace hyalite {
 
-/// Reorders `range` (at least two triangles) and returns how many go to the left child: in [1, size - 1], or 0 to make
-/// the range a leaf. `box` encloses the range.
+/// Reorders `range` (at least two triangles) and returns how many go to the left child: in [1, size - 1], or 0 to leave
+/// the range whole: as a leaf, or, of more than `leafSize`, as one that centroids do not separate. `box` encloses it.
 using SplitFunction = std::size_t (*)(std::span<BuildTriangle> range, const Box &box, std::size_t leafSize);
 
 /// The longest axis of the box is cut at its midpoint and triangles go by their centroids, until `leafSize` or fewer
-/// remain. Where the midpoint separates nothing, the median is used.
+/// remain.
 [[nodiscard]] std::size_t splitAtMidpoint(std::span<BuildTriangle> range, const Box &box,
                                           std::size_t leafSize);
 

@@ -15,30 +15,36 @@ BvhStatistics measureBvh(const Bvh &bvh) {
     statistics.depth = bvh.depth;
     if (bvh.nodes.empty())
         return statistics;
-    double cost = 0.0;
+    double nodesCost = 0.0;
+    double trianglesCost = 0.0;
     for (const BvhNode &node : bvh.nodes) {
         const double area = node.box.halfArea();
         if (!node.isLeaf()) {
             ++statistics.innerCount;
-            cost += nodeCost * area;
+            nodesCost += nodeCost * area;
             continue;
         }
         ++statistics.leafCount;
-        cost += triangleCost * area * node.count;
+        trianglesCost += triangleCost * area * node.count;
         statistics.largestLeaf = std::max<std::size_t>(statistics.largestLeaf, node.count);
         const std::size_t bucket = static_cast<std::size_t>(std::bit_width(node.count - 1));
         ++statistics.leafHistogram[std::min(bucket, statistics.leafHistogram.size() - 1)];
     }
     const double rootArea = bvh.nodes.front().box.halfArea();
-    statistics.sahCost = rootArea > 0.0 ? cost / rootArea : 0.0;
+    if (rootArea > 0.0) {
+        statistics.sahCost = (nodesCost + trianglesCost) / rootArea;
+        statistics.trianglesTested = trianglesCost / rootArea / triangleCost;
+    }
     statistics.meanLeaf =
         static_cast<double>(statistics.triangleCount) / static_cast<double>(statistics.leafCount);
     return statistics;
 }
 
-std::string findBvhFault(const Bvh &bvh, const std::vector<BuildTriangle> &triangles) {
-    if (bvh.order.size() != triangles.size())
-        return fmt::format("{} triangles in the tree, {} in the scene", bvh.order.size(), triangles.size());
+std::string findBvhFault(const Bvh &bvh, const std::vector<BuildTriangle> &triangles,
+                         std::size_t droppedCount) {
+    const std::size_t wantedCount = triangles.size() - droppedCount;
+    if (bvh.order.size() != wantedCount)
+        return fmt::format("{} triangles in the tree, {} in the scene", bvh.order.size(), wantedCount);
     std::vector<int> depths(bvh.nodes.size(), -1);
     std::vector<bool> isSeen(triangles.size(), false);
     std::size_t seenCount = 0;
@@ -69,9 +75,8 @@ std::string findBvhFault(const Bvh &bvh, const std::vector<BuildTriangle> &trian
                 return fmt::format("leaf {}: triangle {} reaches out of its box", i, bvh.order[k]);
         }
     }
-    if (seenCount != triangles.size())
-        return fmt::format("{} of {} triangles are in no leaf", triangles.size() - seenCount,
-                           triangles.size());
+    if (seenCount != wantedCount)
+        return fmt::format("{} of {} triangles are in no leaf", wantedCount - seenCount, wantedCount);
     if (depth != bvh.depth)
         return fmt::format("the depth is {}, not {}", depth, bvh.depth);
     return {};

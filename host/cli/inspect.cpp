@@ -1,3 +1,4 @@
+#include "host/bvh/duplicates.h"
 #include "host/bvh/statistics.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
@@ -52,7 +53,7 @@ void printMeshes(const PreparedScene &prepared) {
     }
 }
 
-void printTree(const PreparedScene &prepared, const std::string &fault) {
+void printTree(const PreparedScene &prepared, std::size_t droppedCount, const std::string &fault) {
     const RenderSettings &settings = prepared.loaded.scene.settings;
     const BvhStatistics statistics = measureBvh(prepared.bvh);
     fmt::print("tree         {}, leaf size {}\n", nameOf(settings.tree), settings.leafSize);
@@ -68,6 +69,9 @@ void printTree(const PreparedScene &prepared, const std::string &fault) {
                                      statistics.leafHistogram[i]);
     }
     fmt::print("  histogram{}\n", histogram);
+    if (droppedCount > 0)
+        fmt::print("  dropped    {} with the corners and the material of one before\n",
+                   countText(droppedCount, "triangle"));
     fmt::print("  SAH cost   {:.2f}\n", statistics.sahCost);
     fmt::print("  check      {}\n",
                fault.empty() ? "every triangle in one leaf, every box encloses its subtree" : fault);
@@ -136,9 +140,11 @@ ExitCode runInspect(const InspectOptions &options) {
                countText(scene.meshes.size(), "mesh", "meshes"), countText(scene.spheres.size(), "sphere"),
                countText(scene.lights.size(), "light"), countText(scene.materials.size(), "material"));
     printMeshes(prepared);
-    const std::string fault = findBvhFault(prepared.bvh, buildTriangles(scene));
+    std::vector<BuildTriangle> distinct = buildTriangles(scene);
+    const std::size_t droppedCount = distinct.size() - Duplicates(scene).setAside(distinct);
+    const std::string fault = findBvhFault(prepared.bvh, buildTriangles(scene), droppedCount);
     if (!prepared.bvh.nodes.empty())
-        printTree(prepared, fault);
+        printTree(prepared, droppedCount, fault);
     printCosts(prepared);
     const bool isSame = options.rayCount == 0 || compareWithBruteForce(prepared, options.rayCount);
     return fault.empty() && isSame ? ExitCode::Ok : ExitCode::AnswerIsNo;

@@ -1,7 +1,10 @@
 #include "host/cli/scene_options.h"
 
+#include "host/bvh/duplicates.h"
+#include "host/bvh/statistics.h"
 #include "host/cli/options.h"
 #include "host/error.h"
+#include "host/report/message.h"
 #include "host/report/progress.h"
 #include "host/scene/framing.h"
 #include "host/scene/limits.h"
@@ -98,6 +101,18 @@ Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
     return crop;
 }
 
+/// Meshes that a tree can separate are far from this: a sphere of eight million triangles has 14.
+constexpr double manyTrianglesTested = 1000.0;
+
+void warnOfOverlaps(const Bvh &bvh) {
+    const BvhStatistics statistics = measureBvh(bvh);
+    const bool hasTree = statistics.depth > 0; // or that is what was asked for
+    if (hasTree && statistics.trianglesTested > manyTrianglesTested)
+        printMessage("warning: the boxes of the scene's {} triangles overlap so much that a ray tests about "
+                     "{:.0f} of them: this takes its time\n",
+                     statistics.triangleCount, statistics.trianglesTested);
+}
+
 double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();
 }
@@ -192,7 +207,8 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     }
     prepared.crop = chooseCrop(options.crop, scene.camera);
     const Clock::time_point loaded = Clock::now();
-    prepared.bvh = buildBvh(scene.settings.tree, buildTriangles(scene), scene.settings.leafSize);
+    prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);
+    warnOfOverlaps(prepared.bvh);
     prepared.packed = packScene(scene, prepared.bvh);
     if (source == Source::Dropped) {
         scene.meshes = {};

@@ -89,6 +89,37 @@ TEST_F(InspectCommand, AMeshIsCountedWithWhatWasRepairedAndDropped) {
     EXPECT_EQ(numberAfter(text, "repaired"), 1) << text;
 }
 
+TEST_F(InspectCommand, TrianglesThatAreThereAgainAreDroppedAndCounted) {
+    std::string text = squareObj();
+    const std::string faces = text.substr(text.find("\nf "));
+    for (int i = 0; i < 500; ++i)
+        text += faces;
+    store("again.obj", text);
+    store("square.obj", squareObj());
+    const long count = numberAfter(inspect("square.obj"), "contents");
+    for (const char *tree : {"none", "midpoint", "sah"}) {
+        const std::string line = "again.obj --rays 50 --bvh " + std::string(tree);
+        const std::string inspected = inspect(line);
+        EXPECT_EQ(numberAfter(inspected, "contents"), 501 * count);
+        EXPECT_EQ(numberAfter(inspected, "histogram[^a-z]*dropped"), 500 * count) << inspected;
+        EXPECT_TRUE(contains(inspected, "0 of 50 differ")) << inspected;
+    }
+    EXPECT_EQ(renderPfm("again.obj --width 16 --height 16 --spp 4 --integrator id"),
+              renderPfm("square.obj --width 16 --height 16 --spp 4 --integrator id"));
+}
+
+TEST_F(InspectCommand, TrianglesThatLieOnEachOtherAreWarnedOf) {
+    std::string text;
+    for (int i = 0; i < 3000; ++i)
+        text += "v 0 0 0." + std::to_string(10000 + i) + "\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
+    store("pile.obj", text);
+    const Outcome outcome = run("inspect pile.obj");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_GT(numberAfter(outcome.errors, "warning: .*3000 triangles overlap.*a ray tests about"), 1000)
+        << outcome;
+    EXPECT_EQ(run("inspect pile.obj --bvh none").errors, "") << "there, that is what was asked for";
+}
+
 TEST_F(InspectCommand, RaysFindTheSameByTreeAndByBruteForce) {
     for (const char *line : {"sheet.json --rays 500", "sheet.obj --rays 500 --bvh sah --leaf-size 1",
                              "sheet.obj --rays 1 --bvh none"}) {

@@ -315,6 +315,7 @@ TEST(BvhStatistics, OfAHandMadeTree) {
     EXPECT_EQ(statistics.leafHistogram, (std::array<std::size_t, 8>{4, 0, 0, 0, 0, 0, 0, 0}));
     // Half areas: root 7 + 7 + 1 = 15, its children 3 + 3 + 1 = 7, leaves 3.
     EXPECT_DOUBLE_EQ(statistics.sahCost, (nodeCost * (15.0 + 7.0 + 7.0) + triangleCost * 4.0 * 3.0) / 15.0);
+    EXPECT_DOUBLE_EQ(statistics.trianglesTested, 4.0 * 3.0 / 15.0);
 }
 
 TEST(BvhStatistics, OfNothingAndOfASingleLeaf) {

@@ -51,13 +51,12 @@ TEST(Split, MidpointCutsTheLongestAxisOfTheBoxInTheMiddle) {
 }
 
 TEST(Split, MidpointUsesTheBoxAndNotTheCentroidsExtent) {
-    // Centroids at 1, 2, 3; the box reaches to 20, so that its middle at 10 separates nothing: the median it is.
+    // Centroids at 1, 2, 3; the box reaches to 20, so that its middle at 10 separates nothing.
     std::vector<BuildTriangle> triangles = pointsOnX({3.0f, 1.0f, 2.0f});
     Box box;
     box.extend(glm::vec3(0.0f));
     box.extend(glm::vec3(20.0f, 0.0f, 0.0f));
-    EXPECT_EQ(splitAtMidpoint(triangles, box, 1), 1u);
-    EXPECT_EQ(firstIndices(triangles, 1), (Indices{1}));
+    EXPECT_EQ(splitAtMidpoint(triangles, box, 1), 0u);
     // With a box to 5 the middle is 2.5.
     triangles = pointsOnX({3.0f, 1.0f, 2.0f});
     box.upper.x = 5.0f;
@@ -119,12 +118,14 @@ TEST(Split, MedianHalvesByTheCentroidsAndThenByTheInputIndex) {
     EXPECT_EQ(firstIndices(triangles, 3), (Indices{0, 1, 2}));
 }
 
-TEST(Split, TheMedianSeparatesWhatTheMidpointCannot) {
+TEST(Split, WhatCentroidsDoNotSeparateIsLeftWholeButForTheMedian) {
     std::vector<BuildTriangle> triangles = pointsOnX({2.0f, 2.0f, 2.0f, 2.0f, 2.0f});
-    EXPECT_EQ(splitAtMidpoint(triangles, boxOf(triangles), 1), 2u);
+    for (const std::size_t leafSize : {1u, 5u}) {
+        EXPECT_EQ(splitAtMidpoint(triangles, boxOf(triangles), leafSize), 0u);
+        EXPECT_EQ(splitBySah(triangles, boxOf(triangles), leafSize), 0u);
+    }
+    EXPECT_EQ(splitAtMedian(triangles, boxOf(triangles)), 2u);
     EXPECT_EQ(firstIndices(triangles, 2), (Indices{0, 1}));
-    EXPECT_EQ(splitBySah(triangles, boxOf(triangles), 1), 2u);
-    EXPECT_EQ(splitBySah(triangles, boxOf(triangles), 5), 0u) << "inseparable triangles make a leaf";
 }
 
 TEST(Split, SahCutsBetweenTwoClustersOfUnequalSize) {
