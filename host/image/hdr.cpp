@@ -176,14 +176,16 @@ Image readHeader(const InputFile &file, ByteStream &stream) {
         pixelCount > imagePixelCountMax)
         throw file.bad(fmt::format("its size is {} x {}; a side may have 1 to {} pixels, an image {}", width,
                                    height, imageSideMax, imagePixelCountMax));
-    constexpr std::uint64_t freeBytes = std::uint64_t{60}
-                                        << 20; // of 64 MiB: rows and the file's buffer come on top
-    constexpr std::uint64_t unpackingMax = 64;
-    if (pixelCount * sizeof(glm::vec3) > freeBytes + unpackingMax * file.sizeBytes())
-        throw file.bad(
-            fmt::format("{} x {} pixels take {} MiB to read, for a file of {} bytes; that is more than "
-                        "{} times as much",
-                        width, height, pixelCount * sizeof(glm::vec3) >> 20, file.sizeBytes(), unpackingMax));
+    if (stream.remaining() < 4 * static_cast<std::uint64_t>(height)) // a row's first pixel, or its own head
+        throw file.bad("it is cut short");
+    constexpr std::uint64_t besideBytes = std::uint64_t{4} << 20; // a row and the file's buffer
+    const std::uint64_t neededBytes = pixelCount * sizeof(glm::vec3) + besideBytes;
+    const std::uint64_t allowedBytes = readingBytesMax(file.sizeBytes());
+    if (neededBytes > allowedBytes)
+        throw file.bad(fmt::format(
+            "{} x {} pixels take {} MiB to read, for a file of {} bytes; allowed are {} MiB (256, "
+            "and 64 times its size)",
+            width, height, neededBytes >> 20, file.sizeBytes(), allowedBytes >> 20));
     return {width, height};
 }
 

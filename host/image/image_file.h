@@ -33,6 +33,12 @@ struct LoadedImage {
 inline constexpr int imageSideMax = 32768;
 inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
 
+/// Most memory that reading a file of so many bytes may take: enough for 4096 x 4096 pixels of whatever content, as flat
+/// ones are packed a thousandfold, and in proportion to the file beyond that, so that no small file asks for gigabytes.
+[[nodiscard]] constexpr std::uint64_t readingBytesMax(std::uint64_t fileBytes) {
+    return (std::uint64_t{256} << 20) + 64 * fileBytes;
+}
+
 /// By the name's extension, .png, .exr, .hdr or .pfm in upper or lower case. Throws Error{Usage} for any other.
 [[nodiscard]] ImageFormat imageFormatOf(const std::filesystem::path &path);
 
@@ -46,8 +52,8 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 /// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by their first bytes. Grey becomes three equal channels; alpha
 /// and layers are dropped and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does). Throws
 /// Error{BadInput}, naming the file and what was found, where it is not a regular file, too large, cut short, damaged,
-/// or, except for OpenEXR, followed by other bytes; and Error{LimitExceeded} where a PNG would take more than 48 MiB and
-/// 64 times its size.
+/// or, except for OpenEXR, followed by other bytes; and where it would take more than readingBytesMax, which is
+/// Error{LimitExceeded} of a PNG.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 
 } // namespace hyalite

@@ -228,17 +228,18 @@ class ChunkReader {
     /// Pixels may be packed a thousandfold, so that a small file could ask for gigabytes. Beside the levels that
     /// stb_image gives there are an Image's floats; unpacking takes less, unless interlaced images lie beside the whole.
     void requireModestMemory() const {
-        constexpr std::uint64_t anyFileBytes = std::uint64_t{48} << 20;
+        constexpr std::uint64_t besideBytes = std::uint64_t{16}
+                                              << 20; // the packed pixels, and what is no pixel
         const std::uint64_t levelBytes = header_.bitDepth == 16 ? 2 : 1;
         const std::uint64_t pixelBytes = sizeof(glm::vec3) + levelBytes * (header_.interlaced ? 8 : 3);
         const std::uint64_t neededBytes = std::uint64_t{header_.width} * header_.height * pixelBytes;
-        const std::uint64_t allowedBytes = anyFileBytes + 64 * file_.sizeBytes();
-        if (neededBytes > allowedBytes)
+        const std::uint64_t allowedBytes = readingBytesMax(file_.sizeBytes());
+        if (neededBytes + besideBytes > allowedBytes)
             throw Error(
                 ExitCode::LimitExceeded,
                 fmt::format("{}: {} x {} pixels take {} bytes of memory; for a PNG file of {} bytes {} are "
-                            "allowed (48 MiB and 64 times its size); write larger images as PFM",
-                            file_.path().string(), header_.width, header_.height, neededBytes,
+                            "allowed (256 MiB and 64 times its size); write larger images as PFM",
+                            file_.path().string(), header_.width, header_.height, neededBytes + besideBytes,
                             file_.sizeBytes(), allowedBytes));
     }
 

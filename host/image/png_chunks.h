@@ -34,7 +34,7 @@ struct PngChunks {
 void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<const std::byte> data);
 
 /// Throws Error{BadInput}, or Error{LimitExceeded} where the pixels are packed so densely that they would take more
-/// memory than 48 MiB and 64 times the file's size.
+/// memory than readingBytesMax.
 [[nodiscard]] PngChunks readPngChunks(const InputFile &file);
 
 } // namespace hyalite

@@ -1,6 +1,7 @@
 // OpenEXR pictures as `hyalite diff` and `hyalite tonemap` read them, and their layers as `hyalite diff --statistical`
 // does. The library behind it is not instrumented: what it does to the heap is seen, and how much of that it takes.
 #include "host/image/exr.h"
+#include "host/image/image_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/heap_peak.h"
 
@@ -11,7 +12,6 @@ namespace hyalite::fuzz {
 namespace {
 
 void readOne(const std::filesystem::path &path, const std::string &layer, std::size_t sizeBytes) {
-    constexpr std::size_t freeBytes = std::size_t{64} << 20;
     const HeapPeak peak;
     const std::optional<std::string> refusal = refusalOf([&] {
         const InputFile file(path);
@@ -19,7 +19,7 @@ void readOne(const std::filesystem::path &path, const std::string &layer, std::s
         require(image.width() > 0 && image.height() > 0 && hasExrLayer(file, layer),
                 "an image without pixels");
     });
-    require(peak.bytes() <= freeBytes + 64 * sizeBytes, "more memory than may be taken for such a file");
+    require(peak.bytes() <= readingBytesMax(sizeBytes), "more memory than may be taken for such a file");
 }
 
 void run(std::string_view content) {

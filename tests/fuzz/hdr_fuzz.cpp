@@ -1,6 +1,7 @@
 // Radiance pictures as `hyalite diff` and `hyalite tonemap` read them. What is read is written, and read again: that changes
 // nothing.
 #include "host/image/hdr.h"
+#include "host/image/image_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/heap_peak.h"
 
@@ -12,12 +13,11 @@ namespace hyalite::fuzz {
 namespace {
 
 std::optional<Image> readBounded(const std::filesystem::path &path, std::size_t sizeBytes) {
-    constexpr std::size_t freeBytes = std::size_t{64} << 20;
     const HeapPeak peak;
     std::optional<Image> image;
     if (refusalOf([&] { image = readHdr(InputFile(path)); }))
         image.reset();
-    require(peak.bytes() <= freeBytes + 64 * sizeBytes, "more memory than may be taken for such a file");
+    require(peak.bytes() <= readingBytesMax(sizeBytes), "more memory than may be taken for such a file");
     return image;
 }
 
