@@ -15,8 +15,12 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <functional>
 #include <istream>
+#include <map>
+#include <set>
 #include <streambuf>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -54,8 +58,11 @@ class ObjMaterials {
     }
 
     /// A library that is not there is no error: many meshes have lost theirs. What lies outside of the folder is not
-    /// read, as a mesh may come from a stranger.
+    /// read, as a mesh may come from a stranger; and each is read once, or a small file could ask for a large one again and
+    /// again.
     void read(std::string_view name) {
+        if (!names.emplace(name).second)
+            return;
         std::error_code error;
         const std::filesystem::path base =
             std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
@@ -66,8 +73,10 @@ class ObjMaterials {
             builder.report().lostLibraries.emplace_back(name);
             return;
         }
+        if (!libraries.insert(library).second)
+            return;
         for (Material &material : loadMtl(library))
-            if (indexOf(material.name) == 0)
+            if (indices.emplace(material.name, static_cast<std::uint32_t>(materials.size() + 1)).second)
                 materials.push_back(std::move(material));
     }
 
@@ -79,14 +88,16 @@ class ObjMaterials {
 
     /// From 1 on; 0: there is none.
     [[nodiscard]] std::uint32_t indexOf(std::string_view name) const {
-        const auto found = std::find_if(materials.begin(), materials.end(),
-                                        [&](const Material &material) { return material.name == name; });
-        return found == materials.end() ? 0 : static_cast<std::uint32_t>(found - materials.begin() + 1);
+        const auto found = indices.find(name);
+        return found == indices.end() ? 0 : found->second;
     }
 
     std::filesystem::path folder;
     ObjMeshBuilder &builder;
     std::vector<Material> materials;
+    std::map<std::string, std::uint32_t, std::less<>> indices; ///< of the materials, by name
+    std::set<std::string, std::less<>> names;                  ///< of libraries that were asked for
+    std::set<std::filesystem::path> libraries;                 ///< that were read
 };
 
 // Stands between the file and tinyobjloader, which knows no line numbers and trusts what it reads: hands on

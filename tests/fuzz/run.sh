@@ -35,6 +35,7 @@ for format in "${formats[@]}"; do
     mkdir -p "$build/corpus/$format"
     words=()
     case $format in
+    mtl) words=("-dict=$here/mtl.words") ;;
     obj) words=("-dict=$here/obj.words") ;;
     baseline | scene) words=("-dict=$here/json.words") ;;
     esac

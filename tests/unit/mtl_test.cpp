@@ -5,6 +5,8 @@
 #include "host/scene/load.h"
 #include "tests/unit/scene_json_fixture.h"
 
+#include <chrono>
+
 namespace hyalite {
 namespace {
 
@@ -100,6 +102,25 @@ TEST_F(Mtl, ABareMeshHasItsMaterials) {
         EXPECT_EQ(packed.materials.at(triangle.materialIndex).kind == layout::materialDielectric, isGlass);
         EXPECT_EQ((triangle.flags & layout::triangleIsTransmissive) != 0, isGlass);
     }
+}
+
+TEST_F(Mtl, LibrariesAreReadOnceAndMaterialsFoundAtOnce) {
+    // Without that these are a million readings of one file, and a billion comparisons of names.
+    std::string library;
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 20'000; ++i) {
+        library += "newmtl material number " + std::to_string(i) + "\nKd 1 0 0\n";
+        text += "mtllib many.mtl\nmtllib ./many.mtl\nmtllib none.mtl\nusemtl material number " +
+                std::to_string(19'999 - i) + "\nf 1 2 3\n";
+    }
+    static_cast<void>(write("many.mtl", library));
+    const auto start = std::chrono::steady_clock::now();
+    const LoadedScene loaded = loadScene(write("mesh.obj", text).string());
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    EXPECT_EQ(loaded.meshReports.at(0).unknownMaterialCount, 0u);
+    EXPECT_EQ(loaded.meshReports.at(0).lostLibraries, (std::vector<std::string>{"none.mtl"}));
+    EXPECT_EQ(loaded.scene.meshes.at(0).triangleMaterials.at(0), 20'000u);
+    EXPECT_EQ(loaded.scene.meshes.at(0).triangleMaterials.at(19'999), 1u);
 }
 
 TEST_F(Mtl, LibrariesThatAreNotThereOrOutOfReachAreTold) {
