@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -144,6 +145,7 @@ ExitCode runAndReport(std::span<char *> arguments) {
 int main(int argumentCount, char **arguments) {
     useOneHeap();
     openMissingStreams();
+    std::signal(SIGXFSZ, SIG_IGN); // a file beyond the shell's limit is an error of its own, as one on a full disk is
     const ExitCode code = runAndReport({arguments, static_cast<std::size_t>(argumentCount)});
     return static_cast<int>(finishOutput(code));
 }

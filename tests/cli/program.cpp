@@ -127,7 +127,7 @@ class FileActions {
     posix_spawn_file_actions_t actions_{};
 };
 
-/// While it lives, processes that start cannot write files larger than the limit, and get an error instead of SIGXFSZ.
+/// While it lives, processes that start cannot write files larger than the limit.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(std::size_t limitBytes) : isSet_(limitBytes > 0) {
@@ -137,13 +137,11 @@ class FileSizeLimit {
         rlimit limit = before_;
         limit.rlim_cur = limitBytes;
         setrlimit(RLIMIT_FSIZE, &limit);
-        handlerBefore_ = std::signal(SIGXFSZ, SIG_IGN);
     }
     ~FileSizeLimit() {
         if (!isSet_)
             return;
         setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handlerBefore_);
     }
     FileSizeLimit(const FileSizeLimit &) = delete;
     FileSizeLimit &operator=(const FileSizeLimit &) = delete;
@@ -151,7 +149,6 @@ class FileSizeLimit {
   private:
     bool isSet_;
     rlimit before_{};
-    void (*handlerBefore_)(int) = SIG_DFL;
 };
 
 std::vector<std::string> makeEnvironment(const std::map<std::string, std::optional<std::string>> &changes) {
