@@ -1,6 +1,7 @@
 #include "host/cli/backend.h"
 
 #include "host/cli/options.h"
+#include "host/cli/tuning.h"
 #include "host/error.h"
 #include "host/host_memory.h"
 #include "host/reference/renderer.h"
@@ -100,7 +101,7 @@ class CpuBackend : public Backend {
 class DeviceBackend : public Backend {
   public:
     DeviceBackend(const gpu::DeviceInfo &device, const gpu::Batching &batching)
-        : device_(device), renderer_(device, batching) {}
+        : device_(device), renderer_(device, batching, readTuning(device).kernels) {}
 
     [[nodiscard]] std::string name() const override { return device_.name; }
     [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {

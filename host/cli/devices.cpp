@@ -1,20 +1,50 @@
 #include "host/gpu/devices.h"
 #include "host/cli/commands.h"
+#include "host/cli/tune.h"
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/batching.h"
 #include "host/report/json_text.h"
+#include "host/scene/names.h"
 #include "host/version.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <ctime>
 #include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace hyalite {
 
 namespace {
 
 constexpr double bytesPerMebibyte = 1024.0 * 1024.0;
+
+/// The kernels that `auto` means, by the names of workloads.
+std::vector<std::pair<std::string_view, std::string_view>> chosenKernels(const gpu::DeviceInfo &device,
+                                                                         const Tuning &tuning) {
+    std::vector<std::pair<std::string_view, std::string_view>> chosen;
+    for (const auto &[name, workload] : gpu::workloadNames) {
+        const gpu::KernelChoice &measured = tuning.kernels[static_cast<std::size_t>(workload)];
+        chosen.emplace_back(name, measured.traversal != gpu::Traversal::Automatic
+                                      ? gpu::kernelName(measured)
+                                      : gpu::kernelName(gpu::completed({}, device, workload)));
+    }
+    return chosen;
+}
+
+void printKernels(const gpu::DeviceInfo &device) {
+    const Tuning tuning = readTuning(device);
+    std::string text;
+    for (const auto &[workload, kernel] : chosenKernels(device, tuning))
+        text += fmt::format("{}{} for {}", text.empty() ? "" : ", ", kernel, workload);
+    fmt::print("   kernel      {}: {}\n", text,
+               tuning.isMeasured() ? "as measured on " + tuning.date
+                                   : "by its type; `hyalite devices --tune` measures");
+}
 
 void printTable(const std::vector<gpu::DeviceInfo> &devices) {
     for (const gpu::DeviceInfo &device : devices) {
@@ -30,8 +60,7 @@ void printTable(const std::vector<gpu::DeviceInfo> &devices) {
                    device.canRoundToNearestEven ? "yes" : "not offered",
                    device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
         fmt::print("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
-        fmt::print("   kernel      {}, unless --kernel names another\n",
-                   gpu::kernelName(gpu::completed({}, device)));
+        printKernels(device);
         const std::string unpromised = gpu::explainUnpromisedBits(device);
         fmt::print("   equal bits  {}\n", unpromised.empty() ? "promised" : "not promised: " + unpromised);
         fmt::print("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
@@ -60,7 +89,10 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
         entry["canRoundToNearestEven"] = device.canRoundToNearestEven;
         entry["canPreserveSignedZeroInfNan"] = device.canPreserveSignedZeroInfNan;
         entry["hasExactDivisionListed"] = device.hasExactDivisionListed;
-        entry["kernel"] = gpu::kernelName(gpu::completed({}, device));
+        const Tuning tuning = readTuning(device);
+        for (const auto &[workload, kernel] : chosenKernels(device, tuning))
+            entry["kernels"][std::string(workload)] = kernel;
+        entry["areKernelsMeasured"] = tuning.isMeasured();
         entry["areBitsPromised"] = device.areBitsPromised();
         entry["isUsable"] = device.isUsable();
         if (!device.isUsable())
@@ -77,15 +109,60 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
     fmt::print("{}", jsonText(list));
 }
 
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
+
+/// Measures the kernels on one device, and keeps which are fast.
+void tune(const std::string &deviceName) {
+    const std::filesystem::path file = tuningFile();
+    const std::vector<KernelRates> all = measureKernels(deviceName);
+    const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
+    fmt::print("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");
+    for (const std::string &kernel : all.front().kernels)
+        fmt::print(" {:>12}", kernel);
+    fmt::print("   auto\n");
+    Tuning tuning;
+    tuning.date = today();
+    for (const KernelRates &rates : all) {
+        fmt::print("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);
+        for (const double rate : rates.megaraysPerSecond)
+            fmt::print(" {:>12.3g}", rate);
+        fmt::print("   {}\n", rates.kernels[rates.best]);
+        for (const auto &[name, choice] : gpu::kernelNames)
+            if (name == rates.kernels[rates.best])
+                tuning.kernels[static_cast<std::size_t>(rates.workload)] = choice;
+    }
+    storeTuning(device, tuning);
+    fmt::print("\nkept in {}\n", file.string());
+}
+
+struct DevicesOptions {
+    bool isJson = false;
+    bool isTuning = false;
+    std::string device = "auto";
+};
+
 } // namespace
 
 void addDevicesCommand(CLI::App &app, CommandContext &) {
     CLI::App *command = app.add_subcommand("devices", "list the Vulkan devices and what they can do");
-    const auto isJson = std::make_shared<bool>(false);
-    command->add_flag("--json", *isJson, "print JSON");
-    command->callback([isJson] {
+    const auto options = std::make_shared<DevicesOptions>();
+    CLI::Option *json = command->add_flag("--json", options->isJson, "print JSON");
+    CLI::Option *tuning =
+        command->add_flag("--tune", options->isTuning,
+                          "measure which kernels are fast on a device, and keep it for all renders to "
+                          "come: half a minute. The image is the same with all");
+    tuning->excludes(json);
+    command->add_option("--device", options->device, "for --tune: auto, an index or part of a name")
+        ->type_name("DEVICE")
+        ->capture_default_str()
+        ->needs(tuning);
+    command->callback([options] {
+        if (options->isTuning) {
+            tune(options->device);
+            return;
+        }
         const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
-        if (*isJson)
+        if (options->isJson)
             printJson(devices);
         else
             printTable(devices);

@@ -1,5 +1,7 @@
 #include "host/gpu/batching.h"
 
+#include "host/report/hash.h"
+
 #include "pathSkipOneSlot.h"
 #include "pathSkipTwoSlots.h"
 #include "pathStackOneSlot.h"
@@ -27,16 +29,25 @@
 
 namespace hyalite::gpu {
 
-Batching completed(Batching batching, const DeviceInfo &device) {
+Workload workloadOf(const PackedScene &scene, Integrator integrator) {
+    if (integrator == Integrator::Path &&
+        (scene.scattering != 0 || (scene.lighting & layout::lightsByEnvironment) != 0))
+        return Workload::Shading;
+    return scene.hasTriangles ? Workload::Triangles : Workload::Spheres;
+}
+
+Batching completed(Batching batching, const DeviceInfo &device, Workload workload) {
     // A software device has few cores; a GPU wants to be filled.
     const int side = device.isSoftware() ? 256 : 512;
     if (batching.tileWidth == 0)
         batching.tileWidth = side;
     if (batching.tileHeight == 0)
         batching.tileHeight = side;
-    // Two independent rays at once hide latency on a CPU; on a GPU other subgroups do, and registers are short.
+    // Two independent rays at once hide on a CPU how long it waits for nodes of the tree; where there is none, they are only
+    // more code, and where there is much code, no registers are left: 3 times slower. On a GPU other subgroups hide it.
+    const bool isWaiting = workload == Workload::Triangles && device.isSoftware();
     if (batching.slotsPerInvocation == 0)
-        batching.slotsPerInvocation = device.isSoftware() && batching.kernel.empty() ? 2 : 1;
+        batching.slotsPerInvocation = isWaiting && batching.kernel.empty() ? 2 : 1;
     // lavapipe stops a subgroup in silence after 65,535 loop iterations of all of its lanes together. The lanes count
     // for themselves, and lanes that diverge add up.
     const std::uint32_t limit = 65535u / (std::max(device.subgroupSize, 1u) + 1u);
@@ -77,12 +88,30 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator 
     return view[index];
 }
 
-std::string_view kernelName(const Batching &batching) {
-    for (const auto &[name, choice] : kernelNames)
-        if (choice.traversal == batching.traversal &&
-            choice.slotsPerInvocation == batching.slotsPerInvocation)
+std::uint64_t hashOfKernels() {
+    std::uint64_t hash = 0;
+    for (const Integrator integrator : {Integrator::Whitted, Integrator::Path, Integrator::Normal})
+        for (const Traversal traversal : {Traversal::Stack, Traversal::SkipList})
+            for (const int slots : {1, 2})
+                for (const bool isPlain : {true, false}) {
+                    Batching batching;
+                    batching.traversal = traversal;
+                    batching.slotsPerInvocation = slots;
+                    batching.isPlain = isPlain;
+                    hash = hashBytes(std::as_bytes(kernelWords(batching, integrator)), hash);
+                }
+    return hash;
+}
+
+std::string_view kernelName(const KernelChoice &choice) {
+    for (const auto &[name, known] : kernelNames)
+        if (known.traversal == choice.traversal && known.slotsPerInvocation == choice.slotsPerInvocation)
             return name;
     return "auto";
+}
+
+std::string_view kernelName(const Batching &batching) {
+    return kernelName(KernelChoice{batching.traversal, batching.slotsPerInvocation});
 }
 
 } // namespace hyalite::gpu

@@ -1,6 +1,7 @@
 // How work is cut into dispatches, and which kernel does it.
 #pragma once
 
+#include "host/bvh/packed_scene.h"
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/devices.h"
 #include "host/scene/scene.h"
@@ -36,17 +37,36 @@ struct Batching {
     std::span<const std::uint32_t> kernel{};
 };
 
+/// Kinds of scenes for which different kernels are fast.
+enum class Workload {
+    Spheres,   ///< there are no triangles: kernels compute, and hardly read
+    Triangles, ///< rays go through a tree
+    Shading ///< most code is about what happens where rays arrive: paths with rough surfaces or an environment
+};
+
+inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNames{
+    {{"spheres", Workload::Spheres}, {"triangles", Workload::Triangles}, {"shading", Workload::Shading}}};
+
+[[nodiscard]] Workload workloadOf(const PackedScene &scene, Integrator integrator);
+
 /// `batching` with everything filled in that was left to the device.
-[[nodiscard]] Batching completed(Batching batching, const DeviceInfo &device);
+[[nodiscard]] Batching completed(Batching batching, const DeviceInfo &device,
+                                 Workload workload = Workload::Triangles);
 
 /// The kernel of `integrator` that a complete `batching` names, as SPIR-V.
 [[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator);
+
+/// Of all kernels together: what was measured of others does not hold.
+[[nodiscard]] std::uint64_t hashOfKernels();
 
 /// A kernel that can be asked for.
 struct KernelChoice {
     Traversal traversal = Traversal::Automatic;
     int slotsPerInvocation = 0;
 };
+
+/// For each Workload; Automatic where there is nothing to prefer.
+using KernelChoices = std::array<KernelChoice, workloadNames.size()>;
 
 /// By the words that command lines use.
 inline constexpr std::array<std::pair<std::string_view, KernelChoice>, 5> kernelNames{
@@ -56,6 +76,8 @@ inline constexpr std::array<std::pair<std::string_view, KernelChoice>, 5> kernel
      {"skip-list", {Traversal::SkipList, 1}},
      {"skip-list-x2", {Traversal::SkipList, 2}}}};
 
+/// The word for a kernel.
+[[nodiscard]] std::string_view kernelName(const KernelChoice &choice);
 /// The word for the kernel of a complete `batching`.
 [[nodiscard]] std::string_view kernelName(const Batching &batching);
 

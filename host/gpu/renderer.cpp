@@ -56,11 +56,12 @@ struct Renderer::State {
     DeviceInfo info;
     std::optional<Device> device; ///< none where it failed, and could not be opened again
     Batching wanted;
+    KernelChoices preferred;
     Batching batching;
     ArithmeticChoice arithmetic;
 
-    State(const DeviceInfo &deviceInfo, const Batching &asked)
-        : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked),
+    State(const DeviceInfo &deviceInfo, const Batching &asked, const KernelChoices &choices)
+        : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked), preferred(choices),
           batching(completed(asked, info)), arithmetic(chooseArithmetic(*device, asked.arithmetic)) {
         batching.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
     }
@@ -71,28 +72,27 @@ struct Renderer::State {
 
     /// How an integrator renders a scene.
     [[nodiscard]] Batching batchingFor(const PackedScene &scene, Integrator integrator) const {
-        if (integrator != Integrator::Cost) {
-            Batching used = batching;
-            used.isPlain = scene.isPlain();
-            // What rough surfaces and environments do is much code, and twice as much leaves no registers: 3 times slower.
-            // Without a tree there is no waiting for its nodes, which a second ray would hide.
-            const bool isLarge =
-                integrator == Integrator::Path &&
-                (scene.scattering != 0 || (scene.lighting & layout::lightsByEnvironment) != 0);
-            if ((isLarge || !scene.hasTriangles) && wanted.slotsPerInvocation == 0)
-                used.slotsPerInvocation = 1;
-            return used;
+        Batching used = batching;
+        used.isPlain = scene.isPlain();
+        used.traversal = wanted.traversal;
+        used.slotsPerInvocation = wanted.slotsPerInvocation;
+        used.samplesAbreast = wanted.samplesAbreast;
+        const Workload workload = workloadOf(scene, integrator);
+        if (integrator == Integrator::Cost) {
+            if (wanted.traversal == Traversal::SkipList)
+                throw Error(ExitCode::Usage,
+                            fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
+                                        "allowed: stack, stack-x2, or auto",
+                                        gpu::kernelName(batching)));
+            used.isCounting = true;
+            used.traversal = Traversal::Stack;
+        } else if (used.traversal == Traversal::Automatic && used.slotsPerInvocation == 0 &&
+                   used.kernel.empty()) {
+            const KernelChoice &choice = preferred[static_cast<std::size_t>(workload)];
+            used.traversal = choice.traversal;
+            used.slotsPerInvocation = choice.slotsPerInvocation;
         }
-        if (wanted.traversal == Traversal::SkipList)
-            throw Error(ExitCode::Usage,
-                        fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
-                                    "allowed: stack, stack-x2, or auto",
-                                    gpu::kernelName(batching)));
-        Batching counting = batching;
-        counting.isCounting = true;
-        counting.isPlain = scene.isPlain();
-        counting.traversal = Traversal::Stack;
-        return completed(counting, info);
+        return completed(used, info, workload);
     }
 
     MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job) const {
@@ -115,8 +115,8 @@ struct Renderer::State {
     }
 };
 
-Renderer::Renderer(const DeviceInfo &device, const Batching &batching)
-    : state_(std::make_unique<State>(device, batching)) {}
+Renderer::Renderer(const DeviceInfo &device, const Batching &batching, const KernelChoices &preferred)
+    : state_(std::make_unique<State>(device, batching, preferred)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer &&) noexcept = default;
 Renderer &Renderer::operator=(Renderer &&) noexcept = default;

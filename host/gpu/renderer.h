@@ -37,7 +37,9 @@ struct Result {
 /// Renders scenes on one device, opened once, and again where it fails.
 class Renderer {
   public:
-    explicit Renderer(const DeviceInfo &device, const Batching &batching = {});
+    /// `preferred` kernels run where `batching` names none.
+    explicit Renderer(const DeviceInfo &device, const Batching &batching = {},
+                      const KernelChoices &preferred = {});
     ~Renderer();
     Renderer(Renderer &&) noexcept;
     Renderer &operator=(Renderer &&) noexcept;

@@ -30,6 +30,7 @@ Outcome CommandLine::run(const std::string &line) const { return runIn({}, line)
 
 Outcome CommandLine::runIn(Surroundings surroundings, const std::string &line) const {
     surroundings.folder = folder;
+    surroundings.environment.try_emplace("HYALITE_CACHE", (folder / "cache").string()); // not the user's own
     return runProgram(splitWords(line), surroundings);
 }
 

@@ -1,0 +1,97 @@
+// devices --tune: what is measured is shown, kept and used, and a file that is damaged does no harm.
+#include "tests/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string small = "spheres --width 16 --height 12 --spp 4";
+
+class Tuning : public CommandLine {
+  protected:
+    /// Stores an entry for the software device as `--tune` writes it, with these kernels. Returns its text.
+    std::string tune(const std::string &spheres, const std::string &kernelsHash) const {
+        const nlohmann::json device = listDevices().at(std::stoul(softwareDevice()));
+        const nlohmann::json entry{{"key",
+                                    {{"vendorId", device.at("vendorId")},
+                                     {"deviceId", device.at("deviceId")},
+                                     {"driver", device.at("driver")},
+                                     {"kernels", kernelsHash}}},
+                                   {"date", "2026-01-02"},
+                                   {"spheres", spheres},
+                                   {"triangles", "stack"},
+                                   {"shading", "stack-x2"}};
+        const std::string text = nlohmann::json{{"devices", {entry}}}.dump();
+        fs::create_directory(folder / "cache");
+        store("cache/tuning.json", text);
+        return text;
+    }
+    [[nodiscard]] std::string kernelOf(const std::string &line) const {
+        return renderReport(line + " --device " + softwareDevice()).at("device").at("kernel").at("name");
+    }
+};
+
+TEST_F(Tuning, MeasuresShowsAndKeeps) {
+    Surroundings patient;
+    patient.timeoutSeconds = 600.0;
+    const Outcome outcome = runIn(patient, "devices --tune --device " + softwareDevice());
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    for (const char *part :
+         {"Mray/s", "spheres", "triangles", "shading", "stack-x2", "skip-list-x2", "cache/tuning.json"})
+        EXPECT_TRUE(contains(outcome.output, part)) << part << outcome;
+    const nlohmann::json kept = nlohmann::json::parse(load("cache/tuning.json")).at("devices");
+    ASSERT_EQ(kept.size(), 1u) << kept;
+    const Outcome shown = run("devices");
+    EXPECT_TRUE(contains(shown.output, "as measured on " + kept[0].at("date").get<std::string>())) << shown;
+    EXPECT_EQ(kernelOf(small), kept[0].at("spheres"));
+
+    // What it kept decides, and changes no bit.
+    const std::string hash = kept[0].at("key").at("kernels");
+    const std::string wanted = renderPfm(small + " --device cpu");
+    for (const char *kernel : {"stack", "stack-x2", "skip-list", "skip-list-x2"}) {
+        tune(kernel, hash);
+        EXPECT_EQ(kernelOf(small), kernel);
+        EXPECT_EQ(load("reported.pfm"), wanted) << kernel;
+    }
+    EXPECT_EQ(kernelOf(small + " --kernel skip-list"), "skip-list") << "the command line decides first";
+}
+
+TEST_F(Tuning, OfOtherKernelsDoesNotHold) {
+    const std::string usual = kernelOf(small);
+    tune("stack-x2", "0123456789abcdef");
+    EXPECT_EQ(kernelOf(small), usual);
+    EXPECT_TRUE(contains(run("devices").output, "--tune")) << "nothing is measured";
+}
+
+TEST_F(Tuning, ADamagedFileIsToldAndChangesNothing) {
+    const std::string wanted = renderPfm(small);
+    const std::string whole = tune("stack", "0");
+    fs::create_directory(folder / "cache/deep");
+    for (const std::string &text :
+         {std::string(), std::string("[]"), std::string("{\"devices\": 3}"),
+          whole.substr(0, whole.size() / 2), std::string(100'000, '['), std::string("\0\x7f\xff", 3)}) {
+        store("cache/tuning.json", text);
+        const Outcome outcome = run("render " + small + " -o a.pfm");
+        EXPECT_EQ(outcome.exitCode, 0) << text.substr(0, 80) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "note: ")) << text.substr(0, 80) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "tuning.json")) << outcome;
+        EXPECT_EQ(load("a.pfm"), wanted);
+    }
+}
+
+TEST_F(Tuning, RefusesWhatMakesNoSense) {
+    expectFailure("devices --tune --json", 2, {"--tune", "--json"});
+    expectFailure("devices --device 0", 2, {"--tune"});
+    expectFailure("devices --tune --device nonesuch", 4, {"nonesuch"});
+    EXPECT_EQ(entries(), std::set<std::string>{}) << "nothing is kept of it";
+}
+
+} // namespace
+} // namespace hyalite::testing
