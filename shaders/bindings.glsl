@@ -34,10 +34,12 @@ layout(constant_id = constantHasEmission) const bool hasEmission = true;
 layout(constant_id = constantScattering) const uint scattering = 0u;
 layout(constant_id = constantLighting) const uint lighting = 0u;
 layout(constant_id = constantCamera) const uint camera = cameraPinhole;
+layout(constant_id = constantTexturing) const uint texturing = 0u;
 #else
 const uint scattering = 0u;
 const uint lighting = 0u;
 const uint camera = cameraPinhole;
+const uint texturing = 0u;
 #endif
 
 // Entry kernels begin with loadConstants(), and everything else reads these copies: inside of loops and branches

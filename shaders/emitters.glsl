@@ -38,6 +38,28 @@ LightSample sampleSurroundings(EmitterRecord emitter, uvec2 bits) {
                        density > 0.0 ? found.radiance * divide(1.0, density) : vec3(0.0), density, noPrimitive);
 }
 
+// What a triangle sends out at the point with these weights, of what its whole material does.
+vec3 triangleEmission(vec3 emission, TriangleRecord triangle, uint record, vec2 weights) {
+    uint textures = fetchMaterial(triangle.materialIndex).textures;
+    if (textures == 0u)
+        return emission;
+    if ((texturing & texturesOpacity) != 0u && (triangle.flags & triangleIsCutOut) != 0u &&
+        isCutAway(triangle.materialIndex, record, weights.x, weights.y))
+        return vec3(0.0);
+    if ((texturing & texturesEmission) == 0u || !hasTexture(textures, slotEmission))
+        return emission;
+    return emission * lookUpTexture(textureRow(textures, slotEmission),
+                                    triangleUv(fetchCoordinates(record), weights.x, weights.y));
+}
+
+// What a sphere sends out at the point `outward` from its centre, likewise.
+vec3 sphereEmission(vec3 emission, SphereRecord sphere, vec3 outward) {
+    uint textures = fetchMaterial(sphere.materialIndex).textures;
+    if (textures == 0u || !hasTexture(textures, slotEmission))
+        return emission;
+    return emission * lookUpTexture(textureRow(textures, slotEmission), sphereUv(outward));
+}
+
 LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
     TriangleRecord triangle = fetchTriangle(emitter.record);
     vec2 weights = sampleTriangle(u);
@@ -49,7 +71,10 @@ LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
     float cosine = emitter.isTwoSided != 0u ? abs(facing) : facing;
     float density = solidAngleDensity(emitter.density, distance, cosine);
     bool isSeen = cosine > 0.0 && distance > 0.0;
-    return LightSample(direction, distance, isSeen ? emitter.emission * divide(1.0, density) : vec3(0.0), density,
+    vec3 emission = emitter.emission;
+    if ((texturing & (texturesEmission | texturesOpacity)) != 0u)
+        emission = triangleEmission(emission, triangle, emitter.record, weights);
+    return LightSample(direction, distance, isSeen ? emission * divide(1.0, density) : vec3(0.0), density,
                        triangle.primitiveId);
 }
 
@@ -80,7 +105,10 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
         density = solidAngleDensity(emitter.density, distance, cosine);
         isSeen = cosine > 0.0 && distance > 0.0 && (sphere.normalSign < 0.0 || emitter.isTwoSided != 0u);
     }
-    return LightSample(direction, distance, isSeen ? emitter.emission * divide(1.0, density) : vec3(0.0), density,
+    vec3 emission = emitter.emission;
+    if ((texturing & texturesEmission) != 0u)
+        emission = sphereEmission(emission, sphere, subtract(addProduct(position, direction, vec3(distance)), sphere.centre));
+    return LightSample(direction, distance, isSeen ? emission * divide(1.0, density) : vec3(0.0), density,
                        emitter.record);
 }
 

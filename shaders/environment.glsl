@@ -30,11 +30,6 @@ TexelRecord environmentRow(uint y) {
     return fetchTexel(frame.environmentTexels + frame.environmentHeight * frame.environmentWidth + y);
 }
 
-vec3 mixtureOf(vec3 a, vec3 b, float share) {
-    precise vec3 mixed = a + (b - a) * share;
-    return mixed;
-}
-
 vec3 environmentRadianceAt(vec2 place) {
     precise float x = place.x * float(frame.environmentWidth) + 0.5;
     precise float y = place.y * float(frame.environmentHeight) + 0.5;

@@ -50,6 +50,7 @@ struct TriangleRecord {
 
 const uint triangleIsTransmissive = 1u; // of a dielectric: light passes, dimmed
 const uint triangleEndsLeaf = 2u;       // the last triangle of its leaf
+const uint triangleIsCutOut = 4u;       // its material has an opacity texture
 
 // Shading normals of the triangle with the same index; zero vectors stand for "use the geometric normal".
 struct NormalRecord {
@@ -127,7 +128,7 @@ struct MaterialRecord {
     float normalReflectance; // of a principled material that is no metal, seen head on
     float clearcoat;
     float clearcoatAlpha;
-    float pad0;
+    uint textures; // row of the first of its textures, see below; 0: it has none
 };
 
 // What the materials of a scene need of the path integrator: bits of constantScattering.
@@ -143,6 +144,56 @@ struct TexelRecord {
     vec3 value;
     uint word; // another float, or an integer
 };
+
+// Textures, in rows of four words. First two tables of what the levels 0 to 255 of 8-bit images stand for, four floats a
+// row. From firstCoordinateRow on the coordinates of each triangle record: u and v of v0 and v1, then of v2. Then for each
+// material with textures one TextureRecord a slot, and then the images' texels: four a row, 8 bits each for red, green,
+// blue and alpha from the lowest bits up, or one a row, as floats; rows of the image from the top.
+struct TextureRow {
+    uint x;
+    uint y;
+    uint z;
+    uint w;
+};
+
+const uint rowsPerTable = 64u;
+const uint srgbTableRow = 0u;
+const uint linearTableRow = 64u;
+const uint firstCoordinateRow = 128u;
+const uint rowsPerCoordinates = 2u;
+
+struct TextureRecord {
+    uint firstRow; // of its texels
+    uint size;     // of the image in pixels: width, and height * 2^16; 0: the slot has no texture
+    uint format;   // bits of textureIs...
+    float factor;  // on roughness, metallic, and on how far a normal map turns normals
+    float scaleU;  // coordinates are multiplied by scale, then moved by offset
+    float scaleV;
+    float offsetU;
+    float offsetV;
+};
+
+const uint rowsPerTexture = 2u;
+const uint textureIsFloat = 1u;
+const uint textureIsSrgb = 2u;
+const uint textureIsAlpha = 4u; // its alpha is meant, not its colours
+
+const uint slotBaseColour = 0u;
+const uint slotEmission = 1u;
+const uint slotRoughness = 2u;
+const uint slotMetallic = 3u;
+const uint slotNormal = 4u;
+const uint slotOpacity = 5u;
+const uint textureSlotCount = 6u;
+
+// Which slots the materials of a scene have textures in: bits of constantTexturing.
+const uint texturesBaseColour = 1u;
+const uint texturesEmission = 2u;
+const uint texturesRoughness = 4u;
+const uint texturesMetallic = 8u;
+const uint texturesNormal = 16u;
+const uint texturesOpacity = 32u;
+const uint texturesMaterials = 15u; // any of those that change what a material is
 
 const uint energyCosines = 32u; // nodes of the table over the cosine, and over the roughness
 const uint energyRoughnesses = 32u;
@@ -207,6 +258,7 @@ const uint viewDepth = 1u;  // distance from the eye
 const uint viewAlbedo = 2u; // or base colour, or reflectance of a metal; 1 for glass and mirrors
 const uint viewId = 3u;     // a colour for each primitive
 const uint viewOcclusion = 4u;
+const uint viewCoordinates = 5u; // u and v of textures, less their whole parts
 
 // ---- What is the same for a whole render
 
@@ -417,7 +469,8 @@ const uint bindingTrace = 12u;
 const uint bindingSphereArray = 13u; // the spheres again, as texels
 const uint bindingEmitters = 14u;
 const uint bindingTexels = 15u;
-const uint bindingCount = 16u;
+const uint bindingTextures = 16u;
+const uint bindingCount = 17u;
 
 // ---- Specialization constants: what a scene does not use costs nothing
 
@@ -442,7 +495,8 @@ const uint constantShowsCost = 17u;   // samples are the work that they take: no
 const uint constantScattering = 18u;  // path: what the materials need
 const uint constantLighting = 19u;
 const uint constantCamera = 20u;
-const uint constantCount = 21u;
+const uint constantTexturing = 21u;
+const uint constantCount = 22u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);
@@ -452,6 +506,9 @@ static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
 static_assert(sizeof(MaterialRecord) == 128 && offsetof(MaterialRecord, normalReflectance) == 112);
 static_assert(sizeof(TexelRecord) == 16);
+static_assert(sizeof(TextureRow) == 16);
+static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));
+static_assert(firstCoordinateRow == linearTableRow + rowsPerTable && linearTableRow == srgbTableRow + rowsPerTable);
 static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, isTwoSided) == 44);
 static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
 static_assert(sizeof(FrameRecord) == 176 && offsetof(FrameRecord, boundsUpper) == 96);

@@ -1,4 +1,5 @@
-// What all traversals share: where a ray stands in the tree, and what it does when it meets a triangle.
+// What all traversals share: where a ray stands in the tree, and what it does when it meets a triangle. Where a texture of
+// opacity has cut out the triangle there is nothing to meet.
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 
@@ -9,6 +10,8 @@ bool meetTriangle(uint slot, uint record, TriangleRecord triangle, TriangleRay r
     TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
     uint id = triangle.primitiveId;
     bool isHit = hit.distance > 0.0 && id != path[slot].rayExcluded;
+    if ((texturing & texturesOpacity) != 0u && (triangle.flags & triangleIsCutOut) != 0u && isHit)
+        isHit = !isCutAway(triangle.materialIndex, record, hit.u, hit.v);
     if (isShadow) {
         bool isBetween =
             isHit && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);

@@ -30,6 +30,8 @@ const bool hasBounces = true;
 #include "media.glsl"
 #include "sampling.glsl"
 #include "surface.glsl"
+#include "texture.glsl"
+#include "normal_map.glsl"
 #include "emitter_density.glsl"
 #include "lights.glsl"
 #include "environment.glsl"

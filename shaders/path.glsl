@@ -199,7 +199,7 @@ void shadeHit(uint slot) {
     }
     uint materialIndex;
     Surface surface = hitSurface(slot, materialIndex);
-    MaterialRecord material = fetchMaterial(materialIndex);
+    MaterialRecord material = hitMaterial(slot, materialIndex, surface.position);
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
@@ -263,7 +263,7 @@ void aimAt(uint slot, uint emitter, LightSample light) {
 void aimFromRough(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
-    MaterialRecord material = fetchMaterial(materialIndex);
+    MaterialRecord material = hitMaterial(slot, materialIndex, path[slot].surfacePosition);
     vec3 geometricNormal = path[slot].surfaceGeometricNormal;
     Crossing crossing = Crossing(path[slot].mediaInside, path[slot].mediaInside, 1.0, true);
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))

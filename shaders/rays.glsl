@@ -83,16 +83,48 @@ void beginShadow(uint slot, vec3 direction, float distance) {
     path[slot].stage = stageShadow;
 }
 
+// Texture coordinates where the ray has met a surface, at `position`.
+vec2 hitUv(uint slot, vec3 position) {
+    uint record = path[slot].hitRecord;
+    if (hasTriangles && path[slot].hitPrimitive >= firstTriangleId)
+        return triangleUv(fetchCoordinates(record), path[slot].hitU, path[slot].hitV);
+    return sphereUv(subtract(position, fetchSphere(record).centre));
+}
+
+// What the surface that the ray has met at `position` is made of.
+MaterialRecord hitMaterial(uint slot, uint materialIndex, vec3 position) {
+    MaterialRecord material = fetchMaterial(materialIndex);
+    if ((texturing & texturesMaterials) != 0u)
+        material = texturedMaterial(material, hitUv(slot, position));
+    return material;
+}
+
+// Turns the surface's normal by the normal map of its material, if it has one.
+void mapNormal(uint slot, inout Surface surface, uint materialIndex, Tangent tangent) {
+    uint textures = fetchMaterial(materialIndex).textures;
+    if (textures == 0u || !hasTexture(textures, slotNormal))
+        return;
+    vec3 mapped = mappedNormal(surface.normal, tangent, textureRow(textures, slotNormal), hitUv(slot, surface.position));
+    surface.normal = visibleNormal(path[slot].rayDirection, mapped, surface.geometricNormal);
+}
+
 // The surface that the ray has met.
 Surface hitSurface(uint slot, out uint materialIndex) {
     if (hasTriangles && path[slot].hitPrimitive >= firstTriangleId) {
         TriangleRecord triangle = fetchTriangle(path[slot].hitRecord);
         materialIndex = triangle.materialIndex;
-        return triangleSurface(triangle, fetchNormals(path[slot].hitRecord), path[slot].hitU, path[slot].hitV);
+        Surface surface =
+            triangleSurface(triangle, fetchNormals(path[slot].hitRecord), path[slot].hitU, path[slot].hitV);
+        if ((texturing & texturesNormal) != 0u)
+            mapNormal(slot, surface, materialIndex, triangleTangent(triangle, fetchCoordinates(path[slot].hitRecord)));
+        return surface;
     }
     SphereRecord sphere = fetchSphere(path[slot].hitRecord);
     materialIndex = sphere.materialIndex;
-    return sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
+    Surface surface = sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
+    if ((texturing & texturesNormal) != 0u)
+        mapNormal(slot, surface, materialIndex, sphereTangent(surface.normal * sphere.normalSign));
+    return surface;
 }
 
 // Stands on the surface that the ray has met, to light it.

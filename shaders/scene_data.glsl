@@ -17,6 +17,8 @@ layout(set = 0, binding = bindingEmitters, rgba32ui) uniform restrict readonly u
 
 layout(set = 0, binding = bindingTexels, rgba32ui) uniform restrict readonly uimageBuffer texelTexels;
 
+layout(set = 0, binding = bindingTextures, rgba32ui) uniform restrict readonly uimageBuffer textureTexels;
+
 layout(set = 0, binding = bindingSphereArray, rgba32ui) uniform restrict readonly uimageBuffer sphereTexels;
 
 SphereRecord fetchSphere(uint index) {
@@ -39,13 +41,15 @@ MaterialRecord fetchMaterial(uint index) {
                           uintBitsToFloat(c.xyz), uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w,
                           uintBitsToFloat(e.xyz), uintBitsToFloat(e.w), uintBitsToFloat(f.xyz), uintBitsToFloat(f.w),
                           uintBitsToFloat(g.xyz), uintBitsToFloat(g.w), uintBitsToFloat(h.x), uintBitsToFloat(h.y),
-                          uintBitsToFloat(h.z), 0.0);
+                          uintBitsToFloat(h.z), h.w);
 }
 
 TexelRecord fetchTexel(uint index) {
     uvec4 words = imageLoad(texelTexels, int(index));
     return TexelRecord(uintBitsToFloat(words.xyz), words.w);
 }
+
+uvec4 fetchTextureRow(uint index) { return imageLoad(textureTexels, int(index)); }
 
 SkipNode fetchSkipNode(uint index) {
     uvec4 words = imageLoad(nodeTexels, int(index));
@@ -86,6 +90,7 @@ layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuff
 layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
 layout(set = 0, binding = bindingEmitters, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
 layout(set = 0, binding = bindingTexels, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
+layout(set = 0, binding = bindingTextures, std430) readonly buffer TextureBuffer { uvec4 textureRows[]; };
 
 SphereRecord fetchSphere(uint index) { return spheres[index]; }
 
@@ -94,6 +99,8 @@ EmitterRecord fetchEmitter(uint index) { return emitters[index]; }
 MaterialRecord fetchMaterial(uint index) { return materials[index]; }
 
 TexelRecord fetchTexel(uint index) { return texels[index]; }
+
+uvec4 fetchTextureRow(uint index) { return textureRows[index]; }
 
 NodePair fetchNode(uint index) { return nodes[index]; }
 

@@ -22,8 +22,10 @@ const bool hasBounces = false;
 #include "scene_data.glsl"
 #include "arithmetic.glsl"
 #include "vector.glsl"
+#include "functions.glsl"
 #include "box.glsl"
 #include "triangle.glsl"
+#include "texture.glsl"
 #include "path_slots.glsl"
 #include "meet_triangle.glsl"
 #if SKIP_LIST

@@ -52,6 +52,12 @@ vec3 mirrorDirection(vec3 d, vec3 n) {
     return mirrored;
 }
 
+// From `a`, share 0, to `b`, share 1.
+vec3 mixtureOf(vec3 a, vec3 b, float share) {
+    precise vec3 mixed = a + (b - a) * share;
+    return mixed;
+}
+
 // The lesser and the greater of two numbers, and `b` where they are equal or one of them is NaN. The built-in min and max
 // leave that open; and on lavapipe they are three instructions, these are one.
 float lesser(float a, float b) { return a < b ? a : b; }

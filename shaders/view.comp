@@ -28,6 +28,8 @@ const bool hasBounces = false;
 #include "sphere.glsl"
 #include "sampling.glsl"
 #include "surface.glsl"
+#include "texture.glsl"
+#include "normal_map.glsl"
 #include "preloaded.glsl"
 #include "path_slots.glsl"
 #include "film.glsl"

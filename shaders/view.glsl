@@ -43,8 +43,12 @@ void shadeHit(uint slot) {
         show(slot, vec3(path[slot].rayLength));
     if (view == viewId)
         show(slot, idColour(path[slot].hitPrimitive));
+    if (view == viewCoordinates) {
+        vec2 uv = hitUv(slot, surface.position);
+        show(slot, vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
+    }
     if (view == viewAlbedo) {
-        MaterialRecord material = fetchMaterial(materialIndex);
+        MaterialRecord material = hitMaterial(slot, materialIndex, surface.position);
         bool isClear = material.kind == materialMirror || material.kind == materialDielectric;
         show(slot, isClear ? vec3(1.0) : material.albedo);
     }

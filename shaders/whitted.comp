@@ -28,6 +28,8 @@ const bool hasBounces = false;
 #include "sphere.glsl"
 #include "dielectric.glsl"
 #include "surface.glsl"
+#include "texture.glsl"
+#include "normal_map.glsl"
 #include "lights.glsl"
 #include "environment.glsl"
 #include "preloaded.glsl"

@@ -81,7 +81,7 @@ void shadeHit(uint slot) {
     }
     uint materialIndex;
     Surface surface = hitSurface(slot, materialIndex);
-    MaterialRecord material = fetchMaterial(materialIndex);
+    MaterialRecord material = hitMaterial(slot, materialIndex, surface.position);
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
     bool isGlass = hasDielectric && material.kind == materialDielectric;

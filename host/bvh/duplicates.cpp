@@ -12,6 +12,8 @@ namespace hyalite {
 struct Duplicates::Key {
     std::array<glm::vec3, 3> corners;
     std::uint32_t material;
+    std::array<glm::vec2, 3>
+        uvs; ///< where the material is cut out, as others show what is seen through one; else 0
 
     [[nodiscard]] std::span<const std::byte> bytes() const { return std::as_bytes(std::span(this, 1)); }
 };
@@ -30,8 +32,14 @@ Duplicates::Key Duplicates::keyOf(const BuildTriangle &triangle) const {
     const TriangleMesh &mesh = scene_.meshes[meshIndex];
     const std::size_t index = triangle.inputIndex - firstIndices_[meshIndex];
     const glm::uvec3 &corners = mesh.triangles[index].positions;
-    return {{mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]},
-            mesh.materialOf(index)};
+    Key key{{mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]},
+            mesh.materialOf(index),
+            {}};
+    const bool hasUvs = !mesh.triangleUvs.empty() && mesh.triangleUvs[index].x != TriangleMesh::noUv;
+    if (hasUvs && scene_.materials[key.material].textures[layout::slotOpacity])
+        for (glm::length_t corner = 0; corner < 3; ++corner)
+            key.uvs[static_cast<std::size_t>(corner)] = mesh.uvs[mesh.triangleUvs[index][corner]];
+    return key;
 }
 
 bool Duplicates::areIdentical(const BuildTriangle &a, const BuildTriangle &b) const {

@@ -13,7 +13,8 @@ namespace hyalite {
 
 /// Knows the triangles of a scene, which must outlive it and stay as it is.
 ///
-/// Identical are triangles of one material whose corners are the same in every bit, and in the same order. A ray that meets
+/// Identical are triangles of one material whose corners are the same in every bit, and in the same order; and, where the
+/// material is cut out, their texture coordinates. A ray that meets
 /// one of them meets all, at one distance, and the nearest hit is that of the smallest index: the others are never seen, and
 /// without them no hit changes. (As emitters they would be chosen for shadow rays, and give their light again and again.)
 class Duplicates {

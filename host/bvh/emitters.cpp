@@ -1,5 +1,7 @@
 #include "host/bvh/emitters.h"
 
+#include "host/bvh/textures.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -11,9 +13,12 @@ namespace {
 
 double mean(const glm::dvec3 &colour) { return (colour.x + colour.y + colour.z) / 3.0; }
 
-/// Power that leaves a unit of area: a diffuse emitter of radiance L sends out pi L.
-double exitance(const layout::MaterialRecord &material) {
-    return std::numbers::pi * mean(material.emission) * (material.isTwoSided != 0 ? 2.0 : 1.0);
+/// Power that leaves a unit of area, on average: a diffuse emitter of radiance L sends out pi L.
+double exitance(const PackedScene &packed, const layout::MaterialRecord &material) {
+    if (material.emission == glm::vec3(0.0f))
+        return 0.0;
+    const glm::dvec3 radiance = glm::dvec3(material.emission) * meanEmissionFactor(packed, material);
+    return std::numbers::pi * mean(radiance) * (material.isTwoSided != 0 ? 2.0 : 1.0);
 }
 
 double areaOf(const layout::TriangleRecord &triangle) {
@@ -72,6 +77,9 @@ std::vector<std::uint32_t> inInputOrder(const std::vector<layout::TriangleRecord
 } // namespace
 
 void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
+    std::vector<double> exitances; // of each material
+    for (const layout::MaterialRecord &material : packed.materials)
+        exitances.push_back(exitance(packed, material));
     std::vector<Candidate> found;
     const auto add = [&](const layout::EmitterRecord &emitter, double power, double area) {
         if (power > 0.0)
@@ -89,14 +97,15 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
         const layout::SphereRecord &sphere = packed.spheres[i];
         const layout::MaterialRecord &material = packed.materials[sphere.materialIndex];
         const double area = 4.0 * std::numbers::pi * sphere.radius * sphere.radius;
-        add(surfaceEmitter(layout::emitterSphere, i, material), exitance(material) * area, area);
+        add(surfaceEmitter(layout::emitterSphere, i, material), exitances[sphere.materialIndex] * area, area);
     }
     if (packed.hasEmission)
         for (const std::uint32_t record : inInputOrder(packed.triangles)) {
             const layout::TriangleRecord &triangle = packed.triangles[record];
             const layout::MaterialRecord &material = packed.materials[triangle.materialIndex];
             const double area = areaOf(triangle);
-            add(surfaceEmitter(layout::emitterTriangle, record, material), exitance(material) * area, area);
+            add(surfaceEmitter(layout::emitterTriangle, record, material),
+                exitances[triangle.materialIndex] * area, area);
         }
 
     if (isLitAround) {
@@ -134,8 +143,8 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
         numbersBefore = numbers;
         packed.emitters.push_back(emitter);
     }
-    for (layout::MaterialRecord &material : packed.materials)
-        material.emitterDensity = total > 0.0 ? static_cast<float>(exitance(material) / total) : 0.0f;
+    for (std::size_t i = 0; i < packed.materials.size(); ++i)
+        packed.materials[i].emitterDensity = total > 0.0 ? static_cast<float>(exitances[i] / total) : 0.0f;
 }
 
 } // namespace hyalite

@@ -3,6 +3,7 @@
 #include "host/bvh/emitters.h"
 #include "host/bvh/environment.h"
 #include "host/bvh/microfacet_energy.h"
+#include "host/bvh/textures.h"
 #include "host/report/hash.h"
 
 #include <glm/geometric.hpp>
@@ -180,7 +181,9 @@ void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::ui
             const std::uint32_t material = mesh.materialOf(static_cast<std::size_t>(i));
             const bool isTransmissive = scene.materials[material].kind == MaterialKind::Dielectric;
             triangle.materialIndex = packedMaterial[material];
-            triangle.flags = isTransmissive ? layout::triangleIsTransmissive : 0u;
+            const bool isCutOut = scene.materials[material].textures[layout::slotOpacity].has_value();
+            triangle.flags = (isTransmissive ? layout::triangleIsTransmissive : 0u) |
+                             (isCutOut ? layout::triangleIsCutOut : 0u);
             layout::NormalRecord &normals = packed.normals[position];
             const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
             normals.n0 = hasNormals ? mesh.normals[corner.normals.x] : glm::vec3(0.0f);
@@ -240,8 +243,9 @@ void packNodes(const Bvh &bvh, PackedScene &packed) {
 std::size_t PackedScene::sizeBytes() const {
     return sizeof(frame) + spheres.size() * sizeof(spheres[0]) + lights.size() * sizeof(lights[0]) +
            materials.size() * sizeof(materials[0]) + emitters.size() * sizeof(emitters[0]) +
-           texels.size() * sizeof(texels[0]) + nodes.size() * sizeof(nodes[0]) +
-           triangles.size() * sizeof(triangles[0]) + normals.size() * sizeof(normals[0]);
+           texels.size() * sizeof(texels[0]) + textures.size() * sizeof(textures[0]) +
+           nodes.size() * sizeof(nodes[0]) + triangles.size() * sizeof(triangles[0]) +
+           normals.size() * sizeof(normals[0]);
 }
 
 std::uint64_t PackedScene::contentHash() const {
@@ -262,6 +266,9 @@ std::uint64_t PackedScene::contentHash() const {
     hash = hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
     if ((lighting & layout::lightsByEnvironment) != 0)
         hash = hashBytes(std::as_bytes(std::span(texels).subspan(frame.environmentTexels)), hash);
+    const std::size_t texelBegin = layout::firstCoordinateRow + layout::rowsPerCoordinates * triangles.size();
+    if (texturing != 0)
+        hash = hashBytes(std::as_bytes(std::span(textures).subspan(texelBegin)), hash);
     // Trees put the triangles into orders of their own, and each has its id: their sum is the same in any order.
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -270,7 +277,13 @@ std::uint64_t PackedScene::contentHash() const {
             layout::NormalRecord normals;
         } seenTriangle{triangles[i], normals[i]};
         seenTriangle.triangle.flags &= ~layout::triangleEndsLeaf;
-        sum += hashBytes(std::as_bytes(std::span(&seenTriangle, 1)));
+        std::uint64_t triangleHash = hashBytes(std::as_bytes(std::span(&seenTriangle, 1)));
+        if (texturing != 0)
+            triangleHash = hashBytes(
+                std::as_bytes(std::span(textures).subspan(
+                    layout::firstCoordinateRow + layout::rowsPerCoordinates * i, layout::rowsPerCoordinates)),
+                triangleHash);
+        sum += triangleHash;
     }
     return hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
 }
@@ -285,6 +298,8 @@ std::uint32_t viewOf(Integrator integrator) {
         return layout::viewAlbedo;
     case Integrator::Id:
         return layout::viewId;
+    case Integrator::Uv:
+        return layout::viewCoordinates;
     case Integrator::Normal:
     case Integrator::Whitted:
     case Integrator::Path:
@@ -317,6 +332,8 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
         packed.hasSpecular = packed.hasSpecular || !isDiffuse;
         packed.hasDielectric = packed.hasDielectric || !isOpaque;
         packed.scattering |= scatteringOf(scene.materials[index]);
+        for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
+            packed.texturing |= scene.materials[index].textures[slot] ? 1u << slot : 0u;
     };
     const auto useMaterials = [&](const TriangleMesh &mesh) {
         if (mesh.triangleMaterials.empty())
@@ -349,6 +366,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
     }
     packTriangles(scene, bvh, packedMaterial, packed);
     packNodes(bvh, packed);
+    packTextures(scene, order, packed);
     const bool isPath = scene.settings.integrator == Integrator::Path;
     if (isPath && (packed.scattering & layout::scattersAtRough) != 0)
         packed.texels = makeEnergyTexels();

@@ -14,6 +14,7 @@ struct PackedScene {
     std::vector<layout::MaterialRecord> materials; ///< what light passes first, by falling priority
     std::vector<layout::EmitterRecord> emitters;   ///< for the path integrator only
     std::vector<layout::TexelRecord> texels;       ///< what is looked up by index
+    std::vector<layout::TextureRow> textures;      ///< see layout.h; empty where nothing reads them
     std::vector<layout::NodePair> nodes;           ///< never empty
     std::vector<layout::TriangleRecord> triangles; ///< leaf by leaf
     std::vector<layout::NormalRecord> normals;     ///< one for each triangle record
@@ -26,13 +27,14 @@ struct PackedScene {
     bool hasEmission = false;
     std::uint32_t scattering =
         0; ///< bits of layout::scattersAt...: what the materials need of the path integrator
-    std::uint32_t lighting = 0; ///< bits of layout::lightsBy...
+    std::uint32_t lighting = 0;  ///< bits of layout::lightsBy...
+    std::uint32_t texturing = 0; ///< bits of layout::textures...
     std::uint32_t camera = layout::cameraPinhole;
 
-    /// Whether surfaces are diffuse, mirrors or clear glass, lit by point lights or by others of them, and seen through a
+    /// Whether surfaces are diffuse, mirrors or clear glass, without textures, lit by point lights or by others of them, and seen through a
     /// pinhole: kernels for these scenes know nothing else.
     [[nodiscard]] bool isPlain() const {
-        return scattering == 0 && lighting == 0 && camera == layout::cameraPinhole;
+        return scattering == 0 && lighting == 0 && texturing == 0 && camera == layout::cameraPinhole;
     }
 
     /// Of all arrays together: what a device has to hold of the scene.

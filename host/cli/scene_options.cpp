@@ -4,6 +4,7 @@
 #include "host/bvh/statistics.h"
 #include "host/cli/options.h"
 #include "host/error.h"
+#include "host/report/clean_text.h"
 #include "host/report/message.h"
 #include "host/report/progress.h"
 #include "host/scene/framing.h"
@@ -163,7 +164,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     addChoice(
         command, "--integrator", options.integrator, integratorNames,
         "whitted: direct light, mirrors and both branches at glass; path: light on all its ways; ao: "
-        "ambient occlusion; normal, depth, albedo, id: views of what is seen first; cost: how many boxes "
+        "ambient occlusion; normal, depth, albedo, id, uv: views of what is seen first; cost: how many boxes "
         "and triangles the rays of whitted test, as a PNG in false colours, or as a PFM of nodes, boxes "
         "and triangles")
         ->group(tracing);
@@ -197,6 +198,9 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
             loadScene(options.scene, {std::move(onOutline), [&](double share) { progress.update(share); }},
                       options.allowedPaths);
     }
+    for (const MeshReport &report : prepared.loaded.meshReports)
+        for (const std::string &warning : report.warnings)
+            printMessage("hyalite: warning: {}\n", cleanText(warning));
     applyOverrides(options, prepared.loaded);
     Scene &scene = prepared.loaded.scene;
     try {
@@ -212,6 +216,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     prepared.packed = packScene(scene, prepared.bvh);
     if (source == Source::Dropped) {
         scene.meshes = {};
+        scene.textures = {};
         prepared.bvh = {};
     }
     prepared.loadSeconds = secondsBetween(start, loaded);

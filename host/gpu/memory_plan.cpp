@@ -121,7 +121,8 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
         planArray("the triangles", use, scene.triangles),
         planArray("the normals", use, scene.normals),
         planArray("the emitters", use, scene.emitters),
-        planArray("the texels", use, scene.texels)};
+        planArray("the texels", use, scene.texels),
+        planArray("the textures", use, scene.textures)};
     if (isSkipList) {
         const std::uint64_t listBytes = mostSkipListBytes(scene.nodes.size());
         planned.nodes = plan("the skip lists", use, scene.hasTriangles ? listBytes : 0);
@@ -188,6 +189,7 @@ MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStag
                                                   &scene.normals,
                                                   &scene.emitters,
                                                   &scene.texels,
+                                                  &scene.textures,
                                                   &job.film,
                                                   &job.progress,
                                                   &job.stacks,

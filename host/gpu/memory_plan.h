@@ -23,6 +23,7 @@ struct ScenePlan {
     BufferPlan normals;
     BufferPlan emitters;
     BufferPlan texels;
+    BufferPlan textures;
     std::uint64_t hostBytes = 0; ///< that making skip lists takes
 };
 

@@ -56,6 +56,7 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
       triangles(uploaded(device, plan.triangles, bytesOf(scene.triangles))),
       normals(uploaded(device, plan.normals, bytesOf(scene.normals))),
       emitters(uploaded(device, plan.emitters, bytesOf(scene.emitters))),
-      texels(uploaded(device, plan.texels, bytesOf(scene.texels))) {}
+      texels(uploaded(device, plan.texels, bytesOf(scene.texels))),
+      textures(uploaded(device, plan.textures, bytesOf(scene.textures))) {}
 
 } // namespace hyalite::gpu

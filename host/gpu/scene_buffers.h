@@ -22,6 +22,7 @@ struct SceneBuffers {
     Buffer normals;
     Buffer emitters;
     Buffer texels;
+    Buffer textures;
 
   private:
     template <class Tree>

@@ -111,6 +111,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantScattering] = scene.scattering;
     constants[layout::constantLighting] = scene.lighting;
     constants[layout::constantCamera] = scene.camera;
+    constants[layout::constantTexturing] = scene.texturing;
     constants[layout::constantView] = viewOf(job_.integrator);
     constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
     constants[layout::constantStackSize] = plan_.stackSize;
@@ -136,7 +137,8 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
                                                                  &trace_,
                                                                  &buffers_.sphereArray,
                                                                  &buffers_.emitters,
-                                                                 &buffers_.texels};
+                                                                 &buffers_.texels,
+                                                                 &buffers_.textures};
     const std::string name =
         fmt::format("{} {}{}", nameOf(job_.integrator), kernelName(batching_),
                     isResumable && batching_.traversal == Traversal::SkipList ? ", resumable" : "");

@@ -90,21 +90,31 @@ void requireWholeStream(const InputFile &file, const PngChunks &chunks) {
     }
 }
 
+template <typename Level> using StbLoad = Level *(const stbi_uc *, int, int *, int *, int *, int);
+
+/// `channelCount` levels a pixel; `channelCountInFile` is how many the file has.
 template <typename Level>
-Image decode(const InputFile &file, const PngChunks &chunks,
-             Level *(*load)(const stbi_uc *, int, int *, int *, int *, int), float levelMax) {
+std::unique_ptr<Level, StbFree> decodeLevels(const InputFile &file, const PngChunks &chunks,
+                                             StbLoad<Level> *load, int channelCount,
+                                             int &channelCountInFile) {
     int width = 0;
     int height = 0;
-    int channelCountInFile = 0;
-    const std::unique_ptr<Level, StbFree> levels(
-        load(reinterpret_cast<const stbi_uc *>(chunks.minimal.data()),
-             static_cast<int>(chunks.minimal.size()), &width, &height, &channelCountInFile, 3));
+    std::unique_ptr<Level, StbFree> levels(load(reinterpret_cast<const stbi_uc *>(chunks.minimal.data()),
+                                                static_cast<int>(chunks.minimal.size()), &width, &height,
+                                                &channelCountInFile, channelCount));
     if (!levels || width != chunks.width || height != chunks.height) {
         const char *reason = stbi_failure_reason();
         throw file.bad(
             fmt::format("its pixels cannot be decoded: {}", reason != nullptr ? reason : "unknown"));
     }
-    Image image(width, height);
+    return levels;
+}
+
+template <typename Level>
+Image decode(const InputFile &file, const PngChunks &chunks, StbLoad<Level> *load, float levelMax) {
+    int channelCountInFile = 0;
+    const auto levels = decodeLevels<Level>(file, chunks, load, 3, channelCountInFile);
+    Image image(chunks.width, chunks.height);
     const Level *next = levels.get();
     for (glm::vec3 &pixel : image.pixels()) {
         pixel = glm::vec3(next[0], next[1], next[2]) / levelMax;
@@ -140,6 +150,26 @@ void writePng(AtomicFile &file, int width, int height, std::span<const std::uint
 std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb,
                                  std::span<const Attribute> attributes) {
     return encode("the image", width, height, rgb, attributes);
+}
+
+Texture readPngTexture(const InputFile &file) {
+    const PngChunks chunks = readPngChunks(file);
+    requireWholeStream(file, chunks);
+    int channelCountInFile = 0;
+    const auto levels =
+        decodeLevels<stbi_uc>(file, chunks, stbi_load_from_memory, STBI_rgb_alpha, channelCountInFile);
+    Texture texture;
+    texture.name = file.path().string();
+    texture.width = chunks.width;
+    texture.height = chunks.height;
+    texture.hasAlpha = channelCountInFile == STBI_grey_alpha || channelCountInFile == STBI_rgb_alpha;
+    texture.levels.resize(texture.pixelCount());
+    const stbi_uc *next = levels.get();
+    for (std::uint32_t &pixel : texture.levels) {
+        pixel = next[0] | next[1] << 8u | next[2] << 16u | static_cast<std::uint32_t>(next[3]) << 24u;
+        next += 4;
+    }
+    return texture;
 }
 
 Image readPng(const InputFile &file) {

@@ -3,6 +3,7 @@
 
 #include "host/image/attribute.h"
 #include "host/image/image.h"
+#include "host/image/texture.h"
 #include "host/input_file.h"
 #include "host/report/atomic_file.h"
 
@@ -34,5 +35,9 @@ void writePng(AtomicFile &file, int width, int height, std::span<const std::uint
 /// 255, or / 65535 for 16 bits. Alpha is dropped and the colours stay as stored; colour profiles and gamma chunks are
 /// ignored. Throws Error{BadInput} for damaged files, which includes a wrong checksum and bytes after the end.
 [[nodiscard]] Image readPng(const InputFile &file);
+
+/// Reads every kind of PNG as 8-bit levels, of 16 bits the upper 8, with its alpha where it has that channel (a palette's
+/// transparency is passed over). Throws as readPng().
+[[nodiscard]] Texture readPngTexture(const InputFile &file);
 
 } // namespace hyalite

@@ -6,6 +6,7 @@
 #include "host/bvh/packed_scene.h"
 #include "host/reference/counting.h"
 #include "host/reference/sphere.h"
+#include "host/reference/texture.h"
 #include "host/reference/triangle.h"
 
 #include <array>
@@ -27,7 +28,7 @@ template <class Real> struct Hit {
     Real v = 0;
 };
 
-/// Calls visit(record, hit) for every triangle that the ray meets in a subtree whose box it enters at or before
+/// Calls visit(record, hit) for every triangle that the ray meets, but where it is cut out, in a subtree whose box it enters at or before
 /// `reach` (read anew at each node). `visit` returns false to stop. `counter` is told what is done.
 template <class Real, class Counter, class Visitor>
 void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
@@ -68,7 +69,8 @@ void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &
             counter.testTriangle();
             const TriangleHit<Real> hit = intersectTriangle(triangleRay, boxRay, Vec3<Real>(triangle.v0),
                                                             Vec3<Real>(triangle.v1), Vec3<Real>(triangle.v2));
-            if (hit.distance > 0 && triangle.primitiveId != ray.excluded && !visit(record, hit))
+            if (hit.distance > 0 && triangle.primitiveId != ray.excluded &&
+                !isCutAway(scene, triangle, record, hit.u, hit.v) && !visit(record, hit))
                 return;
             if ((triangle.flags & layout::triangleEndsLeaf) != 0)
                 break;

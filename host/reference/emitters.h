@@ -8,6 +8,7 @@
 #include "host/reference/sampling.h"
 #include "host/reference/sphere.h"
 #include "host/reference/surface.h"
+#include "host/reference/texture.h"
 
 #include <algorithm>
 
@@ -82,6 +83,34 @@ sampleSurroundings(const PackedScene &scene, const layout::EmitterRecord &emitte
             layout::noPrimitive};
 }
 
+/// What a triangle sends out at the point with these weights, of what its whole material does.
+template <class Real>
+[[nodiscard]] Vec3<Real> triangleEmission(const PackedScene &scene, const Vec3<Real> &emission,
+                                          const layout::TriangleRecord &triangle, std::uint32_t record,
+                                          const Vec2<Real> &weights) {
+    const std::uint32_t textures = scene.materials[triangle.materialIndex].textures;
+    if (textures == 0)
+        return emission;
+    if (isCutAway(scene, triangle, record, weights.x, weights.y))
+        return Vec3<Real>(Real(0));
+    if (!hasTexture(scene.textures, textures, layout::slotEmission))
+        return emission;
+    return emission *
+           lookUpTexture(scene.textures, textureRow(textures, layout::slotEmission),
+                         triangleUv(fetchCoordinates<Real>(scene.textures, record), weights.x, weights.y));
+}
+
+/// What a sphere sends out at the point `outward` from its centre, likewise.
+template <class Real>
+[[nodiscard]] Vec3<Real> sphereEmission(const PackedScene &scene, const Vec3<Real> &emission,
+                                        const layout::SphereRecord &sphere, const Vec3<Real> &outward) {
+    const std::uint32_t textures = scene.materials[sphere.materialIndex].textures;
+    if (textures == 0 || !hasTexture(scene.textures, textures, layout::slotEmission))
+        return emission;
+    return emission *
+           lookUpTexture(scene.textures, textureRow(textures, layout::slotEmission), sphereUv(outward));
+}
+
 template <class Real>
 [[nodiscard]] LightSample<Real> sampleTriangleLight(const PackedScene &scene,
                                                     const layout::EmitterRecord &emitter,
@@ -97,8 +126,9 @@ template <class Real>
     const Real cosine = emitter.isTwoSided != 0 ? std::abs(facing) : facing;
     const Real density = solidAngleDensity(static_cast<Real>(emitter.density), distance, cosine);
     const bool isSeen = cosine > 0 && distance > 0;
-    return {direction, distance,
-            isSeen ? Vec3<Real>(emitter.emission) * (Real(1) / density) : Vec3<Real>(Real(0)), density,
+    const Vec3<Real> emission =
+        triangleEmission(scene, Vec3<Real>(emitter.emission), triangle, emitter.record, weights);
+    return {direction, distance, isSeen ? emission * (Real(1) / density) : Vec3<Real>(Real(0)), density,
             triangle.primitiveId};
 }
 
@@ -132,7 +162,9 @@ template <class Real>
         isSeen = cosine > 0 && light.distance > 0 && (sphere.normalSign < 0.0f || emitter.isTwoSided != 0);
     }
     if (isSeen)
-        light.radiance = Vec3<Real>(emitter.emission) * (Real(1) / light.density);
+        light.radiance = sphereEmission(scene, Vec3<Real>(emitter.emission), sphere,
+                                        position + light.direction * light.distance - centre) *
+                         (Real(1) / light.density);
     light.target = emitter.record;
     return light;
 }

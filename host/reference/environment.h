@@ -81,11 +81,7 @@ template <class Real> class EnvironmentMap {
 
     [[nodiscard]] static Vec3<Real> mixtureOf(const layout::TexelRecord &a, const layout::TexelRecord &b,
                                               Real share) {
-        return mixtureOf(Vec3<Real>(a.value), Vec3<Real>(b.value), share);
-    }
-
-    [[nodiscard]] static Vec3<Real> mixtureOf(const Vec3<Real> &a, const Vec3<Real> &b, Real share) {
-        return a + (b - a) * share;
+        return reference::mixtureOf(Vec3<Real>(a.value), Vec3<Real>(b.value), share);
     }
 
     [[nodiscard]] Vec3<Real> radianceAt(const Vec2<Real> &place) const {
@@ -99,8 +95,8 @@ template <class Real> class EnvironmentMap {
         right = right >= frame_.environmentWidth ? right - frame_.environmentWidth : right;
         const std::uint32_t upper = lower == 0 ? 0 : lower - 1;
         lower = std::min(lower, frame_.environmentHeight - 1);
-        return mixtureOf(mixtureOf(texel(left, upper), texel(right, upper), across),
-                         mixtureOf(texel(left, lower), texel(right, lower), across), down);
+        return reference::mixtureOf(mixtureOf(texel(left, upper), texel(right, upper), across),
+                                    mixtureOf(texel(left, lower), texel(right, lower), across), down);
     }
 
     /// The density, per solid angle, with which a direction is chosen that lies `sine` off the vertical, in the given

@@ -255,7 +255,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         }
         std::uint32_t materialIndex;
         Surface<Real> surface = hitSurface(scene_, ray, hit, materialIndex);
-        const layout::MaterialRecord &material = scene_.materials[materialIndex];
+        const layout::MaterialRecord material = hitMaterial(scene_, hit, materialIndex, surface.position);
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, throughput_);
@@ -271,7 +271,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                 surface.geometricNormal = -surface.geometricNormal;
             }
             if (scene_.scattering != 0)
-                return scatterFromRough(ray, surface, materialIndex, isBehind, hit.primitive);
+                return scatterFromRough(ray, surface, material, materialIndex, isBehind, hit.primitive);
             throughput_ *= Vec3<Real>(material.albedo);
             return scatterFromDiffuse(surface, hit.primitive);
         }
@@ -310,9 +310,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     /// On a surface with lobes: draws the direction in which the path will go on, and aims at a light.
     [[nodiscard]] std::optional<Ray<Real>> scatterFromRough(const Ray<Real> &ray,
                                                             const Surface<Real> &surface,
+                                                            const layout::MaterialRecord &material,
                                                             std::uint32_t materialIndex, bool isBehind,
                                                             std::uint32_t primitive) {
-        const layout::MaterialRecord &material = scene_.materials[materialIndex];
         const Crossing crossing = isGlass(material) ? crossingOf(materialIndex, !isBehind)
                                                     : Crossing{mediaInside_, mediaInside_, Real(1), true};
         const Vec2<Real> choice = lobeChoice();

@@ -45,6 +45,12 @@ template <class Real> [[nodiscard]] Vec3<Real> absolute(const Vec3<Real> &v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
+/// From `a`, share 0, to `b`, share 1.
+template <class Real>
+[[nodiscard]] Vec3<Real> mixtureOf(const Vec3<Real> &a, const Vec3<Real> &b, Real share) {
+    return a + (b - a) * share;
+}
+
 /// The lesser of two numbers, and `b` where they are equal or one of them is NaN.
 template <class Real> [[nodiscard]] Real lesser(Real a, Real b) { return a < b ? a : b; }
 

@@ -52,12 +52,16 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         const Surface<Real> surface = hitSurface(scene_, ray, hit, materialIndex);
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
-        const layout::MaterialRecord &material = scene_.materials[materialIndex];
+        const layout::MaterialRecord material = hitMaterial(scene_, hit, materialIndex, surface.position);
         switch (view_) {
         case layout::viewNormal:
             return show(normalColour(surface.normal));
         case layout::viewDepth:
             return show(Vec3<Real>(hit.distance));
+        case layout::viewCoordinates: {
+            const Vec2<Real> uv = hitUv(scene_, hit, surface.position);
+            return show({fractionOf(uv.x), fractionOf(uv.y), Real(0)});
+        }
         case layout::viewId:
             return show(idColour<Real>(hit.primitive));
         case layout::viewAlbedo:

@@ -77,7 +77,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         }
         std::uint32_t materialIndex;
         const Surface<Real> surface = hitSurface(scene_, segment.ray, hit, materialIndex);
-        const layout::MaterialRecord &material = scene_.materials[materialIndex];
+        const layout::MaterialRecord material = hitMaterial(scene_, hit, materialIndex, surface.position);
         const bool isEntering = dotProduct(segment.ray.direction, surface.normal) < 0;
         const bool isGlass = material.kind == layout::materialDielectric;
         const std::uint32_t medium = isGlass && !isEntering ? materialIndex : segment.medium;

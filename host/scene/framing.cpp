@@ -99,20 +99,23 @@ Camera frameCamera(const Bounds &bounds, int width, int height, double horizonta
     return camera;
 }
 
-Scene frameMesh(TriangleMesh mesh) {
-    const Bounds bounds = triangleBounds(mesh);
+Material neutralMaterial() {
     Material neutral;
     neutral.name = "neutral";
     neutral.albedo = glm::vec3(neutralAlbedo);
     neutral.twoSided = true;
+    return neutral;
+}
 
+Scene frameMesh(TriangleMesh mesh) {
+    const Bounds bounds = triangleBounds(mesh);
     Scene scene;
     scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
     // The fill light stands by the camera, so that its shadows fall where the camera does not see them.
     scene.lights = {lightFrom(towards(-35.0, 45.0), keyRadiance, bounds),
                     lightFrom(towards(40.0, 22.0), fillRadiance, bounds)};
     scene.background = glm::vec3(backgroundGrey);
-    scene.materials = {neutral};
+    scene.materials = {neutralMaterial()};
     mesh.materialIndex = 0;
     scene.meshes.push_back(std::move(mesh));
     return scene;

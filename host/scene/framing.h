@@ -28,6 +28,9 @@ struct Bounds {
 ///          +z
 [[nodiscard]] Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees);
 
+/// What triangles without a material are made of.
+[[nodiscard]] Material neutralMaterial();
+
 /// A scene of the mesh alone: two-sided, of albedo 0.8, before dark grey, seen by frameCamera at the default
 /// size and 40 degrees. A key light from the upper left and a weaker fill light from near the camera: what
 /// faces one of them has a radiance near 0.7 or 0.2, whatever the size of the mesh.

@@ -60,6 +60,17 @@ glm::dvec3 JsonNode::vector(const Interval &allowed) const {
     return {component(0), component(1), component(2)};
 }
 
+glm::dvec2 JsonNode::pair(const Interval &allowed) const {
+    if (value->is_number())
+        return glm::dvec2(number(allowed));
+    if (!value->is_array() || value->size() != 2)
+        refuse("[u, v] or one number for both, each " + allowed.text());
+    const auto component = [&](std::size_t i) {
+        return JsonNode{&(*value)[i], fileName, path / i}.number(allowed);
+    };
+    return {component(0), component(1)};
+}
+
 glm::dvec3 JsonNode::colour(const Interval &allowed) const {
     if (value->is_number())
         return glm::dvec3(number(allowed));

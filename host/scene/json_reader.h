@@ -6,6 +6,7 @@
 #include "host/scene/limits.h"
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +35,7 @@ struct JsonNode {
 
     [[nodiscard]] double number(const Interval &allowed) const;
     [[nodiscard]] glm::dvec3 vector(const Interval &allowed) const; ///< [x, y, z]
+    [[nodiscard]] glm::dvec2 pair(const Interval &allowed) const;   ///< [u, v], or one number for both
     [[nodiscard]] glm::dvec3 colour(const Interval &allowed) const; ///< [r, g, b], or a number for grey
     [[nodiscard]] double wholeNumber(const Interval &allowed) const;
     [[nodiscard]] bool boolean() const;
@@ -73,6 +75,10 @@ class JsonObject {
     [[nodiscard]] glm::dvec3 colour(std::string_view key, const Interval &allowed,
                                     std::optional<glm::dvec3> fallback = {}) const {
         return read(key, fallback, [&](const JsonNode &node) { return node.colour(allowed); });
+    }
+    [[nodiscard]] glm::dvec2 pair(std::string_view key, const Interval &allowed,
+                                  std::optional<glm::dvec2> fallback = {}) const {
+        return read(key, fallback, [&](const JsonNode &node) { return node.pair(allowed); });
     }
     template <std::integral T>
     [[nodiscard]] T integer(std::string_view key, const Interval &allowed, T fallback) const {

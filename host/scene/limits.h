@@ -57,6 +57,8 @@ inline constexpr Interval conductorIndex{0.0, 20.0}; ///< real and imaginary par
 inline constexpr Interval absorption{0.0, 1e30};     ///< per unit of length and channel
 inline constexpr Interval priority{-1000, 1000};
 inline constexpr Interval radius{0.0, 1e15, false};
+inline constexpr Interval texturePlacement{-1e6, 1e6}; ///< scale and offset of textures
+inline constexpr Interval normalStrength{0.0, 100.0};
 
 inline constexpr Interval meshScale{-1e15, 1e15}; ///< and not 0
 inline constexpr Interval rotateDegrees{-3600.0, 3600.0};
@@ -77,6 +79,7 @@ inline constexpr std::size_t lightCount = layout::maxLightCount;
 inline constexpr std::size_t sphereCount = layout::maxSphereCount; ///< each ray tests all of them
 inline constexpr std::size_t mediumCount = layout::mostMedia;      ///< dielectrics, for the path integrator
 inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 22; ///< pixels: 64 MiB on the device
+inline constexpr std::size_t textureBytes = std::size_t{1} << 30; ///< of all textures together, on the device
 inline constexpr std::size_t materialCount = 65536;
 inline constexpr std::size_t meshCount = 4096;
 inline constexpr std::size_t triangleCount = std::size_t{1} << 30; ///< of all meshes together

@@ -32,11 +32,13 @@ void requireFile(const std::filesystem::path &file) {
 LoadedScene loadBareMesh(const std::filesystem::path &file, const LoadEvents &events) {
     if (events.onOutline)
         events.onOutline(true);
-    ObjMesh mesh = loadObj(file, {}, events.onReading, true);
+    TextureLibrary textures;
+    ObjMesh mesh = loadObj(file, {}, events.onReading, &textures);
     LoadedScene loaded;
     loaded.scene = frameMesh(std::move(mesh.mesh));
     // The neutral one comes first, for triangles without a material.
     loaded.scene.materials.insert(loaded.scene.materials.end(), mesh.materials.begin(), mesh.materials.end());
+    loaded.scene.textures = textures.give();
     loaded.file = file;
     loaded.meshReports = {mesh.report};
     loaded.autoFramed = true;

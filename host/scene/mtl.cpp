@@ -1,5 +1,6 @@
 #include "host/scene/mtl.h"
 
+#include "host/image/texture_file.h"
 #include "host/scene/limits.h"
 #include "host/scene/obj_lines.h"
 
@@ -9,8 +10,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <system_error>
 #include <unordered_set>
 #include <utility>
 
@@ -21,7 +25,7 @@ namespace {
 /// What the statements of one material say.
 struct MtlStatements {
     std::string name;
-    glm::vec3 diffuse{0.8f};
+    std::optional<glm::vec3> diffuse;
     glm::vec3 specular{0.0f};
     glm::vec3 emission{0.0f};
     std::optional<float> exponent;
@@ -30,6 +34,8 @@ struct MtlStatements {
     float opacity = 1.0f;
     float index = 1.5f;
     int illumination = 2;
+    TextureSlots textures{};
+    float normalStrength = 1.0f;
 };
 
 float fraction(float value) { return std::clamp(value, 0.0f, 1.0f); }
@@ -56,17 +62,26 @@ Material materialOf(const MtlStatements &mtl) {
         material.refractiveIndex = mtl.index;
         return material;
     }
-    material.albedo = isMetal ? mtl.specular : mtl.diffuse;
-    material.emission = mtl.emission;
+    const auto has = [&](std::uint32_t slot) { return mtl.textures[slot].has_value(); };
+    const glm::vec3 diffuse = mtl.diffuse.value_or(glm::vec3(has(layout::slotBaseColour) ? 1.0f : 0.8f));
+    material.albedo = isMetal ? mtl.specular : diffuse;
+    const bool isDark = mtl.emission == glm::vec3(0.0f);
+    material.emission = has(layout::slotEmission) && isDark ? glm::vec3(1.0f) : mtl.emission;
+    material.textures = mtl.textures;
+    material.normalStrength = mtl.normalStrength;
     const bool isMatt = !isMetal && !mtl.roughness && mtl.specular == glm::vec3(0.0f) &&
-                        mtl.metallic == 0.0f && mtl.opacity == 1.0f;
+                        mtl.metallic == 0.0f && mtl.opacity == 1.0f && !has(layout::slotRoughness) &&
+                        !has(layout::slotMetallic);
     if (isMatt)
         return material;
     material.kind = MaterialKind::Principled;
     material.refractiveIndex = mtl.index;
-    material.roughness = mtl.roughness ? *mtl.roughness : roughnessOf(mtl.exponent.value_or(0.0f));
-    material.metallic = isMetal ? 1.0f : mtl.metallic;
-    material.specular = mtl.roughness ? 0.5f : mean(mtl.specular);
+    const bool isPhysical = mtl.roughness || has(layout::slotRoughness) || has(layout::slotMetallic);
+    material.roughness = has(layout::slotRoughness) ? 1.0f
+                         : mtl.roughness            ? *mtl.roughness
+                                                    : roughnessOf(mtl.exponent.value_or(0.0f));
+    material.metallic = isMetal || has(layout::slotMetallic) ? 1.0f : mtl.metallic;
+    material.specular = isPhysical ? 0.5f : mean(mtl.specular);
     material.transmission = 1.0f - mtl.opacity;
     return material;
 }
@@ -97,6 +112,28 @@ class Words {
 
     [[nodiscard]] float number(std::string_view keyword) { return parse(keyword, next()); }
 
+    /// The next word, if it is a number, and else nothing, and it stays.
+    [[nodiscard]] std::optional<float> tryNumber() {
+        const std::string_view before = rest_;
+        std::string_view digits = next();
+        if (digits.starts_with('+'))
+            digits.remove_prefix(1);
+        float value = 0.0f;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        if (!digits.empty() && error == std::errc() && end == digits.data() + digits.size() &&
+            std::isfinite(value))
+            return value;
+        rest_ = before;
+        return std::nullopt;
+    }
+
+    /// Whether the next word is an option: a minus sign and letters.
+    [[nodiscard]] bool isAtOption() const {
+        const std::size_t begin = std::min(rest_.find_first_not_of(" \t"), rest_.size());
+        const std::string_view rest = rest_.substr(begin);
+        return rest.size() > 1 && rest[0] == '-' && rest[1] >= 'a' && rest[1] <= 'z';
+    }
+
     /// One number stands for three.
     [[nodiscard]] glm::vec3 colour(std::string_view keyword) {
         const float red = number(keyword);
@@ -121,6 +158,145 @@ class Words {
     }
 
     std::string_view rest_;
+    const ObjLines &lines_;
+};
+
+/// The statements of textures, and what they are for.
+struct TextureStatement {
+    std::string_view keyword;
+    std::optional<std::uint32_t> slot; ///< none: it is passed over
+};
+
+constexpr TextureStatement textureStatements[] = {{"map_Kd", layout::slotBaseColour},
+                                                  {"map_Ke", layout::slotEmission},
+                                                  {"map_Pr", layout::slotRoughness},
+                                                  {"map_Pm", layout::slotMetallic},
+                                                  {"norm", layout::slotNormal},
+                                                  {"map_Bump", layout::slotNormal},
+                                                  {"map_bump", layout::slotNormal},
+                                                  {"bump", layout::slotNormal},
+                                                  {"map_d", layout::slotOpacity},
+                                                  {"map_Ks", {}},
+                                                  {"map_Ns", {}},
+                                                  {"map_Ps", {}},
+                                                  {"map_Tr", {}},
+                                                  {"disp", {}},
+                                                  {"decal", {}},
+                                                  {"refl", {}}};
+
+/// Reads the statements of textures of one library.
+class TextureReader {
+  public:
+    TextureReader(const std::filesystem::path &library, MtlTextures &textures, const ObjLines &lines)
+        : base_(library.parent_path()), textures_(textures), lines_(lines) {}
+
+    /// Whether `keyword` is one of them; then it is taken.
+    bool take(MtlStatements &mtl, std::string_view keyword, Words &words) {
+        const auto *const statement =
+            std::ranges::find(textureStatements, keyword, &TextureStatement::keyword);
+        if (statement == std::end(textureStatements))
+            return false;
+        TextureUse use;
+        float strength = 1.0f;
+        while (words.isAtOption())
+            takeOption(words, use, strength);
+        const std::string_view name = words.remainder();
+        const auto isPlaced = [](const glm::vec2 &v) {
+            return limits::texturePlacement.contains(v.x) && limits::texturePlacement.contains(v.y);
+        };
+        if (name.empty())
+            lines_.fail(fmt::format("{} names no file", keyword));
+        if (!isPlaced(use.scale) || !isPlaced(use.offset) || !limits::normalStrength.contains(strength))
+            lines_.fail(fmt::format(
+                "{} has a -s, -o or -bm out of range; allowed are {} for -s and -o, and {} for -bm", keyword,
+                limits::texturePlacement.text(), limits::normalStrength.text()));
+        if (!statement->slot)
+            warn(fmt::format("{} {} is passed over; textures are read for {}", keyword, quoteInput(name),
+                             "map_Kd, map_Ke, map_Pr, map_Pm, map_d, norm and map_Bump"));
+        else if (const std::optional<std::uint32_t> index = load(keyword, name, *statement->slot)) {
+            use.textureIndex = *index;
+            mtl.textures[*statement->slot] = use;
+            if (*statement->slot == layout::slotNormal)
+                mtl.normalStrength = strength;
+        }
+        return true;
+    }
+
+  private:
+    void warn(const std::string &text) {
+        constexpr std::size_t most = 32; // of all libraries of a mesh
+        if (textures_.warnings.size() < most)
+            textures_.warnings.push_back(
+                fmt::format("{}:{}: {}", lines_.fileName(), lines_.lineNumber(), text));
+        else if (textures_.warnings.size() == most)
+            textures_.warnings.push_back(fmt::format("{}: and so on", lines_.fileName()));
+    }
+
+    void takeOption(Words &words, TextureUse &use, float &strength) {
+        const std::string_view option = words.next();
+        if (option == "-bm") {
+            strength = words.number(option);
+            return;
+        }
+        const bool isScale = option == "-s";
+        const bool isOffset = option == "-o";
+        glm::vec2 &place = isScale ? use.scale : use.offset;
+        int count = 0;
+        for (; count < 3; ++count) {
+            const std::optional<float> number = words.tryNumber();
+            if (!number)
+                break;
+            if ((isScale || isOffset) && count < 2)
+                place[count] = *number;
+        }
+        if ((isScale || isOffset) && count == 0)
+            lines_.fail(fmt::format("{} has fewer numbers than it needs", option));
+        if (isScale || isOffset)
+            return;
+        const bool hasWord = option == "-blendu" || option == "-blendv" || option == "-cc" ||
+                             option == "-clamp" || option == "-imfchan" || option == "-type";
+        const std::string_view value = hasWord ? words.next() : std::string_view();
+        warn(fmt::format("the option {}{}{} is passed over; -s, -o and -bm are not", printable(option),
+                         hasWord ? " " : "", printable(value)));
+    }
+
+    static std::string printable(std::string_view text) {
+        const std::string quoted = quoteInput(text);
+        return quoted.substr(1, quoted.size() - 2);
+    }
+
+    std::optional<std::uint32_t> load(std::string_view keyword, std::string_view name, std::uint32_t slot) {
+        std::string unixName(name);
+        std::replace(unixName.begin(), unixName.end(), '\\', '/');
+        std::optional<std::filesystem::path> file = findWithin(textures_.folder, base_, name);
+        if (!file)
+            file = findWithin(textures_.folder, base_, unixName);
+        if (!file) {
+            warn(fmt::format("{} {}: there is no such file in the mesh's folder", keyword, quoteInput(name)));
+            return std::nullopt;
+        }
+        if (!isTextureFile(*file)) {
+            warn(fmt::format("{} {} is passed over: it is no PNG, JPEG or Radiance (HDR) file", keyword,
+                             quoteInput(name)));
+            return std::nullopt;
+        }
+        const std::uint32_t index = textures_.library.load(*file);
+        const Texture &texture = textures_.library.at(index);
+        if (texture.isFloat() && slot != layout::slotEmission) {
+            warn(fmt::format("{} {} is passed over: images of floats are for map_Ke alone", keyword,
+                             quoteInput(name)));
+            return std::nullopt;
+        }
+        if (slot == layout::slotNormal && isGrey(texture)) {
+            warn(fmt::format("{} {} is passed over: it is grey, a height map; normal maps are read", keyword,
+                             quoteInput(name)));
+            return std::nullopt;
+        }
+        return index;
+    }
+
+    std::filesystem::path base_;
+    MtlTextures &textures_;
     const ObjLines &lines_;
 };
 
@@ -155,8 +331,21 @@ bool knows(std::string_view keyword) {
 
 } // namespace
 
-std::vector<Material> loadMtl(const std::filesystem::path &file) {
+std::optional<std::filesystem::path> findWithin(const std::filesystem::path &folder,
+                                                const std::filesystem::path &base, std::string_view name) {
+    std::error_code error;
+    const std::filesystem::path file =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(base / name, error), error);
+    const bool isInside =
+        std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+    if (error || !isInside || !std::filesystem::is_regular_file(file, error))
+        return std::nullopt;
+    return file;
+}
+
+std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures textures) {
     ObjLines lines(file);
+    TextureReader textureReader(file, textures, lines);
     std::vector<Material> materials;
     std::unordered_set<std::string> names;
     std::optional<MtlStatements> current;
@@ -173,6 +362,8 @@ std::vector<Material> loadMtl(const std::filesystem::path &file) {
             finish();
             current.emplace();
             current->name = std::string(words.remainder());
+        } else if (current && textureReader.take(*current, keyword, words)) {
+            continue;
         } else if (knows(keyword)) {
             if (!current)
                 lines.fail(fmt::format("{} stands before the first newmtl", keyword));

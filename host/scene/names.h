@@ -16,13 +16,14 @@ inline constexpr std::array<Name<MaterialKind>, 5> materialNames{{{"diffuse", Ma
                                                                   {"dielectric", MaterialKind::Dielectric},
                                                                   {"conductor", MaterialKind::Conductor},
                                                                   {"principled", MaterialKind::Principled}}};
-inline constexpr std::array<Name<Integrator>, 8> integratorNames{{{"whitted", Integrator::Whitted},
+inline constexpr std::array<Name<Integrator>, 9> integratorNames{{{"whitted", Integrator::Whitted},
                                                                   {"path", Integrator::Path},
                                                                   {"ao", Integrator::AmbientOcclusion},
                                                                   {"normal", Integrator::Normal},
                                                                   {"depth", Integrator::Depth},
                                                                   {"albedo", Integrator::Albedo},
                                                                   {"id", Integrator::Id},
+                                                                  {"uv", Integrator::Uv},
                                                                   {"cost", Integrator::Cost}}};
 inline constexpr std::array<Name<CameraKind>, 3> cameraNames{{{"perspective", CameraKind::Perspective},
                                                               {"orthographic", CameraKind::Orthographic},

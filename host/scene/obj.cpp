@@ -14,6 +14,8 @@
 #endif
 #include <tiny_obj_loader.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <istream>
@@ -32,8 +34,10 @@ namespace {
 /// The materials that an OBJ file names.
 class ObjMaterials {
   public:
-    ObjMaterials(const std::filesystem::path &file, ObjMeshBuilder &meshBuilder)
-        : folder(file.parent_path()), builder(meshBuilder) {}
+    /// `textureLibrary` may be null: then nothing is to be taken.
+    ObjMaterials(const std::filesystem::path &file, ObjMeshBuilder &meshBuilder,
+                 TextureLibrary *textureLibrary)
+        : folder(file.parent_path()), builder(meshBuilder), textures(textureLibrary) {}
 
     /// Takes a statement, if it is one of materials.
     void take(std::string_view statement) {
@@ -66,16 +70,14 @@ class ObjMaterials {
         std::error_code error;
         const std::filesystem::path base =
             std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-        const std::filesystem::path library = std::filesystem::weakly_canonical(base / name, error);
-        const bool isInside =
-            std::mismatch(base.begin(), base.end(), library.begin(), library.end()).first == base.end();
-        if (error || !isInside || !std::filesystem::is_regular_file(library, error)) {
+        const std::optional<std::filesystem::path> library = findWithin(base, base, name);
+        if (error || !library) {
             builder.report().lostLibraries.emplace_back(name);
             return;
         }
-        if (!libraries.insert(library).second)
+        if (!libraries.insert(*library).second)
             return;
-        for (Material &material : loadMtl(library))
+        for (Material &material : loadMtl(*library, {base, *textures, builder.report().warnings}))
             if (indices.emplace(material.name, static_cast<std::uint32_t>(materials.size() + 1)).second)
                 materials.push_back(std::move(material));
     }
@@ -94,6 +96,7 @@ class ObjMaterials {
 
     std::filesystem::path folder;
     ObjMeshBuilder &builder;
+    TextureLibrary *textures;
     std::vector<Material> materials;
     std::map<std::string, std::uint32_t, std::less<>> indices; ///< of the materials, by name
     std::set<std::string, std::less<>> names;                  ///< of libraries that were asked for
@@ -168,25 +171,48 @@ tinyobj::callback_t makeCallbacks() {
     callbacks.normal_cb = [](void *userData, double x, double y, double z) {
         callbackData(userData).builder.addNormal({x, y, z});
     };
+    callbacks.texcoord_cb = [](void *userData, double u, double v, double) {
+        callbackData(userData).builder.addUv({u, v});
+    };
     callbacks.index_cb = [](void *userData, tinyobj::index_t *indices, int count) {
         CallbackData &data = callbackData(userData);
         data.corners.clear();
         for (int i = 0; i < count; ++i)
-            data.corners.push_back({indices[i].vertex_index, indices[i].normal_index});
+            data.corners.push_back(
+                {indices[i].vertex_index, indices[i].normal_index, indices[i].texcoord_index});
         data.builder.addFace(data.corners, data.lines.lineNumber());
     };
     return callbacks;
 }
 
+/// Textures that cannot be put on the mesh.
+void leaveOutUselessTextures(ObjMesh &loaded) {
+    const auto hasTextures = [](const Material &material) {
+        return std::ranges::any_of(material.textures, [](const auto &use) { return use.has_value(); });
+    };
+    if (std::ranges::none_of(loaded.materials, hasTextures))
+        return;
+    if (loaded.mesh.triangleUvs.empty()) {
+        for (Material &material : loaded.materials)
+            material.textures = {};
+        loaded.report.warnings.push_back(
+            loaded.mesh.name + ": its textures are passed over, as it has no texture coordinates (vt)");
+    } else if (loaded.report.uvLessCount > 0) {
+        loaded.report.warnings.push_back(fmt::format(
+            "{}: {} triangles have no texture coordinates (vt); textures show their bottom left corner there",
+            loaded.mesh.name, loaded.report.uvLessCount));
+    }
+}
+
 } // namespace
 
 ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform, const OnReading &onReading,
-                bool readsMaterials) {
+                TextureLibrary *textures) {
     ObjLines lines(file);
     ObjMeshBuilder builder(lines.fileName(), transform);
     std::size_t unusedStatementCount = 0;
-    ObjMaterials materials(file, builder);
-    CheckedObjSource source(lines, builder, readsMaterials ? &materials : nullptr, unusedStatementCount,
+    ObjMaterials materials(file, builder, textures);
+    CheckedObjSource source(lines, builder, textures != nullptr ? &materials : nullptr, unusedStatementCount,
                             onReading);
     std::istream stream(&source);
     stream.exceptions(std::ios::badbit); // so that an Error of the source passes through the stream
@@ -196,6 +222,7 @@ ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transfor
     loaded.report.unusedStatementCount = unusedStatementCount;
     if (!loaded.mesh.triangleMaterials.empty())
         loaded.materials = materials.give();
+    leaveOutUselessTextures(loaded);
     return loaded;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/scene.h"
+#include "host/scene/texture_library.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -32,7 +33,9 @@ struct MeshReport {
 
     std::size_t unknownMaterialCount = 0;     ///< `usemtl` with a name that no library of the file has
     std::vector<std::string> lostLibraries{}; ///< `mtllib` that is not there, or not in the mesh's folder
-    std::size_t unusedStatementCount = 0;     ///< `l`, `p`, unknown keywords: skipped
+    std::size_t uvLessCount = 0;          ///< triangles without texture coordinates, where others have some
+    std::vector<std::string> warnings{};  ///< what of its materials was passed over, though it would be seen
+    std::size_t unusedStatementCount = 0; ///< `l`, `p`, unknown keywords: skipped
 };
 
 /// Told which share of a file is read, in [0, 1], ever so often: about every 4 MiB.
@@ -47,8 +50,9 @@ struct ObjMesh {
 };
 
 /// Loads all faces of all groups of an OBJ file as one mesh. Faces may be v, v/vt, v//vn or v/vt/vn, with
-/// negative indices, and polygons of up to 65,536 corners, concave ones too (triangulate.h). Texture
-/// coordinates are not read; materials are (mtl.h), if told, from libraries in the mesh's folder or below. Coordinates are transformed in double and rounded to float once. Normals
+/// negative indices, and polygons of up to 65,536 corners, concave ones too (triangulate.h). Triangles have texture
+/// coordinates where all three corners have some that the file defines. Materials are read (mtl.h), where `textures` takes
+/// their textures, from libraries in the mesh's folder or below. Coordinates are transformed in double and rounded to float once. Normals
 /// are transformed with the mesh and normalised; a mesh turned inside out by a negative scale keeps its outward
 /// winding. Lines may end in LF, CR or CRLF, go on after a backslash, and hold 16 MiB; the file 4 GiB. Memory
 /// stays below 64 MiB + 64 times the file's size.
@@ -57,6 +61,6 @@ struct ObjMesh {
 /// range, numbers that are no finite floats, coordinates beyond 1e15 after the transform, and faces with fewer
 /// than three corners; Error{BadInput} when there is no triangle at all.
 [[nodiscard]] ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform = {},
-                              const OnReading &onReading = {}, bool readsMaterials = false);
+                              const OnReading &onReading = {}, TextureLibrary *textures = nullptr);
 
 } // namespace hyalite

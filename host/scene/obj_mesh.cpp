@@ -106,6 +106,13 @@ void ObjMeshBuilder::addNormal(const glm::dvec3 &normalObject) {
     result.mesh.normals.push_back(normal);
 }
 
+void ObjMeshBuilder::addUv(const glm::dvec2 &uv) {
+    const auto finite = [](double x) {
+        return std::abs(x) <= double{std::numeric_limits<float>::max()} ? static_cast<float>(x) : 0.0f;
+    };
+    result.mesh.uvs.emplace_back(finite(uv.x), finite(uv.y));
+}
+
 void ObjMeshBuilder::setMaterial(std::uint32_t index) {
     material = index;
     if (!hasMaterials && index != 0) {
@@ -119,11 +126,18 @@ void ObjMeshBuilder::addFace(std::span<const ObjCorner> corners, std::size_t lin
     face.clear();
     bool isCuttable = waitingFaces.empty();
     for (const ObjCorner &corner : corners) {
-        Corner &added = face.emplace_back(Corner{
-            resolve(corner.position, result.mesh.positions.size(), "vertex", line), MeshTriangle::noNormal});
+        Corner &added =
+            face.emplace_back(Corner{resolve(corner.position, result.mesh.positions.size(), "vertex", line),
+                                     MeshTriangle::noNormal, TriangleMesh::noUv});
         if (corner.normal != 0)
             added.normal = resolve(corner.normal, result.mesh.normals.size(), "normal", line);
-        isCuttable = isCuttable && isDefined(added);
+        if (corner.uv > 0)
+            added.uv = static_cast<std::uint32_t>(corner.uv) - 1;
+        else if (const auto back = static_cast<std::size_t>(-std::int64_t{corner.uv});
+                 back > 0 && back <= result.mesh.uvs.size())
+            added.uv = static_cast<std::uint32_t>(result.mesh.uvs.size() - back);
+        isCuttable = isCuttable && isDefined(added) &&
+                     (added.uv == TriangleMesh::noUv || added.uv < result.mesh.uvs.size());
     }
     if (isCuttable) {
         cutFace(face);
@@ -197,13 +211,26 @@ void ObjMeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner 
         triangle.normals = glm::uvec3(MeshTriangle::noNormal);
         ++result.report.lostNormalCount;
     }
+    glm::uvec3 uvs(a.uv, b.uv, c.uv);
     if (scale < 0.0) { // the mesh is turned inside out: turn the winding back
         std::swap(triangle.positions.y, triangle.positions.z);
         std::swap(triangle.normals.y, triangle.normals.z);
+        std::swap(uvs.y, uvs.z);
     }
+    addTriangleUvs(uvs);
     result.mesh.triangles.push_back(triangle);
     if (hasMaterials)
         result.mesh.triangleMaterials.push_back(material);
+}
+
+void ObjMeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
+    const bool hasAll =
+        uvs.x < result.mesh.uvs.size() && uvs.y < result.mesh.uvs.size() && uvs.z < result.mesh.uvs.size();
+    if (hasAll && result.mesh.triangleUvs.empty())
+        result.mesh.triangleUvs.assign(result.mesh.triangles.size(), glm::uvec3(TriangleMesh::noUv));
+    result.report.uvLessCount += hasAll ? 0 : 1;
+    if (hasAll || !result.mesh.triangleUvs.empty())
+        result.mesh.triangleUvs.push_back(hasAll ? uvs : glm::uvec3(TriangleMesh::noUv));
 }
 
 ObjMesh ObjMeshBuilder::finish() {

@@ -14,14 +14,15 @@
 
 namespace hyalite {
 
-/// A corner of a face as the file has it: from 1, or from -1 backwards; a normal of 0 is none.
+/// A corner of a face as the file has it: from 1, or from -1 backwards; a normal or a uv of 0 is none.
 struct ObjCorner {
     std::int32_t position;
     std::int32_t normal;
+    std::int32_t uv;
 };
 
 /// Fed in the order of the file, at most 2^32 - 1 of each thing. OBJ files may name vertices before they define them:
-/// from the first face that does, faces wait until the end, as 8 bytes a corner and 12 a face.
+/// from the first face that does, faces wait until the end, as 12 bytes a corner and 12 a face.
 class ObjMeshBuilder {
   public:
     ObjMeshBuilder(std::string file, const MeshTransform &transform);
@@ -33,6 +34,9 @@ class ObjMeshBuilder {
     /// Takes a `vn`; one that is zero or not finite is kept as lost.
     void addNormal(const glm::dvec3 &normalObject);
 
+    /// Takes a `vt`; what is no finite float counts as 0.
+    void addUv(const glm::dvec2 &uv);
+
     /// Of the faces that follow: an index from 1 on, or 0 for none.
     void setMaterial(std::uint32_t material);
 
@@ -42,7 +46,7 @@ class ObjMeshBuilder {
     /// vertex or normal.
     void addFace(std::span<const ObjCorner> corners, std::size_t line);
 
-    /// Gives the mesh away. Throws Error{BadInput} for indices past the end of the file's vertices or normals, and
+    /// Gives the mesh away; texture coordinates that the file does not have are left out. Throws Error{BadInput} for indices past the end of the file's vertices or normals, and
     /// when no triangle is left.
     [[nodiscard]] ObjMesh finish();
 
@@ -50,6 +54,7 @@ class ObjMeshBuilder {
     struct Corner {
         std::uint32_t position;
         std::uint32_t normal; ///< or MeshTriangle::noNormal
+        std::uint32_t uv;     ///< or TriangleMesh::noUv
     };
 
     struct Face {
@@ -68,6 +73,7 @@ class ObjMeshBuilder {
     void requireDefined(const Corner &corner, std::size_t line) const;
     void cutFace(std::span<const Corner> corners);
     void addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals);
+    void addTriangleUvs(glm::uvec3 uvs);
 
     glm::dmat3 rotation;
     double scale;

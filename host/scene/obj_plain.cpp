@@ -84,10 +84,11 @@ const char *readNumber(const char *at, double &value) {
     return digitCount > 0 && endsToken(*at) && at - begin <= maxCharacters ? at : nullptr;
 }
 
-const char *readThreeNumbers(const char *at, glm::dvec3 &values) {
-    for (int i = 0; i < 3 && at; ++i)
+// Past the end of the line behind the numbers.
+const char *readNumbers(const char *at, int count, glm::dvec3 &values) {
+    for (int i = 0; i < count && at; ++i)
         at = readNumber(at, values[i]);
-    return at;
+    return at ? skipToNextLine(at) : nullptr;
 }
 
 // An index of up to nine digits, which fit any int, and perhaps a minus sign; not 0.
@@ -108,13 +109,13 @@ const char *readIndex(const char *at, std::int32_t &index) {
 // One of v, v/vt, v//vn and v/vt/vn.
 const char *readCorner(const char *at, ObjCorner &corner) {
     corner.normal = 0;
+    corner.uv = 0;
     at = readIndex(at, corner.position);
     if (!at || *at != '/')
         return at;
     ++at;
     if (*at != '/') {
-        std::int32_t texture = 0;
-        at = readIndex(at, texture);
+        at = readIndex(at, corner.uv);
         if (!at || *at != '/')
             return at;
     }
@@ -142,19 +143,17 @@ const char *readPlainStatement(const char *line, std::size_t lineNumber, ObjMesh
         return readFace(line + 2, lineNumber, builder);
     if (line[0] != 'v')
         return nullptr;
-    if (line[1] == 't' && isBlank(line[2]))
-        return skipToNextLine(line + 3);
-
     const bool isNormal = line[1] == 'n';
-    const char *at = line + (isNormal ? 2 : 1);
+    const bool isUv = line[1] == 't';
+    const char *at = line + (isNormal || isUv ? 2 : 1);
     glm::dvec3 values;
     if (!isBlank(*at))
         return nullptr;
-    at = readThreeNumbers(at, values);
-    if (at)
-        at = skipToNextLine(at);
+    at = readNumbers(at, isUv ? 2 : 3, values);
     if (at && isNormal)
         builder.addNormal(values);
+    else if (at && isUv)
+        builder.addUv(glm::dvec2(values));
     else if (at)
         builder.addPosition(values, lineNumber);
     return at;

@@ -80,7 +80,8 @@ bool isNotFinite(std::string_view token) {
 
 [[noreturn]] void failNumber(const char *keyword, const char *at, const ObjLines &lines) {
     if (endsStatement(*at))
-        lines.fail(std::string(keyword) + " has fewer than three numbers");
+        lines.fail(std::string(keyword) +
+                   (std::string_view(keyword) == "vt" ? " has no number" : " has fewer than three numbers"));
     lines.fail(std::string(keyword) + " has " + quoteInput(tokenAt(at)) +
                "; allowed are finite decimal numbers of up to 128 characters, such as -1.5e-3");
 }
@@ -111,6 +112,26 @@ std::span<char> checkNormal(char *keyword, const ObjLines &lines) {
     }
     if (!isFinite)
         at = std::copy(zeroNormal.begin(), zeroNormal.end(), keyword); // the shortest vn of three tokens
+    return {keyword, at};
+}
+
+std::span<char> checkUv(char *keyword, const ObjLines &lines) {
+    constexpr std::string_view zeroUv = "vt 0 0";
+    bool isFinite = true;
+    char *at = keyword + 2;
+    for (int i = 0; i < 2; ++i) {
+        char *begin = skipBlanks(at);
+        if (i > 0 && endsStatement(*begin))
+            break;
+        at = scanNumber(begin);
+        if (!at && !isNotFinite(tokenAt(begin)))
+            failNumber("vt", begin, lines);
+        isFinite = isFinite && at;
+        if (!at)
+            at = begin + tokenAt(begin).size();
+    }
+    if (!isFinite)
+        at = std::copy(zeroUv.begin(), zeroUv.end(), keyword); // as short as "vt nan"
     return {keyword, at};
 }
 
@@ -181,10 +202,12 @@ CheckedStatement checkStatement(std::span<char> statement, const ObjLines &lines
         text = checkVertex(keyword, lines);
     else if (keyword[0] == 'v' && keyword[1] == 'n' && endsToken(keyword[2]))
         text = checkNormal(keyword, lines);
+    else if (keyword[0] == 'v' && keyword[1] == 't' && endsToken(keyword[2]))
+        text = checkUv(keyword, lines);
     else if (keyword[0] == 'f' && endsToken(keyword[1]))
         text = checkFace(keyword, lines);
     if (text.empty()) {
-        constexpr std::array<std::string_view, 6> known{"vt", "g", "o", "s", "usemtl", "mtllib"};
+        constexpr std::array<std::string_view, 5> known{"g", "o", "s", "usemtl", "mtllib"};
         const bool isKnown = std::find(known.begin(), known.end(), tokenAt(keyword)) != known.end();
         return {isKnown ? ObjStatement::Skipped : ObjStatement::Unused, {}};
     }

@@ -5,11 +5,14 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/texture.h"
 #include "host/scene/metals.h"
+#include "shaders/layout.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -63,6 +66,17 @@ enum class MaterialKind : std::uint32_t {
     Principled = 4
 };
 
+/// How a material wears one of the scene's textures: at (u, v) it shows what the image has at scale * (u, v) + offset, and
+/// repeats. Images begin at the bottom left, v = 0, and end at the top, v = 1.
+struct TextureUse {
+    std::uint32_t textureIndex = 0;
+    glm::vec2 scale{1.0f};
+    glm::vec2 offset{0.0f};
+};
+
+/// What textures can be worn for, by layout::slot...
+using TextureSlots = std::array<std::optional<TextureUse>, layout::textureSlotCount>;
+
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Diffuse;
@@ -84,6 +98,8 @@ struct Material {
     float transmission = 0.0f; ///< share of what is no metal that is glass
     float clearcoat = 0.0f;    ///< and then transmission is 0
     float clearcoatRoughness = 0.1f;
+    TextureSlots textures{};     ///< Diffuse, Principled; factors on albedo, emission, roughness and metallic
+    float normalStrength = 1.0f; ///< how far a normal map turns normals; in [0, 100]
 };
 
 /// Whether light passes the material.
@@ -115,6 +131,11 @@ struct TriangleMesh {
     std::vector<MeshTriangle> triangles;
     std::uint32_t materialIndex = 0;
     std::vector<std::uint32_t> triangleMaterials{}; ///< in place of it, one for each triangle; or none at all
+    std::vector<glm::vec2> uvs{};                   ///< finite
+    /// Of each triangle's corners the indices in `uvs`, all three or none `noUv`; or none at all.
+    std::vector<glm::uvec3> triangleUvs{};
+
+    static constexpr std::uint32_t noUv = std::numeric_limits<std::uint32_t>::max();
 
     [[nodiscard]] std::uint32_t materialOf(std::size_t triangle) const {
         return triangleMaterials.empty() ? materialIndex : triangleMaterials[triangle];
@@ -129,6 +150,7 @@ enum class Integrator {
     Depth,
     Albedo,
     Id,
+    Uv,  ///< u and v of textures, less their whole parts, as red and green
     Cost ///< the work of Whitted's rays: inner nodes, boxes and triangles as red, green and blue
 };
 /// Whether it sends the rays of Whitted's integrator.
@@ -161,6 +183,7 @@ struct Scene {
     glm::vec3 background{0.0f}; ///< radiance of rays that leave the scene
     float shadowThroughGlass =
         1.0f; ///< factor on light that reaches a point through dielectrics alone; in [0, 1]
+    std::vector<Texture> textures;
     std::vector<Material> materials;
     std::vector<Sphere> spheres;
     std::vector<TriangleMesh> meshes;

@@ -2,6 +2,7 @@
 
 #include "host/image/image_file.h"
 #include "host/scene/file_reach.h"
+#include "host/scene/framing.h"
 #include "host/scene/json_document.h"
 #include "host/scene/json_reader.h"
 #include "host/scene/limits.h"
@@ -10,6 +11,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <span>
 #include <utility>
 
 namespace hyalite {
@@ -96,7 +101,59 @@ Environment readEnvironment(const JsonObject &object, const FileReach &reach) {
     return environment;
 }
 
-Material readMaterial(const std::string &name, const JsonObject &object) {
+/// What is needed to read textures.
+struct TextureSource {
+    const FileReach &reach;
+    TextureLibrary &library;
+};
+
+/// The textures of a material whose kind allows `keys`. The numbers that they are factors on become 1.
+void readTextures(const JsonObject &object, std::span<const std::string_view> keys,
+                  const TextureSource &source, Material &material) {
+    constexpr std::array<Name<std::uint32_t>, layout::textureSlotCount> slots{
+        {{"baseColour", layout::slotBaseColour},
+         {"emission", layout::slotEmission},
+         {"roughness", layout::slotRoughness},
+         {"metallic", layout::slotMetallic},
+         {"normal", layout::slotNormal},
+         {"opacity", layout::slotOpacity}}};
+    const std::optional<JsonObject> textures = object.object("textures", keys);
+    if (!textures)
+        return;
+    for (const auto &[key, slot] : slots) {
+        const std::optional<JsonNode> node = textures->find(key);
+        if (!node)
+            continue;
+        const bool isNormal = slot == layout::slotNormal;
+        const JsonObject image(*node, isNormal ? std::span<const std::string_view>(scene_keys::normalMap)
+                                               : std::span<const std::string_view>(scene_keys::texture));
+        const JsonNode file = image.at("file");
+        TextureUse use;
+        use.scale = glm::vec2(image.pair("scale", limits::texturePlacement, glm::dvec2(use.scale)));
+        use.offset = glm::vec2(image.pair("offset", limits::texturePlacement, glm::dvec2(use.offset)));
+        if (isNormal)
+            material.normalStrength =
+                static_cast<float>(image.number("strength", limits::normalStrength, material.normalStrength));
+        use.textureIndex = source.library.load(source.reach.resolve(file));
+        const Texture &texture = source.library.at(use.textureIndex);
+        if (texture.isFloat() && slot != layout::slotEmission)
+            file.fail("found an image of floats; allowed: a PNG or a JPEG");
+        if (isNormal && isGrey(texture))
+            file.fail("found a grey image, as height maps are; allowed: a normal map, which is bluish");
+        material.textures[slot] = use;
+    }
+    const auto has = [&](std::uint32_t slot) { return material.textures[slot].has_value(); };
+    if (has(layout::slotBaseColour))
+        material.albedo = glm::vec3(1.0f);
+    if (has(layout::slotEmission))
+        material.emission = glm::vec3(1.0f);
+    if (has(layout::slotRoughness))
+        material.roughness = 1.0f;
+    if (has(layout::slotMetallic))
+        material.metallic = 1.0f;
+}
+
+Material readMaterial(const std::string &name, const JsonObject &object, const TextureSource &source) {
     Material material;
     material.name = name;
     material.kind = object.choice("type", materialNames);
@@ -106,6 +163,7 @@ Material readMaterial(const std::string &name, const JsonObject &object) {
     switch (material.kind) {
     case MaterialKind::Diffuse:
         object.allowOnly(scene_keys::diffuse);
+        readTextures(object, scene_keys::diffuseTextures, source, material);
         material.albedo = glm::vec3(object.colour("albedo", limits::fraction, glm::dvec3(material.albedo)));
         material.twoSided = object.boolean("twoSided", material.twoSided);
         material.emission =
@@ -137,10 +195,12 @@ Material readMaterial(const std::string &name, const JsonObject &object) {
     }
     case MaterialKind::Principled:
         object.allowOnly(scene_keys::principled);
+        material.roughness = 0.5f;
+        readTextures(object, scene_keys::principledTextures, source, material);
         material.albedo =
             glm::vec3(object.colour("baseColour", limits::fraction, glm::dvec3(material.albedo)));
         material.metallic = fraction("metallic", material.metallic);
-        material.roughness = fraction("roughness", 0.5f);
+        material.roughness = fraction("roughness", material.roughness);
         material.specular = fraction("specular", material.specular);
         material.refractiveIndex =
             static_cast<float>(object.number("index", limits::refractiveIndex, material.refractiveIndex));
@@ -183,19 +243,32 @@ Sphere readSphere(const JsonObject &object, const std::vector<Material> &materia
     return sphere;
 }
 
-ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials, const FileReach &reach,
-                 const OnReading &onReading) {
+/// `materials` are those of the scene file. A mesh that names none of them has its own.
+ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials,
+                 const TextureSource &source, const OnReading &onReading) {
     MeshTransform transform;
     transform.scale = object.number("scale", limits::meshScale, transform.scale);
     if (transform.scale == 0.0)
         object.at("scale").refuse("a number that is not 0");
     transform.rotateDegrees = object.vector("rotateDegrees", limits::rotateDegrees, transform.rotateDegrees);
     transform.translate = object.vector("translate", limits::coordinate, transform.translate);
-    const std::uint32_t materialIndex = readMaterialIndex(object, materials);
+    const bool isNamed = object.find("material").has_value();
+    const std::uint32_t materialIndex = isNamed ? readMaterialIndex(object, materials) : 0;
 
-    ObjMesh mesh = loadObj(reach.resolve(object.at("file")), transform, onReading);
+    ObjMesh mesh = loadObj(source.reach.resolve(object.at("file")), transform, onReading,
+                           isNamed ? nullptr : &source.library);
     mesh.mesh.materialIndex = materialIndex;
     return mesh;
+}
+
+/// Gives the scene the materials that a mesh has brought, behind a neutral one for triangles without any.
+void addMaterialsOf(ObjMesh &mesh, Scene &scene) {
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    mesh.mesh.materialIndex = first;
+    for (std::uint32_t &material : mesh.mesh.triangleMaterials)
+        material += first;
+    scene.materials.push_back(neutralMaterial());
+    std::ranges::move(mesh.materials, std::back_inserter(scene.materials));
 }
 
 RenderSettings readSettings(const JsonObject &object) {
@@ -233,6 +306,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
     Scene &scene = loaded.scene;
     scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
     const FileReach reach(file, allowedPaths);
+    TextureLibrary textures;
     if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
         scene.environment = readEnvironment(*environment, reach);
     if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera))
@@ -241,7 +315,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
         scene.lights.push_back(readLight(light));
     if (const std::optional<JsonNode> materials = top.find("materials"))
         for (const auto &[name, material] : JsonObject(*materials).members(limits::materialCount))
-            scene.materials.push_back(readMaterial(name, JsonObject(material)));
+            scene.materials.push_back(readMaterial(name, JsonObject(material), {reach, textures}));
     for (const JsonNode &sphere : top.elements("spheres", limits::sphereCount))
         scene.spheres.push_back(readSphere({sphere, scene_keys::sphere}, scene.materials));
     if (const std::optional<JsonObject> settings = top.object("settings", scene_keys::settings)) {
@@ -254,9 +328,13 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
             events.onReading((static_cast<double>(scene.meshes.size()) + share) /
                              static_cast<double>(meshes.size()));
     };
+    const std::vector<Material> named = scene.materials;
     std::size_t triangleTotal = 0;
     for (const JsonNode &node : meshes) {
-        ObjMesh mesh = readMesh({node, scene_keys::mesh}, scene.materials, reach, onReadingMesh);
+        const JsonObject object(node, scene_keys::mesh);
+        ObjMesh mesh = readMesh(object, named, {reach, textures}, onReadingMesh);
+        if (!object.find("material"))
+            addMaterialsOf(mesh, scene);
         scene.meshes.push_back(std::move(mesh.mesh));
         loaded.meshReports.push_back(mesh.report);
         triangleTotal += scene.meshes.back().triangles.size();
@@ -264,6 +342,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
             node.fail(fmt::format("found {} triangles up to this mesh; allowed: at most {}", triangleTotal,
                                   limits::triangleCount));
     }
+    scene.textures = textures.give();
     return loaded;
 }
 

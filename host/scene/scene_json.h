@@ -33,7 +33,8 @@
 //     "materials": { NAME: one of
 //       { "type": "diffuse", "albedo": colour in [0, 1], default 0.5;
 //                            "twoSided": true turns the normal to the viewer, default false;
-//                            "emission": colour, default 0: radiance on the side of the normal, on both where twoSided }
+//                            "emission": colour, default 0: radiance on the side of the normal, on both where twoSided;
+//                            "textures": see below, without "roughness" and "metallic" }
 //       { "type": "mirror" }
 //       { "type": "dielectric", "index": from 1 to 10, default 1.5;
 //                               "segmentTint": colour in [0, 1], default 1: a factor on all that a segment
@@ -51,7 +52,16 @@
 //                                                     specular 0.5; one of the last two must be 0;
 //                               "roughness", "clearcoatRoughness": in [0, 1], default 0.5 and 0.1;
 //                               "index", "absorption", "priority": as of a dielectric;
-//                               "twoSided", "emission": as of a diffuse material }
+//                               "twoSided", "emission": as of a diffuse material;
+//                               "textures": each of them at most once, and none is needed:
+//          { "baseColour": IMAGE, a factor on the albedo or base colour, which then is 1 by default,
+//            "emission": IMAGE, likewise, and so "roughness" and "metallic": of their red channel;
+//            "normal": IMAGE in the space of the surface, with "strength", from 0 to 100, default 1;
+//            "opacity": IMAGE, of its alpha, or of its red channel where it has none: below a half nothing is there;
+//                       meshes only } }
+//       IMAGE: { "file": PNG or JPEG, or .hdr for an emission; relative to the scene file as meshes are,
+//                "scale": [u, v] or one number, default 1: how often it repeats, and "offset", default 0: it shows at (u, v)
+//                         what it has at scale * (u, v) + offset }
 //     },
 //     "spheres": [ {          at most 64
 //       "centre"         point
@@ -61,14 +71,14 @@
 //     } ],
 //     "meshes": [ {
 //       "file"           OBJ, relative to the scene file, and in its folder or below, or in the assets
-//       "material"       NAME
+//       "material"       NAME; without it the mesh has those that its own libraries (MTL) give it
 //       "scale"          not 0, default 1; then
 //       "rotateDegrees"  about x, y and z in that order, default [0, 0, 0]; then
 //       "translate"      vector, default [0, 0, 0]
 //     } ],
 //     "settings": {
 //       "integrator"     "whitted" (default), "path", "ao" (ambient occlusion), or what is seen first: "normal",
-//                        "depth", "albedo" or "id", or "cost"
+//                        "depth", "albedo", "id" or "uv", or "cost"
 //       "occlusionDistance"  more than 0, default 1e15: for "ao", what is further away hides no sky
 //       "spp"            samples a pixel, from 1 to 65536, default 16
 //       "maxDepth"       segments of a path, from 1 to 32, default 7
@@ -134,7 +144,8 @@ inline constexpr auto pointLight = std::to_array<std::string_view>({"type", "pos
 inline constexpr auto spotLight =
     std::to_array<std::string_view>({"type", "position", "power", "direction", "angle", "blend"});
 inline constexpr auto directionalLight = std::to_array<std::string_view>({"type", "direction", "irradiance"});
-inline constexpr auto diffuse = std::to_array<std::string_view>({"type", "albedo", "twoSided", "emission"});
+inline constexpr auto diffuse =
+    std::to_array<std::string_view>({"type", "albedo", "twoSided", "emission", "textures"});
 inline constexpr auto mirror = std::to_array<std::string_view>({"type"});
 inline constexpr auto dielectric =
     std::to_array<std::string_view>({"type", "index", "segmentTint", "absorption", "priority", "roughness"});
@@ -142,7 +153,13 @@ inline constexpr auto conductor =
     std::to_array<std::string_view>({"type", "metal", "index", "extinction", "roughness"});
 inline constexpr auto principled = std::to_array<std::string_view>(
     {"type", "baseColour", "metallic", "roughness", "specular", "transmission", "index", "absorption",
-     "priority", "clearcoat", "clearcoatRoughness", "twoSided", "emission"});
+     "priority", "clearcoat", "clearcoatRoughness", "twoSided", "emission", "textures"});
+inline constexpr auto diffuseTextures =
+    std::to_array<std::string_view>({"baseColour", "emission", "normal", "opacity"});
+inline constexpr auto principledTextures =
+    std::to_array<std::string_view>({"baseColour", "emission", "roughness", "metallic", "normal", "opacity"});
+inline constexpr auto texture = std::to_array<std::string_view>({"file", "scale", "offset"});
+inline constexpr auto normalMap = std::to_array<std::string_view>({"file", "scale", "offset", "strength"});
 inline constexpr auto sphere =
     std::to_array<std::string_view>({"centre", "radius", "material", "inwardNormal"});
 inline constexpr auto mesh =

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
@@ -90,7 +91,7 @@ void checkCamera(const Camera &camera, const Checked &checked) {
     checked.within(limits::imageSize, camera.height, "height");
 }
 
-void checkMaterial(const Material &material, const Checked &checked) {
+void checkMaterial(const Material &material, const std::vector<Texture> &textures, const Checked &checked) {
     checked.within(limits::fraction, material.albedo, "albedo");
     checked.within(limits::refractiveIndex, material.refractiveIndex, "index");
     checked.within(limits::fraction, material.segmentTint, "segmentTint");
@@ -105,10 +106,57 @@ void checkMaterial(const Material &material, const Checked &checked) {
     checked.within(limits::fraction, material.transmission, "transmission");
     checked.within(limits::fraction, material.clearcoat, "clearcoat");
     checked.within(limits::fraction, material.clearcoatRoughness, "clearcoatRoughness");
+    checked.within(limits::normalStrength, material.normalStrength, "strength of the normal map");
+    for (const std::optional<TextureUse> &use : material.textures) {
+        if (!use)
+            continue;
+        if (material.kind != MaterialKind::Diffuse && material.kind != MaterialKind::Principled)
+            checked.refuse("textures", "some", "on a diffuse or a principled material");
+        checked.indexBelow(textures.size(), use->textureIndex, "texture");
+        for (const float number : {use->scale.x, use->scale.y, use->offset.x, use->offset.y})
+            checked.within(limits::texturePlacement, number, "scale or offset of a texture");
+    }
+    for (std::size_t slot = 0; slot < material.textures.size(); ++slot) {
+        if (!material.textures[slot] || !textures[material.textures[slot]->textureIndex].isFloat())
+            continue;
+        const Texture &texture = textures[material.textures[slot]->textureIndex];
+        if (slot != layout::slotEmission)
+            checked.refuse("textures", texture.name + ", of floats", "a PNG or a JPEG, but for the emission");
+        for (const glm::vec3 &value : texture.values)
+            if (!Checked::isWithin(limits::radiance, value * material.emission))
+                checked.within(limits::radiance, value * material.emission,
+                               fmt::format("emission times {}", texture.name));
+    }
     if (material.clearcoat > 0.0f && material.transmission > 0.0f)
         checked.refuse("clearcoat",
                        fmt::format("{}, and a transmission of {}", material.clearcoat, material.transmission),
                        "a clear coat on what is opaque: one of the two must be 0");
+}
+
+void checkTextures(const std::vector<Texture> &textures, const Checked &checked) {
+    std::size_t sizeBytes = 0;
+    for (const Texture &texture : textures) {
+        sizeBytes += bytesOnDevice(texture);
+        checked.within(limits::imageSize, texture.width, fmt::format("width of {}", texture.name));
+        checked.within(limits::imageSize, texture.height, fmt::format("height of {}", texture.name));
+    }
+    checked.atMost(limits::textureBytes, sizeBytes, "bytes of textures");
+}
+
+/// A mesh that no image could be put on.
+void checkTexturable(const TriangleMesh &mesh, const std::vector<Material> &materials,
+                     const Checked &checked) {
+    const auto check = [&](const Material &material) {
+        if (std::ranges::any_of(material.textures, [](const auto &use) { return use.has_value(); }))
+            checked.refuse("material", material.name + ", which has textures, but no texture coordinates",
+                           "a mesh with some (vt, and faces v/vt or v/vt/vn)");
+    };
+    if (!mesh.triangleUvs.empty())
+        return;
+    if (mesh.triangleMaterials.empty())
+        check(materials[mesh.materialIndex]);
+    for (const std::uint32_t index : mesh.triangleMaterials)
+        check(materials[index]);
 }
 
 void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checked &checked) {
@@ -118,7 +166,17 @@ void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checke
                        fmt::format("{}, or none", mesh.triangles.size()));
     for (std::size_t i = 0; i < mesh.triangleMaterials.size(); ++i)
         if (mesh.triangleMaterials[i] >= materialCount)
-            checked.indexBelow(materialCount, mesh.triangleMaterials[i], fmt::format("material of triangle {}", i));
+            checked.indexBelow(materialCount, mesh.triangleMaterials[i],
+                               fmt::format("material of triangle {}", i));
+    if (!mesh.triangleUvs.empty() && mesh.triangleUvs.size() != mesh.triangles.size())
+        checked.refuse("texture coordinates of triangles", fmt::format("{}", mesh.triangleUvs.size()),
+                       fmt::format("{}, or none", mesh.triangles.size()));
+    for (std::size_t i = 0; i < mesh.triangleUvs.size(); ++i)
+        for (glm::length_t corner = 0; corner < 3; ++corner)
+            if (mesh.triangleUvs[i] != glm::uvec3(TriangleMesh::noUv) &&
+                mesh.triangleUvs[i][corner] >= mesh.uvs.size())
+                checked.indexBelow(mesh.uvs.size(), mesh.triangleUvs[i][corner],
+                                   fmt::format("texture coordinates of triangle {}", i));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         if (!Checked::isWithin(limits::coordinate, mesh.positions[i]))
             checked.within(limits::coordinate, mesh.positions[i], fmt::format("vertex {}", i));
@@ -192,15 +250,25 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
         checked.within(limits::fraction, scene.lights[i].blend, "blend");
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        checkMaterial(scene.materials[i], {sourceName, "material", i, scene.materials[i].name});
+        checkMaterial(scene.materials[i], scene.textures,
+                      {sourceName, "material", i, scene.materials[i].name});
     for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
         const Checked checked(sourceName, "sphere", i);
         checked.within(limits::coordinate, scene.spheres[i].centre, "centre");
         checked.within(limits::radius, scene.spheres[i].radius, "radius");
         checked.indexBelow(scene.materials.size(), scene.spheres[i].materialIndex, "material");
+        if (scene.materials[scene.spheres[i].materialIndex].textures[layout::slotOpacity])
+            checked.refuse("material",
+                           scene.materials[scene.spheres[i].materialIndex].name +
+                               ", with a texture of opacity",
+                           "one without: only meshes are cut out");
     }
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-        checkMesh(scene.meshes[i], scene.materials.size(), {sourceName, "mesh", i, scene.meshes[i].name});
+    checkTextures(scene.textures, whole);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const Checked checked(sourceName, "mesh", i, scene.meshes[i].name);
+        checkMesh(scene.meshes[i], scene.materials.size(), checked);
+        checkTexturable(scene.meshes[i], scene.materials, checked);
+    }
 }
 
 } // namespace hyalite

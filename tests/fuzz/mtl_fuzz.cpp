@@ -32,11 +32,16 @@ void run(std::string_view text) {
     static const std::filesystem::path mesh = folder.write(
         "mesh.obj", "mtllib input.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n");
     const std::filesystem::path file = folder.write("input.mtl", text);
+    static const std::filesystem::path image = folder.write(
+        "a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string("\x80\x40\0\x88", 4));
     constexpr std::size_t anyFileBytes = std::size_t{1} << 20;
     {
         const HeapPeak peak;
         (void)refusalOf([&] {
-            for (const Material &material : loadMtl(file))
+            TextureLibrary textures;
+            std::vector<std::string> warnings;
+            for (const Material &material :
+                 loadMtl(file, {std::filesystem::canonical(file.parent_path()), textures, warnings}))
                 requireSound(material);
         });
         require(peak.bytes() <= anyFileBytes + 64 * text.size(),

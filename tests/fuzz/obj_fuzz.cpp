@@ -43,6 +43,14 @@ void requireSound(const TriangleMesh &mesh) {
         require(std::abs(position.x) <= 1.001e15f && std::abs(position.y) <= 1.001e15f &&
                     std::abs(position.z) <= 1.001e15f,
                 "a position beyond 1e15");
+    require(mesh.triangleUvs.empty() || mesh.triangleUvs.size() == mesh.triangles.size(),
+            "texture coordinates for some triangles alone");
+    for (const glm::uvec3 &corners : mesh.triangleUvs)
+        for (glm::length_t corner = 0; corner < 3; ++corner)
+            require(corners == glm::uvec3(TriangleMesh::noUv) || corners[corner] < mesh.uvs.size(),
+                    "undefined texture coordinates");
+    for (const glm::vec2 &uv : mesh.uvs)
+        require(std::isfinite(uv.x) && std::isfinite(uv.y), "texture coordinates that are no numbers");
     for (const MeshTriangle &triangle : mesh.triangles) {
         const bool isFlat = triangle.normals == glm::uvec3(MeshTriangle::noNormal);
         for (glm::length_t corner = 0; corner < 3; ++corner) {
@@ -82,6 +90,8 @@ void requireSame(const Outcome &a, const Outcome &b) {
     require(haveSameBits(meshA.positions, meshB.positions), "other positions when indented");
     require(haveSameBits(meshA.normals, meshB.normals), "other normals when indented");
     require(haveSameBits(meshA.triangles, meshB.triangles), "other triangles when indented");
+    require(haveSameBits(meshA.uvs, meshB.uvs) && haveSameBits(meshA.triangleUvs, meshB.triangleUvs),
+            "other texture coordinates when indented");
     const MeshReport &reportA = a.loaded.report;
     const MeshReport &reportB = b.loaded.report;
     require(reportA.faceCount == reportB.faceCount && reportA.polygonCount == reportB.polygonCount &&

@@ -1,5 +1,6 @@
 // The device's image and the CPU twin's are equal bit for bit, whatever the batching.
 #include "tests/images/rendering.h"
+#include "tests/unit/texture_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -231,6 +232,105 @@ TEST(Twins, AgreeOnEveryView) {
         for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
             expectTwins(scene, {.traversal = traversal});
     }
+}
+
+/// Textures in every slot, on meshes and on a ball: a floor, a cut-out lamp, and what is bumpy and of varied roughness.
+Scene texturedScene(int width, int height, int samplesPerPixel) {
+    using testing::drawnTexture;
+    using testing::levels;
+    using testing::texturedQuad;
+    Scene scene;
+    scene.camera.position = {0, 2, 7};
+    scene.camera.direction = {0, -0.2, -1};
+    scene.camera.width = width;
+    scene.camera.height = height;
+    scene.background = {0.2f, 0.3f, 0.4f};
+    scene.lights.push_back({{-4, 8, 6}, glm::dvec3(900.0)});
+    scene.settings.samplesPerPixel = samplesPerPixel;
+    scene.settings.integrator = Integrator::Path;
+    const auto noise = [](int x, int y) {
+        return static_cast<std::uint32_t>(x * 7919 + y * 104729) * 2654435761u;
+    };
+    scene.textures = {
+        drawnTexture(19, 11, [&](int x, int y) { return noise(x, y) | 0xFF000000u; }),
+        drawnTexture(8, 8, [](int x, int y) { return (x + y) % 2 == 0 ? levels(255, 255, 255) : 0u; }),
+        drawnTexture(16, 16, [&](int x, int y) {
+            return levels(96 + (noise(x, y) >> 26), 96 + (noise(y, x) >> 26), 255);
+        })};
+    Texture glow;
+    glow.width = 2;
+    glow.height = 2;
+    glow.values = {{3, 2, 1}, {0, 0, 0}, {0, 0, 9}, {1, 1, 1}};
+    scene.textures.push_back(glow);
+    const auto addMaterial =
+        [&](std::initializer_list<std::pair<std::uint32_t, std::uint32_t>> textures) -> Material & {
+        Material &material = scene.materials.emplace_back();
+        material.twoSided = true;
+        for (const auto &[slot, texture] : textures)
+            material.textures[slot] = TextureUse{texture, {2.0f, 3.0f}, {0.25f, -0.125f}};
+        return material;
+    };
+    addMaterial({{layout::slotBaseColour, 0}});
+    addMaterial({{layout::slotOpacity, 1}, {layout::slotEmission, 3}}).emission = glm::vec3(2.0f);
+    Material &varnish = addMaterial({{layout::slotBaseColour, 0},
+                                     {layout::slotRoughness, 0},
+                                     {layout::slotMetallic, 1},
+                                     {layout::slotNormal, 2}});
+    varnish.kind = MaterialKind::Principled;
+    varnish.roughness = 0.8f;
+    varnish.metallic = 0.9f;
+    varnish.clearcoat = 0.5f;
+    scene.meshes = {texturedQuad({-6, -1, 6}, {12, 0, 0}, {0, 0, -12}, 0),
+                    texturedQuad({-3, 0, -1}, {2, 0, 0}, {0, 2, 0.5f}, 1),
+                    texturedQuad({1, -0.5f, -1}, {2.5f, 0, 0.5f}, {0, 2.5f, 0}, 2)};
+    scene.spheres.push_back({{-0.4, 0, 0.5}, 1.0, 2, false});
+    scene.materials.push_back(scene.materials[1]);
+    scene.materials.back().textures[layout::slotOpacity].reset();
+    scene.spheres.push_back({{2.0, -0.4, 2.0}, 0.5, 3, false});
+    return scene;
+}
+
+TEST(Twins, AgreeOnTextures) {
+    const Scene scene = texturedScene(48, 40, 4);
+    expectTwins(scene, {.traversal = gpu::Traversal::SkipList});
+    expectTwins(scene, {.tileWidth = 16, .tileHeight = 8, .traversal = gpu::Traversal::SkipList});
+    expectTwins(scene, {.traversal = gpu::Traversal::Stack});
+    expectTwins(scene, {.steps = 60, .traversal = gpu::Traversal::Stack}); // which resumes inside of paths
+}
+
+TEST(Twins, AgreeOnTexturesWithOwnArithmetic) {
+    expectTwins(texturedScene(32, 24, 2), {.arithmetic = gpu::Arithmetic::Own});
+}
+
+TEST(Twins, AgreeOnTexturesInViews) {
+    Scene scene = texturedScene(48, 40, 2);
+    for (const Integrator integrator :
+         {Integrator::Whitted, Integrator::Uv, Integrator::Albedo, Integrator::Normal, Integrator::Id,
+          Integrator::AmbientOcclusion, Integrator::Cost}) {
+        scene.settings.integrator = integrator;
+        expectTwins(scene);
+    }
+}
+
+TEST(Twins, AgreeOnEachTextureAlone) {
+    // Kernels leave out what a scene does not need, each in its own way.
+    const Scene all = texturedScene(32, 24, 2);
+    for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot) {
+        Scene scene = all;
+        for (Material &material : scene.materials)
+            for (std::uint32_t other = 0; other < layout::textureSlotCount; ++other)
+                if (other != slot)
+                    material.textures[other].reset();
+        EXPECT_EQ(testing::pack(scene).texturing, 1u << slot);
+        expectTwins(scene);
+    }
+}
+
+TEST(Twins, AgreeOnCoordinatesOfWhatHasNoTextures) {
+    Scene scene = pathScene(48, 40, 2);
+    scene.settings.integrator = Integrator::Uv;
+    for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+        expectTwins(scene, {.traversal = traversal});
 }
 
 TEST(Twins, AgreeOnWhittedEmission) {

@@ -25,7 +25,9 @@ layout(set = 0, binding = 11, std430) readonly buffer PendingBuffer { PendingRay
 layout(set = 0, binding = 12, std430) readonly buffer SkipBuffer { SkipNode skips[]; };
 layout(set = 0, binding = 13, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
 layout(set = 0, binding = 14, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
-layout(set = 0, binding = 15, std430) writeonly buffer WordBuffer { uint words[]; };
+layout(set = 0, binding = 15, std430) readonly buffer TextureRowBuffer { TextureRow textureRows[]; };
+layout(set = 0, binding = 16, std430) readonly buffer TextureBuffer { TextureRecord textures[]; };
+layout(set = 0, binding = 17, std430) writeonly buffer WordBuffer { uint words[]; };
 
 uint cursor = 0u;
 
@@ -57,5 +59,7 @@ void main() {
     FIELDS_SkipNode(GIVE, skips[1])
     FIELDS_EmitterRecord(GIVE, emitters[1])
     FIELDS_TexelRecord(GIVE, texels[1])
+    FIELDS_TextureRow(GIVE, textureRows[1])
+    FIELDS_TextureRecord(GIVE, textures[1])
     FIELDS_DispatchConstants(GIVE, dispatch)
 }

@@ -28,6 +28,16 @@ layout(set = 0, binding = bindingTexels, std430) readonly buffer TexelBuffer { T
 
 TexelRecord fetchTexel(uint index) { return texels[index]; }
 
+layout(set = 0, binding = bindingTextures, std430) readonly buffer TextureBuffer { uvec4 textureRows[]; };
+
+uvec4 fetchTextureRow(uint index) { return textureRows[index]; }
+
+layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuffer { MaterialRecord materials[]; };
+
+MaterialRecord fetchMaterial(uint index) { return materials[index]; }
+
+#include "shaders/texture.glsl"
+#include "shaders/normal_map.glsl"
 #include "shaders/lights.glsl"
 #include "shaders/environment.glsl"
 #include "shaders/conductor.glsl"
@@ -106,6 +116,43 @@ void main() {
     inputCursor = gl_GlobalInvocationID.x * inputWordCount;
     outputCursor = gl_GlobalInvocationID.x * outputWordCount;
     switch (probedFunction) {
+    case probeLookUpTexture: {
+        uint row = takeUint();
+        give(lookUpTexture(row, takeVec2()));
+        break;
+    }
+    case probeTriangleUv: {
+        vec2 uv0 = takeVec2();
+        vec2 uv1 = takeVec2();
+        vec2 uv2 = takeVec2();
+        float u = takeFloat();
+        give(triangleUv(Coordinates(uv0, uv1, uv2), u, takeFloat()));
+        break;
+    }
+    case probeSphereUv:
+        give(sphereUv(takeVec3()));
+        break;
+    case probeMappedNormal: {
+        TriangleRecord triangle;
+        triangle.v0 = takeVec3();
+        triangle.v1 = takeVec3();
+        triangle.v2 = takeVec3();
+        vec2 uv0 = takeVec2();
+        vec2 uv1 = takeVec2();
+        Tangent tangent = triangleTangent(triangle, Coordinates(uv0, uv1, takeVec2()));
+        give(tangent.alongU);
+        give(tangent.alongV);
+        vec3 normal = takeVec3();
+        give(mappedNormal(normal, tangent, takeUint(), uv0));
+        give(mappedNormal(normal, sphereTangent(normal), takeUint(), uv1));
+        break;
+    }
+    case probeVisibleNormal: {
+        vec3 direction = takeVec3();
+        vec3 normal = takeVec3();
+        give(visibleNormal(direction, normal, takeVec3()));
+        break;
+    }
     case probeDotProduct: {
         vec3 a = takeVec3();
         give(dotProduct(a, takeVec3()));

@@ -59,6 +59,11 @@ const uint probeSpotFalloff = 44u;
 const uint probeEnvironmentFrom = 45u;
 const uint probeSampleEnvironment = 46u;
 const uint probePrimaryRay = 47u;
+const uint probeLookUpTexture = 48u;
+const uint probeTriangleUv = 49u;
+const uint probeSphereUv = 50u;
+const uint probeMappedNormal = 51u;
+const uint probeVisibleNormal = 52u;
 
 // Two bindings and three specialization constants beyond those of the renderer's kernels.
 const uint bindingProbeInputs = bindingCount;

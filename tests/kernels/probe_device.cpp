@@ -44,12 +44,16 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
             sizeBytes = probeInputCount * outputWords * sizeof(std::uint32_t);
         } else if (binding == layout::bindingTexels) {
             sizeBytes = std::max(sizeBytes, std::span(scene.texels).size_bytes());
+        } else if (binding == layout::bindingTextures) {
+            sizeBytes = std::max(sizeBytes, std::span(scene.textures).size_bytes());
         }
         buffers_.push_back(
             std::make_unique<gpu::Buffer>(probeDevice(), fmt::format("binding {}", binding), use, sizeBytes));
     }
     if (!scene.texels.empty())
         buffers_[layout::bindingTexels]->upload(std::as_bytes(std::span(scene.texels)));
+    if (!scene.textures.empty())
+        buffers_[layout::bindingTextures]->upload(std::as_bytes(std::span(scene.textures)));
     buffers_[layout::bindingFrame]->upload(std::as_bytes(std::span(&scene.frame, 1)));
 
     std::array<std::uint32_t, probeConstantCount> constants{};

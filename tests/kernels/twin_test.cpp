@@ -5,6 +5,7 @@
 #include "host/reference/dielectric.h"
 #include "host/reference/emitters.h"
 #include "host/reference/media.h"
+#include "host/reference/normal_map.h"
 #include "host/reference/random.h"
 #include "host/reference/rough.h"
 #include "host/reference/sphere.h"
@@ -16,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 namespace hyalite::testing {
 namespace {
@@ -561,6 +563,120 @@ TEST(EnvironmentTwin, Sampled) {
         expected << light.direction << light.radiance << light.density;
     };
     expectTwin(probeSampleEnvironment, call, {.frame = packed.frame, .texels = packed.texels});
+}
+
+// ---- Textures
+
+/// A material with a texture of 8-bit colours, one of floats, one of numbers, a normal map, and one's alpha, in this order
+/// of rows.
+PackedScene texturedScene() {
+    Draw draw;
+    Scene scene;
+    for (const uvec2 size : {uvec2(13, 7), uvec2(5, 9), uvec2(1, 1), uvec2(64, 32)}) {
+        Texture &texture = scene.textures.emplace_back();
+        texture.width = static_cast<int>(size.x);
+        texture.height = static_cast<int>(size.y);
+        texture.hasAlpha = true;
+        for (std::uint32_t i = 0; i < size.x * size.y; ++i)
+            texture.levels.push_back(draw.word());
+    }
+    scene.textures[1].levels.clear();
+    for (std::uint32_t i = 0; i < 45; ++i)
+        scene.textures[1].values.push_back(
+            vec3(draw.unit(), draw.unit() * 1e6f, draw.chance(2) ? 0.0f : 1e-6f));
+    Material &material = scene.materials.emplace_back();
+    material.kind = MaterialKind::Principled;
+    material.textures[layout::slotBaseColour] = TextureUse{0, {2.5f, -3.0f}, {0.125f, 0.3f}};
+    material.textures[layout::slotEmission] = TextureUse{1, {1.0f, 1.0f}, {0.0f, 0.0f}};
+    material.textures[layout::slotRoughness] = TextureUse{2, {1.0f, 1.0f}, {0.0f, 0.0f}};
+    material.textures[layout::slotNormal] = TextureUse{3, {1.0f, 0.5f}, {0.0f, 0.0f}};
+    material.textures[layout::slotOpacity] = TextureUse{3, {1.0f, 1.0f}, {0.5f, 0.0f}};
+    material.normalStrength = 1.5f;
+    scene.spheres.push_back({});
+    return packScene(scene, buildBvh(TreeKind::None, {}, 1));
+}
+
+float drawUv(Draw &draw) {
+    constexpr float odd[] = {0.0f,
+                             1.0f,
+                             -1.0f,
+                             0.5f,
+                             3e38f,
+                             -3e38f,
+                             -1e-8f,
+                             0.99999994f,
+                             std::numeric_limits<float>::infinity(),
+                             std::numeric_limits<float>::quiet_NaN()};
+    return draw.chance(8) ? odd[draw.index(10)] : draw.chance(4) ? draw.coordinate() * 1000.0f : draw.unit();
+}
+
+vec2 drawUvs(Draw &draw) {
+    const float u = drawUv(draw);
+    return {u, drawUv(draw)};
+}
+
+TEST(TextureTwin, LookUpTexture) {
+    const PackedScene packed = texturedScene();
+    constexpr std::uint32_t slots[] = {layout::slotBaseColour, layout::slotEmission, layout::slotRoughness,
+                                       layout::slotNormal, layout::slotOpacity};
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t row = reference::textureRow(packed.materials[0].textures, slots[draw.index(5)]);
+        const vec2 uv = drawUvs(draw);
+        input << row << uv;
+        expected << reference::lookUpTexture(packed.textures, row, uv);
+    };
+    expectTwin(probeLookUpTexture, call, {.textures = packed.textures});
+}
+
+TEST(TextureTwin, TriangleUv) {
+    expectTwin(probeTriangleUv, [](Draw &draw, Words &input, Words &expected) {
+        const reference::Coordinates<float> at{vec2(draw.point()), vec2(draw.point()), vec2(draw.point())};
+        const float u = draw.unit();
+        const float v = draw.unit();
+        input << at.uv0 << at.uv1 << at.uv2 << u << v;
+        expected << reference::triangleUv(at, u, v);
+    });
+}
+
+TEST(TextureTwin, SphereUv) {
+    expectTwin(probeSphereUv, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 outward = draw.direction() * (draw.chance(2) ? 1.0f : 700.0f);
+        input << outward;
+        expected << reference::sphereUv(outward);
+    });
+}
+
+TEST(NormalMapTwin, MappedNormal) {
+    const PackedScene packed = texturedScene();
+    const std::uint32_t row = reference::textureRow(packed.materials[0].textures, layout::slotNormal);
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        layout::TriangleRecord triangle{};
+        triangle.v0 = draw.point();
+        triangle.v1 = draw.point();
+        triangle.v2 = draw.chance(16) ? triangle.v1 : draw.point();
+        reference::Coordinates<float> at{drawUvs(draw), drawUvs(draw), drawUvs(draw)};
+        if (draw.chance(16))
+            at.uv2 = at.uv1;
+        const vec3 normal = draw.direction();
+        input << triangle.v0 << triangle.v1 << triangle.v2 << at.uv0 << at.uv1 << at.uv2 << normal << row
+              << row;
+        const auto tangent = reference::triangleTangent(triangle, at);
+        expected << tangent.alongU << tangent.alongV
+                 << reference::mappedNormal(packed.textures, normal, tangent, row, at.uv0)
+                 << reference::mappedNormal(packed.textures, normal, reference::sphereTangent(normal), row,
+                                            at.uv1);
+    };
+    expectTwin(probeMappedNormal, call, {.textures = packed.textures});
+}
+
+TEST(NormalMapTwin, VisibleNormal) {
+    expectTwin(probeVisibleNormal, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 direction = draw.direction();
+        const vec3 normal = draw.chance(16) ? direction : draw.direction();
+        const vec3 up = draw.chance(4) ? normal : draw.direction();
+        input << direction << normal << up;
+        expected << reference::visibleNormal(direction, normal, up);
+    });
 }
 
 TEST(CameraTwin, PrimaryRay) {

@@ -202,5 +202,19 @@ TEST(Duplicates, AMeshWithoutThemHasTheTreeThatItAlwaysHad) {
     }
 }
 
+TEST(Duplicates, OfCutOutMaterialsShowOtherPartsOfTheImage) {
+    Scene scene;
+    TriangleMesh &mesh = scene.meshes.emplace_back();
+    for (int i = 0; i < 3; ++i)
+        testing::addTriangle(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    mesh.uvs = {{0, 0}, {1, 0}, {0, 1}};
+    mesh.triangleUvs = {{0, 1, 2}, {1, 0, 2}, {0, 1, 2}};
+    scene.materials.resize(1);
+    EXPECT_EQ(keptIn(buildBvh(TreeKind::Sah, scene, 4)), (std::set<std::uint32_t>{0}));
+    scene.textures.resize(1);
+    scene.materials[0].textures[layout::slotOpacity] = TextureUse{};
+    EXPECT_EQ(keptIn(buildBvh(TreeKind::Sah, scene, 4)), (std::set<std::uint32_t>{0, 1}));
+}
+
 } // namespace
 } // namespace hyalite

@@ -2,6 +2,7 @@
 #include "host/scene/mtl.h"
 
 #include "host/bvh/packed_scene.h"
+#include "host/image/png.h"
 #include "host/scene/load.h"
 #include "tests/unit/scene_json_fixture.h"
 
@@ -10,10 +11,27 @@
 namespace hyalite {
 namespace {
 
-using Mtl = SceneFolder;
+class Mtl : public SceneFolder {
+  protected:
+    [[nodiscard]] std::vector<Material> loadLibrary(const std::string &name, const std::string &text) {
+        warnings.clear();
+        return loadMtl(write(name, text), {std::filesystem::canonical(folder), library, warnings});
+    }
+
+    /// An image of one pixel.
+    void writePixel(const std::string &name, std::uint8_t red, std::uint8_t green, std::uint8_t blue) const {
+        const std::uint8_t rgb[] = {red, green, blue};
+        const std::vector<std::byte> bytes = encodePng(1, 1, rgb);
+        static_cast<void>(
+            write(name, std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size())));
+    }
+
+    TextureLibrary library;
+    std::vector<std::string> warnings;
+};
 
 TEST_F(Mtl, SaysWhatMaterialsAreMadeOf) {
-    const std::vector<Material> materials = loadMtl(write("all.mtl", R"(# a comment
+    const std::vector<Material> materials = loadLibrary("all.mtl", R"(# a comment
 newmtl chalk
 Kd 0.5 0.25 1.5   # more than 1 is 1
 newmtl lamp
@@ -39,7 +57,7 @@ newmtl veil
 d 0.25
 newmtl chalk
 Kd 0 0 0
-)"));
+)");
     ASSERT_EQ(materials.size(), 7u) << "the second chalk is left out";
     EXPECT_EQ(materials[0].kind, MaterialKind::Diffuse);
     EXPECT_EQ(materials[0].albedo, glm::vec3(0.5f, 0.25f, 1.0f));
@@ -61,7 +79,7 @@ Kd 0 0 0
 TEST_F(Mtl, RefusesWhatIsNoNumber) {
     const auto refusalOfMtl = [&](const std::string &text) -> std::string {
         try {
-            static_cast<void>(loadMtl(write("bad.mtl", text)));
+            static_cast<void>(loadLibrary("bad.mtl", text));
         } catch (const Error &error) {
             EXPECT_EQ(error.exitCode, ExitCode::BadInput);
             return error.what();
@@ -75,6 +93,108 @@ TEST_F(Mtl, RefusesWhatIsNoNumber) {
     EXPECT_NE(refusalOfMtl("newmtl a\nNs nan\n").find("bad.mtl:2: Ns"), std::string::npos);
     EXPECT_NE(refusalOfMtl("\nKd 1 1 1\n").find("bad.mtl:2: Kd stands before the first newmtl"),
               std::string::npos);
+}
+
+TEST_F(Mtl, TexturesAreReadForWhatTheyAreFor) {
+    std::filesystem::create_directories(folder / "images of wood");
+    writePixel("images of wood/oak.png", 1, 2, 3);
+    writePixel("blue.png", 128, 128, 255);
+    const std::vector<Material> materials = loadLibrary("textured.mtl", R"(newmtl wood
+map_Kd -s 2 3 1 -o 0.25 -0.5 images of wood/oak.png
+norm -bm 0.5 blue.png
+map_d blue.png
+newmtl lamp
+Kd 0.25 0.5 1
+Ke 0 0 0
+map_Ke images of wood\\oak.png
+map_Kd -s 4 blue.png
+newmtl modern
+Pr 0.3
+map_Pr blue.png
+map_Pm blue.png
+)");
+    EXPECT_TRUE(warnings.empty()) << warnings.front();
+    ASSERT_EQ(materials.size(), 3u);
+    const Material &wood = materials[0];
+    EXPECT_EQ(wood.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(wood.albedo, glm::vec3(1.0f)) << "without Kd the texture alone decides";
+    ASSERT_TRUE(wood.textures[layout::slotBaseColour]);
+    EXPECT_EQ(wood.textures[layout::slotBaseColour]->scale, glm::vec2(2, 3));
+    EXPECT_EQ(wood.textures[layout::slotBaseColour]->offset, glm::vec2(0.25f, -0.5f));
+    EXPECT_TRUE(wood.textures[layout::slotOpacity]);
+    EXPECT_TRUE(wood.textures[layout::slotNormal]);
+    EXPECT_EQ(wood.normalStrength, 0.5f);
+    EXPECT_EQ(materials[1].albedo, glm::vec3(0.25f, 0.5f, 1.0f));
+    EXPECT_EQ(materials[1].emission, glm::vec3(1.0f));
+    ASSERT_TRUE(materials[1].textures[layout::slotEmission]);
+    EXPECT_EQ(materials[1].textures[layout::slotEmission]->textureIndex,
+              wood.textures[layout::slotBaseColour]->textureIndex)
+        << "one file is one texture, and names may be written as on Windows";
+    EXPECT_EQ(materials[1].textures[layout::slotBaseColour]->scale, glm::vec2(4, 1));
+    EXPECT_EQ(materials[2].kind, MaterialKind::Principled);
+    EXPECT_EQ(materials[2].roughness, 1.0f) << "the texture stands in place of Pr";
+    EXPECT_EQ(materials[2].metallic, 1.0f);
+    EXPECT_EQ(materials[2].specular, 0.5f);
+}
+
+TEST_F(Mtl, WhatIsPassedOverOfTexturesIsTold) {
+    std::filesystem::create_directories(folder / "mesh");
+    writePixel("outside.png", 1, 2, 3);
+    writePixel("mesh/grey.png", 9, 9, 9);
+    static_cast<void>(write("mesh/photo.tga", "something else"));
+    warnings.clear();
+    const std::vector<Material> materials =
+        loadMtl(write("mesh/bad.mtl", "newmtl a\nmap_Kd none.png\nmap_Kd ../outside.png\nmap_Ks grey.png\n"
+                                      "bump grey.png\nmap_Ke photo.tga\nmap_d -clamp on -t 1 2 grey.png\n"),
+                {std::filesystem::canonical(folder / "mesh"), library, warnings});
+    ASSERT_EQ(materials.size(), 1u);
+    for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
+        EXPECT_EQ(materials[0].textures[slot].has_value(), slot == layout::slotOpacity) << slot;
+    const char *const parts[] = {"bad.mtl:2: map_Kd \"none.png\": there is no such file",
+                                 "bad.mtl:3: map_Kd \"../outside.png\": there is no such file",
+                                 "bad.mtl:4: map_Ks \"grey.png\" is passed over",
+                                 "bad.mtl:5: bump \"grey.png\" is passed over: it is grey",
+                                 "bad.mtl:6: map_Ke \"photo.tga\" is passed over: it is no PNG",
+                                 "bad.mtl:7: the option -clamp on is passed over",
+                                 "bad.mtl:7: the option -t is passed over"};
+    ASSERT_EQ(warnings.size(), std::size(parts));
+    for (std::size_t i = 0; i < warnings.size(); ++i)
+        EXPECT_NE(warnings[i].find(parts[i]), std::string::npos) << warnings[i];
+}
+
+TEST_F(Mtl, DamagedTexturesAreRefused) {
+    const auto refusalOfMtl = [&](const std::string &text) -> std::string {
+        try {
+            static_cast<void>(loadLibrary("bad.mtl", "newmtl a\n" + text));
+        } catch (const Error &error) {
+            return error.what();
+        }
+        return {};
+    };
+    static_cast<void>(write("cut.jpg", "\xFF\xD8\xFF\xE0"));
+    EXPECT_NE(refusalOfMtl("map_Kd cut.jpg\n").find("cut.jpg: it is damaged"), std::string::npos);
+    EXPECT_NE(refusalOfMtl("map_Kd\n").find("bad.mtl:2: map_Kd names no file"), std::string::npos);
+    EXPECT_NE(refusalOfMtl("map_Kd -s x.png\n").find("-s has fewer numbers"), std::string::npos);
+    EXPECT_NE(refusalOfMtl("map_Kd -s 1e9 x.png\n").find("out of range"), std::string::npos);
+}
+
+TEST_F(Mtl, ABareMeshWearsItsTextures) {
+    writePixel("red.png", 255, 0, 0);
+    static_cast<void>(write("red.mtl", "newmtl red\nmap_Kd red.png\n"));
+    const std::string vertices = "mtllib red.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    const LoadedScene worn =
+        loadScene(write("a.obj", vertices + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n").string());
+    EXPECT_EQ(worn.scene.textures.size(), 1u);
+    EXPECT_TRUE(worn.scene.materials.at(1).textures[layout::slotBaseColour]);
+    EXPECT_TRUE(worn.meshReports.at(0).warnings.empty());
+    const LoadedScene partly =
+        loadScene(write("b.obj", vertices + "vt 0 0\nf 1/1 2/1 3/1\nf 1 2 4\n").string());
+    ASSERT_EQ(partly.meshReports.at(0).warnings.size(), 1u);
+    EXPECT_NE(partly.meshReports.at(0).warnings[0].find("1 triangles have no texture coordinates"),
+              std::string::npos);
+    const LoadedScene bare = loadScene(write("c.obj", vertices + "f 1 2 3\n").string());
+    EXPECT_FALSE(bare.scene.materials.at(1).textures[layout::slotBaseColour]);
+    ASSERT_EQ(bare.meshReports.at(0).warnings.size(), 1u);
 }
 
 TEST_F(Mtl, ABareMeshHasItsMaterials) {
@@ -106,14 +226,14 @@ TEST_F(Mtl, ABareMeshHasItsMaterials) {
 
 TEST_F(Mtl, LibrariesAreReadOnceAndMaterialsFoundAtOnce) {
     // Without that these are a million readings of one file, and a billion comparisons of names.
-    std::string library;
+    std::string manyMaterials;
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 20'000; ++i) {
-        library += "newmtl material number " + std::to_string(i) + "\nKd 1 0 0\n";
+        manyMaterials += "newmtl material number " + std::to_string(i) + "\nKd 1 0 0\n";
         text += "mtllib many.mtl\nmtllib ./many.mtl\nmtllib none.mtl\nusemtl material number " +
                 std::to_string(19'999 - i) + "\nf 1 2 3\n";
     }
-    static_cast<void>(write("many.mtl", library));
+    static_cast<void>(write("many.mtl", manyMaterials));
     const auto start = std::chrono::steady_clock::now();
     const LoadedScene loaded = loadScene(write("mesh.obj", text).string());
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));

@@ -86,6 +86,50 @@ void expectNear(const glm::vec3 &actual, const glm::dvec3 &expected, double tole
 const std::string threeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const std::string squareVertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
+// ---- Texture coordinates
+
+std::vector<glm::vec2> uvsOf(const ObjMesh &loaded, std::size_t triangle) {
+    std::vector<glm::vec2> uvs;
+    for (int corner = 0; corner < 3; ++corner)
+        uvs.push_back(loaded.mesh.uvs.at(loaded.mesh.triangleUvs.at(triangle)[corner]));
+    return uvs;
+}
+
+TEST(Obj, TexturesCoordinatesGoWithTheirCorners) {
+    const std::string uvs = "vt 0 0\nvt 1 0 7\nvt 1 0.5\nvt 0.25\n";
+    // Polygons are cut, and each part keeps what its corners have; the second line takes the longer way through the reader.
+    for (const std::string face : {"f 1/1 2/2 3/3 4/4\n", " f 1/-4 2/-3 3/-2 4/-1 # a comment\n"}) {
+        const ObjMesh loaded = loadText(squareVertices + uvs + face);
+        ASSERT_EQ(loaded.mesh.triangleUvs.size(), 2u);
+        EXPECT_EQ(uvsOf(loaded, 0), (std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 0.5f}})) << face;
+        EXPECT_EQ(uvsOf(loaded, 1), (std::vector<glm::vec2>{{0, 0}, {1, 0.5f}, {0.25f, 0}})) << face;
+    }
+    // Faces may come before them, and a mesh that is turned inside out has its corners in another order.
+    MeshTransform mirror;
+    mirror.scale = -1.0;
+    const ObjMesh turned = loadText("f 1/1 2/2 3/3\n" + threeVertices + uvs, mirror);
+    EXPECT_EQ(turned.mesh.triangles.at(0).positions, glm::uvec3(0, 2, 1));
+    EXPECT_EQ(uvsOf(turned, 0), (std::vector<glm::vec2>{{0, 0}, {1, 0.5f}, {1, 0}}));
+}
+
+TEST(Obj, TextureCoordinatesThatAreNotThereAreNone) {
+    const std::string uvs = "vt 0 0\nvt 1 0\nvt 0 1\n";
+    EXPECT_TRUE(loadText(threeVertices + uvs + "f 1 2 3\n").mesh.triangleUvs.empty());
+    EXPECT_TRUE(loadText(threeVertices + "f 1/1 2/2 3/3\n").mesh.triangleUvs.empty())
+        << "the file has lost them";
+    EXPECT_TRUE(loadText(threeVertices + uvs + "f 1/1 2/2 3\n").mesh.triangleUvs.empty());
+    EXPECT_TRUE(loadText(threeVertices + uvs + "f 1/-9 2/2 3/3\n").mesh.triangleUvs.empty());
+    const ObjMesh partly = loadText(threeVertices + uvs + "f 1 2 3\nf 1/1 2/2 3/3\nf 1/0 2/0 3/0\n");
+    EXPECT_EQ(
+        partly.mesh.triangleUvs,
+        (std::vector<glm::uvec3>{glm::uvec3(TriangleMesh::noUv), {0, 1, 2}, glm::uvec3(TriangleMesh::noUv)}));
+    EXPECT_EQ(partly.report.uvLessCount, 2u);
+    const ObjMesh odd = loadText(threeVertices + "vt nan 1\nvt 1e300 0.5\nvt 1 -inf\nf 1/1 2/2 3/3\n");
+    EXPECT_EQ(uvsOf(odd, 0), (std::vector<glm::vec2>{{0, 0}, {0, 0.5f}, {0, 0}}));
+    expectError(threeVertices + "vt x 1\nf 1 2 3\n", ":4: vt has \"x\"");
+    expectError(threeVertices + " vt\nf 1 2 3\n", ":4: vt has no number");
+}
+
 TEST(Obj, ReadsEveryFaceSyntax) {
     const std::string data = threeVertices + "vt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nvn 0 0 2\nvn 0 0 3\n";
     for (const std::string face : {"1 2 3", "1/1 2/2 3/3", "1/ 2/ 3/", "1// 2// 3//", "1/3/ 2/2/ 3/1/"}) {
@@ -260,7 +304,7 @@ TEST(Obj, LinesMayBeLongerThanTheBuffer) {
 
 TEST(Obj, GroupsMaterialsAndMissingMaterialFilesAreIgnored) {
     const ObjMesh loaded =
-        loadText("mtllib missing.mtl\no thing\n" + threeVertices + "vt 0 zero\ng a b\nusemtl red\ns off\n" +
+        loadText("mtllib missing.mtl\no thing\n" + threeVertices + "vt 0 0\ng a b\nusemtl red\ns off\n" +
                  "f 1 2 3\ng\nusemtl\nf 3 2 1\nl 1 2\np 1\ncurv 0 1\nunknown\nvp 1 2\n");
     EXPECT_EQ(loaded.mesh.triangles.size(), 2u);
     EXPECT_EQ(loaded.report.faceCount, 2u);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/error.h"
+#include "host/image/png.h"
 #include "host/scene/scene_json.h"
 
 #include <fmt/format.h>
@@ -17,12 +18,17 @@
 
 namespace hyalite {
 
-/// Writes scene files and loads them; a mesh of one triangle, triangle.obj, and an image, sky.pfm, lie beside them.
+/// Writes scene files and loads them; a mesh of one triangle, triangle.obj, and two images, sky.pfm and
+/// image.png, lie beside them.
 class SceneFolder : public testing::Test {
   protected:
     void SetUp() override {
         std::filesystem::create_directories(folder);
-        static_cast<void>(write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+        static_cast<void>(write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"));
+        const std::uint8_t bluish[] = {128, 128, 255};
+        const std::vector<std::byte> image = encodePng(1, 1, bluish);
+        static_cast<void>(
+            write("image.png", std::string(reinterpret_cast<const char *>(image.data()), image.size())));
         static_cast<void>(write("sky.pfm", "PF\n2 1\n-1\n" + std::string(24, '\0'))); // black
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
@@ -73,7 +79,11 @@ inline nlohmann::json completeScene() {
                    {"type": "directional", "direction": [1, -1, 0], "irradiance": [3, 2, 1]}],
         "materials": {
             "paper": {"type": "diffuse", "albedo": [0.25, 0.5, 1], "twoSided": true,
-                      "emission": [1, 2, 3]},
+                      "emission": [1, 2, 3],
+                      "textures": {"baseColour": {"file": "image.png", "scale": [2, 3], "offset": 0.25},
+                                   "emission": {"file": "image.png"},
+                                   "normal": {"file": "image.png", "scale": 4, "offset": [0, 1], "strength": 0.5},
+                                   "opacity": {"file": "image.png"}}},
             "chrome": {"type": "mirror"},
             "ice": {"type": "dielectric", "index": 1.31, "segmentTint": 0.75,
                     "absorption": [0.5, 0.25, 0], "priority": -2, "roughness": 0.3},
@@ -82,7 +92,10 @@ inline nlohmann::json completeScene() {
             "varnish": {"type": "principled", "baseColour": [0.1, 0.2, 0.3], "metallic": 0.125,
                         "roughness": 0.375, "specular": 0.625, "transmission": 0, "index": 1.25,
                         "absorption": 0.75, "priority": 4, "clearcoat": 0.875,
-                        "clearcoatRoughness": 0.0625, "twoSided": true, "emission": 5}
+                        "clearcoatRoughness": 0.0625, "twoSided": true, "emission": 5,
+                        "textures": {"baseColour": {"file": "image.png"}, "emission": {"file": "image.png"},
+                                     "roughness": {"file": "image.png"}, "metallic": {"file": "image.png"},
+                                     "normal": {"file": "image.png"}, "opacity": {"file": "image.png"}}}
         },
         "spheres": [{"centre": [4, 5, 6], "radius": 7, "material": "ice", "inwardNormal": true}],
         "meshes": [{"file": "triangle.obj", "scale": 2, "rotateDegrees": [0, 0, 90],

@@ -309,5 +309,64 @@ TEST_F(SceneJson, OnlyRegularFilesOfAModestSizeAreRead) {
     EXPECT_NE(refusalOf(large).find("64 MiB"), std::string::npos);
 }
 
+TEST_F(SceneJson, TexturesAreFactors) {
+    const Scene scene = load(R"({"materials": {
+        "a": {"type": "diffuse", "textures": {"baseColour": {"file": "image.png", "scale": [2, 3], "offset": 0.25},
+                                              "emission": {"file": "image.png"}}},
+        "b": {"type": "principled", "roughness": 0.25, "baseColour": 0.75,
+              "textures": {"roughness": {"file": "image.png"}, "metallic": {"file": "image.png"},
+                           "normal": {"file": "image.png", "strength": 0.5}}}}})");
+    EXPECT_EQ(scene.textures.size(), 1u) << "one file is one texture";
+    const Material &a = scene.materials.at(0);
+    ASSERT_TRUE(a.textures[layout::slotBaseColour]);
+    EXPECT_EQ(a.textures[layout::slotBaseColour]->scale, glm::vec2(2, 3));
+    EXPECT_EQ(a.textures[layout::slotBaseColour]->offset, glm::vec2(0.25f));
+    EXPECT_EQ(a.albedo, glm::vec3(1.0f));
+    EXPECT_EQ(a.emission, glm::vec3(1.0f));
+    const Material &b = scene.materials.at(1);
+    EXPECT_EQ(b.albedo, glm::vec3(0.75f));
+    EXPECT_EQ(b.roughness, 0.25f);
+    EXPECT_EQ(b.metallic, 1.0f);
+    EXPECT_EQ(b.normalStrength, 0.5f);
+}
+
+TEST_F(SceneJson, TexturesComeFromWhereTheSceneMayRead) {
+    const auto refusalOfTexture = [&](const std::string &slot, const std::string &file) {
+        return refusal(R"({"materials": {"m": {"type": "diffuse", "textures": {")" + slot +
+                       R"(": {"file": ")" + file + R"("}}}}})");
+    };
+    EXPECT_EQ(refusalOfTexture("baseColour", "image.png"), "");
+    EXPECT_NE(refusalOfTexture("baseColour", "/etc/passwd").find("leads to /etc/passwd"), std::string::npos);
+    EXPECT_NE(refusalOfTexture("baseColour", "none.png").find("there is no such file"), std::string::npos);
+    EXPECT_NE(refusalOfTexture("roughness", "image.png").find("unknown key"), std::string::npos);
+    static_cast<void>(write("glow.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" +
+                                            std::string("\x80\x40\x00\x88", 4)));
+    EXPECT_EQ(refusalOfTexture("emission", "glow.hdr"), "");
+    EXPECT_NE(refusalOfTexture("baseColour", "glow.hdr").find("found an image of floats"), std::string::npos);
+    const std::uint8_t grey[] = {9, 9, 9};
+    const std::vector<std::byte> image = encodePng(1, 1, grey);
+    static_cast<void>(
+        write("grey.png", std::string(reinterpret_cast<const char *>(image.data()), image.size())));
+    EXPECT_NE(refusalOfTexture("normal", "grey.png").find("found a grey image"), std::string::npos);
+}
+
+TEST_F(SceneJson, AMeshWithoutAMaterialHasItsOwn) {
+    static_cast<void>(write("own.mtl", "newmtl red\nKd 1 0 0\nmap_Ke image.png\n"));
+    static_cast<void>(write("own.obj", "mtllib own.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                       "f 1/1 2/1 3/1\nusemtl red\nf 1/1 3/1 2/1\n"));
+    const Scene scene = load(R"({"materials": {"m": {"type": "mirror"}},
+        "meshes": [{"file": "triangle.obj", "material": "m"}, {"file": "own.obj"}]})");
+    ASSERT_EQ(scene.materials.size(), 3u);
+    EXPECT_EQ(scene.materials[1].name, "neutral");
+    EXPECT_EQ(scene.materials[2].albedo, glm::vec3(1, 0, 0));
+    EXPECT_EQ(scene.meshes.at(0).materialIndex, 0u);
+    EXPECT_EQ(scene.meshes.at(1).triangleMaterials, (std::vector<std::uint32_t>{1, 2}));
+    EXPECT_EQ(scene.textures.size(), 1u);
+    EXPECT_NE(refusal(R"({"meshes": [{"file": "own.obj"}, {"file": "triangle.obj", "material": "red"}]})")
+                  .find("/meshes/1/material"),
+              std::string::npos)
+        << "names are those of the scene file";
+}
+
 } // namespace
 } // namespace hyalite

@@ -41,6 +41,12 @@ std::vector<GrammarObject> grammar() {
         {defs / "dielectric", scene_keys::dielectric, Pointer("/materials/ice")},
         {defs / "conductor", scene_keys::conductor, Pointer("/materials/brass")},
         {defs / "principled", scene_keys::principled, Pointer("/materials/varnish")},
+        {defs / "diffuse" / "properties" / "textures", scene_keys::diffuseTextures,
+         Pointer("/materials/paper/textures")},
+        {defs / "principled" / "properties" / "textures", scene_keys::principledTextures,
+         Pointer("/materials/varnish/textures")},
+        {defs / "texture", scene_keys::texture, Pointer("/materials/paper/textures/baseColour")},
+        {defs / "normalMap", scene_keys::normalMap, Pointer("/materials/paper/textures/normal")},
         {defs / "sphere", scene_keys::sphere, Pointer("/spheres/0")},
         {defs / "mesh", scene_keys::mesh, Pointer("/meshes/0")},
         {defs / "settings", scene_keys::settings, Pointer("/settings")},
@@ -150,6 +156,9 @@ TEST_F(SceneSchema, SchemaAndLoaderHaveTheSameLimits) {
         {"/point/items", limits::coordinate},
         {"/fractionColour", limits::fraction},
         {"/fractionColour/items", limits::fraction},
+        {"/texturePlacement", limits::texturePlacement},
+        {"/texturePlacement/items", limits::texturePlacement},
+        {"/normalMap/properties/strength", limits::normalStrength},
         {"/lightColour", limits::power},
         {"/lightColour/items", limits::radiance},
     };
@@ -190,7 +199,7 @@ TEST_F(SceneSchema, TheDefaultsOfTheSchemaAreThoseOfTheScene) {
         file["materials"][kind]["type"] = kind;
     }
     const json principled = defaultsOf("principled");
-    EXPECT_EQ(principled.size(), scene_keys::principled.size() - 1); // all but type
+    EXPECT_EQ(principled.size(), scene_keys::principled.size() - 2); // all but type and textures
     file["materials"]["given"] = principled;
     file["materials"]["given"]["type"] = "principled";
     file["materials"]["left out"]["type"] = "principled";

@@ -1,0 +1,110 @@
+#include "assets/still-life/picture.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace still_life {
+
+namespace {
+
+void appendBigEndian(std::string &bytes, std::uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+        bytes += static_cast<char>(value >> shift & 255u);
+}
+
+/// CRC-32 of ISO 3309.
+std::uint32_t crc32(std::string_view bytes) {
+    std::uint32_t crc = 0xFFFFFFFFu;
+    for (const char byte : bytes) {
+        crc ^= static_cast<unsigned char>(byte);
+        for (int bit = 0; bit < 8; ++bit)
+            crc = (crc & 1u) != 0 ? 0xEDB88320u ^ (crc >> 1) : crc >> 1;
+    }
+    return crc ^ 0xFFFFFFFFu;
+}
+
+void appendChunk(std::string &file, std::string_view type, std::string_view data) {
+    appendBigEndian(file, static_cast<std::uint32_t>(data.size()));
+    const std::string body = std::string(type) + std::string(data);
+    file += body;
+    appendBigEndian(file, crc32(body));
+}
+
+/// A zlib stream of blocks that are not packed.
+std::string store(std::string_view data) {
+    constexpr std::size_t blockBytes = 65535;
+    std::string stream = "\x78\x01";
+    std::uint32_t a = 1; // Adler-32
+    std::uint32_t b = 0;
+    for (const char byte : data) {
+        a = (a + static_cast<unsigned char>(byte)) % 65521u;
+        b = (b + a) % 65521u;
+    }
+    for (std::size_t begin = 0; begin < data.size(); begin += blockBytes) {
+        const std::string_view block = data.substr(begin, blockBytes);
+        const auto length = static_cast<std::uint32_t>(block.size());
+        stream += begin + blockBytes >= data.size() ? '\1' : '\0';
+        for (const std::uint32_t number : {length, ~length}) {
+            stream += static_cast<char>(number & 255u);
+            stream += static_cast<char>(number >> 8 & 255u);
+        }
+        stream += block;
+    }
+    appendBigEndian(stream, b << 16 | a);
+    return stream;
+}
+
+char levelOf(double value) {
+    return static_cast<char>(static_cast<unsigned>(std::lround(clamp01(value) * 255.0)));
+}
+
+} // namespace
+
+Picture draw(int width, int height, const std::function<Pixel(double u, double v)> &at) {
+    Picture picture{width, height};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            picture.pixels.push_back(at((x + 0.5) / width, 1.0 - (y + 0.5) / height));
+    return picture;
+}
+
+Picture drawNormals(int width, int height, const std::function<double(double u, double v)> &at) {
+    const double du = 1.0 / width;
+    const double dv = 1.0 / height;
+    const auto repeat = [](double x) { return x - std::floor(x); };
+    return draw(width, height, [&](double u, double v) {
+        const double slopeU = (at(repeat(u + du), v) - at(repeat(u - du), v)) / (2.0 * du);
+        const double slopeV = (at(u, repeat(v + dv)) - at(u, repeat(v - dv))) / (2.0 * dv);
+        const Vec normal = normalise({-slopeU, -slopeV, 1.0});
+        return Pixel{{0.5 + 0.5 * normal[0], 0.5 + 0.5 * normal[1], 0.5 + 0.5 * normal[2]}};
+    });
+}
+
+bool writePng(const std::filesystem::path &file, const Picture &picture, bool hasAlpha) {
+    std::string rows;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        if (i % static_cast<std::size_t>(picture.width) == 0)
+            rows += '\0'; // unfiltered
+        for (const double value : picture.pixels[i].colour)
+            rows += levelOf(value);
+        if (hasAlpha)
+            rows += levelOf(picture.pixels[i].alpha);
+    }
+    std::string header;
+    appendBigEndian(header, static_cast<std::uint32_t>(picture.width));
+    appendBigEndian(header, static_cast<std::uint32_t>(picture.height));
+    header += std::string{8, hasAlpha ? '\6' : '\2', 0, 0, 0};
+    std::string png = "\x89PNG\r\n\x1a\n";
+    appendChunk(png, "IHDR", header);
+    appendChunk(png, "IDAT", store(rows));
+    appendChunk(png, "IEND", {});
+    std::ofstream stream(file, std::ios::binary);
+    stream << png;
+    stream.close();
+    return stream.good();
+}
+
+} // namespace still_life

@@ -1,0 +1,19 @@
+// Textures as the kernels read them: the rows of shaders/layout.h.
+#pragma once
+
+#include "host/bvh/packed_scene.h"
+
+#include <cstdint>
+#include <span>
+
+namespace hyalite {
+
+/// Fills packed.textures, and tells the packed materials where theirs are. `order` has the input index of each packed
+/// material; the triangles are packed. Nothing is packed where neither packed.texturing nor the integrator asks for it.
+void packTextures(const Scene &scene, std::span<const std::uint32_t> order, PackedScene &packed);
+
+/// The mean of what a packed material's emission is multiplied with; 1 where it has no texture of emission.
+[[nodiscard]] glm::dvec3 meanEmissionFactor(const PackedScene &packed,
+                                            const layout::MaterialRecord &material);
+
+} // namespace hyalite

@@ -1,0 +1,33 @@
+// An image that surfaces wear, as its file has it: 8-bit levels, or linear floats.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// Rows from the top. What levels mean is up to who wears them: colours are sRGB, all else is level / 255.
+struct Texture {
+    std::string name; ///< of the file, for messages
+    int width = 0;    ///< pixels, from 1 to imageSideMax
+    int height = 0;
+    std::vector<std::uint32_t> levels{}; ///< red, green, blue and alpha from the lowest byte up; or none
+    std::vector<glm::vec3> values{};     ///< in place of levels: finite, >= 0
+    bool hasAlpha = false;               ///< else alpha is 255
+
+    [[nodiscard]] bool isFloat() const { return levels.empty(); }
+    [[nodiscard]] std::size_t pixelCount() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+};
+
+/// What it takes of a device's memory: 4 bytes a pixel, or 16 where they are floats.
+[[nodiscard]] inline std::size_t bytesOnDevice(const Texture &texture) {
+    return texture.pixelCount() * (texture.isFloat() ? 16 : 4);
+}
+
+} // namespace hyalite

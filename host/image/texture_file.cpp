@@ -1,0 +1,48 @@
+#include "host/image/texture_file.h"
+
+#include "host/image/hdr.h"
+#include "host/image/jpeg.h"
+#include "host/image/png.h"
+#include "host/input_file.h"
+
+#include <utility>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::size_t headBytes = 8;
+
+Texture readHdrTexture(const InputFile &file) {
+    Image image = readHdr(file);
+    Texture texture;
+    texture.name = file.path().string();
+    texture.width = image.width();
+    texture.height = image.height();
+    texture.values = std::move(image.pixels());
+    return texture;
+}
+
+} // namespace
+
+bool isTextureFile(const std::filesystem::path &path) {
+    const std::vector<std::byte> head = InputFile(path).head(headBytes);
+    return isPng(head) || isJpeg(head) || isHdr(head);
+}
+
+Texture readTexture(const std::filesystem::path &path) {
+    const InputFile file(path);
+    const std::vector<std::byte> head = file.head(headBytes);
+    if (isPng(head))
+        return readPngTexture(file);
+    if (isJpeg(head))
+        return readJpeg(file);
+    if (isHdr(head))
+        return readHdrTexture(file);
+    throw file.bad(file.sizeBytes() == 0
+                       ? "it is empty"
+                       : "it is no PNG, JPEG or Radiance (HDR) file, which textures are read from");
+}
+
+} // namespace hyalite

@@ -1,0 +1,33 @@
+// The textures of a scene, each file once.
+#pragma once
+
+#include "host/image/texture.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+class TextureLibrary {
+  public:
+    /// The index among the textures of the one that the file has, read where it is the first time. Throws Error{BadInput}
+    /// as readTexture() does, and where all textures together take more than limits::textureBytes.
+    [[nodiscard]] std::uint32_t load(const std::filesystem::path &file);
+
+    [[nodiscard]] const Texture &at(std::uint32_t index) const { return textures_[index]; }
+
+    [[nodiscard]] std::vector<Texture> give() { return std::move(textures_); }
+
+  private:
+    std::vector<Texture> textures_;
+    std::map<std::string, std::uint32_t> indices_; ///< by canonical path
+    std::size_t sizeBytes_ = 0;                    ///< on the device, of all
+};
+
+/// Whether 8-bit levels are grey everywhere, as those of height maps are, and of no normal map.
+[[nodiscard]] bool isGrey(const Texture &texture);
+
+} // namespace hyalite

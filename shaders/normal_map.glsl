@@ -1,0 +1,76 @@
+// Normals turned by images. Twin: host/reference/normal_map.h.
+
+// The directions on a surface in which u and v grow, of any length; 0 where they are not known.
+struct Tangent {
+    vec3 alongU;
+    vec3 alongV;
+};
+
+const float leastSpan = 1e-30;        // of a triangle, and of its texture coordinates
+const float mostSpan = 1e30;          // of coordinates: the inverse is no subnormal number
+const float leastDeterminant = 1e-20; // of coordinates that lie on one line, up to rounding
+const float leastHeight = 0.01;       // of a mapped normal above the surface, and of what it reflects
+
+// Coordinates and edges are scaled first, as their products leave the range of floats.
+Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
+    precise vec3 edge1 = triangle.v1 - triangle.v0;
+    precise vec3 edge2 = triangle.v2 - triangle.v0;
+    precise vec2 step1 = at.uv1 - at.uv0;
+    precise vec2 step2 = at.uv2 - at.uv0;
+    float size = largestComponent(greater(abs(edge1), abs(edge2)));
+    float span = greater(greater(abs(step1.x), abs(step1.y)), greater(abs(step2.x), abs(step2.y)));
+    if (!(size > leastSpan && span > leastSpan && span < mostSpan))
+        return Tangent(vec3(0.0), vec3(0.0));
+    precise vec3 a = edge1 * divide(1.0, size);
+    precise vec3 b = edge2 * divide(1.0, size);
+    precise vec2 s = step1 * divide(1.0, span);
+    precise vec2 t = step2 * divide(1.0, span);
+    precise float determinant = s.x * t.y - t.x * s.y;
+    if (!(abs(determinant) > leastDeterminant))
+        return Tangent(vec3(0.0), vec3(0.0));
+    precise vec3 alongU = a * t.y - b * s.y;
+    precise vec3 alongV = b * s.x - a * t.x;
+    return determinant > 0.0 ? Tangent(alongU, alongV) : Tangent(-alongU, -alongV);
+}
+
+// Of the point of a sphere whose outward normal is `outward`.
+Tangent sphereTangent(vec3 outward) {
+    vec3 alongU = vec3(outward.z, 0.0, -outward.x);
+    return Tangent(alongU, crossProduct(outward, alongU));
+}
+
+// The unit normal that the normal map in a TextureRecord's row makes of `normal`, which it stays where no tangent is known.
+vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
+    precise vec3 flatU = tangent.alongU - normal * dotProduct(normal, tangent.alongU);
+    if (!(dotProduct(flatU, flatU) > leastSpan))
+        return normal;
+    vec3 x = unitVector(flatU);
+    vec3 left = crossProduct(normal, x);
+    vec3 y = dotProduct(left, tangent.alongV) < 0.0 ? -left : left;
+    float strength = uintBitsToFloat(fetchTextureRow(row).w);
+    vec3 texel = lookUpTexture(row, uv);
+    precise vec3 turned = 2.0 * texel - 1.0;
+    precise vec2 sideways = turned.xy * strength;
+    precise vec3 mapped = x * sideways.x + y * sideways.y + normal * greater(turned.z, leastHeight);
+    return unitVector(mapped);
+}
+
+// The unit normal nearest to `normal`, nearly, that faces a ray in `direction` and does not mirror it into the surface: a
+// mapped normal knows nothing of either. Keller et al., "The Iray Light Transport Simulation and Rendering System", 2017,
+// section A.3.
+vec3 visibleNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
+    bool isBehind = dotProduct(direction, geometricNormal) > 0.0;
+    vec3 facing = isBehind ? -normal : normal;
+    vec3 up = isBehind ? -geometricNormal : geometricNormal;
+    precise float lack = leastHeight + dotProduct(direction, facing);
+    precise vec3 raised = facing - direction * lack;
+    if (lack > 0.0)
+        facing = unitVector(raised);
+    vec3 mirrored = mirrorDirection(direction, facing);
+    precise float depth = leastHeight - dotProduct(mirrored, up);
+    if (depth > 0.0) {
+        vec3 grazing = unitVector(addProduct(mirrored, up, vec3(depth)));
+        facing = unitVector(subtract(grazing, direction));
+    }
+    return isBehind ? -facing : facing;
+}

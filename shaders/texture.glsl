@@ -1,0 +1,123 @@
+// Images on surfaces. Twin: host/reference/texture.h.
+//
+// The filter is ours, and no sampler's: those have 8 bits of weights, and round as they like.
+
+// u and v of textures at the corners of a triangle.
+struct Coordinates {
+    vec2 uv0;
+    vec2 uv1;
+    vec2 uv2;
+};
+
+Coordinates fetchCoordinates(uint triangleRecord) {
+    uint row = firstCoordinateRow + rowsPerCoordinates * triangleRecord;
+    vec4 first = uintBitsToFloat(fetchTextureRow(row));
+    return Coordinates(first.xy, first.zw, uintBitsToFloat(fetchTextureRow(row + 1u).xy));
+}
+
+// As trianglePoint.
+vec2 triangleUv(Coordinates at, float u, float v) {
+    precise float w = 1.0 - u - v;
+    precise vec2 uv = at.uv0 * u + at.uv1 * v + at.uv2 * w;
+    return uv;
+}
+
+// Of the point of a sphere that lies `outward`, a vector of any length, from its centre: as the environment's image, seen
+// from outside. Its middle is at +z.
+vec2 sphereUv(vec3 outward) {
+    precise float squared = outward.x * outward.x + outward.z * outward.z;
+    float longitude = squared > 0.0 ? turnsOf(-outward.x, -outward.z) : 0.0;
+    precise float latitude = 2.0 * turnsOf(squareRoot(squared), -outward.y);
+    return vec2(longitude, latitude);
+}
+
+// How far a number lies above the whole one below it, in [0, 1); 0 for what is no finite number, and for what is so little
+// below a whole one that it would be 1.
+float fractionOf(float x) {
+    precise float fraction = x - floor(x);
+    return fraction >= 0.0 && fraction < 1.0 ? fraction : 0.0;
+}
+
+uint wordOf(uvec4 words, uint index) {
+    uint low = (index & 1u) != 0u ? words.y : words.x;
+    uint high = (index & 1u) != 0u ? words.w : words.z;
+    return (index & 2u) != 0u ? high : low;
+}
+
+float decodeLevel(uint tableRow, uint level) {
+    return uintBitsToFloat(wordOf(fetchTextureRow(tableRow + (level >> 2u)), level));
+}
+
+vec3 textureTexel(uvec4 description, uint x, uint y) {
+    uint index = y * (description.y & 0xFFFFu) + x;
+    if ((description.z & textureIsFloat) != 0u)
+        return uintBitsToFloat(fetchTextureRow(description.x + index).xyz);
+    uint levels = wordOf(fetchTextureRow(description.x + (index >> 2u)), index);
+    if ((description.z & textureIsAlpha) != 0u)
+        levels = (levels >> 24u) * 0x010101u;
+    uint table = (description.z & textureIsSrgb) != 0u ? srgbTableRow : linearTableRow;
+    return vec3(decodeLevel(table, levels & 255u), decodeLevel(table, (levels >> 8u) & 255u),
+                decodeLevel(table, (levels >> 16u) & 255u));
+}
+
+// Between the middles of texels it is linear both ways, and the image repeats. `row` is that of a TextureRecord.
+vec3 lookUpTexture(uint row, vec2 uv) {
+    uvec4 description = fetchTextureRow(row);
+    vec4 placement = uintBitsToFloat(fetchTextureRow(row + 1u));
+    uint width = description.y & 0xFFFFu;
+    uint height = description.y >> 16u;
+    precise vec2 placed = uv * placement.xy + placement.zw;
+    precise float x = fractionOf(placed.x) * float(width) + 0.5;
+    precise float y = (1.0 - fractionOf(placed.y)) * float(height) + 0.5;
+    uint right = uint(x);
+    uint lower = uint(y);
+    precise float across = x - float(right);
+    precise float down = y - float(lower);
+    uint left = right == 0u ? width - 1u : right - 1u;
+    uint upper = lower == 0u ? height - 1u : lower - 1u;
+    right = right >= width ? right - width : right;
+    lower = lower >= height ? lower - height : lower;
+    vec3 above = mixtureOf(textureTexel(description, left, upper), textureTexel(description, right, upper), across);
+    vec3 below = mixtureOf(textureTexel(description, left, lower), textureTexel(description, right, lower), across);
+    return mixtureOf(above, below, down);
+}
+
+uint textureRow(uint textures, uint slot) { return textures + rowsPerTexture * slot; }
+
+// Whether a material with textures has one in that slot.
+bool hasTexture(uint textures, uint slot) { return fetchTextureRow(textureRow(textures, slot)).y != 0u; }
+
+// What a texture says where one number is wanted, times its factor.
+float lookUpNumber(uint row, vec2 uv) {
+    precise float number = lookUpTexture(row, uv).x * uintBitsToFloat(fetchTextureRow(row).w);
+    return number;
+}
+
+// GGX's alpha: what is rougher than nothing is at least so rough that float32 resolves the peak of the reflection.
+float alphaOf(float roughness) {
+    float used = greater(roughness, 0.04);
+    precise float alpha = used * used;
+    return alpha;
+}
+
+// Whether what a triangle's material is cut out of its image leaves nothing at the point with these weights.
+bool isCutAway(uint materialIndex, uint triangleRecord, float u, float v) {
+    uint row = textureRow(fetchMaterial(materialIndex).textures, slotOpacity);
+    return lookUpNumber(row, triangleUv(fetchCoordinates(triangleRecord), u, v)) < 0.5;
+}
+
+// The material as its textures make it at (u, v).
+MaterialRecord texturedMaterial(MaterialRecord material, vec2 uv) {
+    uint textures = material.textures;
+    if (textures == 0u)
+        return material;
+    if ((texturing & texturesBaseColour) != 0u && hasTexture(textures, slotBaseColour))
+        material.albedo *= lookUpTexture(textureRow(textures, slotBaseColour), uv);
+    if ((texturing & texturesEmission) != 0u && hasTexture(textures, slotEmission))
+        material.emission *= lookUpTexture(textureRow(textures, slotEmission), uv);
+    if ((texturing & texturesRoughness) != 0u && hasTexture(textures, slotRoughness))
+        material.alpha = alphaOf(lookUpNumber(textureRow(textures, slotRoughness), uv));
+    if ((texturing & texturesMetallic) != 0u && hasTexture(textures, slotMetallic))
+        material.metallic = lookUpNumber(textureRow(textures, slotMetallic), uv);
+    return material;
+}
