@@ -164,14 +164,14 @@ Picture lanternLight() {
         const double middle =
             1.0 - 0.45 * std::pow(std::abs(2.0 * v - 1.0), 2.0); // brightest around the candle
         const double fibres = 0.9 + 0.2 * (layeredNoise({u * 40.0, v * 20.0, 0.0}, 3, {40, 0, 0}) - 0.5);
-        Vec colour = scale({1.0, 0.72, 0.40}, middle * fibres);
+        Vec colour = scale({1.0, 0.62, 0.27}, middle * fibres);
         const double branch =
             1.0 - smoothStep(0.008, 0.013,
                              std::abs(v - branchHeight(u)) + 0.006 * noise({u * 60.0, 0.0, 2.0}, {60, 0, 0}));
         colour = mix(colour, {0.20, 0.09, 0.05}, branch);
         for (const Blossom &blossom : blossoms) {
             const Petals petals = petalsAt(blossom, u, v);
-            colour = mix(colour, scale({0.85, 0.16, 0.14}, 0.6 + 0.4 * middle), petals.cover);
+            colour = mix(colour, scale({0.72, 0.07, 0.06}, 0.6 + 0.4 * middle), petals.cover);
             colour = mix(colour, {1.0, 0.85, 0.35}, petals.heart);
         }
         const double rib = std::abs(std::remainder(v * 9.0, 1.0)) / 9.0;

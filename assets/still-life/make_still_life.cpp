@@ -37,7 +37,7 @@ Pm 1
 
 newmtl lantern
 Kd 0.6 0.5 0.4
-Ke 1.8 1.8 1.8
+Ke 2 2 2
 map_Ke still-life-lantern.png
 
 newmtl lacquer

@@ -166,7 +166,9 @@ Texture readPngTexture(const InputFile &file) {
     texture.levels.resize(texture.pixelCount());
     const stbi_uc *next = levels.get();
     for (std::uint32_t &pixel : texture.levels) {
-        pixel = next[0] | next[1] << 8u | next[2] << 16u | static_cast<std::uint32_t>(next[3]) << 24u;
+        pixel = 0;
+        for (unsigned channel = 0; channel < 4; ++channel)
+            pixel |= std::uint32_t{next[channel]} << 8u * channel;
         next += 4;
     }
     return texture;
