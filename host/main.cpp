@@ -145,7 +145,8 @@ ExitCode runAndReport(std::span<char *> arguments) {
 int main(int argumentCount, char **arguments) {
     useOneHeap();
     openMissingStreams();
-    std::signal(SIGXFSZ, SIG_IGN); // a file beyond the shell's limit is an error of its own, as one on a full disk is
+    // A file beyond the shell's limit is an error of its own, as one on a full disk is.
+    std::signal(SIGXFSZ, SIG_IGN);
     const ExitCode code = runAndReport({arguments, static_cast<std::size_t>(argumentCount)});
     return static_cast<int>(finishOutput(code));
 }

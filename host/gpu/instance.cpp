@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 namespace hyalite::gpu {
 
@@ -124,8 +127,11 @@ Instance::~Instance() {
 void Instance::abandon() {
     handle_.release();
     messenger_ = VK_NULL_HANDLE;
-    static_cast<void>(firstMessage_.release()); // the layer may still write to it
-    firstMessage_ = std::make_unique<std::string>();
+    // The layer may still write to it, until the very end: it is never freed, but not lost either.
+    static std::vector<std::unique_ptr<std::string>> &left = *new std::vector<std::unique_ptr<std::string>>;
+    static std::mutex leftMutex;
+    const std::lock_guard lock(leftMutex);
+    left.push_back(std::exchange(firstMessage_, std::make_unique<std::string>()));
 }
 
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {

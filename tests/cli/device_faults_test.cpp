@@ -68,7 +68,7 @@ class DeviceFaults : public FaultyDevice {
                                 contains(outcome.errors, "vkCreateDevice for ");
         EXPECT_TRUE(isOfLoader || contains(outcome.errors, function + " for ")) << outcome;
         EXPECT_TRUE(contains(outcome.errors, result)) << outcome;
-        EXPECT_EQ(lastTally.faults.front(), function);
+        EXPECT_EQ(lastTally.faults.empty() ? "nothing" : lastTally.faults.front(), function);
         EXPECT_TRUE(lastTally.alive.empty()) << ::testing::PrintToString(lastTally.alive);
         EXPECT_EQ(entries(), std::set<std::string>{}) << "files are left";
     }
@@ -91,14 +91,15 @@ class DeviceFaults : public FaultyDevice {
                     const std::string fault = fmt::format("{}:{}:{}", function, call, result);
                     SCOPED_TRACE(fault + " in " + line);
                     const Outcome outcome = runHere(line, fault, fakes);
-                    if (lastTally.faults.empty() && function == "vkGetCalibratedTimestampsEXT")
-                        continue; // how often clocks are read depends on the time
+                    // How often clocks are read and work is cut depends on the time: there may be fewer calls now.
+                    const bool isUnfaulted = lastTally.faults.empty() && lastTally.calls[function] < call;
                     // What fails once while the device renders is done again.
-                    if (outcome.exitCode == 0 && contains(outcome.errors, "note: " + function)) {
-                        EXPECT_TRUE(contains(outcome.errors, result)) << outcome;
-                        EXPECT_TRUE(load("a.pfm") == wanted);
+                    const bool isRecovered = contains(outcome.errors, "note: " + function);
+                    if (outcome.exitCode == 0 && (isUnfaulted || isRecovered)) {
+                        EXPECT_TRUE(isUnfaulted || contains(outcome.errors, result)) << outcome;
+                        EXPECT_TRUE(!hasPicture || load("a.pfm") == wanted);
                         std::filesystem::remove(folder / "a.pfm");
-                        ++recoveredCount;
+                        recoveredCount += isRecovered ? 1 : 0;
                     } else {
                         expectTold(outcome, function, result);
                     }

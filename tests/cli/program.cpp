@@ -27,6 +27,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr double slowdown = 15.0;
+#else
+constexpr double slowdown = 1.0;
+#endif
+
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -241,6 +247,7 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
     output.theirs.reset();
     errors.theirs.reset();
 
+    const double timeoutSeconds = slowdown * surroundings.timeoutSeconds;
     Outcome outcome;
     bool isSignalSent = false;
     Clock::time_point lastSignal;
@@ -271,7 +278,7 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
             isSignalSent = true;
             lastSignal = Clock::now();
         }
-        if (!isKilled && secondsSince(begin) > surroundings.timeoutSeconds) {
+        if (!isKilled && secondsSince(begin) > timeoutSeconds) {
             kill(process, SIGKILL);
             isKilled = true;
         }
@@ -281,7 +288,7 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
     outcome.peakMemoryBytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
     outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     if (isKilled)
-        ADD_FAILURE() << "killed after " << surroundings.timeoutSeconds << " s: " << outcome;
+        ADD_FAILURE() << "killed after " << timeoutSeconds << " s: " << outcome;
     return outcome;
 }
 
