@@ -1,6 +1,7 @@
 #include "host/scene/validate.h"
 
 #include "host/error.h"
+#include "host/report/clean_text.h"
 #include "host/scene/limits.h"
 
 #include <fmt/format.h>
@@ -31,8 +32,10 @@ class Checked {
             object += fmt::format(" {}", index_);
         if (!name_.empty())
             object += fmt::format(" ({})", name_);
-        throw Error(ExitCode::BadInput, fmt::format("{}: {}: {}: found {}; allowed: {}", sourceName_, object,
-                                                    property, found, allowed));
+        // Names are those of files: a terminal must not obey them.
+        const std::string message =
+            cleanText(fmt::format("{}: {}: found {}; allowed: {}", object, property, found, allowed));
+        throw Error(ExitCode::BadInput, fmt::format("{}: {}", sourceName_, message));
     }
 
     template <class T> void within(const Interval &allowed, T value, std::string_view property) const {

@@ -224,6 +224,21 @@ TEST_F(Mtl, ABareMeshHasItsMaterials) {
     }
 }
 
+TEST_F(Mtl, NamesInMessagesAreFitForTerminals) {
+    static_cast<void>(write("bright.mtl", "newmtl a\x1b[31m\nKe 1e38\n"));
+    const std::filesystem::path mesh =
+        write("mesh.obj", "mtllib bright.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\x1b[31m\n"
+                          "f 1 2 3\n");
+    try {
+        static_cast<void>(loadScene(mesh.string()));
+        FAIL() << "so much light is too much";
+    } catch (const Error &error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("[31m): emission: found"), std::string::npos) << message;
+        EXPECT_EQ(message.find('\x1b'), std::string::npos);
+    }
+}
+
 TEST_F(Mtl, LibrariesAreReadOnceAndMaterialsFoundAtOnce) {
     // Without that these are a million readings of one file, and a billion comparisons of names.
     std::string manyMaterials;
