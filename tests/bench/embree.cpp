@@ -164,6 +164,35 @@ void EmbreeScene::commit() {
         throw std::runtime_error("Embree could not build the scene");
 }
 
+struct EmbreeQuery::State {
+    RTCScene scene;
+    Query query{Query::incoherent};
+};
+
+EmbreeQuery::EmbreeQuery(const EmbreeScene &scene)
+    : state_(std::make_unique<State>(State{scene.state_->scene})) {}
+
+EmbreeQuery::~EmbreeQuery() = default;
+
+std::optional<EmbreeQuery::Hit> EmbreeQuery::nearest(const glm::vec3 &origin, const glm::vec3 &direction,
+                                                     float least) {
+    RTCRayHit ray;
+    ray.ray = rayFor({origin, std::numeric_limits<float>::max(), direction, 0});
+    ray.ray.tnear = least;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    state_->query.hit(state_->scene, ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return std::nullopt;
+    return Hit{ray.hit.primID, ray.ray.tfar};
+}
+
+bool EmbreeQuery::isOccluded(const glm::vec3 &origin, const glm::vec3 &direction, float least, float most) {
+    RTCRay ray = rayFor({origin, most, direction, 0});
+    ray.tnear = least;
+    state_->query.occlude(state_->scene, ray);
+    return ray.tfar < 0.0f;
+}
+
 struct EmbreeRays::State {
     RTCScene scene = nullptr;
     bool isAnyHit = false;

@@ -8,6 +8,7 @@
 #include "tests/bench/ray_sets.h"
 
 #include <memory>
+#include <optional>
 
 namespace hyalite::bench {
 
@@ -25,7 +26,30 @@ class EmbreeScene {
     void commit();
 
   private:
+    friend class EmbreeQuery;
     friend class EmbreeRays;
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// rtcIntersect1 and rtcOccluded1, for programs that follow paths. Each thread has its own.
+class EmbreeQuery {
+  public:
+    /// `scene` is committed, and outlives this.
+    explicit EmbreeQuery(const EmbreeScene &scene);
+    ~EmbreeQuery();
+
+    struct Hit {
+        unsigned triangle = 0; ///< in the order of the mesh
+        float distance = 0.0f;
+    };
+    /// What the ray meets first, beyond `least`.
+    [[nodiscard]] std::optional<Hit> nearest(const glm::vec3 &origin, const glm::vec3 &direction,
+                                             float least);
+    [[nodiscard]] bool isOccluded(const glm::vec3 &origin, const glm::vec3 &direction, float least,
+                                  float most);
+
+  private:
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -51,6 +51,7 @@ int main(int argumentCount, char **arguments) {
         bench::registerBuilding(context);
         bench::registerReading();
         bench::registerFrames(context);
+        bench::registerNoise(context);
         bench::registerStartUp(context);
         bench::TableReporter reporter;
         benchmark::RunSpecifiedBenchmarks(&reporter);
