@@ -1,6 +1,6 @@
 // Primary rays. Twin: host/reference/camera.h.
 
-// Where `offset` in [0,1)^2 inside of `pixel` lies, in pixels from the middle of an image of this size, y up.
+// Where `offset` from the top left of `pixel` lies, in pixels from the middle of an image of this size, y up.
 vec2 fromMiddle(uvec2 pixel, vec2 offset, uvec2 size) {
     precise float x = float(pixel.x) + offset.x - 0.5 * float(size.x);
     precise float y = 0.5 * float(size.y) - (float(pixel.y) + offset.y);
@@ -55,11 +55,23 @@ PrimaryRay allAround(uvec2 pixel, vec2 offset) {
     return PrimaryRay(frame.eye, unitVector(direction));
 }
 
+// Where in a pixel the part `u` of its filter lies to the left or above. Ernst, Stamminger and Greiner, "Filter Importance
+// Sampling", 2006: samples that are as dense as the filter is high weigh alike, and each serves one pixel only.
+float filterQuantile(float u) {
+    precise float x = u * float(filterCellCount);
+    uint cell = uint(x);
+    TexelRecord texel = fetchTexel(frame.filterTexels + cell);
+    precise float quantile = texel.value.x + texel.value.y * (x - float(cell));
+    return quantile;
+}
+
 const uint lensPair = 1024u; // of random numbers: beyond those of paths
 
 // The primary ray of a sample.
 PrimaryRay primaryRay(uvec2 pixel, uint sampleIndex) {
     vec2 offset = samplePixel(pixel, sampleIndex, frame.seed);
+    if (samplerKind == samplerFiltered)
+        offset = vec2(filterQuantile(offset.x), filterQuantile(offset.y));
     if (camera == cameraLens)
         return throughLens(pixel, offset, unitFloats(sampleBits(pairKeys(pixel, frame.seed, lensPair), sampleIndex)));
     if (camera == cameraOrthographic)

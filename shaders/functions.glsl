@@ -5,10 +5,10 @@ struct SineCosine {
     float cosine;
 };
 
-// Of an angle in turns, in [0, 1]. The Taylor polynomials of both on an eighth of a turn to either side of the nearest
+// Of an angle in turns, in [-8, 8]. The Taylor polynomials of both on an eighth of a turn to either side of the nearest
 // quarter, where they are within 3e-8.
 SineCosine sineCosine(float turns) {
-    int quarter = int(turns * 4.0 + 0.5);
+    int quarter = int(floor(turns * 4.0 + 0.5));
     precise float x = (turns - float(quarter) * 0.25) * 6.2831853071795865;
     precise float xx = x * x;
     precise float s = x + x * xx * (-1.0 / 6.0 + xx * (1.0 / 120.0 + xx * (-1.0 / 5040.0 + xx * (1.0 / 362880.0))));

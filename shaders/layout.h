@@ -264,6 +264,11 @@ const uint viewCoordinates = 5u; // u and v of textures, less their whole parts
 
 const uint samplerCentre = 0u;
 const uint samplerSobol = 1u;
+const uint samplerFiltered = 2u; // Sobol points, as dense as the filter of pixels is high
+
+// The filter's quantiles, which samplerFiltered needs: a texel for each of these parts of [0, 1), with where in the pixel
+// the part begins and how far it reaches.
+const uint filterCellCount = 256u;
 
 struct FrameRecord {
     vec3 eye;
@@ -298,6 +303,10 @@ struct FrameRecord {
     float lensScale;              // the lens' radius in units of pixelRight and pixelUp
     float focusDistance;          // along the view direction
     float radianceLimit;          // path: most that a path may add behind its first segment; 0: no limit
+    uint filterTexels;            // the first one
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 // ---- What changes with each dispatch
@@ -511,7 +520,7 @@ static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));
 static_assert(firstCoordinateRow == linearTableRow + rowsPerTable && linearTableRow == srgbTableRow + rowsPerTable);
 static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, isTwoSided) == 44);
 static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
-static_assert(sizeof(FrameRecord) == 176 && offsetof(FrameRecord, boundsUpper) == 96);
+static_assert(sizeof(FrameRecord) == 192 && offsetof(FrameRecord, boundsUpper) == 96);
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
 static_assert(sizeof(DispatchProgress) == 64);

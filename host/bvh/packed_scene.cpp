@@ -3,6 +3,7 @@
 #include "host/bvh/emitters.h"
 #include "host/bvh/environment.h"
 #include "host/bvh/microfacet_energy.h"
+#include "host/bvh/pixel_filter.h"
 #include "host/bvh/textures.h"
 #include "host/report/hash.h"
 
@@ -256,6 +257,7 @@ std::uint64_t PackedScene::contentHash() const {
     seen.radianceLimit = 0.0f;
     seen.environmentTexels = 0; // and what follows is for some integrators only
     seen.environmentProbability = 0.0f;
+    seen.filterTexels = 0;
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials)
         material.emitterDensity = 0.0f; // which only some integrators need
@@ -265,7 +267,10 @@ std::uint64_t PackedScene::contentHash() const {
     hash = hashBytes(std::as_bytes(std::span(seenMaterials)), hash);
     hash = hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
     if ((lighting & layout::lightsByEnvironment) != 0)
-        hash = hashBytes(std::as_bytes(std::span(texels).subspan(frame.environmentTexels)), hash);
+        hash =
+            hashBytes(std::as_bytes(std::span(texels).subspan(
+                          frame.environmentTexels, (frame.environmentWidth + 1) * frame.environmentHeight)),
+                      hash);
     const std::size_t texelBegin = layout::firstCoordinateRow + layout::rowsPerCoordinates * triangles.size();
     if (texturing != 0)
         hash = hashBytes(std::as_bytes(std::span(textures).subspan(texelBegin)), hash);
@@ -286,6 +291,12 @@ std::uint64_t PackedScene::contentHash() const {
         sum += triangleHash;
     }
     return hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
+}
+
+std::uint32_t samplerOf(const RenderSettings &settings) {
+    if (settings.sampler == SamplerKind::Centre)
+        return layout::samplerCentre;
+    return settings.filter == FilterKind::Box ? layout::samplerSobol : layout::samplerFiltered;
 }
 
 std::uint32_t viewOf(Integrator integrator) {
@@ -371,6 +382,8 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
     if (isPath && (packed.scattering & layout::scattersAtRough) != 0)
         packed.texels = makeEnergyTexels();
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
+    if (scene.settings.filter != FilterKind::Box)
+        packFilter(packed);
     if (isPath)
         packEmitters(scene, isLitAround, packed);
     if (packed.hasTriangles) {

@@ -45,6 +45,9 @@ struct PackedScene {
     [[nodiscard]] std::uint64_t contentHash() const;
 };
 
+/// Where the samples of a pixel lie, as kernels call it: layout::sampler...
+[[nodiscard]] std::uint32_t samplerOf(const RenderSettings &settings);
+
 /// What a kernel shows of the first hit for an integrator that is a view; 0 for others.
 [[nodiscard]] std::uint32_t viewOf(Integrator integrator);
 

@@ -29,6 +29,7 @@ struct SceneOptions {
     std::optional<TreeKind> tree;
     std::optional<int> leafSize;
     std::optional<SamplerKind> sampler;
+    std::optional<FilterKind> filter;
     std::optional<std::uint32_t> seed;
     std::optional<double> radianceLimit;
     std::optional<double> exposureStops;

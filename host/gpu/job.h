@@ -14,7 +14,7 @@ struct Job {
     const PackedScene &scene;
     Crop crop;
     Integrator integrator;
-    SamplerKind sampler;
+    std::uint32_t sampler; ///< layout::sampler...
     std::uint32_t sampleBegin;
     std::uint32_t sampleEnd;
     bool isTraced;

@@ -182,7 +182,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         return Job{scene,
                    band,
                    settings.integrator,
-                   settings.sampler,
+                   samplerOf(settings),
                    0,
                    static_cast<std::uint32_t>(settings.samplesPerPixel),
                    false};
@@ -254,7 +254,7 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     const int x = static_cast<int>(pixel.x);
     const int y = static_cast<int>(pixel.y);
     const Job job{
-        scene, {x, x + 1, y, y + 1}, settings.integrator, settings.sampler, sampleIndex, sampleIndex + 1,
+        scene, {x, x + 1, y, y + 1}, settings.integrator, samplerOf(settings), sampleIndex, sampleIndex + 1,
         true};
     if (!state_->device)
         state_->reopen();

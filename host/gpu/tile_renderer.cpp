@@ -113,7 +113,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantCamera] = scene.camera;
     constants[layout::constantTexturing] = scene.texturing;
     constants[layout::constantView] = viewOf(job_.integrator);
-    constants[layout::constantSampler] = static_cast<std::uint32_t>(job_.sampler);
+    constants[layout::constantSampler] = job_.sampler;
     constants[layout::constantStackSize] = plan_.stackSize;
     constants[layout::constantIsTracing] = job_.isTraced;
     constants[layout::constantExactDivision] = batching_.arithmetic == Arithmetic::Native;

@@ -7,7 +7,7 @@
 
 namespace hyalite::reference {
 
-/// Where `offset` in [0,1)^2 inside of `pixel` lies, in pixels from the middle of the image, y up.
+/// Where `offset` from the top left of `pixel` lies, in pixels from the middle of the image, y up.
 template <class Real>
 [[nodiscard]] Vec2<Real> fromMiddle(const layout::FrameRecord &frame, const glm::uvec2 &pixel,
                                     const Vec2<Real> &offset) {
@@ -71,6 +71,16 @@ template <class Real>
                        Vec3<Real>(frame.imagePlane) * forward)};
 }
 
+/// Where in a pixel the part `u` of its filter, in [0, 1), lies to the left or above. Ernst, Stamminger and Greiner, "Filter
+/// Importance Sampling", 2006: samples that are as dense as the filter is high weigh alike, and each serves one pixel only.
+template <class Real> [[nodiscard]] Real filterQuantile(const PackedScene &scene, Real u) {
+    const Real x = u * static_cast<Real>(layout::filterCellCount);
+    const auto cell = static_cast<std::uint32_t>(x);
+    const layout::TexelRecord &texel = scene.texels[scene.frame.filterTexels + cell];
+    return static_cast<Real>(texel.value.x) +
+           static_cast<Real>(texel.value.y) * (x - static_cast<Real>(cell));
+}
+
 inline constexpr std::uint32_t lensPair = 1024; // of random numbers: beyond those of paths
 
 /// The primary ray of a sample. `shift` moves it by so many pixels, to learn how the picture changes around it.
@@ -79,7 +89,10 @@ template <class Real>
                                           const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                           const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
     const layout::FrameRecord &frame = scene.frame;
-    const Vec2<Real> offset = samplePixel<Real>(samplerKind, pixel, sampleIndex, frame.seed) + shift;
+    Vec2<Real> offset = samplePixel<Real>(samplerKind, pixel, sampleIndex, frame.seed);
+    if (samplerKind == layout::samplerFiltered)
+        offset = {filterQuantile(scene, offset.x), filterQuantile(scene, offset.y)};
+    offset += shift;
     switch (scene.camera) {
     case layout::cameraLens:
         return throughLens(frame, pixel, offset,

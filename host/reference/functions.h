@@ -22,7 +22,7 @@ template <class Real> [[nodiscard]] SineCosine<Real> sineCosine(Real turns) {
         const double angle = turns * (2.0 * std::numbers::pi);
         return {std::sin(angle), std::cos(angle)};
     } else {
-        const int quarter = static_cast<int>(turns * Real(4) + Real(0.5));
+        const int quarter = static_cast<int>(std::floor(turns * Real(4) + Real(0.5)));
         const Real x = (turns - static_cast<Real>(quarter) * Real(0.25)) * Real(6.2831853071795865);
         const Real xx = x * x;
         const Real s =

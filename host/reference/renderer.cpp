@@ -112,11 +112,11 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
         for (std::int64_t i = run * runLength; i < end && !isPaused_ && !isStopped_; ++i) {
             const glm::uvec2 pixel(static_cast<std::uint32_t>(crop.x0 + i % crop.width()),
                                    static_cast<std::uint32_t>(crop.y0 + i / crop.width()));
-            addedSamples += renderPixel<Real>(integrator, pixel, sampleCount_,
-                                        result_.film.pixels[static_cast<std::size_t>(i)], [this] {
-                                            // Sums in double precision would be rounded by a pause.
-                                            return isToStop() || (std::is_same_v<Real, float> && isToPause());
-                                        });
+            addedSamples += renderPixel<Real>(
+                integrator, pixel, sampleCount_, result_.film.pixels[static_cast<std::size_t>(i)], [this] {
+                    // Sums in double precision would be rounded by a pause.
+                    return isToStop() || (std::is_same_v<Real, float> && isToPause());
+                });
             (void)isToPause();
         }
 #pragma omp critical(hyaliteReferenceProgress)
@@ -162,7 +162,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 /// Calls `use` with what makes an integrator of the kind that the settings ask for.
 template <class Real, class Counter, class Use>
 auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, const Use &use) {
-    const auto sampler = static_cast<std::uint32_t>(settings.sampler);
+    const std::uint32_t sampler = samplerOf(settings);
     if constexpr (std::is_same_v<Counter, WorkCounter>)
         if (settings.integrator == Integrator::Cost)
             return use([&] { return CostIntegrator<Real>(scene, sampler); });

@@ -202,9 +202,10 @@ std::string provenance(const Profile &profile) {
                              sizeText(profile.sceneBytes)));
     add("Scene's hash", hashText(origin.sceneHash));
     add("Settings",
-        fmt::format("{} by {}, {} spp, depth {}, tree {}, leaves of {}, sampler {}, seed {}", origin.width,
-                    origin.height, settings.samplesPerPixel, settings.maxDepth, nameOf(settings.tree),
-                    settings.leafSize, nameOf(settings.sampler), settings.seed));
+        fmt::format("{} by {}, {} spp, depth {}, tree {}, leaves of {}, sampler {}, filter {}, seed {}",
+                    origin.width, origin.height, settings.samplesPerPixel, settings.maxDepth,
+                    nameOf(settings.tree), settings.leafSize, nameOf(settings.sampler),
+                    nameOf(settings.filter), settings.seed));
     add("Device", profile.device.name);
     add("Driver", profile.device.driver);
     if (!profile.device.kernel.empty())

@@ -57,6 +57,7 @@ nlohmann::ordered_json settingsToJson(const RenderSettings &settings) {
             {"bvh", nameOf(settings.tree)},
             {"leafSize", settings.leafSize},
             {"sampler", nameOf(settings.sampler)},
+            {"filter", nameOf(settings.filter)},
             {"seed", settings.seed},
             {"clamp", settings.radianceLimit},
             {"exposure", settings.exposureStops}};

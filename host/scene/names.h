@@ -34,6 +34,8 @@ inline constexpr std::array<Name<TreeKind>, 3> treeNames{
     {{"midpoint", TreeKind::Midpoint}, {"sah", TreeKind::Sah}, {"none", TreeKind::None}}};
 inline constexpr std::array<Name<SamplerKind>, 2> samplerNames{
     {{"sobol", SamplerKind::Sobol}, {"centre", SamplerKind::Centre}}};
+inline constexpr std::array<Name<FilterKind>, 2> filterNames{
+    {{"box", FilterKind::Box}, {"blackman-harris", FilterKind::BlackmanHarris}}};
 
 template <class Value, std::size_t count>
 [[nodiscard]] constexpr std::string_view nameIn(const std::array<Name<Value>, count> &names, Value wanted) {
@@ -48,5 +50,6 @@ template <class Value, std::size_t count>
 }
 [[nodiscard]] constexpr std::string_view nameOf(TreeKind tree) { return nameIn(treeNames, tree); }
 [[nodiscard]] constexpr std::string_view nameOf(SamplerKind sampler) { return nameIn(samplerNames, sampler); }
+[[nodiscard]] constexpr std::string_view nameOf(FilterKind filter) { return nameIn(filterNames, filter); }
 
 } // namespace hyalite

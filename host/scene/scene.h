@@ -161,6 +161,10 @@ enum class Integrator {
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 
+/// How samples are weighed in a pixel. Box: all that lie in it, alike. BlackmanHarris: smoothly, out to 1.5 pixels from its
+/// centre, by where they lie.
+enum class FilterKind { Box, BlackmanHarris };
+
 /// What a render does with the scene; the command line may override each of them.
 struct RenderSettings {
     Integrator integrator = Integrator::Whitted;
@@ -170,6 +174,8 @@ struct RenderSettings {
     TreeKind tree = TreeKind::Midpoint;
     int leafSize = 8; ///< most triangles in a leaf, where they can be separated; in [1, 64]
     SamplerKind sampler = SamplerKind::Sobol;
+    FilterKind filter =
+        FilterKind::Box; ///< Sobol only: samples at the centre are at the centre of any filter
     std::uint32_t seed = 0;
     double radianceLimit =
         0.0; ///< Path: most that a path adds behind its first segment, a channel; 0: no limit

@@ -281,6 +281,7 @@ RenderSettings readSettings(const JsonObject &object) {
     settings.tree = object.choice("bvh", treeNames, settings.tree);
     settings.leafSize = object.integer("leafSize", limits::leafSize, settings.leafSize);
     settings.sampler = object.choice("sampler", samplerNames, settings.sampler);
+    settings.filter = object.choice("filter", filterNames, settings.filter);
     settings.seed = object.integer("seed", limits::seed, settings.seed);
     settings.radianceLimit = object.number("clamp", limits::radianceLimit, settings.radianceLimit);
     settings.exposureStops = object.number("exposure", limits::exposureStops, settings.exposureStops);

@@ -85,6 +85,7 @@
 //       "bvh"            "midpoint" (default), "sah" or "none"
 //       "leafSize"       triangles, from 1 to 64, default 8
 //       "sampler"        "sobol" (default) or "centre"
+//       "filter"         of pixels: "box" (default) or "blackman-harris", with "sobol" only
 //       "clamp"          most that a path adds, a channel, behind its first segment, default 0: no limit; "path" only
 //       "seed"           from 0 to 4294967295, default 0
 //       "exposure"       stops from -100 to 100, default 0
@@ -166,7 +167,7 @@ inline constexpr auto mesh =
     std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material"});
 inline constexpr auto settings =
     std::to_array<std::string_view>({"integrator", "occlusionDistance", "spp", "maxDepth", "bvh", "leafSize",
-                                     "sampler", "seed", "clamp", "exposure", "shadowThroughGlass"});
+                                     "sampler", "filter", "seed", "clamp", "exposure", "shadowThroughGlass"});
 
 } // namespace scene_keys
 } // namespace hyalite

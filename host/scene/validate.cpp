@@ -3,6 +3,7 @@
 #include "host/error.h"
 #include "host/report/clean_text.h"
 #include "host/scene/limits.h"
+#include "host/scene/names.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -220,6 +221,10 @@ void checkSettings(const RenderSettings &settings, const Checked &checked) {
     checked.within(limits::leafSize, settings.leafSize, "leafSize");
     checked.within(limits::radianceLimit, settings.radianceLimit, "clamp");
     checked.within(limits::exposureStops, settings.exposureStops, "exposure");
+    if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
+        checked.refuse("filter",
+                       std::string(nameOf(settings.filter)) + " with all samples at the pixel's centre",
+                       "with the sampler sobol");
 }
 
 } // namespace

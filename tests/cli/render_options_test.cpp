@@ -1,4 +1,5 @@
 // Each option of render has its effect.
+#include "host/bvh/pixel_filter.h"
 #include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
 
@@ -126,6 +127,29 @@ TEST_F(RenderOptions, TreeLeafSizeSamplerAndSeedAreInTheReport) {
     EXPECT_EQ(settings.at("sampler"), "centre");
     EXPECT_EQ(settings.at("seed"), 7);
     EXPECT_EQ(settings.at("exposure"), -1.5);
+}
+
+TEST_F(RenderOptions, TheFilterSpreadsAnEdgeByItsShare) {
+    // A black wall in front of a white sky ends on a line between two columns of pixels.
+    store("wall.obj", "v -9 -9 -5\nv 0 -9 -5\nv 0 9 -5\nv -9 9 -5\nf 1 2 3 4\n");
+    store("wall.json", R"({
+  "background": 1,
+  "camera": { "position": [0, 0, 0], "direction": [0, 0, -1], "horizontalFov": 40, "width": 8, "height": 6 },
+  "materials": { "black": { "type": "diffuse", "albedo": 0 } },
+  "meshes": [ { "file": "wall.obj", "material": "black" } ],
+  "settings": { "spp": 4096, "filter": "blackman-harris" }
+})");
+    const Image wide = renderImage("wall.json --device " + softwareDevice());
+    const Image narrow = renderImage("wall.json --filter box --device " + softwareDevice());
+    for (int x = 0; x < 8; ++x) {
+        const float value = wide.pixels()[static_cast<std::size_t>(2 * 8 + x)].x;
+        EXPECT_NEAR(value, filterShareBelow(x + 0.5 - 4.0), 0.003) << x;
+        EXPECT_EQ(narrow.pixels()[static_cast<std::size_t>(2 * 8 + x)].x, x < 4 ? 0.0f : 1.0f) << x;
+    }
+    EXPECT_EQ(renderReport("wall.json --spp 1" + onCpu).at("settings").at("filter"), "blackman-harris");
+    expectFailure("render wall.json -o a.png --sampler centre", 2, {"--filter", "--sampler sobol"});
+    store("centre.json", R"({ "settings": { "sampler": "centre", "filter": "blackman-harris" } })");
+    expectFailure("render centre.json -o a.png", 3, {"centre.json", "filter", "sobol"});
 }
 
 TEST_F(RenderOptions, FovIsHorizontal) {

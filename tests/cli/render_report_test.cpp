@@ -46,7 +46,7 @@ TEST_F(RenderReport, HasAllItsKeys) {
         EXPECT_EQ(keysOf(report.at("image")), (std::set<std::string>{"width", "height"}));
         EXPECT_EQ(keysOf(report.at("settings")),
                   (std::set<std::string>{"integrator", "spp", "maxDepth", "occlusionDistance", "bvh",
-                                         "leafSize", "sampler", "seed", "clamp", "exposure"}));
+                                         "leafSize", "sampler", "filter", "seed", "clamp", "exposure"}));
         EXPECT_EQ(keysOf(report.at("rays")), (std::set<std::string>{"primary", "shadow", "reflection",
                                                                     "refraction", "bounce", "total"}));
         EXPECT_EQ(keysOf(report.at("seconds")),

@@ -138,6 +138,17 @@ TEST(Twins, AgreeOnPathsFromTheOtherSampler) {
     expectTwins(scene);
 }
 
+TEST(Twins, AgreeThroughTheFilterOfPixels) {
+    Scene scene = pathScene(24, 24, 3);
+    scene.settings.filter = FilterKind::BlackmanHarris;
+    expectTwins(scene);
+    for (const char *name : {"spheres", "many-lights"}) {
+        Scene shipped = shippedScene(name, 40, 30, 4);
+        shipped.settings.filter = FilterKind::BlackmanHarris;
+        expectTwins(shipped);
+    }
+}
+
 /// Every kind of material and of light at once.
 Scene materialScene(int width, int height, int samplesPerPixel) {
     Scene scene = pathScene(width, height, samplesPerPixel);

@@ -14,7 +14,6 @@ layout(local_size_x_id = 0) in;
 #include "shaders/vector.glsl"
 #include "shaders/random.glsl"
 #include "shaders/functions.glsl"
-#include "shaders/camera.glsl"
 #include "shaders/box.glsl"
 #include "shaders/triangle.glsl"
 #include "shaders/sphere.glsl"
@@ -36,6 +35,7 @@ layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuff
 
 MaterialRecord fetchMaterial(uint index) { return materials[index]; }
 
+#include "shaders/camera.glsl"
 #include "shaders/texture.glsl"
 #include "shaders/normal_map.glsl"
 #include "shaders/lights.glsl"

@@ -1,5 +1,6 @@
 // Each function of shaders/*.glsl against its twin in host/reference: the same bits for the same input.
 #include "host/bvh/microfacet_energy.h"
+#include "host/bvh/pixel_filter.h"
 #include "host/reference/box.h"
 #include "host/reference/camera.h"
 #include "host/reference/dielectric.h"
@@ -702,6 +703,35 @@ TEST(CameraTwin, PrimaryRay) {
             expected << ray.origin << ray.direction;
         };
         expectTwin(probePrimaryRay, call, {.frame = packed.frame, .camera = camera});
+    }
+}
+
+TEST(CameraTwin, PrimaryRayThroughTheFilterOfPixels) {
+    for (const std::uint32_t camera : {layout::cameraPinhole, layout::cameraPanorama}) {
+        Draw views;
+        PackedScene packed;
+        packed.camera = camera;
+        packed.frame.imageWidth = 1 + views.index(9); // rays go around the panorama
+        packed.frame.imageHeight = 1 + views.index(9);
+        packed.frame.imagePlane = views.direction();
+        packed.frame.pixelRight = views.direction();
+        packed.frame.pixelUp = views.direction();
+        packed.texels.resize(3);
+        packFilter(packed);
+        const auto call = [&](Draw &draw, Words &input, Words &expected) {
+            const std::uint32_t x = draw.index(packed.frame.imageWidth);
+            const uvec2 pixel(x, draw.index(packed.frame.imageHeight));
+            const std::uint32_t sample = draw.index(65536);
+            const auto ray = reference::primaryRay<float>(packed, layout::samplerFiltered, pixel, sample);
+            EXPECT_NEAR(glm::length(ray.direction), 1.0f, 1e-6f);
+            input << pixel << sample;
+            expected << ray.origin << ray.direction;
+        };
+        expectTwin(probePrimaryRay, call,
+                   {.frame = packed.frame,
+                    .samplerKind = layout::samplerFiltered,
+                    .texels = packed.texels,
+                    .camera = camera});
     }
 }
 

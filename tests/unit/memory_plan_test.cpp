@@ -37,7 +37,7 @@ PackedScene sceneOf(std::size_t triangleCount) {
 }
 
 Job jobOf(const PackedScene &scene, int side) {
-    return {scene, {0, side, 0, side}, Integrator::Whitted, SamplerKind::Sobol, 0, 16, false};
+    return {scene, {0, side, 0, side}, Integrator::Whitted, layout::samplerSobol, 0, 16, false};
 }
 
 std::string refusal(const ScenePlan &scene, const JobPlan &job, const DeviceInfo &device) {

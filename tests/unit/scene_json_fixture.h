@@ -101,7 +101,7 @@ inline nlohmann::json completeScene() {
         "meshes": [{"file": "triangle.obj", "scale": 2, "rotateDegrees": [0, 0, 90],
                     "translate": [0, 0, -5], "material": "paper"}],
         "settings": {"integrator": "whitted", "occlusionDistance": 7.5, "spp": 32, "maxDepth": 12, "bvh": "sah", "leafSize": 4,
-                     "sampler": "centre", "seed": 4294967295, "clamp": 9, "exposure": -1.5, "shadowThroughGlass": 0.5}
+                     "sampler": "centre", "filter": "blackman-harris", "seed": 4294967295, "clamp": 9, "exposure": -1.5, "shadowThroughGlass": 0.5}
     })");
 }
 

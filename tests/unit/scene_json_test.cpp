@@ -17,7 +17,7 @@ using SceneJson = SceneFolder;
 // ---- What a file says is what is loaded
 
 TEST_F(SceneJson, EveryValueReachesTheScene) {
-    const Scene scene = load(completeScene().dump());
+    Scene scene = load(completeScene().dump());
     EXPECT_EQ(scene.camera.position, glm::dvec3(1, 2, 3));
     EXPECT_EQ(scene.camera.direction, glm::dvec3(0, 0, -7));
     EXPECT_EQ(scene.camera.up, glm::dvec3(0, 2, 0));
@@ -97,10 +97,13 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(scene.settings.tree, TreeKind::Sah);
     EXPECT_EQ(scene.settings.leafSize, 4);
     EXPECT_EQ(scene.settings.sampler, SamplerKind::Centre);
+    EXPECT_EQ(scene.settings.filter, FilterKind::BlackmanHarris);
     EXPECT_EQ(scene.settings.seed, 4294967295u);
     EXPECT_EQ(scene.settings.radianceLimit, 9.0);
     EXPECT_EQ(scene.settings.exposureStops, -1.5);
     EXPECT_EQ(scene.shadowThroughGlass, 0.5f);
+    EXPECT_THROW(validateScene(scene, "complete"), Error) << "a filter is for samples beside the centre";
+    scene.settings.sampler = SamplerKind::Sobol;
     EXPECT_NO_THROW(validateScene(scene, "complete"));
 }
 

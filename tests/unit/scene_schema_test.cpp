@@ -110,6 +110,7 @@ TEST_F(SceneSchema, SchemaAndLoaderListTheSameNames) {
         {"/$defs/settings/properties/integrator", "/settings/integrator"},
         {"/$defs/settings/properties/bvh", "/settings/bvh"},
         {"/$defs/settings/properties/sampler", "/settings/sampler"},
+        {"/$defs/settings/properties/filter", "/settings/filter"},
     };
     for (const auto &[definition, place] : choices) {
         std::set<std::string> names = document.at(Pointer(definition)).at("enum");
@@ -220,6 +221,7 @@ TEST_F(SceneSchema, TheDefaultsOfTheSchemaAreThoseOfTheScene) {
     EXPECT_EQ(scene.settings.tree, expected.settings.tree);
     EXPECT_EQ(scene.settings.leafSize, expected.settings.leafSize);
     EXPECT_EQ(scene.settings.sampler, expected.settings.sampler);
+    EXPECT_EQ(scene.settings.filter, expected.settings.filter);
     EXPECT_EQ(scene.settings.seed, expected.settings.seed);
     EXPECT_EQ(scene.settings.exposureStops, expected.settings.exposureStops);
     EXPECT_EQ(scene.camera.kind, expected.camera.kind);
