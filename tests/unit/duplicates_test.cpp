@@ -43,9 +43,10 @@ Scene sceneWithCopies(Random &random, std::size_t count, int most) {
         mesh.triangles.push_back({{corners.y, corners.z, corners.x}});
         mesh.triangles.push_back({{corners.x, corners.z, corners.y}});
     }
-    scene.meshes.push_back(mesh);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        scene.meshes[1].triangleMaterials.push_back(i % 3 == 0 ? 1u : 0u);
+    TriangleMesh second = mesh;
+    for (std::size_t i = 0; i < second.triangles.size(); ++i)
+        second.triangleMaterials.push_back(i % 3 == 0 ? 1u : 0u);
+    scene.meshes.push_back(second);
     return scene;
 }
 
