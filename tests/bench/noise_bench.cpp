@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace hyalite::bench {
 
@@ -98,10 +99,14 @@ Contestant onDevice(std::shared_ptr<CornellBox> box, const gpu::DeviceInfo &devi
     const auto renderer = std::make_shared<gpu::Renderer>(device);
     return Contestant([box, renderer](std::uint32_t seed) {
         const RenderSettings &settings = box->withSeed(seed);
-        gpu::Result result = renderer->render(box->packed, settings, box->crop);
-        if (result.failure)
-            throw Error(*result.failure);
-        return Shot{result.film.toImage(), result.timing.renderSeconds};
+        std::optional<gpu::Result> result;
+        const double seconds =
+            timed([&] { result.emplace(renderer->render(box->packed, settings, box->crop)); })();
+        if (result->failure)
+            throw Error(*result->failure);
+        // Of the processor's seconds those of the dispatches alone are not known.
+        return Shot{result->film.toImage(),
+                    areProcessorSecondsCounted() ? seconds : result->timing.renderSeconds};
     });
 }
 
