@@ -117,7 +117,7 @@ void tune(const std::string &deviceName) {
     const std::vector<KernelRates> all = measureKernels(deviceName);
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     fmt::print("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");
-    for (const std::string &kernel : all.front().kernels)
+    for (const auto &[kernel, choice] : gpu::namedKernels)
         fmt::print(" {:>12}", kernel);
     fmt::print("   auto\n");
     Tuning tuning;
@@ -126,10 +126,9 @@ void tune(const std::string &deviceName) {
         fmt::print("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);
         for (const double rate : rates.megaraysPerSecond)
             fmt::print(" {:>12.3g}", rate);
-        fmt::print("   {}\n", rates.kernels[rates.best]);
-        for (const auto &[name, choice] : gpu::kernelNames)
-            if (name == rates.kernels[rates.best])
-                tuning.kernels[static_cast<std::size_t>(rates.workload)] = choice;
+        const auto &[kernel, choice] = gpu::namedKernels[rates.best];
+        fmt::print("   {}\n", kernel);
+        tuning.kernels[static_cast<std::size_t>(rates.workload)] = choice;
     }
     storeTuning(device, tuning);
     fmt::print("\nkept in {}\n", file.string());

@@ -3,6 +3,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/image/film_file.h"
+#include "host/image/metrics.h"
 #include "host/image/png.h"
 #include "host/image/tone_map.h"
 #include "host/report/baseline.h"
@@ -20,7 +21,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -156,13 +156,6 @@ RayCounts raysOf(const Frame &frame) {
     for (const DispatchRecord &dispatch : frame.timeline.dispatches)
         rays += dispatch.rays;
     return rays;
-}
-
-std::size_t differingPixelCount(const Film &a, const Film &b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
-    return count;
 }
 
 /// Renders a first frame and compares it with the CPU twin's. Returns why nothing should be measured, or nothing.

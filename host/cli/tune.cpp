@@ -4,6 +4,7 @@
 #include "host/error.h"
 #include "host/gpu/processor_use.h"
 #include "host/gpu/renderer.h"
+#include "host/image/metrics.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,12 +42,6 @@ constexpr double gainNeeded = 1.05; // of another kernel than the usual one, in 
 constexpr double shareNeeded =
     0.5; // of the best rate in the first round: what is slower is not measured again
 
-bool isSame(const Film &a, const Film &b) {
-    return std::ranges::equal(a.pixels, b.pixels, [](const layout::FilmPixel &x, const layout::FilmPixel &y) {
-        return std::memcmp(&x, &y, sizeof x) == 0;
-    });
-}
-
 KernelRates measure(const Trial &trial, const std::string &deviceName) {
     gpu::tellLavapipe({0, trial.workload != gpu::Workload::Spheres});
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
@@ -57,20 +52,18 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
     const PreparedScene scene = prepareScene(options, Source::Dropped, true);
     const RenderSettings &settings = scene.loaded.scene.settings;
 
-    KernelRates rates{trial.workload, trial.scene, {}, {}, 0};
+    const gpu::Workload workload = gpu::workloadOf(scene.packed, settings.integrator);
+    const std::string_view usual = gpu::kernelName(gpu::completed({}, device, workload));
+    KernelRates rates{trial.workload, trial.scene, std::vector<double>(gpu::namedKernels.size(), 0.0), 0};
     std::vector<gpu::Renderer> renderers;
-    const std::string_view usual = gpu::Renderer(device).kernelName(scene.packed, settings.integrator);
-    for (const auto &[name, choice] : gpu::kernelNames) {
-        if (choice.traversal == gpu::Traversal::Automatic)
-            continue;
+    for (const auto &[name, choice] : gpu::namedKernels) {
         gpu::Batching batching;
         batching.traversal = choice.traversal;
         batching.slotsPerInvocation = choice.slotsPerInvocation;
+        if (name == usual)
+            rates.best = renderers.size();
         renderers.emplace_back(device, batching);
-        rates.kernels.emplace_back(name);
     }
-    rates.best = static_cast<std::size_t>(std::ranges::find(rates.kernels, usual) - rates.kernels.begin());
-    rates.megaraysPerSecond.assign(renderers.size(), 0.0);
     std::vector<double> leastGain(renderers.size(), std::numeric_limits<double>::max()); // over the usual one
     std::optional<Film> wanted;
     for (int round = 0; round < rounds; ++round) {
@@ -84,11 +77,12 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
                 throw Error(*result.failure);
             if (!wanted)
                 wanted = std::move(result.film);
-            else if (device.areBitsPromised() && !isSame(*wanted, result.film))
+            else if (device.areBitsPromised() && differingPixelCount(*wanted, result.film) > 0)
                 throw Error(
                     ExitCode::DeviceLost,
                     fmt::format("the kernels {} and {} render {} differently on {}: see `hyalite compare`",
-                                rates.kernels.front(), rates.kernels[i], trial.scene, device.name));
+                                gpu::namedKernels.front().first, gpu::namedKernels[i].first, trial.scene,
+                                device.name));
             rateNow[i] = static_cast<double>(result.rays.total()) * 1e-6 /
                          std::max(result.timing.renderSeconds, std::numeric_limits<double>::min());
         }
@@ -103,9 +97,7 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
     return rates;
 }
 
-Json toJson(const KernelRates &rates) {
-    return {{"kernels", rates.kernels}, {"rates", rates.megaraysPerSecond}, {"best", rates.best}};
-}
+Json toJson(const KernelRates &rates) { return {{"rates", rates.megaraysPerSecond}, {"best", rates.best}}; }
 
 /// Reads until the other side closes it.
 std::string drain(int pipe) {
@@ -168,8 +160,7 @@ std::vector<KernelRates> measureKernels(const std::string &deviceName) {
     std::vector<KernelRates> all;
     for (const Trial &trial : trials) {
         const Json result = inOwnProcess([&] { return toJson(measure(trial, deviceName)); });
-        all.push_back(
-            {trial.workload, trial.scene, result.at("kernels"), result.at("rates"), result.at("best")});
+        all.push_back({trial.workload, trial.scene, result.at("rates"), result.at("best")});
     }
     return all;
 }

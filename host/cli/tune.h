@@ -13,8 +13,7 @@ namespace hyalite {
 struct KernelRates {
     gpu::Workload workload = gpu::Workload::Spheres;
     std::string scene;                     ///< a shipped one
-    std::vector<std::string> kernels;      ///< their names
-    std::vector<double> megaraysPerSecond; ///< of each, at its best
+    std::vector<double> megaraysPerSecond; ///< of each of gpu::namedKernels, at its best
     std::size_t best = 0;                  ///< among them; the usual one, unless another is always 5 % faster
 };
 

@@ -76,6 +76,9 @@ inline constexpr std::array<std::pair<std::string_view, KernelChoice>, 5> kernel
      {"skip-list", {Traversal::SkipList, 1}},
      {"skip-list-x2", {Traversal::SkipList, 2}}}};
 
+/// Those that are kernels.
+inline constexpr std::span namedKernels = std::span(kernelNames).subspan<1>();
+
 /// The word for a kernel.
 [[nodiscard]] std::string_view kernelName(const KernelChoice &choice);
 /// The word for the kernel of a complete `batching`.

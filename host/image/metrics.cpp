@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace hyalite {
@@ -84,6 +85,13 @@ PixelMetrics comparePixels(const Image &a, const Image &b, double outlierThresho
     metrics.worstX = static_cast<int>(worstIndex % static_cast<std::size_t>(a.width()));
     metrics.worstY = static_cast<int>(worstIndex / static_cast<std::size_t>(a.width()));
     return metrics;
+}
+
+std::size_t differingPixelCount(const Film &a, const Film &b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
+    return count;
 }
 
 } // namespace hyalite

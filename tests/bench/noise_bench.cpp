@@ -1,6 +1,7 @@
 // How long paths take to show little noise. Two renders with different seeds differ by their noise alone: half of the mean
 // square of their differences is the variance of a pixel. It falls by the time, so that one pair tells how long it takes
 // until the noise is as small as is wanted.
+#include "host/bvh/duplicates.h"
 #include "host/error.h"
 #include "host/gpu/renderer.h"
 #include "host/reference/renderer.h"
@@ -77,8 +78,7 @@ struct CornellBox {
     CornellBox() : scene(loadScene("cornell").scene) {
         scene.camera.width = scene.camera.height = imageSide;
         scene.settings.samplesPerPixel = samplesPerPixel;
-        packed =
-            packScene(scene, buildBvh(scene.settings.tree, buildTriangles(scene), scene.settings.leafSize));
+        packed = packScene(scene, buildBvh(scene.settings.tree, scene, scene.settings.leafSize));
     }
     const RenderSettings &withSeed(std::uint32_t seed) {
         scene.settings.seed = packed.frame.seed = seed;
