@@ -215,10 +215,7 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
     const Imath::Box2i &window = header.dataWindow();
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    if (width < 1 || height < 1 || width > imageSideMax || height > imageSideMax ||
-        static_cast<std::uint64_t>(width * height) > imagePixelCountMax)
-        throw file.bad(fmt::format("its size is {} x {}; a side may have 1 to {} pixels, an image {}", width,
-                                   height, imageSideMax, imagePixelCountMax));
+    requireImageSize(file, width, height);
     std::uint64_t bytesPerPixel = 0;
     for (Imf::ChannelList::ConstIterator i = header.channels().begin(); i != header.channels().end(); ++i) {
         if (i.channel().xSampling != 1 || i.channel().ySampling != 1)

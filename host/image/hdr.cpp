@@ -172,10 +172,7 @@ Image readHeader(const InputFile &file, ByteStream &stream) {
         throw file.bad(
             fmt::format("its size is given as '{}'; allowed: -Y HEIGHT +X WIDTH", printable(line)));
     const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    if (width < 1 || height < 1 || width > imageSideMax || height > imageSideMax ||
-        pixelCount > imagePixelCountMax)
-        throw file.bad(fmt::format("its size is {} x {}; a side may have 1 to {} pixels, an image {}", width,
-                                   height, imageSideMax, imagePixelCountMax));
+    requireImageSize(file, width, height);
     if (stream.remaining() < 4 * static_cast<std::uint64_t>(height)) // a row's first pixel, or its own head
         throw file.bad("it is cut short");
     constexpr std::uint64_t besideBytes = std::uint64_t{4} << 20; // a row and the file's buffer

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/image_limits.h"
 #include "host/image/picture.h"
 #include "host/image/tone_map.h"
 #include "host/report/atomic_file.h"
 
-#include <cstdint>
 #include <filesystem>
 
 namespace hyalite {
@@ -28,16 +28,6 @@ struct LoadedImage {
     Image image; ///< the numbers as the file has them: display-encoded ones are not made linear
     Encoding encoding = Encoding::Linear;
 };
-
-/// Images larger than this are refused before memory is asked for.
-inline constexpr int imageSideMax = 32768;
-inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
-
-/// Most memory that reading a file of so many bytes may take: enough for 4096 x 4096 pixels of whatever content, as flat
-/// ones are packed a thousandfold, and in proportion to the file beyond that, so that no small file asks for gigabytes.
-[[nodiscard]] constexpr std::uint64_t readingBytesMax(std::uint64_t fileBytes) {
-    return (std::uint64_t{256} << 20) + 64 * fileBytes;
-}
 
 /// By the name's extension, .png, .exr, .hdr or .pfm in upper or lower case. Throws Error{Usage} for any other.
 [[nodiscard]] ImageFormat imageFormatOf(const std::filesystem::path &path);

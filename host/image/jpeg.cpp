@@ -131,9 +131,7 @@ Texture readJpeg(const InputFile &file) {
                                    decoder.libjpeg.num_components));
     const std::uint64_t width = decoder.libjpeg.image_width;
     const std::uint64_t height = decoder.libjpeg.image_height;
-    if (width > imageSideMax || height > imageSideMax || width * height > imagePixelCountMax)
-        throw file.bad(fmt::format("its size is {} x {}; a side may have 1 to {} pixels, an image {}", width,
-                                   height, imageSideMax, imagePixelCountMax));
+    requireImageSize(file, decoder.libjpeg.image_width, decoder.libjpeg.image_height);
     requireModestMemory(file, width, height);
     Texture texture;
     texture.name = file.path().string();

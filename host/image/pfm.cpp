@@ -88,13 +88,9 @@ PfmHeader readHeader(const InputFile &file) {
     const auto scale = words.nextNumber<double>("scale");
     header.sizeBytes = words.position();
 
+    requireImageSize(file, header.width, header.height);
     const auto pixelCount =
         static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height);
-    if (header.width < 1 || header.height < 1 || header.width > imageSideMax ||
-        header.height > imageSideMax || pixelCount > imagePixelCountMax) {
-        throw file.bad(fmt::format("its size is {} x {}; a side may have 1 to {} pixels, an image {}",
-                                   header.width, header.height, imageSideMax, imagePixelCountMax));
-    }
     if (!std::isfinite(scale) || scale == 0.0) {
         throw file.bad(fmt::format("the scale in its PFM header is {}, which gives no byte order", scale));
     }

@@ -100,11 +100,7 @@ Header parseHeader(const InputFile &file, std::span<const std::byte> data) {
     const int compression = std::to_integer<int>(data[10]);
     const int filter = std::to_integer<int>(data[11]);
     const int interlace = std::to_integer<int>(data[12]);
-    if (header.width < 1 || header.height < 1 || header.width > imageSideMax ||
-        header.height > imageSideMax || std::uint64_t{header.width} * header.height > imagePixelCountMax) {
-        throw file.bad(fmt::format("its size is {} x {}; a side may have 1 to {} pixels, an image {}",
-                                   header.width, header.height, imageSideMax, imagePixelCountMax));
-    }
+    requireImageSize(file, header.width, header.height);
     if (!isLegalDepth(header.colourType, header.bitDepth)) {
         throw file.bad(fmt::format("its PNG header says colour type {} with {} bits, which PNG does not have",
                                    header.colourType, header.bitDepth));
