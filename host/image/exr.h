@@ -21,8 +21,8 @@ void writeExr(AtomicFile &file, const Picture &picture);
 
 /// Reads R, G and B, or Y as three equal channels, of the data window: of the layer with that name, or of none. A layer
 /// of one value is read likewise. Half floats and integers become float32, all compressions are read. Throws
-/// Error{BadInput}: also for tiles, deep pixels and several parts; for a layer that is not there; and for files that
-/// would take more memory than readingBytesMax.
+/// Error{BadInput}: also for tiles, deep pixels and several parts, and for a layer that is not there. Throws
+/// Error{LimitExceeded} for files that would take more memory than readingBytesMax.
 [[nodiscard]] Image readExr(const InputFile &file, const std::string &layer = "");
 
 /// Whether readExr() would find that layer. Throws as it does where the header cannot be read.

@@ -231,12 +231,8 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
     const std::uint64_t packedBytes = static_cast<std::uint64_t>(width) * bytesPerPixel *
                                       static_cast<std::uint64_t>(linesPackedTogether(header.compression()));
     const std::uint64_t neededBytes = pixelCount * sizeof(glm::vec3) + copyCount * packedBytes;
-    const std::uint64_t allowedBytes = readingBytesMax(file.sizeBytes());
-    if (neededBytes > allowedBytes)
-        throw file.bad(fmt::format(
-            "{} x {} pixels with {} bytes each take {} MiB to read, for a file of {} bytes; "
-            "allowed are {} MiB (256, and 64 times its size)",
-            width, height, bytesPerPixel, neededBytes >> 20, file.sizeBytes(), allowedBytes >> 20));
+    requireReadingMemory(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
+                         neededBytes);
 }
 
 Imf::Header readHeader(ExrInput &input) {

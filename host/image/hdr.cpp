@@ -176,13 +176,8 @@ Image readHeader(const InputFile &file, ByteStream &stream) {
     if (stream.remaining() < 4 * static_cast<std::uint64_t>(height)) // a row's first pixel, or its own head
         throw file.bad("it is cut short");
     constexpr std::uint64_t besideBytes = std::uint64_t{4} << 20; // a row and the file's buffer
-    const std::uint64_t neededBytes = pixelCount * sizeof(glm::vec3) + besideBytes;
-    const std::uint64_t allowedBytes = readingBytesMax(file.sizeBytes());
-    if (neededBytes > allowedBytes)
-        throw file.bad(fmt::format(
-            "{} x {} pixels take {} MiB to read, for a file of {} bytes; allowed are {} MiB (256, "
-            "and 64 times its size)",
-            width, height, neededBytes >> 20, file.sizeBytes(), allowedBytes >> 20));
+    requireReadingMemory(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
+                         pixelCount * sizeof(glm::vec3) + besideBytes);
     return {width, height};
 }
 

@@ -31,8 +31,8 @@ void writeHdr(AtomicFile &file, const Image &image);
 
 /// Reads rows from top to bottom, run-length encoded in the new manner, the old one, or not at all. Values are m * 2^(e -
 /// 136), as nearly all programs have it; Radiance's own adds a half to m. EXPOSURE and other lines of the header are
-/// ignored. Throws Error{BadInput}: also for other orders of pixels, for the colour space XYZ, and for files that would
-/// take more memory than readingBytesMax.
+/// ignored. Throws Error{BadInput}: also for other orders of pixels and for the colour space XYZ;
+/// Error{LimitExceeded} for files that would take more memory than readingBytesMax.
 [[nodiscard]] Image readHdr(const InputFile &file);
 
 } // namespace hyalite

@@ -45,7 +45,8 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
     const Image &image = picture.colour;
     switch (format) {
     case ImageFormat::Png:
-        writePng(file, image.width(), image.height(), toneMap(image, exposureStops, curve), picture.attributes);
+        writePng(file, image.width(), image.height(), toneMap(image, exposureStops, curve),
+                 picture.attributes);
         break;
     case ImageFormat::Pfm:
         writePfm(file, image);

@@ -42,8 +42,7 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 /// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by their first bytes. Grey becomes three equal channels; alpha
 /// and layers are dropped and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does). Throws
 /// Error{BadInput}, naming the file and what was found, where it is not a regular file, too large, cut short, damaged,
-/// or, except for OpenEXR, followed by other bytes; and where it would take more than readingBytesMax, which is
-/// Error{LimitExceeded} of a PNG.
+/// or, except for OpenEXR, followed by other bytes; Error{LimitExceeded} where it would take more than readingBytesMax.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 
 } // namespace hyalite

@@ -11,4 +11,17 @@ void requireImageSize(const InputFile &file, std::int64_t width, std::int64_t he
                                    height, imageSideMax, imagePixelCountMax));
 }
 
+void requireReadingMemory(const InputFile &file, std::uint64_t width, std::uint64_t height,
+                          std::uint64_t neededBytes) {
+    const std::uint64_t allowedBytes = readingBytesMax(file.sizeBytes());
+    if (neededBytes > allowedBytes)
+        throw Error(
+            ExitCode::LimitExceeded,
+            fmt::format(
+                "{}: {} x {} pixels take {} MiB to read; for a file of {} bytes {} are allowed (256 MiB "
+                "and 64 times its size); make the image smaller, or write it as PFM",
+                file.path().string(), width, height, neededBytes >> 20, file.sizeBytes(),
+                allowedBytes >> 20));
+}
+
 } // namespace hyalite

@@ -20,4 +20,8 @@ inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
 /// Throws Error{BadInput} where an image of that size, which `file` says it has, is empty or larger than allowed.
 void requireImageSize(const InputFile &file, std::int64_t width, std::int64_t height);
 
+/// Throws Error{LimitExceeded} where reading `file`, an image of that size, needs more memory than readingBytesMax.
+void requireReadingMemory(const InputFile &file, std::uint64_t width, std::uint64_t height,
+                          std::uint64_t neededBytes);
+
 } // namespace hyalite

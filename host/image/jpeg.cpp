@@ -99,15 +99,10 @@ void requireModestMemory(const InputFile &file, std::uint64_t width, std::uint64
     constexpr std::uint64_t besideBytes = std::uint64_t{8} << 20; // rows and tables
     constexpr std::uint64_t blockSide = 32;
     const auto padded = [](std::uint64_t side) { return (side + blockSide - 1) / blockSide * blockSide; };
-    const std::uint64_t neededBytes = width * height * sizeof(std::uint32_t) +
-                                      padded(width) * padded(height) * 3 * sizeof(std::int16_t) +
-                                      file.sizeBytes() + besideBytes;
-    const std::uint64_t allowedBytes = readingBytesMax(file.sizeBytes());
-    if (neededBytes > allowedBytes)
-        throw file.bad(fmt::format(
-            "{} x {} pixels take {} bytes of memory; for a file of {} bytes {} are allowed (256 MiB "
-            "and 64 times its size); make the image smaller",
-            width, height, neededBytes, file.sizeBytes(), allowedBytes));
+    requireReadingMemory(file, width, height,
+                         width * height * sizeof(std::uint32_t) +
+                             padded(width) * padded(height) * 3 * sizeof(std::int16_t) + file.sizeBytes() +
+                             besideBytes);
 }
 
 } // namespace

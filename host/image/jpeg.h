@@ -14,7 +14,8 @@ namespace hyalite {
 
 /// Reads baseline and progressive files of 8 bits, grey or in colour, to their 8-bit levels, alpha being 255. Colour
 /// profiles, and how a camera was held, are passed over. Throws Error{BadInput}: also for CMYK, for files that are cut
-/// short or damaged, for more than 64 scans, and for files that would take more memory than readingBytesMax.
+/// short or damaged, and for more than 64 scans; Error{LimitExceeded} for files that would take more memory than
+/// readingBytesMax.
 [[nodiscard]] Texture readJpeg(const InputFile &file);
 
 } // namespace hyalite

@@ -228,15 +228,8 @@ class ChunkReader {
                                               << 20; // the packed pixels, and what is no pixel
         const std::uint64_t levelBytes = header_.bitDepth == 16 ? 2 : 1;
         const std::uint64_t pixelBytes = sizeof(glm::vec3) + levelBytes * (header_.interlaced ? 8 : 3);
-        const std::uint64_t neededBytes = std::uint64_t{header_.width} * header_.height * pixelBytes;
-        const std::uint64_t allowedBytes = readingBytesMax(file_.sizeBytes());
-        if (neededBytes + besideBytes > allowedBytes)
-            throw Error(
-                ExitCode::LimitExceeded,
-                fmt::format("{}: {} x {} pixels take {} bytes of memory; for a PNG file of {} bytes {} are "
-                            "allowed (256 MiB and 64 times its size); write larger images as PFM",
-                            file_.path().string(), header_.width, header_.height, neededBytes + besideBytes,
-                            file_.sizeBytes(), allowedBytes));
+        requireReadingMemory(file_, header_.width, header_.height,
+                             std::uint64_t{header_.width} * header_.height * pixelBytes + besideBytes);
     }
 
     void readNextChunk() {

@@ -47,11 +47,15 @@ class PictureFiles : public ::testing::Test {
 
     /// readImage() of such a file is Error{BadInput}, and names the file and what was found.
     void expectBad(const std::filesystem::path &path, const std::string &found) const {
+        expectRefused(path, found, ExitCode::BadInput);
+    }
+
+    void expectRefused(const std::filesystem::path &path, const std::string &found, ExitCode exitCode) const {
         try {
             (void)readImage(path);
             ADD_FAILURE() << "read, but should have said: " << found;
         } catch (const Error &error) {
-            EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+            EXPECT_EQ(error.exitCode, exitCode);
             EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
             EXPECT_NE(std::string(error.what()).find(found), std::string::npos) << error.what();
         }
