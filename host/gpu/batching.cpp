@@ -67,7 +67,19 @@ Batching completed(Batching batching, const DeviceInfo &device, Workload workloa
     return batching;
 }
 
-std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator) {
+namespace {
+
+/// Whether a kernel with RICH=0 will do: bindings.glsl says what they leave out.
+bool isLeanEnough(const Batching &batching, const KernelDuties &duties) {
+    const bool isForLavapipe = batching.traversal == Traversal::SkipList;
+    return batching.isPlain && !batching.isCounting && !duties.isTracing &&
+           (!isForLavapipe || (!duties.isResumable && batching.arithmetic == Arithmetic::Native));
+}
+
+} // namespace
+
+std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator,
+                                           const KernelDuties &duties) {
     using Words = std::span<const std::uint32_t>;
     if (!batching.kernel.empty())
         return batching.kernel;
@@ -81,10 +93,11 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator 
                                            richWhittedSkipOneSlot, richWhittedSkipTwoSlots};
     const std::array<Words, 4> richPath{richPathStackOneSlot, richPathStackTwoSlots, richPathSkipOneSlot,
                                         richPathSkipTwoSlots};
+    const bool isLean = isLeanEnough(batching, duties);
     if (isWhitted(integrator))
-        return batching.isPlain ? whitted[index] : richWhitted[index];
+        return isLean ? whitted[index] : richWhitted[index];
     if (integrator == Integrator::Path)
-        return batching.isPlain ? path[index] : richPath[index];
+        return isLean ? path[index] : richPath[index];
     return view[index];
 }
 
@@ -98,7 +111,8 @@ std::uint64_t hashOfKernels() {
                     batching.traversal = traversal;
                     batching.slotsPerInvocation = slots;
                     batching.isPlain = isPlain;
-                    hash = hashBytes(std::as_bytes(kernelWords(batching, integrator)), hash);
+                    batching.arithmetic = Arithmetic::Native;
+                    hash = hashBytes(std::as_bytes(kernelWords(batching, integrator, {})), hash);
                 }
     return hash;
 }

@@ -29,7 +29,7 @@ struct Batching {
     int samplesAbreast = 0;  ///< slots of one pixel: 1, 2, 4 or 8; 0: by the device and the samples wanted
     bool isStaged = false;   ///< transfer everything through staging buffers
     bool isCounting = false; ///< count the work of the traversal
-    bool isPlain = false;    ///< the kernel for plain scenes (PackedScene): the renderer knows
+    bool isPlain = false;    ///< the scene is plain (PackedScene): the renderer knows
     Arithmetic arithmetic = Arithmetic::Automatic; ///< which / and sqrt run
     Traversal traversal = Traversal::Automatic;
     /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an
@@ -53,8 +53,16 @@ inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNa
 [[nodiscard]] Batching completed(Batching batching, const DeviceInfo &device,
                                  Workload workload = Workload::Triangles);
 
-/// The kernel of `integrator` that a complete `batching` names, as SPIR-V.
-[[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator);
+/// What an integrator's kernel is to do beside rendering.
+struct KernelDuties {
+    bool isResumable = false; ///< samples that do not fit into a dispatch wait for the next
+    bool isTracing = false;   ///< keeps what one path does
+};
+
+/// The kernel of `integrator` that a complete `batching` names, as SPIR-V: that of few constants, which drivers read in
+/// less time, wherever it will do.
+[[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator,
+                                                         const KernelDuties &duties);
 
 /// Of all kernels together: what was measured of others does not hold.
 [[nodiscard]] std::uint64_t hashOfKernels();
