@@ -1,7 +1,6 @@
 #include "host/bvh/bvh.h"
 #include "host/bvh/duplicates.h"
 #include "host/bvh/split.h"
-#include "host/bvh/wide_box.h"
 #include "host/error.h"
 #include "shaders/layout.h"
 
@@ -16,13 +15,6 @@
 namespace hyalite {
 
 namespace {
-
-Box boxOf(std::span<const BuildTriangle> range) {
-    WideBox box = WideBox::empty();
-    for (const BuildTriangle &triangle : range)
-        box.extend(WideBox(triangle));
-    return box.box();
-}
 
 /// Halving is forced as soon as it is the only way to stay within the depth that traversal stacks have room for.
 bool mustHalve(std::size_t count, int depth) {
@@ -61,13 +53,12 @@ class Builder {
   public:
     /// `duplicates` may be null: then all triangles stay.
     Builder(TreeKind kind, std::span<BuildTriangle> triangles, int leafSize, const Duplicates *duplicates)
-        : split_(kind == TreeKind::Sah ? splitBySah : splitAtMidpoint), triangles_(triangles),
-          leafSize_(static_cast<std::size_t>(leafSize)), duplicates_(duplicates) {}
+        : kind_(kind), triangles_(triangles), leafSize_(static_cast<std::size_t>(leafSize)),
+          duplicates_(duplicates) {}
 
     Bvh build() {
         const auto count = static_cast<std::uint32_t>(triangles_.size());
         Branch root;
-        root.node.box = boxOf(triangles_);
 #pragma omp parallel if (count > smallBranch)
 #pragma omp single
         grow(root, {rootNode, 0, count, 0});
@@ -87,14 +78,22 @@ class Builder {
         return triangles_.subspan(task.begin, task.size());
     }
 
-    /// Reorders the task's triangles; returns where the right child's begin, or the task's begin for a leaf.
+    [[nodiscard]] std::size_t split(std::span<BuildTriangle> range, const Bounds &bounds) const {
+        return kind_ == TreeKind::Sah ? splitBySah(range, bounds, leafSize_)
+                                      : splitAtMidpoint(range, bounds.triangles.box(), leafSize_);
+    }
+
+    /// Finds the task's box and reorders its triangles; returns where the right child's begin, or the task's begin for a
+    /// leaf.
     ///
     /// What is identical has one centroid, and goes the same way until a range cannot be cut by centroids. Only there it is
     /// looked for, and what is dropped leaves the task at its end.
-    std::uint32_t divide(const Box &box, Task &task) const {
+    std::uint32_t divide(Box &box, Task &task) const {
+        const Bounds bounds(trianglesOf(task));
+        box = bounds.triangles.box();
         std::size_t leftCount = 0;
         if (task.size() > 1 && !mustHalve(task.size(), task.depth))
-            leftCount = split_(trianglesOf(task), box, leafSize_);
+            leftCount = split(trianglesOf(task), bounds);
         if (leftCount == 0 && task.size() > 1 && duplicates_ != nullptr && !task.isDistinct) {
             task.end = task.begin + static_cast<std::uint32_t>(duplicates_->setAside(trianglesOf(task)));
             task.isDistinct = true;
@@ -103,8 +102,6 @@ class Builder {
             leftCount = splitAtMedian(trianglesOf(task), box);
         return task.begin + static_cast<std::uint32_t>(leftCount);
     }
-
-    [[nodiscard]] Box boxOfTask(const Task &task) const { return boxOf(trianglesOf(task)); }
 
     /// Nothing may leave a task but through failure_.
     void grow(Branch &branch, const Task &task) {
@@ -133,11 +130,7 @@ class Builder {
         const Task leftTask = task.child(rootNode, task.begin, middle);
         const Task rightTask = task.child(rootNode, middle, task.end);
 #pragma omp task default(none) firstprivate(left, leftTask)
-        {
-            left->node.box = boxOfTask(leftTask);
-            grow(*left, leftTask);
-        }
-        branch.right->node.box = boxOfTask(rightTask);
+        grow(*left, leftTask);
         grow(*branch.right, rightTask);
     }
 
@@ -163,8 +156,7 @@ class Builder {
             node().first = left;
             const Task leftTask = task.child(left, task.begin, middle);
             const Task rightTask = task.child(left + 1, middle, task.end);
-            nodes.push_back({boxOfTask(leftTask), 0, 0});
-            nodes.push_back({boxOfTask(rightTask), 0, 0});
+            nodes.resize(nodes.size() + 2);
             tasks.push_back(rightTask);
             tasks.push_back(leftTask);
         }
@@ -198,7 +190,7 @@ class Builder {
 
     static constexpr std::uint32_t rootNode = std::numeric_limits<std::uint32_t>::max();
 
-    SplitFunction split_;
+    TreeKind kind_;
     std::span<BuildTriangle> triangles_;
     std::size_t leafSize_;
     const Duplicates *duplicates_;
@@ -235,7 +227,7 @@ Bvh buildTree(TreeKind kind, std::span<BuildTriangle> triangles, int leafSize, c
     } else {
         const std::size_t keptCount =
             duplicates != nullptr ? duplicates->setAside(triangles) : triangles.size();
-        bvh.nodes.push_back({boxOf(triangles), 0, static_cast<std::uint32_t>(keptCount)});
+        bvh.nodes.push_back({Bounds(triangles).triangles.box(), 0, static_cast<std::uint32_t>(keptCount)});
     }
     orderTriangles(triangles, bvh);
     return bvh;

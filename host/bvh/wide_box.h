@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstring>
+#include <limits>
+#include <span>
 #include <type_traits>
 
 namespace hyalite {
@@ -36,18 +38,16 @@ struct WideBox {
         lower = other.lower < lower ? other.lower : lower;
         upper = other.upper > upper ? other.upper : upper;
     }
+    /// With inputIndex in the fourth lane.
+    [[nodiscard]] static Lanes centroidOf(const BuildTriangle &triangle) {
+        return lanesAt<offsetof(BuildTriangle, centroid)>(triangle);
+    }
     void extendByCentroid(const BuildTriangle &triangle) {
-        const Lanes centroid = lanesAt<offsetof(BuildTriangle, centroid)>(triangle);
+        const Lanes centroid = centroidOf(triangle);
         lower = centroid < lower ? centroid : lower;
         upper = centroid > upper ? centroid : upper;
     }
-    /// As Box::halfArea, of a box that is not empty.
-    [[nodiscard]] double halfArea() const {
-        const double x = static_cast<double>(upper[0]) - static_cast<double>(lower[0]);
-        const double y = static_cast<double>(upper[1]) - static_cast<double>(lower[1]);
-        const double z = static_cast<double>(upper[2]) - static_cast<double>(lower[2]);
-        return x * y + y * z + z * x;
-    }
+    [[nodiscard]] Lanes size() const { return upper - lower; }
     [[nodiscard]] Box box() const { return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}; }
 
   private:
@@ -57,6 +57,19 @@ struct WideBox {
         Lanes lanes;
         std::memcpy(&lanes, reinterpret_cast<const std::byte *>(&triangle) + offset, sizeof lanes);
         return lanes;
+    }
+};
+
+/// What encloses a range of triangles, and what their centroids.
+struct Bounds {
+    WideBox triangles = WideBox::empty();
+    WideBox centroids = WideBox::empty();
+
+    explicit Bounds(std::span<const BuildTriangle> range) {
+        for (const BuildTriangle &triangle : range) {
+            triangles.extend(WideBox(triangle));
+            centroids.extendByCentroid(triangle);
+        }
     }
 };
 

@@ -122,7 +122,7 @@ TEST(Split, WhatCentroidsDoNotSeparateIsLeftWholeButForTheMedian) {
     std::vector<BuildTriangle> triangles = pointsOnX({2.0f, 2.0f, 2.0f, 2.0f, 2.0f});
     for (const std::size_t leafSize : {1u, 5u}) {
         EXPECT_EQ(splitAtMidpoint(triangles, boxOf(triangles), leafSize), 0u);
-        EXPECT_EQ(splitBySah(triangles, boxOf(triangles), leafSize), 0u);
+        EXPECT_EQ(splitBySah(triangles, Bounds(triangles), leafSize), 0u);
     }
     EXPECT_EQ(splitAtMedian(triangles, boxOf(triangles)), 2u);
     EXPECT_EQ(firstIndices(triangles, 2), (Indices{0, 1}));
@@ -138,28 +138,29 @@ TEST(Split, SahCutsBetweenTwoClustersOfUnequalSize) {
             position[axis] += i % 5 == 0 && i < 15 ? -10.0f : 10.0f;
             triangles.push_back(pointAt(position, i));
         }
-        EXPECT_EQ(splitBySah(triangles, boxOf(triangles), 1), 3u);
+        EXPECT_EQ(splitBySah(triangles, Bounds(triangles), 1), 3u);
         EXPECT_EQ(firstIndices(triangles, 3), (Indices{0, 5, 10}));
     }
 }
 
 TEST(Split, SahFindsTheCheapestOfItsCandidates) {
-    // Sixteen points at the centres of the sixteen bins of x: every cut of the order is a candidate, and on y and z
-    // there is none. The cost of each is computed here anew.
+    // Three boxes in each of the sixteen bins of x, as many bins as 48 have: every cut between bins is a candidate, and on
+    // y and z there is none. The cost of each is computed here anew.
     Random random(2);
     for (int trial = 0; trial < 200; ++trial) {
         SCOPED_TRACE(fmt::format("seed {}, trial {}", random.seed(), trial));
         std::vector<BuildTriangle> triangles;
-        for (std::uint32_t i = 0; i < 16; ++i) {
-            BuildTriangle triangle = pointAt({static_cast<float>(i), 0.0f, 0.0f}, i);
-            triangle.box.extend(glm::vec3(static_cast<float>(i),
+        for (std::uint32_t i = 0; i < 48; ++i) {
+            const std::uint32_t bin = i / 3;
+            BuildTriangle triangle = pointAt({static_cast<float>(bin), 0.0f, 0.0f}, i);
+            triangle.box.extend(glm::vec3(static_cast<float>(bin),
                                           static_cast<float>(random.uniform(0.0, 20.0)),
                                           static_cast<float>(random.uniform(0.0, 20.0))));
             triangles.push_back(triangle);
         }
         double least = std::numeric_limits<double>::infinity();
         std::size_t best = 0;
-        for (std::size_t cut = 1; cut < 16; ++cut) {
+        for (std::size_t cut = 3; cut < 48; cut += 3) {
             const std::vector<BuildTriangle> left(triangles.begin(),
                                                   triangles.begin() + static_cast<std::ptrdiff_t>(cut));
             const std::vector<BuildTriangle> right(triangles.begin() + static_cast<std::ptrdiff_t>(cut),
@@ -171,8 +172,7 @@ TEST(Split, SahFindsTheCheapestOfItsCandidates) {
                 best = cut;
             }
         }
-        const Box box = boxOf(triangles);
-        EXPECT_EQ(splitBySah(triangles, box, 1), best);
+        EXPECT_EQ(splitBySah(triangles, Bounds(triangles), 1), best);
     }
 }
 
@@ -187,13 +187,13 @@ TEST(Split, SahMakesALeafOnlyWhereItIsCheaperAndAllowed) {
         triangle.inputIndex = i;
         triangles.push_back(triangle);
     }
-    EXPECT_EQ(splitBySah(triangles, boxOf(triangles), 4), 0u);
-    EXPECT_GT(splitBySah(triangles, boxOf(triangles), 3), 0u);
+    EXPECT_EQ(splitBySah(triangles, Bounds(triangles), 4), 0u);
+    EXPECT_GT(splitBySah(triangles, Bounds(triangles), 3), 0u);
     // Two far apart: worth a node even though a leaf could hold both.
     triangles = {triangles[0], triangles[1]};
     triangles[1].box = {glm::vec3(99.0f), glm::vec3(101.0f)};
     triangles[1].centroid = glm::vec3(100.0f);
-    EXPECT_EQ(splitBySah(triangles, boxOf(triangles), 64), 1u);
+    EXPECT_EQ(splitBySah(triangles, Bounds(triangles), 64), 1u);
 }
 
 } // namespace
