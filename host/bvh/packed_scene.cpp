@@ -276,7 +276,10 @@ std::uint64_t PackedScene::contentHash() const {
         hash = hashBytes(std::as_bytes(std::span(textures).subspan(texelBegin)), hash);
     // Trees put the triangles into orders of their own, and each has its id: their sum is the same in any order.
     std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto triangleTotal = static_cast<std::int64_t>(triangles.size());
+#pragma omp parallel for schedule(static) reduction(+ : sum) if (isLong(triangleTotal))
+    for (std::int64_t index = 0; index < triangleTotal; ++index) {
+        const auto i = static_cast<std::size_t>(index);
         struct {
             layout::TriangleRecord triangle;
             layout::NormalRecord normals;
