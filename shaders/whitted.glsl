@@ -1,4 +1,4 @@
-// The report's integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
+// The classic integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
 // deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
 // Twin: host/reference/whitted.h, where the same happens ray by ray.
 //

@@ -44,10 +44,10 @@ struct BuildTriangle {
 
 struct BvhNode {
     Box box;
-    std::uint32_t first =
-        0; ///< leaf: position of its first triangle in Bvh::order; inner: index of the left child
-    std::uint32_t count =
-        0; ///< leaf: number of triangles; inner: 0, and the right child follows the left one
+    /// Leaf: position of its first triangle in Bvh::order; inner: index of the left child.
+    std::uint32_t first = 0;
+    /// Leaf: number of triangles; inner: 0, and the right child follows the left one.
+    std::uint32_t count = 0;
 
     [[nodiscard]] bool isLeaf() const { return count > 0; }
 };
@@ -62,7 +62,7 @@ struct Bvh {
 [[nodiscard]] std::vector<BuildTriangle> buildTriangles(const Scene &scene);
 
 /// Builds the tree of the given kind; `None` gives one leaf. No tree is deeper than layout::maxTreeDepth - 1.
-/// A leaf holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
+/// A leaf of the others holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize);
 
 } // namespace hyalite

@@ -25,14 +25,14 @@ struct PackedScene {
     bool hasSpecular = false;
     bool hasDielectric = false;
     bool hasEmission = false;
-    std::uint32_t scattering =
-        0; ///< bits of layout::scattersAt...: what the materials need of the path integrator
+    /// Bits of layout::scattersAt...: what the materials need of the path integrator.
+    std::uint32_t scattering = 0;
     std::uint32_t lighting = 0;  ///< bits of layout::lightsBy...
     std::uint32_t texturing = 0; ///< bits of layout::textures...
     std::uint32_t camera = layout::cameraPinhole;
 
-    /// Whether surfaces are diffuse, mirrors or clear glass, without textures, lit by point lights or by others of them, and seen through a
-    /// pinhole: kernels for these scenes know nothing else.
+    /// Whether surfaces are diffuse, mirrors or clear glass, without textures, lit by point lights or by surfaces that emit,
+    /// and seen through a pinhole: kernels for these scenes know nothing else.
     [[nodiscard]] bool isPlain() const {
         return scattering == 0 && lighting == 0 && texturing == 0 && camera == layout::cameraPinhole;
     }

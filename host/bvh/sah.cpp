@@ -18,8 +18,8 @@ std::size_t binCountFor(std::size_t triangleCount) { return std::min(binCountMax
 
 /// Maps centroids to bins, on all axes at once. Extents that overflow or vanish map everything to bin 0, which never splits.
 struct Binning {
-    Lanes lower{0.0f, 0.0f, 0.0f,
-                1.0f}; ///< the last lane of a centroid holds no number: any but a denormal is fast
+    /// The fourth lane of a centroid is an index, which as a float is a denormal, and slow: less 1 it is not.
+    Lanes lower{0.0f, 0.0f, 0.0f, 1.0f};
     Lanes scale{};
 
     Binning(const WideBox &centroids, std::size_t binCount) {
@@ -119,9 +119,9 @@ struct Side {
 };
 
 struct Cut {
-    float cost =
-        std::numeric_limits<float>::infinity(); ///< of the triangle tests, times the parent's half area
-    std::int32_t largerCount = 0;               ///< triangles on the fuller side
+    /// Of the triangle tests, times the parent's half area.
+    float cost = std::numeric_limits<float>::infinity();
+    std::int32_t largerCount = 0; ///< triangles on the fuller side
     int axis = -1;
     int lastLeftBin = 0;
 

@@ -168,7 +168,7 @@ SkipList makeSkipList(const PackedScene &scene) {
     countNodes(scene, plans);
 
     list.length = plans.front().nodeCount;
-    list.nodes.resize(std::size_t{listCount} * list.length);
+    list.nodes.resize(std::size_t{listCount} * list.length + 1);
     std::vector<std::uint32_t> pairBegins(plans.size() * listCount);
 #pragma omp parallel for schedule(static) num_threads(listCount)
     for (std::uint32_t i = 0; i < listCount; ++i)
@@ -178,7 +178,7 @@ SkipList makeSkipList(const PackedScene &scene) {
 }
 
 std::uint64_t mostSkipListBytes(std::size_t pairCount) {
-    return std::uint64_t{listCount} * 2 * pairCount * sizeof(layout::SkipNode);
+    return (std::uint64_t{listCount} * 2 * pairCount + 1) * sizeof(layout::SkipNode);
 }
 
 std::uint64_t skipListWorkBytes(std::size_t pairCount) {

@@ -10,7 +10,7 @@
 namespace hyalite {
 
 struct SkipList {
-    std::vector<layout::SkipNode> nodes; ///< two lists of `length`
+    std::vector<layout::SkipNode> nodes; ///< two lists of `length`, and one that rays at the end read
     std::uint32_t length = 0;            ///< of one list
     glm::vec3 gridMiddle{0.0f};
     glm::vec3 gridScale{1.0f}; ///< > 0; a plane is at gridMiddle + gridScale * q, q in [-32768, 32767]

@@ -62,7 +62,8 @@ Tolerance parseTolerance(const std::string &text) {
     }
     const std::string unit = text.substr(end);
     const bool isUlps = unit == "ulp" || unit == "ulps";
-    if (end == 0 || !(value >= 0.0) || !(isUlps || unit.empty()) || (isUlps && value > 1e9))
+    if (end == 0 || !(value >= 0.0) || !std::isfinite(value) || !(isUlps || unit.empty()) ||
+        (isUlps && value > 1e9))
         throw Error(
             ExitCode::Usage,
             fmt::format("--tolerance {}: give a difference of radiance such as 1e-5, or ULPs such as 4ulp",

@@ -210,8 +210,9 @@ ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &comma
     const ZTestResult result = testAndPrint(reference, test, options.zTest,
                                             fmt::format("'{}' and '{}'", options.reference, options.test));
     if (reportFile) {
-        nlohmann::ordered_json report{
-            {"commandLine", commandLine}, {"reference", options.reference}, {"test", options.test}};
+        nlohmann::ordered_json report = programToJson(commandLine);
+        report["reference"] = options.reference;
+        report["test"] = options.test;
         report["statistical"] = zTestToJson(result, options.zTest);
         report["passed"] = result.isPassed();
         reportFile->write(jsonText(report));

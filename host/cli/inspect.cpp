@@ -98,9 +98,9 @@ std::vector<reference::Hit<float>> traceRays(const PackedScene &scene, int count
         const std::uint64_t position = (std::uint64_t{index * 2654435769u} * pixelCount) >> 32;
         const glm::uvec2 pixel(static_cast<std::uint32_t>(position % scene.frame.imageWidth),
                                static_cast<std::uint32_t>(position / scene.frame.imageWidth));
-        const reference::Ray<float> ray{scene.frame.eye,
-                                        reference::primaryDirection(scene.frame, pixel, glm::vec2(0.5f))};
-        hits.push_back(reference::closestHit(scene, ray));
+        const auto primary = reference::primaryRay<float>(scene, layout::samplerCentre, pixel, 0);
+        hits.push_back(
+            reference::closestHit(scene, reference::Ray<float>{primary.origin, primary.direction}));
     }
     seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return hits;

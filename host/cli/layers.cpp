@@ -74,10 +74,15 @@ std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
             settings.samplesPerPixel = 1;
             settings.sampler = SamplerKind::Centre;
         }
-        films.push_back({view, shouldStop() ? Film(scene.crop)
-                                            : renderWithProgress(backend, scene, std::string(nameOf(view)),
-                                                                 isQuiet, nullptr, shouldStop)
-                                                  .film});
+        Film film(scene.crop);
+        if (!shouldStop()) {
+            BackendResult result =
+                renderWithProgress(backend, scene, std::string(nameOf(view)), isQuiet, nullptr, shouldStop);
+            if (result.failure)
+                throw Error(*result.failure);
+            film = std::move(result.film);
+        }
+        films.push_back({view, std::move(film)});
         settings = ofImage;
     }
     return films;

@@ -237,8 +237,8 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
         requireSameJob(*baseline, profile);
     printHead(profile, *backend);
 
-    const bool isReference = options.device == "cpu" || options.device == "cpu-double";
-    if (isReference || options.isUnverified) {
+    const bool isVerifiable = !isReference(options.device);
+    if (!isVerifiable || options.isUnverified) {
         profile.verification =
             options.isUnverified ? "not verified, as asked" : "not verified: it is the reference itself";
     } else if (const auto fault = verify(*backend, scene, profile, options.isQuiet)) {
@@ -259,7 +259,7 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     std::vector<std::byte> heatMapPng;
     if (options.isCounting || outputs.heatMap || (outputs.html && scene.packed.hasTriangles))
         heatMapPng = pngOf(countWork(options, scene, profile), profile);
-    if (options.isCounting && !isReference)
+    if (options.isCounting && isVerifiable)
         profile.kernelWork = countKernelWork(options, scene);
     if (outputs.image) {
         Stopwatch watch;
@@ -319,9 +319,10 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
                       "render twice more and count nodes, boxes and triangles of a traversal with a stack, "
                       "and of the kernel's own, and how busy its lanes are");
     addFile(*command, "--heatmap", options->heatMap, "FILE.png",
-            "the same, and write how many boxes and triangles each pixel tests, in false colours");
+            "render once more, and write how many boxes and triangles each pixel tests, in false colours");
     addFile(*command, "--html", options->html, "FILE.html",
-            "the same, and write a page with the image, the heat map, the figures and where they come from");
+            "render once more, and write a page with the image, the heat map, the figures and where they "
+            "come from");
     addFile(*command, "--baseline", options->baseline, "FILE.json",
             "compare with an older --report; a regression is exit code 1");
     command

@@ -46,8 +46,7 @@ struct RenderOptions {
     bool isQuiet = false;
 };
 
-constexpr Interval timeLimits{0.0, 1e9, false}; // seconds
-constexpr Interval intervals{0.0, 1e9, false};  // seconds
+constexpr Interval anySeconds{0.0, 1e9, false};
 
 using Clock = std::chrono::steady_clock;
 
@@ -279,7 +278,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     addThreadsOption(*command, options->threads);
     addDeviceOptions(*command, options->deviceOptions);
     addFile(*command, "--report", options->report, "FILE.json", "write what was done and how long it took");
-    addNumber(*command, "--time-limit", options->timeLimitSeconds, timeLimits,
+    addNumber(*command, "--time-limit", options->timeLimitSeconds, anySeconds,
               "stop then, and write what is finished; loading and building do not count")
         ->type_name("SECONDS");
     const char *group = "Long renders";
@@ -287,7 +286,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
         *command, "--checkpoint", options->checkpoint, "FILE",
         "write what is finished there again and again, and when the render ends; FILE.1 is the one before")
         ->group(group);
-    addNumber(*command, "--checkpoint-interval", options->checkpointSeconds, intervals,
+    addNumber(*command, "--checkpoint-interval", options->checkpointSeconds, anySeconds,
               "between two checkpoints")
         ->type_name("SECONDS")
         ->default_str("10")
@@ -297,7 +296,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
                    "go on from the checkpoint, if there is one, to the same image; --device, --threads, "
                    "--kernel, --bvh and more --spp may be others")
         ->group(group);
-    addNumber(*command, "--partial", options->partialSeconds, intervals,
+    addNumber(*command, "--partial", options->partialSeconds, anySeconds,
               "replace the output by what is finished, again and again after so long")
         ->type_name("SECONDS")
         ->group(group);

@@ -3,6 +3,7 @@
 #include "host/cli/options.h"
 #include "host/image/image_file.h"
 #include "host/image/png.h"
+#include "host/report/provenance.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@ struct ToneMapOptions {
     double exposureStops = 0.0;
 };
 
-ExitCode runToneMap(const ToneMapOptions &options) {
+ExitCode runToneMap(const ToneMapOptions &options, const std::string &commandLine) {
     if (imageFormatOf(options.output) != ImageFormat::Png)
         throw Error(ExitCode::Usage, fmt::format("'{}': what is tone-mapped is a .png", options.output));
     requireDistinctFiles({{"OUT", options.output}}, {options.input});
@@ -32,7 +33,9 @@ ExitCode runToneMap(const ToneMapOptions &options) {
             ExitCode::BadInput,
             fmt::format("cannot use image '{}': a PNG is tone-mapped already; name an EXR, HDR or PFM file",
                         options.input));
-    writeImage(file, ImageFormat::Png, loaded.image, options.exposureStops,
+    Picture picture(loaded.image);
+    picture.attributes = attributesOf(programToJson(commandLine));
+    writeImage(file, ImageFormat::Png, picture, options.exposureStops,
                options.tone.value_or(ToneCurve::Gamma));
     file.commit();
     return ExitCode::Ok;
@@ -50,7 +53,9 @@ void addToneMapCommand(CLI::App &app, CommandContext &context) {
               "stops: radiance times 2^N")
         ->default_str("0");
     addToneOption(*command, options->tone);
-    command->callback([options, &context] { context.exitCode = static_cast<int>(runToneMap(*options)); });
+    command->callback([options, &context] {
+        context.exitCode = static_cast<int>(runToneMap(*options, context.commandLine));
+    });
 }
 
 } // namespace hyalite

@@ -70,9 +70,9 @@ Batching completed(Batching batching, const DeviceInfo &device, Workload workloa
 namespace {
 
 /// Whether a kernel with RICH=0 will do: bindings.glsl says what they leave out.
-bool isLeanEnough(const Batching &batching, const KernelDuties &duties) {
+bool isLeanEnough(const Batching &batching, Integrator integrator, const KernelDuties &duties) {
     const bool isForLavapipe = batching.traversal == Traversal::SkipList;
-    return batching.isPlain && !batching.isCounting && !duties.isTracing &&
+    return duties.isPlain && !batching.isCounting && integrator != Integrator::Cost && !duties.isTracing &&
            (!isForLavapipe || (!duties.isResumable && batching.arithmetic == Arithmetic::Native));
 }
 
@@ -93,7 +93,7 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator 
                                            richWhittedSkipOneSlot, richWhittedSkipTwoSlots};
     const std::array<Words, 4> richPath{richPathStackOneSlot, richPathStackTwoSlots, richPathSkipOneSlot,
                                         richPathSkipTwoSlots};
-    const bool isLean = isLeanEnough(batching, duties);
+    const bool isLean = isLeanEnough(batching, integrator, duties);
     if (isWhitted(integrator))
         return isLean ? whitted[index] : richWhitted[index];
     if (integrator == Integrator::Path)
@@ -110,9 +110,8 @@ std::uint64_t hashOfKernels() {
                     Batching batching;
                     batching.traversal = traversal;
                     batching.slotsPerInvocation = slots;
-                    batching.isPlain = isPlain;
                     batching.arithmetic = Arithmetic::Native;
-                    hash = hashBytes(std::as_bytes(kernelWords(batching, integrator, {})), hash);
+                    hash = hashBytes(std::as_bytes(kernelWords(batching, integrator, {isPlain})), hash);
                 }
     return hash;
 }

@@ -29,7 +29,6 @@ struct Batching {
     int samplesAbreast = 0;  ///< slots of one pixel: 1, 2, 4 or 8; 0: by the device and the samples wanted
     bool isStaged = false;   ///< transfer everything through staging buffers
     bool isCounting = false; ///< count the work of the traversal
-    bool isPlain = false;    ///< the scene is plain (PackedScene): the renderer knows
     Arithmetic arithmetic = Arithmetic::Automatic; ///< which / and sqrt run
     Traversal traversal = Traversal::Automatic;
     /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an
@@ -53,8 +52,9 @@ inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNa
 [[nodiscard]] Batching completed(Batching batching, const DeviceInfo &device,
                                  Workload workload = Workload::Triangles);
 
-/// What an integrator's kernel is to do beside rendering.
+/// What an integrator's kernel has to do.
 struct KernelDuties {
+    bool isPlain = false;     ///< it is for a scene that PackedScene calls plain
     bool isResumable = false; ///< samples that do not fit into a dispatch wait for the next
     bool isTracing = false;   ///< keeps what one path does
 };

@@ -83,7 +83,10 @@ std::uint32_t Device::findMemoryType(std::uint32_t typeBits, VkMemoryPropertyFla
 }
 
 bool Device::isMappable(std::uint32_t memoryType) const {
-    return (memory_.memoryTypes[memoryType].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
+    // What is not coherent would have to be flushed.
+    constexpr VkMemoryPropertyFlags wanted =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    return (memory_.memoryTypes[memoryType].propertyFlags & wanted) == wanted;
 }
 
 void Device::waitForFence(const std::string &action) {

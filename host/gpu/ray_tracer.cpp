@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t workgroupSize = 64;
 
-// As many as lavapipe allows (renderer.cpp tells of its limit): the one loop of the kernel runs on lanes together.
+// As many as lavapipe allows (batching.cpp tells of its limit): the one loop of the kernel runs on lanes together.
 constexpr std::uint32_t stepBudget = 60'000;
 
 std::uint32_t stackSizeFor(const PackedScene &scene) {
@@ -69,7 +69,7 @@ struct RayTracer::State {
         dispatch.tileWidth = rayCount;
         dispatch.tileHeight = 1;
         dispatch.stepBudget = stepBudget;
-        dispatch.interleave = scene.device.info().isSoftware() ? 16 : 1; // as in renderer.cpp
+        dispatch.interleave = scene.device.info().isSoftware() ? 16 : 1; // as in tile_renderer.cpp
         const std::uint32_t raysPerRound =
             workgroupSize * static_cast<std::uint32_t>(code.raysPerInvocation) * dispatch.interleave;
         groupCount = (rayCount + raysPerRound - 1) / raysPerRound * dispatch.interleave;

@@ -73,7 +73,6 @@ struct Renderer::State {
     /// How an integrator renders a scene.
     [[nodiscard]] Batching batchingFor(const PackedScene &scene, Integrator integrator) const {
         Batching used = batching;
-        used.isPlain = scene.isPlain();
         used.traversal = wanted.traversal;
         used.slotsPerInvocation = wanted.slotsPerInvocation;
         used.samplesAbreast = wanted.samplesAbreast;
@@ -128,7 +127,8 @@ std::string_view Renderer::kernelName(const PackedScene &scene, Integrator integ
 }
 
 std::uint64_t Renderer::kernelHash(const PackedScene &scene, Integrator integrator) const {
-    return hashBytes(std::as_bytes(kernelWords(state_->batchingFor(scene, integrator), integrator, {})));
+    return hashBytes(
+        std::as_bytes(kernelWords(state_->batchingFor(scene, integrator), integrator, {scene.isPlain()})));
 }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
@@ -220,7 +220,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
             [&](const RayCounts &rays) {
                 const RayCounts raysSoFar = raysBefore + rays;
                 // Of lost dispatches work cannot be counted: a frame that counts begins anew.
-                if (!state_->batching.isCounting && keeper.isDue()) {
+                if (!batching.isCounting && keeper.isDue()) {
                     keeper.keep([&] { tiles.readFilm(bandPixels); });
                     result.rays = raysSoFar;
                 }

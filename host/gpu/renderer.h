@@ -47,7 +47,7 @@ class Renderer {
     /// Which / and sqrt the kernels run.
     [[nodiscard]] const ArithmeticChoice &arithmetic() const;
 
-    /// The word for the kernel of an integrator, and a hash of its SPIR-V.
+    /// The word for the kernel of an integrator, and a hash of its SPIR-V: of the one that dispatches begin with.
     [[nodiscard]] std::string_view kernelName(const PackedScene &scene, Integrator integrator) const;
     [[nodiscard]] std::uint64_t kernelHash(const PackedScene &scene, Integrator integrator) const;
 

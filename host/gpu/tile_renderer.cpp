@@ -142,7 +142,8 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     const std::string name =
         fmt::format("{} {}{}", nameOf(job_.integrator), kernelName(batching_),
                     isResumable && batching_.traversal == Traversal::SkipList ? ", resumable" : "");
-    Kernel kernel(device_, name, kernelWords(batching_, job_.integrator, {isResumable, job_.isTraced}),
+    Kernel kernel(device_, name,
+                  kernelWords(batching_, job_.integrator, {scene.isPlain(), isResumable, job_.isTraced}),
                   constants, bound);
     return {std::move(paths), std::move(pending), std::move(kernel)};
 }

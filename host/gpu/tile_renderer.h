@@ -47,10 +47,9 @@ class TileRenderer {
     void warmUp();
 
     /// Runs until all samples of all tiles are in the film, or until `shouldStop`, which is asked after each dispatch,
-    /// says so: the film then has what is finished. It is not long until it is asked: with it, no dispatch adds more than
-    /// 64 samples to a pixel. `onProgress` gets the finished share, in [0, 1], after each
-    /// dispatch, and so does `onPause` the rays so far: the film can then be read. `timeline`, where there is one, gets a
-    /// record of each. Throws Error{DeviceLost}.
+    /// says so: the film then has what is finished. No dispatch adds more than 64 samples to a pixel, so that it is asked
+    /// soon. `onProgress` gets the finished share, in [0, 1], after each dispatch, and so does `onPause` the rays so far:
+    /// the film can then be read. `timeline`, where there is one, gets a record of each. Throws Error{DeviceLost}.
     [[nodiscard]] TileTotals run(const std::function<void(double)> &onProgress, Timeline *timeline = nullptr,
                                  const std::function<bool()> &shouldStop = {},
                                  const std::function<void(const RayCounts &)> &onPause = {});

@@ -18,16 +18,16 @@ namespace hyalite {
 namespace {
 
 constexpr std::string_view magic = "hyalite checkpoint\n";
-constexpr std::uint32_t currentVersion = 1;
+constexpr std::uint32_t currentVersion = 2;
 constexpr std::uint32_t mostIdentityBytes = 1u << 16;
 
 struct Header {
     std::uint32_t version;
     std::uint32_t identityBytes;
     std::int32_t x0, x1, y0, y1;
-    std::array<std::uint64_t, 4> rays;
+    std::array<std::uint64_t, rayKinds.size()> rays;
 };
-static_assert(sizeof(Header) == 56 && std::has_unique_object_representations_v<Header>);
+static_assert(sizeof(Header) == 64 && std::has_unique_object_representations_v<Header>);
 
 /// The file is whole, and not one that this render can go on from.
 class OtherRender : public Error {
@@ -104,8 +104,9 @@ class Reader {
         offset_ = head.size();
         readPiece(std::as_writable_bytes(std::span(identityThere)));
         // The sizes are those of the file, and so memory is asked for no more than it has.
-        Checkpoint checkpoint{Film({header.x0, header.x1, header.y0, header.y1}),
-                              {header.rays[0], header.rays[1], header.rays[2], header.rays[3]}};
+        Checkpoint checkpoint{Film({header.x0, header.x1, header.y0, header.y1}), {}};
+        for (std::size_t i = 0; i < rayKinds.size(); ++i)
+            checkpoint.rays.*rayKinds[i].count = header.rays[i];
         readPiece(std::as_writable_bytes(std::span(checkpoint.film.pixels)));
         std::uint64_t hash = hashBytes(head);
         hash = hashBytes(std::as_bytes(std::span(identityThere)), hash);
@@ -186,13 +187,15 @@ CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, RenderIden
 
 void CheckpointWriter::write(const Film &film, const RayCounts &rays) {
     const std::string identity = identityText(identity_);
-    const Header header{currentVersion,
-                        static_cast<std::uint32_t>(identity.size()),
-                        film.crop.x0,
-                        film.crop.x1,
-                        film.crop.y0,
-                        film.crop.y1,
-                        {rays.primary, rays.shadow, rays.reflection, rays.refraction}};
+    Header header{currentVersion,
+                  static_cast<std::uint32_t>(identity.size()),
+                  film.crop.x0,
+                  film.crop.x1,
+                  film.crop.y0,
+                  film.crop.y1,
+                  {}};
+    for (std::size_t i = 0; i < rayKinds.size(); ++i)
+        header.rays[i] = rays.*rayKinds[i].count;
     std::string head(magic);
     head.append(reinterpret_cast<const char *>(&header), sizeof header);
     std::uint64_t hash = hashBytes(std::as_bytes(std::span(head)));

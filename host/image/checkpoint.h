@@ -6,7 +6,7 @@
 //     "hyalite checkpoint\n"
 //     u32 version     u32 bytes of the identity
 //     i32 x0, x1, y0, y1 of the crop
-//     u64 primary, shadow, reflection and refraction rays that were traced
+//     u64 primary, shadow, reflection, refraction and bounce rays that were traced
 //     the identity, a line "name: value" for each of its parts
 //     the film's pixels, as layout::FilmPixel, row by row
 //     u64 hash of all that

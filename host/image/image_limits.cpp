@@ -14,14 +14,14 @@ void requireImageSize(const InputFile &file, std::int64_t width, std::int64_t he
 void requireReadingMemory(const InputFile &file, std::uint64_t width, std::uint64_t height,
                           std::uint64_t neededBytes) {
     const std::uint64_t allowedBytes = readingBytesMax(file.sizeBytes());
+    constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20;
     if (neededBytes > allowedBytes)
         throw Error(
             ExitCode::LimitExceeded,
-            fmt::format(
-                "{}: {} x {} pixels take {} MiB to read; for a file of {} bytes {} are allowed (256 MiB "
-                "and 64 times its size); make the image smaller, or write it as PFM",
-                file.path().string(), width, height, neededBytes >> 20, file.sizeBytes(),
-                allowedBytes >> 20));
+            fmt::format("{}: {} x {} pixels take {} MiB to read; for a file of {} bytes {} MiB are allowed "
+                        "(256 MiB and 64 times its size); make the image smaller, or write it as PFM",
+                        file.path().string(), width, height, (neededBytes + mebibyte - 1) / mebibyte,
+                        file.sizeBytes(), allowedBytes / mebibyte));
 }
 
 } // namespace hyalite

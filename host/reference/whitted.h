@@ -1,4 +1,4 @@
-// The report's integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
+// The classic integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
 // deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
 // Twin: shaders/whitted.glsl. Here a path is followed ray by ray; the order of all sums is the same.
 #pragma once

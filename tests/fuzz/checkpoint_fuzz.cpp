@@ -40,7 +40,7 @@ void read(const TemporaryFolder &folder, std::string_view content) {
 
 /// With the hash that belongs to it, if it has a header.
 std::string repaired(std::string_view content) {
-    constexpr std::size_t headBytes = 19 + 56;
+    constexpr std::size_t headBytes = 19 + 64;
     std::string bytes(content);
     if (bytes.size() < headBytes + sizeof(std::uint64_t))
         return bytes;

@@ -17,9 +17,9 @@ namespace {
 bool startsWith(const std::string &text, const char *beginning) { return text.rfind(beginning, 0) == 0; }
 
 /// Whether the kernel's functions are as they were written: others are optimised, and all of it is in `main`.
-bool isPlain(const EmbeddedKernel &kernel) { return startsWith(kernel.name, "plain"); }
+bool isUnoptimised(const EmbeddedKernel &kernel) { return startsWith(kernel.name, "unoptimised"); }
 
-/// Where the device's own / and sqrt may stand in a plain kernel: behind hasExactDivision, or corrected with integers.
+/// Where the device's own / and sqrt may stand in an unoptimised kernel: behind hasExactDivision, or corrected with integers.
 bool mayDivide(const Instruction &instruction) {
     return startsWith(instruction.function, "divide(") || startsWith(instruction.function, "squareRoot(") ||
            startsWith(instruction.function, "divideSmall(");
@@ -30,7 +30,7 @@ TEST(EmbeddedKernels, AreAllListed) {
     for (const EmbeddedKernel &kernel : embeddedKernels)
         names.push_back(kernel.name);
     for (const char *name : {"checkArithmetic", "whittedStackOneSlot", "whittedStackTwoSlots", "probeKernel",
-                             "plainStack", "plainSkipList"})
+                             "unoptimisedStack", "unoptimisedSkipList"})
         EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
@@ -68,7 +68,7 @@ TEST(EmbeddedKernels, UseExactOperationsOnly) {
             const bool isNative =
                 instruction.opcode == spirv::opFDiv || (isExtended && instruction.operands[3] == sqrtNumber);
             nativeCount += isNative ? 1u : 0u;
-            if (isNative && isPlain(kernel)) {
+            if (isNative && isUnoptimised(kernel)) {
                 EXPECT_TRUE(mayDivide(instruction)) << "the device's own / or sqrt: " << where();
             } else if (isExtended && !isNative) {
                 EXPECT_TRUE(exact.contains(instruction.operands[3]))
@@ -76,7 +76,7 @@ TEST(EmbeddedKernels, UseExactOperationsOnly) {
             }
         }
         // The same check sees them where they are.
-        if (isPlain(kernel)) {
+        if (isUnoptimised(kernel)) {
             EXPECT_EQ(nativeCount, 3u) << kernel.name;
         }
     }
@@ -94,24 +94,24 @@ std::set<std::uint32_t> specializationConstants(std::span<const std::uint32_t> w
 
 TEST(EmbeddedKernels, KnowTheConstantsOfTheirDuties) {
     // A driver ignores constants that a module does not have: the wrong kernel would do without what it was told.
-    for (const Integrator integrator : {Integrator::Whitted, Integrator::Path}) {
+    for (const Integrator integrator : {Integrator::Whitted, Integrator::Path, Integrator::Cost}) {
         for (unsigned bits = 0; bits < 1u << 7; ++bits) {
             const auto bit = [&](unsigned i) { return (bits >> i & 1u) != 0; };
             gpu::Batching batching;
             batching.slotsPerInvocation = bit(0) ? 2 : 1;
             batching.traversal = bit(1) ? gpu::Traversal::SkipList : gpu::Traversal::Stack;
-            batching.isPlain = bit(2);
             batching.isCounting = bit(3);
             batching.arithmetic = bit(4) ? gpu::Arithmetic::Own : gpu::Arithmetic::Native;
-            const gpu::KernelDuties duties{bit(5), bit(6)};
+            const gpu::KernelDuties duties{bit(2), bit(5), bit(6)};
             const std::set<std::uint32_t> known =
                 specializationConstants(gpu::kernelWords(batching, integrator, duties));
             const auto knows = [&](std::uint32_t id) { return known.contains(id); };
             SCOPED_TRACE(fmt::format("integrator {}, bits {}", static_cast<int>(integrator), bits));
-            EXPECT_TRUE(batching.isPlain || knows(layout::constantCamera));
-            EXPECT_TRUE(batching.isPlain || knows(layout::constantTexturing));
-            EXPECT_TRUE(batching.isPlain || integrator == Integrator::Whitted ||
-                        (knows(layout::constantScattering) && knows(layout::constantLighting)));
+            EXPECT_TRUE(duties.isPlain || knows(layout::constantCamera));
+            EXPECT_TRUE(duties.isPlain || knows(layout::constantTexturing));
+            EXPECT_TRUE(duties.isPlain || knows(layout::constantScattering));
+            EXPECT_TRUE(duties.isPlain || knows(layout::constantLighting));
+            EXPECT_TRUE(integrator != Integrator::Cost || knows(layout::constantShowsCost));
             EXPECT_TRUE(!batching.isCounting || knows(layout::constantIsCounting));
             EXPECT_TRUE(!duties.isTracing || knows(layout::constantIsTracing));
             // Over stacks kernels always go on with what waits, and skip lists may do without.

@@ -50,7 +50,7 @@ std::pair<glm::dvec3, glm::dvec3> boxOf(const SkipList &list, const layout::Skip
 
 void expectSound(const PackedScene &scene) {
     const SkipList list = makeSkipList(scene);
-    ASSERT_EQ(list.nodes.size(), std::size_t{2} * list.length);
+    ASSERT_EQ(list.nodes.size(), std::size_t{2} * list.length + 1);
     for (const std::uint32_t first : {0u, list.length}) {
         const std::uint32_t end = first + list.length;
         std::vector<bool> isSeen(scene.triangles.size(), false);
