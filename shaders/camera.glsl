@@ -55,8 +55,9 @@ PrimaryRay allAround(uvec2 pixel, vec2 offset) {
     return PrimaryRay(frame.eye, unitVector(direction));
 }
 
-// Where in a pixel the part `u` of its filter lies to the left or above. Ernst, Stamminger and Greiner, "Filter Importance
-// Sampling", 2006: samples that are as dense as the filter is high weigh alike, and each serves one pixel only.
+// Where in a pixel the part `u` of its filter lies to the left or above. Ernst, Stamminger and Greiner, "Filter
+// Importance Sampling", 2006: samples that are as dense as the filter is high weigh alike, and each serves one pixel
+// only.
 float filterQuantile(float u) {
     precise float x = u * float(filterCellCount);
     uint cell = uint(x);

@@ -35,8 +35,8 @@ struct Interface {
     float reflectance; // in [0, 1]; 1: total
 };
 
-// What a smooth interface does with unpolarised light: Fresnel's equations. `direction` meets it from the side of its unit
-// normal `facing`; `eta` is the refractive index on that side divided by the one beyond.
+// What a smooth interface does with unpolarised light: Fresnel's equations. `direction` meets it from the side of its
+// unit normal `facing`; `eta` is the refractive index on that side divided by the one beyond.
 Interface meetInterface(vec3 direction, vec3 facing, float eta) {
     precise float cosIncident = -dotProduct(direction, facing);
     precise float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);

@@ -1,9 +1,9 @@
 // How much light microfacets reflect at once, and what becomes of the rest. Twin: host/reference/energy.h.
 //
-// Light that one facet sends to another is lost to the model of single reflections; at roughness 1 that is up to half of it.
-// Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, give it back as a second,
-// diffuse lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)), which is reciprocal and keeps energy exactly as long as E is
-// that of the table: it is linear in between, and so are the averages of it.
+// Light that one facet sends to another is lost to the model of single reflections; at roughness 1 that is up to half
+// of it. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, give it back as a
+// second, diffuse lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)), which is reciprocal and keeps energy exactly as
+// long as E is that of the table: it is linear in between, and so are the averages of it.
 
 struct Energy {
     float white;  // reflected at once by facets that reflect everything
@@ -53,8 +53,8 @@ Energy averageEnergy(float roughness) {
 // Of facets that reflect `normal` head on.
 float energyAt(Energy energy, float normal) { return mixture(energy.grazing, energy.white, normal); }
 
-// What is reflected twice and more often by facets whose reflectance is `average`, of what is not reflected at once; `white`
-// is the average energy. Hill, "A Multi-Faceted Exploration", 2018, part 3.
+// What is reflected twice and more often by facets whose reflectance is `average`, of what is not reflected at once;
+// `white` is the average energy. Hill, "A Multi-Faceted Exploration", 2018, part 3.
 vec3 lateReflectance(vec3 average, float white) {
     precise vec3 above = average * average * white;
     precise vec3 below = 1.0 - average * (1.0 - white);

@@ -2,7 +2,8 @@
 //
 // The image is a map of directions by longitude and latitude: its middle is -z, its top row is around +y. Between the
 // middles of its pixels radiance is interpolated. A pixel is chosen by integers, the row first; the weights are what
-// the interpolated image sends through the pixel's area (host/bvh/environment.cpp), so that nothing that shines is left out.
+// the interpolated image sends through the pixel's area (host/bvh/environment.cpp), so that nothing that shines is left
+// out.
 
 const float piSquaredTwice = 19.739208802178716;
 

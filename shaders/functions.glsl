@@ -1,4 +1,5 @@
-// Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere. Twin: host/reference/functions.h.
+// Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere. Twin:
+// host/reference/functions.h.
 
 struct SineCosine {
     float sine;

@@ -113,17 +113,17 @@ struct MaterialRecord {
     vec3 segmentTint; // Whitted: factor on all that a segment inside this dielectric returns
     float refractiveIndex;
     vec3 emission; // radiance on the side of the normal, on both where isTwoSided
-    float
-        emitterDensity; // path: with which density, per unit of area, a light sample lies at a point that emits
-    vec3 absorption;    // path: of this dielectric, per unit of length
+    // path: with which density, per unit of area, a light sample lies at a point that emits
+    float emitterDensity;
+    vec3 absorption; // path: of this dielectric, per unit of length
     uint isTwoSided;
     // What follows is read where constantScattering asks for it.
     vec3 conductorIndex;      // real part of the refractive index
     float alpha;              // of microfacets: roughness squared; 0: smooth
     vec3 conductorExtinction; // imaginary part of the refractive index
     float metallic;
-    vec3
-        averageReflectance; // of a conductor's Fresnel reflectance, over cos^2: what light loses that is reflected twice
+    // of a conductor's Fresnel reflectance, over cos^2: what light loses that is reflected twice
+    vec3 averageReflectance;
     float transmission;
     float normalReflectance; // of a principled material that is no metal, seen head on
     float clearcoat;
@@ -146,9 +146,9 @@ struct TexelRecord {
 };
 
 // Textures, in rows of four words. First two tables of what the levels 0 to 255 of 8-bit images stand for, four floats a
-// row. From firstCoordinateRow on the coordinates of each triangle record: u and v of v0 and v1, then of v2. Then for each
-// material with textures one TextureRecord a slot, and then the images' texels: four a row, 8 bits each for red, green,
-// blue and alpha from the lowest bits up, or one a row, as floats; rows of the image from the top.
+// row. From firstCoordinateRow on the coordinates of each triangle record: u and v of v0 and v1, then of v2. Then for
+// each material with textures one TextureRecord a slot, and then the images' texels: four a row, 8 bits each for red,
+// green, blue and alpha from the lowest bits up, or one a row, as floats; rows of the image from the top.
 struct TextureRow {
     uint x;
     uint y;
@@ -209,8 +209,8 @@ const uint lightDirectional = 2u;
 struct LightRecord {
     vec3 position;
     uint kind;
-    vec3
-        intensity; // radiant intensity, power / (4 pi), of a spot on its axis; irradiance of a directional light
+    // radiant intensity, power / (4 pi), of a spot on its axis; irradiance of a directional light
+    vec3 intensity;
     float cosineOuter;  // of a spot: beyond this angle to its axis it is dark
     vec3 axis;          // unit direction in which light leaves
     float falloffScale; // of a spot: 1 / (cosine where it begins to fade - cosineOuter)
@@ -293,8 +293,9 @@ struct FrameRecord {
     uint skipListLength; // nodes of one list
     vec3 gridScale;
     float occlusionDistance; // what is further away hides no sky
-    // The environment: rows of texels from the top, the number of 2^32 that choose a texel of the row or one left of it in
-    // `word`; then for each row, in `word`, how many choose it or one above it, and in value.x with which probability.
+    // The environment: rows of texels from the top, the number of 2^32 that choose a texel of the row or one left of it
+    // in `word`; then for each row, in `word`, how many choose it or one above it, and in value.x with which
+    // probability.
     uint environmentTexels; // the first one
     uint environmentWidth;
     uint environmentHeight;
@@ -355,8 +356,8 @@ struct DispatchProgress {
     uint reflectionRays;
     uint refractionRays;
     uint bounceRays; // scattered by diffuse surfaces
-    uint
-        workDone; // in steps of a traversal, roughly: of each subgroup that of the busiest lane, or of each lane
+    // in steps of a traversal, roughly: of each subgroup that of the busiest lane, or of each lane
+    uint workDone;
     // The rest only where constantIsCounting is set.
     uint traversalPasses; // of subgroups through the loops of the traversal
     uint busySlots;       // that had a node or a triangle to look at, in all passes
@@ -517,7 +518,8 @@ static_assert(sizeof(MaterialRecord) == 128 && offsetof(MaterialRecord, normalRe
 static_assert(sizeof(TexelRecord) == 16);
 static_assert(sizeof(TextureRow) == 16);
 static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));
-static_assert(firstCoordinateRow == linearTableRow + rowsPerTable && linearTableRow == srgbTableRow + rowsPerTable);
+static_assert(firstCoordinateRow == linearTableRow + rowsPerTable &&
+              linearTableRow == srgbTableRow + rowsPerTable);
 static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, isTwoSided) == 44);
 static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
 static_assert(sizeof(FrameRecord) == 192 && offsetof(FrameRecord, boundsUpper) == 96);

@@ -1,5 +1,5 @@
-// What all traversals share: where a ray stands in the tree, and what it does when it meets a triangle. Where a texture of
-// opacity has cut out the triangle there is nothing to meet.
+// What all traversals share: where a ray stands in the tree, and what it does when it meets a triangle. Where a texture
+// of opacity has cut out the triangle there is nothing to meet.
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 

@@ -35,7 +35,8 @@ vec3 sampleVisibleFacet(vec3 view, float alpha, vec2 u) {
     return unitVector(vec3(cap.xy * alpha, cap.z));
 }
 
-// The density, per solid angle, of the direction that a visible facet reflects `view` to; `density` is that of the facets.
+// The density, per solid angle, of the direction that a visible facet reflects `view` to; `density` is that of the
+// facets.
 float reflectionDensity(float density, vec3 view, float stretchView) {
     precise float below = 2.0 * (view.z + stretchView);
     return divide(density, below);
@@ -52,8 +53,8 @@ float litShare(float viewHeight, float stretchView, float lightHeight, float str
 // The facet that reflects `view` to `light`.
 vec3 facetBetween(vec3 view, vec3 light) { return unitVector(add(view, light)); }
 
-// The facet that refracts `view` to `light`, on the other side, with z > 0 where there is one; `eta` is the refractive index
-// on the side of `view` divided by the other.
+// The facet that refracts `view` to `light`, on the other side, with z > 0 where there is one; `eta` is the refractive
+// index on the side of `view` divided by the other.
 vec3 facetAcross(vec3 view, vec3 light, float eta) {
     precise vec3 across = view * eta + light;
     vec3 m = unitVector(across);

@@ -39,7 +39,8 @@ Tangent sphereTangent(vec3 outward) {
     return Tangent(alongU, crossProduct(outward, alongU));
 }
 
-// The unit normal that the normal map in a TextureRecord's row makes of `normal`, which it stays where no tangent is known.
+// The unit normal that the normal map in a TextureRecord's row makes of `normal`, which it stays where no tangent is
+// known.
 vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     precise vec3 flatU = tangent.alongU - normal * dotProduct(normal, tangent.alongU);
     if (!(dotProduct(flatU, flatU) > leastSpan))

@@ -1,7 +1,7 @@
-// The path integrator: one path a sample, with next-event estimation at diffuse and rough surfaces, combined with what scattered rays
-// find by multiple importance sampling, and Russian roulette. Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach,
-// "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 9 and 10.
-// Twin: host/reference/path.h, where the same happens vertex by vertex.
+// The path integrator: one path a sample, with next-event estimation at diffuse and rough surfaces, combined with what
+// scattered rays find by multiple importance sampling, and Russian roulette. Kajiya, "The Rendering Equation", SIGGRAPH
+// 1986; Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 9 and 10. Twin:
+// host/reference/path.h, where the same happens vertex by vertex.
 //
 // `maxDepth` bounds the segments of a path from the eye to the light, so that neither technique finds longer paths than
 // the other. Each vertex has three pairs of random numbers.
@@ -125,8 +125,8 @@ Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {
     return Crossing(before, beyond, divide(mediumIndex(medium), mediumIndex(mediumBeyond)), medium == mediumBeyond);
 }
 
-// At smooth glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction, chosen
-// with the probability of its share.
+// At smooth glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction,
+// chosen with the probability of its share.
 void meetGlass(uint slot, Surface surface, uint materialIndex) {
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.geometricNormal) < 0.0;

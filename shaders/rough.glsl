@@ -1,11 +1,10 @@
 // What surfaces with microfacets do with light, and diffuse ones beside them. Twin: host/reference/rough.h.
 //
-// A principled material is a mixture, after Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 courses: a clear coat
-// over a metal, a plastic and a glass. At each hit one of coat, glass, and metal with plastic is chosen with a
-// probability that follows its share; emitters and scattered rays then meet that one alone, which is unbiased and never
-// mixes densities of what was not chosen.
-// The coat leaves to what is below 1 - clearcoat max(E(o), E(i)), which is reciprocal and keeps energy (as sheen in
-// glTF's KHR_materials_sheen).
+// A principled material is a mixture, after Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 courses: a
+// clear coat over a metal, a plastic and a glass. At each hit one of coat, glass, and metal with plastic is chosen with
+// a probability that follows its share; emitters and scattered rays then meet that one alone, which is unbiased and
+// never mixes densities of what was not chosen. The coat leaves to what is below 1 - clearcoat max(E(o), E(i)), which
+// is reciprocal and keeps energy (as sheen in glTF's KHR_materials_sheen).
 
 const uint roughDiffuse = 0u;
 const uint roughOpaque = 1u;
@@ -156,7 +155,8 @@ Rough roughOf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     return rough;
 }
 
-// A direction in the frame, or 0 where a facet sends light to the wrong side; `choice`, in [0, 1), is another random number.
+// A direction in the frame, or 0 where a facet sends light to the wrong side; `choice`, in [0, 1), is another random
+// number.
 vec3 drawRough(Rough rough, vec2 u, float choice) {
     if (rough.kind == roughDiffuse || rough.kind == roughOpaque && choice >= rough.facetChance) {
         float radius = squareRoot(u.x);

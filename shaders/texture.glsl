@@ -31,8 +31,8 @@ vec2 sphereUv(vec3 outward) {
     return vec2(longitude, latitude);
 }
 
-// How far a number lies above the whole one below it, in [0, 1); 0 for what is no finite number, and for what is so little
-// below a whole one that it would be 1.
+// How far a number lies above the whole one below it, in [0, 1); 0 for what is no finite number, and for what is so
+// little below a whole one that it would be 1.
 float fractionOf(float x) {
     precise float fraction = x - floor(x);
     return fraction >= 0.0 && fraction < 1.0 ? fraction : 0.0;

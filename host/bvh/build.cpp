@@ -86,8 +86,8 @@ class Builder {
     /// Finds the task's box and reorders its triangles; returns where the right child's begin, or the task's begin for a
     /// leaf.
     ///
-    /// What is identical has one centroid, and goes the same way until a range cannot be cut by centroids. Only there it is
-    /// looked for, and what is dropped leaves the task at its end.
+    /// What is identical has one centroid, and goes the same way until a range cannot be cut by centroids. Only there
+    /// it is looked for, and what is dropped leaves the task at its end.
     std::uint32_t divide(Box &box, Task &task) const {
         const Bounds bounds(trianglesOf(task));
         box = bounds.triangles.box();

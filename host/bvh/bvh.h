@@ -65,4 +65,8 @@ struct Bvh {
 /// A leaf of the others holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize);
 
+/// The same over a scene's triangles without duplicates (duplicates.h), which the tree's order leaves out. Which they are
+/// does not depend on the tree. Throws Error{LimitExceeded} as buildTriangles does.
+[[nodiscard]] Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize);
+
 } // namespace hyalite

@@ -15,8 +15,9 @@ namespace hyalite {
 ///
 /// Identical are triangles of one material whose corners are the same in every bit, and in the same order; and, where the
 /// material is cut out, their texture coordinates. A ray that meets
-/// one of them meets all, at one distance, and the nearest hit is that of the smallest index: the others are never seen, and
-/// without them no hit changes. (As emitters they would be chosen for shadow rays, and give their light again and again.)
+/// one of them meets all, at one distance, and the nearest hit is that of the smallest index: the others are never
+/// seen, and without them no hit changes. (As emitters they would be chosen for shadow rays, and give their light again
+/// and again.)
 class Duplicates {
   public:
     /// The input index that setAside gives to what is dropped.
@@ -24,8 +25,8 @@ class Duplicates {
 
     explicit Duplicates(const Scene &scene);
 
-    /// Leaves one of each set of identical triangles, that of the smallest index, in front of the range and in the order in
-    /// which they were; the rest of it is dropped. Returns how many there are in front.
+    /// Leaves one of each set of identical triangles, that of the smallest index, in front of the range and in the
+    /// order in which they were; the rest of it is dropped. Returns how many there are in front.
     [[nodiscard]] std::size_t setAside(std::span<BuildTriangle> range) const;
 
   private:
@@ -39,9 +40,5 @@ class Duplicates {
     const Scene &scene_;
     std::vector<std::uint32_t> firstIndices_; ///< of each mesh
 };
-
-/// The tree over a scene's triangles without duplicates: its order leaves out their indices. Which they are does not depend
-/// on the tree. Otherwise as the other buildBvh; throws Error{LimitExceeded} as buildTriangles does.
-[[nodiscard]] Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize);
 
 } // namespace hyalite

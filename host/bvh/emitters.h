@@ -5,10 +5,10 @@
 
 namespace hyalite {
 
-/// Lists the emitters of `scene` in the packed one, in the order of the input, the environment last where `isLitAround`, each
-/// with a probability that goes with its power, and tells the materials the densities that follow from it. The
-/// environment and directional lights, which have no power, count as much as all others together, each. The triangles are
-/// packed.
+/// Lists the emitters of `scene` in the packed one, in the order of the input, the environment last where
+/// `isLitAround`, each with a probability that goes with its power, and tells the materials the densities that follow
+/// from it. The environment and directional lights, which have no power, count as much as all others together, each.
+/// The triangles are packed.
 void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed);
 
 } // namespace hyalite

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double all = 4294967296.0; // numbers of 32 bits
 
-/// What the interpolated image sends through each pixel's area of the sphere, up to a factor. Between the middles of pixels
-/// it is linear both ways, so that the mean over a pixel's area has 3/4 of itself and 1/8 of its neighbours in each.
+/// What the interpolated image sends through each pixel's area of the sphere, up to a factor. Between the middles of
+/// pixels it is linear both ways, so that the mean over a pixel's area has 3/4 of itself and 1/8 of its neighbours in
+/// each.
 std::vector<double> pixelWeights(const Image &image) {
     const int width = image.width();
     const int height = image.height();

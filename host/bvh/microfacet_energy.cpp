@@ -46,8 +46,8 @@ struct Azimuths {
 
 double fifthPower(double x) { return x * x * (x * x) * x; }
 
-/// An average over the facets that are seen from a direction, of how many of them are lit by what they reflect. The cap of
-/// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, is cut into equal parts.
+/// An average over the facets that are seen from a direction, of how many of them are lit by what they reflect. The cap
+/// of Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, is cut into equal parts.
 Energy energyOf(double cosine, double alpha, const Azimuths &azimuths) {
     const double sine = std::sqrt(1.0 - cosine * cosine);
     const double stretch = std::sqrt(alpha * alpha * sine * sine + cosine * cosine);
@@ -98,7 +98,8 @@ EnergyRow energiesOf(double alpha) {
     return row;
 }
 
-/// 2 times the integral of E cos over cos, where E is linear in x = sqrt(cos) between nodes: 4 times that of E x^3 over x.
+/// 2 times the integral of E cos over cos, where E is linear in x = sqrt(cos) between nodes: 4 times that of E x^3 over
+/// x.
 Energy averageOf(const EnergyRow &row) {
     Energy average;
     for (std::size_t i = 0; i + 1 < cosineCount; ++i) {

@@ -7,8 +7,8 @@
 
 namespace hyalite {
 
-/// The first layout::energyTexelCount texels of a scene with rough surfaces; shaders/energy.glsl reads them. Computed from
-/// + - * / and square roots alone, so that it is the same on every machine. Takes some hundredths of a second.
+/// The first layout::energyTexelCount texels of a scene with rough surfaces; shaders/energy.glsl reads them. Computed
+/// from + - * / and square roots alone, so that it is the same on every machine. Takes some hundredths of a second.
 [[nodiscard]] std::vector<layout::TexelRecord> makeEnergyTexels();
 
 /// The average over the hemisphere, weighted by the cosine, of what a metal of the complex refractive index

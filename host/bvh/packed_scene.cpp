@@ -27,8 +27,8 @@ layout::FrameRecord packFrame(const Scene &scene) {
     const glm::dvec3 forward = glm::normalize(camera.direction);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const glm::dvec3 up = glm::cross(right, forward);
-    // Pixels in what pixelRight and pixelUp are measured in. In units of the focal length directions stay near unit length
-    // at every resolution.
+    // Pixels in what pixelRight and pixelUp are measured in. In units of the focal length directions stay near unit
+    // length at every resolution.
     double scale = camera.width / (2.0 * std::tan(glm::radians(camera.horizontalFovDegrees) / 2.0));
     if (camera.kind == CameraKind::Orthographic)
         scale = camera.width / camera.viewWidth;

@@ -16,7 +16,8 @@ constexpr std::size_t binCountMax = 16;
 /// Few triangles are told apart by few bins: trees are no worse, and built in four fifths of the time.
 std::size_t binCountFor(std::size_t triangleCount) { return std::min(binCountMax, 4 + triangleCount / 4); }
 
-/// Maps centroids to bins, on all axes at once. Extents that overflow or vanish map everything to bin 0, which never splits.
+/// Maps centroids to bins, on all axes at once. Extents that overflow or vanish map everything to bin 0, which never
+/// splits.
 struct Binning {
     /// The fourth lane of a centroid is an index, which as a float is a denormal, and slow: less 1 it is not.
     Lanes lower{0.0f, 0.0f, 0.0f, 1.0f};

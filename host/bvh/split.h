@@ -5,8 +5,8 @@
 
 namespace hyalite {
 
-// Each reorders `range` (at least two triangles) and returns how many go to the left child: in [1, size - 1], or 0 to leave
-// the range whole: as a leaf, or, of more than `leafSize`, as one that centroids do not separate.
+// Each reorders `range` (at least two triangles) and returns how many go to the left child: in [1, size - 1], or 0 to
+// leave the range whole: as a leaf, or, of more than `leafSize`, as one that centroids do not separate.
 
 /// The longest axis of `box`, which encloses the range, is cut at its midpoint and triangles go by their centroids, until
 /// `leafSize` or fewer remain.

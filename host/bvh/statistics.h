@@ -24,8 +24,8 @@ struct BvhStatistics {
 
 [[nodiscard]] BvhStatistics measureBvh(const Bvh &bvh);
 
-/// Checks that every triangle, but for `droppedCount` of them, is in exactly one leaf, every box encloses what is below it,
-/// and the depth is right. Returns the first violation in words, or an empty string.
+/// Checks that every triangle, but for `droppedCount` of them, is in exactly one leaf, every box encloses what is below
+/// it, and the depth is right. Returns the first violation in words, or an empty string.
 [[nodiscard]] std::string findBvhFault(const Bvh &bvh, const std::vector<BuildTriangle> &triangles,
                                        std::size_t droppedCount = 0);
 

@@ -54,16 +54,20 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// The share of a render's samples that is finished, in percent. Rounded down: what is not complete is never 100 %.
+double percentOf(std::uint64_t sampleCount, std::uint64_t pixelCount, const RenderSettings &settings) {
+    const double share =
+        static_cast<double>(sampleCount) / static_cast<double>(pixelCount) / settings.samplesPerPixel;
+    return std::floor(share * 1000.0) / 10.0;
+}
+
 /// What there is of an image that is not complete, and where it is.
 void tellWhatIsFinished(const RenderReport &report) {
     const std::uint64_t pixelCount =
         static_cast<std::uint64_t>(report.origin.width) * static_cast<std::uint64_t>(report.origin.height);
-    const double sampleShare = static_cast<double>(report.finished.sampleCount) /
-                               static_cast<double>(pixelCount) / report.origin.settings.samplesPerPixel;
-    // Rounded down: what is not complete is never 100 %.
     printMessage("stopped by {}: {} of {} pixels are finished, {:.1f} % of the samples; {} has them\n",
                  report.stoppedBy, report.finished.pixelCount, pixelCount,
-                 std::floor(sampleShare * 1000.0) / 10.0, report.output);
+                 percentOf(report.finished.sampleCount, pixelCount, report.origin.settings), report.output);
 }
 
 /// The closing line: of what this run has done.
@@ -78,11 +82,6 @@ void tellSpeed(const RenderReport &report) {
                megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
 }
 
-double shareOfSamples(const Film &film, std::uint64_t sampleCount, const RenderSettings &settings) {
-    return static_cast<double>(sampleCount) / static_cast<double>(film.pixels.size()) /
-           settings.samplesPerPixel;
-}
-
 /// Reads the checkpoint that is to be resumed, if there is one, and says so.
 std::optional<ResumedCheckpoint> resume(const RenderOptions &options, const PreparedScene &scene,
                                         const RenderIdentity &identity) {
@@ -95,11 +94,9 @@ std::optional<ResumedCheckpoint> resume(const RenderOptions &options, const Prep
         printMessage("there is no checkpoint {} yet: beginning anew\n", options.checkpoint);
     if (resumed && !options.isQuiet) {
         const Film &film = resumed->checkpoint.film;
+        const std::uint64_t sampleCount = finishedWork(film, settings.samplesPerPixel).sampleCount;
         printMessage("resuming from {}: {:.1f} % of the samples are finished\n", resumed->path.string(),
-                     std::floor(shareOfSamples(film, finishedWork(film, settings.samplesPerPixel).sampleCount,
-                                               settings) *
-                                1000.0) /
-                         10.0);
+                     percentOf(sampleCount, film.pixels.size(), settings));
     }
     return resumed;
 }

@@ -1,6 +1,6 @@
 #include "host/cli/scene_options.h"
 
-#include "host/bvh/duplicates.h"
+#include "host/bvh/bvh.h"
 #include "host/bvh/statistics.h"
 #include "host/cli/options.h"
 #include "host/error.h"

@@ -60,8 +60,8 @@ struct PreparedScene {
 };
 
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for options that do not go
-/// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet. `onOutline` is
-/// told whether there are meshes before they are read.
+/// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet. `onOutline`
+/// is told whether there are meshes before they are read.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
                                          std::function<void(bool hasMeshes)> onOutline = {});
 

@@ -16,7 +16,8 @@ CLI::Option *addSignificanceOption(CLI::App &command, ZTestOptions &options);
 /// Reads colours, "variance" and, where it is there, "samples" of an EXR file. Throws Error{BadInput} for other files.
 [[nodiscard]] Estimate readEstimate(const std::string &path);
 
-/// Tests, prints the result, and returns it. Throws Error{BadInput} where no pixel can be tested; `names` is for the message.
+/// Tests, prints the result, and returns it. Throws Error{BadInput} where no pixel can be tested; `names` is for the
+/// message.
 [[nodiscard]] ZTestResult testAndPrint(const Estimate &a, const Estimate &b, const ZTestOptions &options,
                                        const std::string &names);
 

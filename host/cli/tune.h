@@ -17,9 +17,9 @@ struct KernelRates {
     std::size_t best = 0;                  ///< among them; the usual one, unless another is always 5 % faster
 };
 
-/// Renders small images of shipped scenes with all kernels, some times in turns, and verifies that all are equal. It takes
-/// half a minute. The program must not have opened a device before: this works in a process of its own for each kind
-/// of scene, as the width of lavapipe's vectors can be chosen once. Throws what opening and rendering throw, and
+/// Renders small images of shipped scenes with all kernels, some times in turns, and verifies that all are equal. It
+/// takes half a minute. The program must not have opened a device before: this works in a process of its own for each
+/// kind of scene, as the width of lavapipe's vectors can be chosen once. Throws what opening and rendering throw, and
 /// Error{DeviceLost} where kernels do not agree.
 [[nodiscard]] std::vector<KernelRates> measureKernels(const std::string &deviceName);
 

@@ -43,8 +43,9 @@ Batching completed(Batching batching, const DeviceInfo &device, Workload workloa
         batching.tileWidth = side;
     if (batching.tileHeight == 0)
         batching.tileHeight = side;
-    // Two independent rays at once hide on a CPU how long it waits for nodes of the tree; where there is none, they are only
-    // more code, and where there is much code, no registers are left: 3 times slower. On a GPU other subgroups hide it.
+    // Two independent rays at once hide on a CPU how long it waits for nodes of the tree; where there is none, they are
+    // only more code, and where there is much code, no registers are left: 3 times slower. On a GPU other subgroups
+    // hide it.
     const bool isWaiting = workload == Workload::Triangles && device.isSoftware();
     if (batching.slotsPerInvocation == 0)
         batching.slotsPerInvocation = isWaiting && batching.kernel.empty() ? 2 : 1;

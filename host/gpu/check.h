@@ -20,7 +20,8 @@ class DeviceFault : public Error {
 };
 
 /// Throws unless `result` is VK_SUCCESS: DeviceFault{DeviceLost} for a lost device and for time-outs,
-/// DeviceFault{LimitExceeded} where memory or address space ran out, DeviceFault{NoDevice} otherwise. `action` says what was tried: "vkAllocateMemory for nodes, 64 MiB".
+/// DeviceFault{LimitExceeded} where memory or address space ran out, DeviceFault{NoDevice} otherwise. `action` says
+/// what was tried: "vkAllocateMemory for nodes, 64 MiB".
 void check(VkResult result, const std::string &action);
 
 } // namespace hyalite::gpu

@@ -63,9 +63,9 @@ struct MemoryPlan {
     std::uint64_t hostBytes = 0;   ///< of the host beside that, without scene and film
 };
 
-/// `isStaged`: transfers go through buffers of the host. Throws Error{LimitExceeded}, with the largest buffers and what to
-/// do, where a buffer is larger than the device allows, or the device has less memory, or the host less to spare. Drivers
-/// would say so in the middle of a render, or take it from what keeps the system alive.
+/// `isStaged`: transfers go through buffers of the host. Throws Error{LimitExceeded}, with the largest buffers and what
+/// to do, where a buffer is larger than the device allows, or the device has less memory, or the host less to spare.
+/// Drivers would say so in the middle of a render, or take it from what keeps the system alive.
 MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged, const DeviceInfo &device);
 
 } // namespace hyalite::gpu

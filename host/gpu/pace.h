@@ -73,8 +73,8 @@ class Pace {
     static constexpr std::uint32_t mostRounds = 1u << 13;
     static constexpr double mostTimes = 1.25; ///< as long as is wanted
 
-    /// Dearer at once, as the next dispatch must not be long; cheaper bit by bit, faster with more `weight`. No single one
-    /// counts for more than four times what is known: the machine may have been busy with something else.
+    /// Dearer at once, as the next dispatch must not be long; cheaper bit by bit, faster with more `weight`. No single
+    /// one counts for more than four times what is known: the machine may have been busy with something else.
     static void learn(double &known, double found, double weight) {
         if (found <= 0.0)
             return;

@@ -18,7 +18,8 @@ namespace hyalite::gpu {
 
 namespace {
 
-/// Bands of whole rows whose films fit into a storage buffer of the device and a quarter of its memory, from top to bottom.
+/// Bands of whole rows whose films fit into a storage buffer of the device and a quarter of its memory, from top to
+/// bottom.
 std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
     const std::uint64_t rowBytes = static_cast<std::uint64_t>(crop.width()) * sizeof(layout::FilmPixel);
     const std::uint64_t mostBytes = std::min(device.maxStorageBufferBytes, device.deviceMemoryBytes / 4);

@@ -73,7 +73,8 @@ class Renderer {
   private:
     struct State;
 
-    /// One try: adds to the result what is missing, and keeps film and rays in step. `isBegun`: the film may have samples.
+    /// One try: adds to the result what is missing, and keeps film and rays in step. `isBegun`: the film may have
+    /// samples.
     void renderOnce(const PackedScene &scene, const RenderSettings &settings, bool isBegun,
                     const std::function<void(double)> &onProgress, Timeline *timeline,
                     const std::function<bool()> &shouldStop, SnapshotTaker *snapshots, Result &result);

@@ -8,8 +8,8 @@
 namespace hyalite::gpu {
 
 struct SceneBuffers {
-    /// Uploads everything, with the tree as node pairs in storage buffers, or as skip lists in texel buffers, as was planned
-    /// for that. Throws as Buffer does.
+    /// Uploads everything, with the tree as node pairs in storage buffers, or as skip lists in texel buffers, as was
+    /// planned for that. Throws as Buffer does.
     SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList);
 
     Buffer frame;

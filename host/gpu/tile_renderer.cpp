@@ -275,7 +275,8 @@ TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     progress_.upload(std::as_bytes(std::span(&counters, 1)));
     const std::clock_t begin = std::clock();
     const RunTimes times = kernel.run(dispatch_, groupCount_);
-    // A software device shares its processors with other programs. Smaller dispatches would only wait for them more often.
+    // A software device shares its processors with other programs. Smaller dispatches would only wait for them more
+    // often.
     const double processorSeconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     const double workSeconds = device_.info().isSoftware()
                                    ? std::min(times.best().seconds(), processorSeconds)

@@ -8,7 +8,8 @@
 
 namespace hyalite {
 
-/// The end of a scale from 0 on which almost all values lie: a round number, and not less than 99 of 100 values, so that a few pixels do not darken all others. Values are finite and not negative.
+/// The end of a scale from 0 on which almost all values lie: a round number, and not less than 99 of 100 values, so
+/// that a few pixels do not darken all others. Values are finite and not negative.
 [[nodiscard]] double scaleEndFor(std::span<const float> values);
 
 /// The values, row by row from the top left, in the colours of magma(): brighter is more, and whatever lies beyond the

@@ -33,9 +33,9 @@ struct LoadedImage {
 [[nodiscard]] ImageFormat imageFormatOf(const std::filesystem::path &path);
 
 /// Writes the picture, which is not empty; the caller commits the file. A PNG is brightened by 2^exposureStops and goes
-/// through the curve; the other formats hold the linear values and ignore both. Attributes go into a PNG or an EXR, layers
-/// into an EXR alone. Throws Error{OutputNotWritten}, or Error{LimitExceeded} where a PNG has more than imagePixelCountMax
-/// pixels.
+/// through the curve; the other formats hold the linear values and ignore both. Attributes go into a PNG or an EXR,
+/// layers into an EXR alone. Throws Error{OutputNotWritten}, or Error{LimitExceeded} where a PNG has more than
+/// imagePixelCountMax pixels.
 void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops,
                 ToneCurve curve = ToneCurve::Gamma);
 

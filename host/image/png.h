@@ -18,7 +18,8 @@ namespace hyalite {
 /// Whether the first bytes of a file are those of a PNG.
 [[nodiscard]] bool isPng(std::span<const std::byte> head);
 
-/// Throws Error{LimitExceeded} where a PNG of that size has more than imagePixelCountMax pixels. `name` is for the message.
+/// Throws Error{LimitExceeded} where a PNG of that size has more than imagePixelCountMax pixels. `name` is for the
+/// message.
 void requirePngSize(const std::filesystem::path &name, int width, int height);
 
 /// Writes 8-bit RGB: three bytes a pixel, row by row from the top left; and `attributes` as text. Throws

@@ -1,5 +1,5 @@
-// Tone curves in double precision, from + - * / alone: a C library's pow() and log() may differ in the last bit from one to
-// the next.
+// Tone curves in double precision, from + - * / alone: a C library's pow() and log() may differ in the last bit from
+// one to the next.
 #pragma once
 
 #include "host/image/tone_map.h"
@@ -16,7 +16,8 @@ namespace hyalite {
 /// The transfer function of IEC 61966-2-1 from linear light in [0, 1] to what a screen takes.
 [[nodiscard]] double srgbEncoded(double linear);
 
-/// What a screen takes, in [0, 1], for exposed radiance. Negative values and NaN count as 0, and what exceeds 2^60 as that.
+/// What a screen takes, in [0, 1], for exposed radiance. Negative values and NaN count as 0, and what exceeds 2^60 as
+/// that.
 ///
 /// Gamma and Srgb take each channel by itself. The other two mix channels, so that bright colours lose saturation as film
 /// does, rather than clip to primaries:

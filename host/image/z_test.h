@@ -1,7 +1,7 @@
 // Whether two renders can be estimates of one picture: a test for each pixel and channel, corrected for their number.
 //
-// As K. Subr and J. Arvo did ("Statistical Hypothesis Testing for Assessing Monte Carlo Estimators", Pacific Graphics 2007),
-// and the render tests of Mitsuba do (W. Jakob and others).
+// As K. Subr and J. Arvo did ("Statistical Hypothesis Testing for Assessing Monte Carlo Estimators", Pacific Graphics
+// 2007), and the render tests of Mitsuba do (W. Jakob and others).
 #pragma once
 
 #include "host/image/film.h"
@@ -41,10 +41,11 @@ struct ZTestResult {
     [[nodiscard]] bool isPassed() const { return failureCount == 0; }
 };
 
-/// Welch's t of each channel of each pixel, with the degrees of freedom by Satterthwaite, as the normal deviate that is as
-/// unlikely. A deterministic pixel has a variance of 0: to each variance 2^-24 of the square of the mean is added, which is
-/// what a film of float32 cannot resolve. Samples within a pixel may be better spread than independent ones: then fewer
-/// tests fail than may. Where the mean is finite on one side alone, the test fails. Both estimates are of one size.
+/// Welch's t of each channel of each pixel, with the degrees of freedom by Satterthwaite, as the normal deviate that is
+/// as unlikely. A deterministic pixel has a variance of 0: to each variance 2^-24 of the square of the mean is added,
+/// which is what a film of float32 cannot resolve. Samples within a pixel may be better spread than independent ones:
+/// then fewer tests fail than may. Where the mean is finite on one side alone, the test fails. Both estimates are of
+/// one size.
 [[nodiscard]] ZTestResult zTest(const Estimate &a, const Estimate &b, const ZTestOptions &options = {});
 
 /// The normal deviate that is exceeded as often as `t` of Student's distribution, to 0.5 % from 15 degrees of freedom on

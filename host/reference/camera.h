@@ -71,8 +71,9 @@ template <class Real>
                        Vec3<Real>(frame.imagePlane) * forward)};
 }
 
-/// Where in a pixel the part `u` of its filter, in [0, 1), lies to the left or above. Ernst, Stamminger and Greiner, "Filter
-/// Importance Sampling", 2006: samples that are as dense as the filter is high weigh alike, and each serves one pixel only.
+/// Where in a pixel the part `u` of its filter, in [0, 1), lies to the left or above. Ernst, Stamminger and Greiner,
+/// "Filter Importance Sampling", 2006: samples that are as dense as the filter is high weigh alike, and each serves one
+/// pixel only.
 template <class Real> [[nodiscard]] Real filterQuantile(const PackedScene &scene, Real u) {
     const Real x = u * static_cast<Real>(layout::filterCellCount);
     const auto cell = static_cast<std::uint32_t>(x);

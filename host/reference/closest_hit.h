@@ -28,8 +28,8 @@ template <class Real> struct Hit {
     Real v = 0;
 };
 
-/// Calls visit(record, hit) for every triangle that the ray meets, but where it is cut out, in a subtree whose box it enters at or before
-/// `reach` (read anew at each node). `visit` returns false to stop. `counter` is told what is done.
+/// Calls visit(record, hit) for every triangle that the ray meets, but where it is cut out, in a subtree whose box it
+/// enters at or before `reach` (read anew at each node). `visit` returns false to stop. `counter` is told what is done.
 template <class Real, class Counter, class Visitor>
 void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
                     Visitor &&visit) {

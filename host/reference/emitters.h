@@ -1,4 +1,5 @@
-// Light that a surface is aimed at: lights without size, spheres and triangles that emit, an image around. Twin: shaders/emitters.glsl.
+// Light that a surface is aimed at: lights without size, spheres and triangles that emit, an image around. Twin:
+// shaders/emitters.glsl.
 #pragma once
 
 #include "host/bvh/packed_scene.h"

@@ -1,4 +1,5 @@
-// Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere. Twin: shaders/functions.glsl.
+// Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere. Twin:
+// shaders/functions.glsl.
 #pragma once
 
 #include "host/reference/vector.h"
@@ -67,7 +68,8 @@ template <class Real> [[nodiscard]] Real turnsOf(Real y, Real x) {
 }
 
 /// e^-x for x >= 0: a power of 2 as an exponent, and the Taylor polynomial around the middle of what remains. Within
-/// 2e-7 (1 + x) of the result, exactly 1 at 0, and 0 from 86 on. In double precision the function of the standard library.
+/// 2e-7 (1 + x) of the result, exactly 1 at 0, and 0 from 86 on. In double precision the function of the standard
+/// library.
 template <class Real> [[nodiscard]] Real decay(Real x) {
     if constexpr (std::is_same_v<Real, double>) {
         return std::exp(-x);

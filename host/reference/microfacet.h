@@ -37,7 +37,8 @@ template <class Real>
     return unitVector(Vec3<Real>(cap.x * alpha, cap.y * alpha, cap.z));
 }
 
-/// The density, per solid angle, of the direction that a visible facet reflects `view` to; `density` is that of the facets.
+/// The density, per solid angle, of the direction that a visible facet reflects `view` to; `density` is that of the
+/// facets.
 template <class Real>
 [[nodiscard]] Real reflectionDensity(Real density, const Vec3<Real> &view, Real stretchView) {
     return density / (Real(2) * (view.z + stretchView));

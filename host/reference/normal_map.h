@@ -71,9 +71,9 @@ template <class Real>
     return unitVector<Real>(x * sideways.x + y * sideways.y + normal * greater(turned.z, leastHeight<Real>));
 }
 
-/// The unit normal nearest to `normal`, nearly, that faces a ray in `direction` and does not mirror it into the surface: a
-/// mapped normal knows nothing of either. Keller et al., "The Iray Light Transport Simulation and Rendering System", 2017,
-/// section A.3.
+/// The unit normal nearest to `normal`, nearly, that faces a ray in `direction` and does not mirror it into the
+/// surface: a mapped normal knows nothing of either. Keller et al., "The Iray Light Transport Simulation and Rendering
+/// System", 2017, section A.3.
 template <class Real>
 [[nodiscard]] Vec3<Real> visibleNormal(const Vec3<Real> &direction, const Vec3<Real> &normal,
                                        const Vec3<Real> &geometricNormal) {

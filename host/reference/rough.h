@@ -133,9 +133,9 @@ template <class Real>
     return withLobes(rough, metal, plastic, colour, average);
 }
 
-/// The surface with the unit normals `normal` and `geometricNormal`, on the side of the viewer, where a ray in `direction`
-/// ends. `eta` is as in Rough; `choice`, in [0, 1), is random. The energy of microfacets is in `texels`, which must
-/// outlive what is returned.
+/// The surface with the unit normals `normal` and `geometricNormal`, on the side of the viewer, where a ray in
+/// `direction` ends. `eta` is as in Rough; `choice`, in [0, 1), is random. The energy of microfacets is in `texels`,
+/// which must outlive what is returned.
 template <class Real>
 [[nodiscard]] Rough<Real> roughOf(const std::vector<layout::TexelRecord> &texels,
                                   const layout::MaterialRecord &material, const Vec3<Real> &direction,
@@ -165,7 +165,8 @@ template <class Real>
     return rough;
 }
 
-/// A direction in the frame, or 0 where a facet sends light to the wrong side; `choice`, in [0, 1), is another random number.
+/// A direction in the frame, or 0 where a facet sends light to the wrong side; `choice`, in [0, 1), is another random
+/// number.
 template <class Real>
 [[nodiscard]] Vec3<Real> drawRough(const Rough<Real> &rough, const Vec2<Real> &u, Real choice) {
     if (rough.kind == RoughKind::Diffuse ||

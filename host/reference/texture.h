@@ -35,8 +35,8 @@ template <class Real> [[nodiscard]] Vec2<Real> triangleUv(const Coordinates<Real
     return at.uv0 * u + at.uv1 * v + at.uv2 * w;
 }
 
-/// Of the point of a sphere that lies `outward`, a vector of any length, from its centre: as the environment's image, seen
-/// from outside. Its middle is at +z.
+/// Of the point of a sphere that lies `outward`, a vector of any length, from its centre: as the environment's image,
+/// seen from outside. Its middle is at +z.
 template <class Real> [[nodiscard]] Vec2<Real> sphereUv(const Vec3<Real> &outward) {
     const Real squared = outward.x * outward.x + outward.z * outward.z;
     const Real longitude = squared > 0 ? turnsOf(-outward.x, -outward.z) : Real(0);

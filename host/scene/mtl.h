@@ -19,8 +19,8 @@ struct MtlTextures {
     std::vector<std::string> &warnings; ///< what was passed over, though the picture would differ
 };
 
-/// Reads what an MTL file says of its materials, by name, in the order of the file; of two with one name the later is left
-/// out. All of them are two-sided.
+/// Reads what an MTL file says of its materials, by name, in the order of the file; of two with one name the later is
+/// left out. All of them are two-sided.
 ///
 ///     Kd, Pr, Pm, Ks, Ns  principled: base colour, roughness and metallic; without Pr the roughness whose highlight is as
 ///                         wide as that of the exponent Ns, and the mean of Ks as `specular`. Diffuse where all but Kd

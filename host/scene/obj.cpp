@@ -62,8 +62,8 @@ class ObjMaterials {
     }
 
     /// A library that is not there is no error: many meshes have lost theirs. What lies outside of the folder is not
-    /// read, as a mesh may come from a stranger; and each is read once, or a small file could ask for a large one again and
-    /// again.
+    /// read, as a mesh may come from a stranger; and each is read once, or a small file could ask for a large one again
+    /// and again.
     void read(std::string_view name) {
         if (!names.emplace(name).second)
             return;

@@ -43,19 +43,19 @@ using OnReading = std::function<void(double share)>;
 
 struct ObjMesh {
     TriangleMesh mesh; ///< in world space; materialIndex is left 0
-    /// What its material libraries say, where they are read; mesh.triangleMaterials are indices from 1 on into these, and 0
-    /// for triangles without a material. Both are empty where no triangle has one.
+    /// What its material libraries say, where they are read; mesh.triangleMaterials are indices from 1 on into these,
+    /// and 0 for triangles without a material. Both are empty where no triangle has one.
     std::vector<Material> materials{};
     MeshReport report;
 };
 
 /// Loads all faces of all groups of an OBJ file as one mesh. Faces may be v, v/vt, v//vn or v/vt/vn, with
 /// negative indices, and polygons of up to 65,536 corners, concave ones too (triangulate.h). Triangles have texture
-/// coordinates where all three corners have some that the file defines. Materials are read (mtl.h), where `textures` takes
-/// their textures, from libraries in the mesh's folder or below. Coordinates are transformed in double and rounded to float once. Normals
-/// are transformed with the mesh and normalised; a mesh turned inside out by a negative scale keeps its outward
-/// winding. Lines may end in LF, CR or CRLF, go on after a backslash, and hold 16 MiB; the file 4 GiB. Memory
-/// stays below 64 MiB + 64 times the file's size.
+/// coordinates where all three corners have some that the file defines. Materials are read (mtl.h), where `textures`
+/// takes their textures, from libraries in the mesh's folder or below. Coordinates are transformed in double and
+/// rounded to float once. Normals are transformed with the mesh and normalised; a mesh turned inside out by a negative
+/// scale keeps its outward winding. Lines may end in LF, CR or CRLF, go on after a backslash, and hold 16 MiB; the file
+/// 4 GiB. Memory stays below 64 MiB + 64 times the file's size.
 ///
 /// Throws Error{BadInput}, with file and line, for what is no regular file or cannot be read, indices out of
 /// range, numbers that are no finite floats, coordinates beyond 1e15 after the transform, and faces with fewer

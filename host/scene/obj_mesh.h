@@ -46,8 +46,8 @@ class ObjMeshBuilder {
     /// vertex or normal.
     void addFace(std::span<const ObjCorner> corners, std::size_t line);
 
-    /// Gives the mesh away; texture coordinates that the file does not have are left out. Throws Error{BadInput} for indices past the end of the file's vertices or normals, and
-    /// when no triangle is left.
+    /// Gives the mesh away; texture coordinates that the file does not have are left out. Throws Error{BadInput} for
+    /// indices past the end of the file's vertices or normals, and when no triangle is left.
     [[nodiscard]] ObjMesh finish();
 
   private:

@@ -7,8 +7,8 @@
 
 namespace hyalite {
 
-/// Reads the statement at `line`, the beginning of a logical line, and gives a v, vn, vt or f to `builder`, which may throw.
-/// Returns where the next line begins.
+/// Reads the statement at `line`, the beginning of a logical line, and gives a v, vn, vt or f to `builder`, which may
+/// throw. Returns where the next line begins.
 ///
 /// Null, with nothing taken or given, wherever anything is out of the ordinary: an indent, a comment, a continued
 /// line, a keyword of more than two letters, a token that is not what it should be, a face of more than 8 corners, a

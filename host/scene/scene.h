@@ -66,8 +66,8 @@ enum class MaterialKind : std::uint32_t {
     Principled = 4
 };
 
-/// How a material wears one of the scene's textures: at (u, v) it shows what the image has at scale * (u, v) + offset, and
-/// repeats. Images begin at the bottom left, v = 0, and end at the top, v = 1.
+/// How a material wears one of the scene's textures: at (u, v) it shows what the image has at scale * (u, v) + offset,
+/// and repeats. Images begin at the bottom left, v = 0, and end at the top, v = 1.
 struct TextureUse {
     std::uint32_t textureIndex = 0;
     glm::vec2 scale{1.0f};
@@ -161,8 +161,8 @@ enum class Integrator {
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 
-/// How samples are weighed in a pixel. Box: all that lie in it, alike. BlackmanHarris: smoothly, out to 1.5 pixels from its
-/// centre, by where they lie.
+/// How samples are weighed in a pixel. Box: all that lie in it, alike. BlackmanHarris: smoothly, out to 1.5 pixels from
+/// its centre, by where they lie.
 enum class FilterKind { Box, BlackmanHarris };
 
 /// What a render does with the scene; the command line may override each of them.

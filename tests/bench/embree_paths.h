@@ -1,5 +1,6 @@
 // A path tracer as a C++ programmer writes it on Embree's calls for one ray, with all threads: next-event estimation and
-// bounces by the cosine of their angle, weighted by the power heuristic, and Russian roulette. It shares no code with ours, but, if told, our samples.
+// bounces by the cosine of their angle, weighted by the power heuristic, and Russian roulette. It shares no code with
+// ours, but, if told, our samples.
 #pragma once
 
 #include "host/image/image.h"

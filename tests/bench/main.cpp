@@ -1,7 +1,8 @@
 // hyalite_bench [--device=NAME] [--cpu-time] [--benchmark_filter=...] [--benchmark_out=FILE.json]...
 //
 // Verifies, measures, and prints tables in the end. --cpu-time counts processor seconds in place of time: for machines
-// that do other things meanwhile, and for devices that compute on the CPU. Exit code 1: a result was wrong or something was missing.
+// that do other things meanwhile, and for devices that compute on the CPU. Exit code 1: a result was wrong or something
+// was missing.
 #include "tests/bench/race.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"

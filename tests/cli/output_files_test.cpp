@@ -1,5 +1,5 @@
-// Every file that any command writes appears whole or not at all: where it cannot be stored, the one that was there before
-// stays, the exit code says so, and no other file is left behind.
+// Every file that any command writes appears whole or not at all: where it cannot be stored, the one that was there
+// before stays, the exit code says so, and no other file is left behind.
 #include "tests/cli/command_line.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Radiance pictures as `hyalite diff` and `hyalite tonemap` read them. What is read is written, and read again: that changes
-// nothing.
+// Radiance pictures as `hyalite diff` and `hyalite tonemap` read them. What is read is written, and read again: that
+// changes nothing.
 #include "host/image/hdr.h"
 #include "host/image/image_file.h"
 #include "tests/fuzz/harness.h"

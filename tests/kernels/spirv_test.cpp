@@ -19,7 +19,8 @@ bool startsWith(const std::string &text, const char *beginning) { return text.rf
 /// Whether the kernel's functions are as they were written: others are optimised, and all of it is in `main`.
 bool isUnoptimised(const EmbeddedKernel &kernel) { return startsWith(kernel.name, "unoptimised"); }
 
-/// Where the device's own / and sqrt may stand in an unoptimised kernel: behind hasExactDivision, or corrected with integers.
+/// Where the device's own / and sqrt may stand in an unoptimised kernel: behind hasExactDivision, or corrected with
+/// integers.
 bool mayDivide(const Instruction &instruction) {
     return startsWith(instruction.function, "divide(") || startsWith(instruction.function, "squareRoot(") ||
            startsWith(instruction.function, "divideSmall(");

@@ -568,8 +568,8 @@ TEST(EnvironmentTwin, Sampled) {
 
 // ---- Textures
 
-/// A material with a texture of 8-bit colours, one of floats, one of numbers, a normal map, and one's alpha, in this order
-/// of rows.
+/// A material with a texture of 8-bit colours, one of floats, one of numbers, a normal map, and one's alpha, in this
+/// order of rows.
 PackedScene texturedScene() {
     Draw draw;
     Scene scene;

@@ -97,7 +97,8 @@ std::vector<glm::vec2> uvsOf(const ObjMesh &loaded, std::size_t triangle) {
 
 TEST(Obj, TexturesCoordinatesGoWithTheirCorners) {
     const std::string uvs = "vt 0 0\nvt 1 0 7\nvt 1 0.5\nvt 0.25\n";
-    // Polygons are cut, and each part keeps what its corners have; the second line takes the longer way through the reader.
+    // Polygons are cut, and each part keeps what its corners have; the second line takes the longer way through the
+    // reader.
     for (const std::string face : {"f 1/1 2/2 3/3 4/4\n", " f 1/-4 2/-3 3/-2 4/-1 # a comment\n"}) {
         const ObjMesh loaded = loadText(squareVertices + uvs + face);
         ASSERT_EQ(loaded.mesh.triangleUvs.size(), 2u);

@@ -95,7 +95,8 @@ TEST(PathFurnace, AWhiteBallInGlassIsInvisibleToo) {
 }
 
 TEST(PathLight, ASphereAboveAFloor) {
-    // Irradiance pi L (r / d)^2 under a sphere, whatever its size: here by cones, and by areas from inside a shell of light.
+    // Irradiance pi L (r / d)^2 under a sphere, whatever its size: here by cones, and by areas from inside a shell of
+    // light.
     for (const double radius : {0.01, 1.0, 1.9}) {
         Scene scene = sceneFrom({0, 0, 0.5}, 1024);
         scene.settings.maxDepth = 2;
@@ -106,8 +107,8 @@ TEST(PathLight, ASphereAboveAFloor) {
     }
 }
 
-/// The irradiance that a rectangle at height z above the origin, parallel to the floor, gives it per radiance: the integral of
-/// cos cos / d^2, from the corner formula of Lambert.
+/// The irradiance that a rectangle at height z above the origin, parallel to the floor, gives it per radiance: the
+/// integral of cos cos / d^2, from the corner formula of Lambert.
 double cornerFactor(double a, double b) { // times pi, for sides a and b in units of the height
     const double x = std::sqrt(1.0 + a * a);
     const double y = std::sqrt(1.0 + b * b);

@@ -144,8 +144,8 @@ TEST(Split, SahCutsBetweenTwoClustersOfUnequalSize) {
 }
 
 TEST(Split, SahFindsTheCheapestOfItsCandidates) {
-    // Three boxes in each of the sixteen bins of x, as many bins as 48 have: every cut between bins is a candidate, and on
-    // y and z there is none. The cost of each is computed here anew.
+    // Three boxes in each of the sixteen bins of x, as many bins as 48 have: every cut between bins is a candidate, and
+    // on y and z there is none. The cost of each is computed here anew.
     Random random(2);
     for (int trial = 0; trial < 200; ++trial) {
         SCOPED_TRACE(fmt::format("seed {}, trial {}", random.seed(), trial));
