@@ -19,6 +19,7 @@ enum class ExitCode : int {
     LimitExceeded = 5,    ///< memory or a device limit does not suffice
     DeviceLost = 6,       ///< the device failed or hung while rendering
     OutputNotWritten = 7, ///< a result could not be stored
+    HungUp = 129,         ///< SIGHUP
     Interrupted = 130,    ///< SIGINT
     Terminated = 143,     ///< SIGTERM
 };

@@ -19,6 +19,7 @@
 #include <new>
 #include <span>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 #include <fcntl.h>
@@ -105,7 +106,7 @@ ExitCode run(std::span<char *> arguments) {
     app.footer(
         "`hyalite COMMAND --help` explains a command. Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad "
         "input, 4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written, "
-        "130 and 143 stopped by SIGINT and SIGTERM.");
+        "129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.");
     app.set_version_flag("--version", "hyalite " HYALITE_VERSION, "print the version");
     for (CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
         command->set_version_flag("--version", "hyalite " HYALITE_VERSION)->group("");
@@ -133,6 +134,12 @@ ExitCode runAndReport(std::span<char *> arguments) {
         printMessage("hyalite: out of memory\n");
         return ExitCode::LimitExceeded;
     } catch (const std::exception &error) {
+        const auto *systemError = dynamic_cast<const std::system_error *>(&error);
+        if (systemError != nullptr && systemError->code() == std::errc::resource_unavailable_try_again) {
+            printMessage(
+                "hyalite: no thread can be started; raise the limit (ulimit -u), or end other programs\n");
+            return ExitCode::LimitExceeded;
+        }
         if (std::ferror(stdout) != 0) // fmt::print throws
             return ExitCode::Ok;      // which finishOutput corrects
         printMessage("hyalite: internal error: {}\n", error.what());

@@ -232,6 +232,7 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     if (!options.report.empty())
         reportFile.emplace(options.report);
     PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    requireDistinctFiles({{"--report", options.report}}, scene.loaded.inputFiles);
     requireFilmMemory(scene.crop, 4); // two of them become estimates, of about their size
     RenderSettings &settings = scene.loaded.scene.settings;
     const std::uint32_t firstSeed = settings.seed;
@@ -281,6 +282,8 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
         reportFile.emplace(options.report);
 
     const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
+                         scene.loaded.inputFiles);
     if (heatMapFile)
         requirePngSize(options.heatMap, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, 2);

@@ -3,6 +3,7 @@
 #include "host/cli/tune.h"
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/batching.h"
+#include "host/report/atomic_file.h"
 #include "host/report/json_text.h"
 #include "host/scene/names.h"
 #include "host/version.h"
@@ -12,8 +13,10 @@
 #include <nlohmann/json.hpp>
 
 #include <ctime>
+#include <filesystem>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -114,6 +117,9 @@ std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nu
 /// Measures the kernels on one device, and keeps which are fast.
 void tune(const std::string &deviceName) {
     const std::filesystem::path file = tuningFile();
+    std::error_code error;
+    if (std::filesystem::exists(file.parent_path(), error))
+        static_cast<void>(AtomicFile(file)); // throws where it could not be written half a minute later
     const std::vector<KernelRates> all = measureKernels(deviceName);
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     fmt::print("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");

@@ -76,19 +76,18 @@ struct Outputs {
     std::optional<AtomicFile> heatMap;
 
     explicit Outputs(const ProfileOptions &options) {
-        requireDistinctFiles({{"--output", options.output},
-                              {"--report", options.report},
-                              {"--csv", options.csv},
-                              {"--trace", options.trace},
-                              {"--html", options.html},
-                              {"--heatmap", options.heatMap}},
-                             {resolveScene(options.scene.scene).string(), options.baseline});
+        requireDistinctFiles(names(options), {resolveScene(options.scene.scene).string(), options.baseline});
         open(image, options.output);
         open(report, options.report);
         open(csv, options.csv);
         open(trace, options.trace);
         open(html, options.html);
         open(heatMap, options.heatMap);
+    }
+
+    static std::vector<NamedFile> names(const ProfileOptions &options) {
+        return {{"--output", options.output}, {"--report", options.report}, {"--csv", options.csv},
+                {"--trace", options.trace},   {"--html", options.html},     {"--heatmap", options.heatMap}};
     }
 
   private:
@@ -180,6 +179,7 @@ PreparedScene prepare(const ProfileOptions &options, const std::string &commandL
                       std::unique_ptr<Backend> &backend, Profile &profile) {
     Stopwatch watch;
     PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    requireDistinctFiles(Outputs::names(options), scene.loaded.inputFiles);
     const Span prepared = watch.lap();
     const auto nanos = [](double seconds) { return std::llround(seconds * 1e9); };
     const std::int64_t loaded = prepared.beginNanos + nanos(scene.loadSeconds);

@@ -119,11 +119,11 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     const ImageFormat format = imageFormatOf(options.output);
     const std::string olderGeneration =
         options.checkpoint.empty() ? "" : olderCheckpoint(options.checkpoint).string();
-    requireDistinctFiles({{"--output", options.output},
-                          {"--report", options.report},
-                          {"--checkpoint", options.checkpoint},
-                          {"--checkpoint", olderGeneration}},
-                         {resolveScene(options.scene.scene).string()});
+    const std::vector<NamedFile> outputs{{"--output", options.output},
+                                         {"--report", options.report},
+                                         {"--checkpoint", options.checkpoint},
+                                         {"--checkpoint", olderGeneration}};
+    requireDistinctFiles(outputs, {resolveScene(options.scene.scene).string()});
     if (options.checkpoint.empty() && options.isResuming)
         throw Error(ExitCode::Usage, "--resume needs --checkpoint FILE, to go on from");
     if (!options.checkpoint.empty() && options.device == "cpu-double")
@@ -146,6 +146,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         opening = beginOpeningBackend(options.device, {options.threads, hasMeshes},
                                       batchingFor(options.deviceOptions));
     });
+    requireDistinctFiles(outputs, scene.loaded.inputFiles);
     if (format == ImageFormat::Png)
         requirePngSize(options.output, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, (options.checkpoint.empty() && !options.partialSeconds ? 1 : 2) +

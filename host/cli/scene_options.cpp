@@ -215,9 +215,9 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     applyOverrides(options, prepared.loaded);
     Scene &scene = prepared.loaded.scene;
     try {
-        validateScene(scene, "--camera-position, --look-at, --up");
+        validateScene(scene, prepared.loaded.file.string() + " with these options");
     } catch (const Error &error) {
-        // The scene was valid as loaded and each option is in range: the camera's vectors do not go together.
+        // The scene was valid as loaded and each option is in range: they do not go together.
         throw Error(ExitCode::Usage, error.what());
     }
     prepared.crop = chooseCrop(options.crop, scene.camera);

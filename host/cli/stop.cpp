@@ -14,7 +14,7 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::array<int, 2> stoppingSignals{SIGINT, SIGTERM};
+constexpr std::array<int, 3> stoppingSignals{SIGINT, SIGTERM, SIGHUP};
 
 // A handler may touch lock-free atomics only, and reaches nothing but globals.
 std::atomic<std::int64_t> firstNanoseconds{0}; ///< when the first signal came; 0: none did
@@ -41,8 +41,6 @@ void noteSignal(int signal) {
     std::int64_t first = 0;
     if (firstNanoseconds.compare_exchange_strong(first, now)) {
         firstSignal = signal;
-        // Whoever reads our messages, such as tee, may have been stopped as well: that must not lose the results.
-        std::signal(SIGPIPE, SIG_IGN);
         static_cast<void>(!write(STDERR_FILENO, answer.data(), answer.size()));
     } else if (static_cast<double>(now - first) > CaughtSignals::echoSeconds * 1e9) {
         std::signal(signal, SIG_DFL);
@@ -61,7 +59,11 @@ CaughtSignals::CaughtSignals(bool isQuiet) {
     action.sa_handler = noteSignal;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGPIPE, nullptr, &pipeActionBefore);
+    // Whoever reads our messages, such as head, may be gone before us: that must not lose the results.
+    struct sigaction ignore {};
+    ignore.sa_handler = SIG_IGN;
+    sigemptyset(&ignore.sa_mask);
+    sigaction(SIGPIPE, &ignore, &pipeActionBefore);
     for (std::size_t i = 0; i < stoppingSignals.size(); ++i) {
         sigaction(stoppingSignals[i], nullptr, &actionsBefore[i]);
         if (actionsBefore[i].sa_handler != SIG_IGN)
@@ -77,8 +79,10 @@ CaughtSignals::~CaughtSignals() {
 
 int CaughtSignals::first() const noexcept { return firstSignal; }
 
-const char *signalName(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
+const char *signalName(int signal) {
+    return signal == SIGINT ? "SIGINT" : signal == SIGHUP ? "SIGHUP" : "SIGTERM";
+}
 
-ExitCode exitCodeFor(int signal) { return signal == SIGINT ? ExitCode::Interrupted : ExitCode::Terminated; }
+ExitCode exitCodeFor(int signal) { return static_cast<ExitCode>(128 + signal); }
 
 } // namespace hyalite

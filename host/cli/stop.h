@@ -1,11 +1,11 @@
-// SIGINT and SIGTERM as a wish to stop, for work whose results so far are worth keeping.
+// SIGINT, SIGTERM and SIGHUP as a wish to stop, for work whose results so far are worth keeping.
 #pragma once
 
 #include "host/error.h"
 
 namespace hyalite {
 
-/// While it lives, the first SIGINT or SIGTERM is only noted. Another one ends the program at once, as if none of this
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only noted, and SIGPIPE is ignored. Another one ends the program at once, as if none of this
 /// existed; one that follows within `echoSeconds` is taken for the same wish, since `timeout` and terminals behind
 /// wrappers send each signal twice. A signal that the program was started to ignore, as in the background of a script,
 /// stays ignored.
@@ -25,7 +25,7 @@ class CaughtSignals {
     [[nodiscard]] int first() const noexcept;
 };
 
-/// "SIGINT" or "SIGTERM".
+/// "SIGINT", "SIGTERM" or "SIGHUP".
 [[nodiscard]] const char *signalName(int signal);
 
 /// With what a program ends that was stopped by it: as a shell reports those that a signal ended.

@@ -78,6 +78,8 @@ void requireReplaceable(const fs::path &givenPath, const fs::path &targetPath) {
     }
     struct stat status {};
     if (stat(targetPath.c_str(), &status) != 0) {
+        if (errno == ENAMETOOLONG) // a file without a name could be created all the same
+            refuseWithErrno(givenPath, "its name cannot be used", ENAMETOOLONG);
         return;
     }
     if (S_ISDIR(status.st_mode)) {
@@ -91,6 +93,14 @@ void requireReplaceable(const fs::path &givenPath, const fs::path &targetPath) {
     // rename() would replace a write-protected file; whoever protected it meant it to stay.
     if (faccessat(AT_FDCWD, targetPath.c_str(), W_OK, AT_EACCESS) != 0) {
         refuse(givenPath, "it exists and is write-protected; remove it, or name another file");
+    }
+    struct stat folder {};
+    const uid_t user = geteuid();
+    if (stat(targetPath.parent_path().c_str(), &folder) == 0 && (folder.st_mode & S_ISVTX) != 0 &&
+        user != 0 && user != status.st_uid && user != folder.st_uid) {
+        refuse(givenPath,
+               "it belongs to another user, whose files nobody else may replace in this folder; name "
+               "another file");
     }
 }
 
@@ -246,9 +256,10 @@ void AtomicFile::commit() {
         refuseWithErrno(givenPath_, "closing the file", errorNumber);
     }
     if (rename(temporaryPath_.c_str(), targetPath_.c_str()) != 0) {
-        const int errorNumber = errno;
-        unlink(temporaryPath_.c_str());
-        refuseWithErrno(givenPath_, "renaming the finished file", errorNumber);
+        refuseWithErrno(
+            givenPath_,
+            fmt::format("what was to be in it is in '{}', as renaming that failed", temporaryPath_.string()),
+            errno);
     }
     // The file is in place; this only makes the new name outlast a power failure. A folder that may be written but
     // not read cannot be opened for it, which is no reason to call the output missing.

@@ -53,6 +53,12 @@ LoadedScene loadScene(const std::string &argument, const LoadEvents &events,
     requireFile(file);
     LoadedScene loaded =
         hasExtension(file, ".obj") ? loadBareMesh(file, events) : loadSceneFile(file, events, allowedPaths);
+    loaded.inputFiles.push_back(file.string());
+    for (const MeshReport &report : loaded.meshReports)
+        for (const std::filesystem::path &path : report.files)
+            loaded.inputFiles.push_back(path.string());
+    for (const Texture &texture : loaded.scene.textures)
+        loaded.inputFiles.push_back(texture.name);
     validateScene(loaded.scene, file.string());
     return loaded;
 }

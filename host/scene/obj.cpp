@@ -77,6 +77,7 @@ class ObjMaterials {
         }
         if (!libraries.insert(*library).second)
             return;
+        builder.report().files.push_back(*library);
         for (Material &material : loadMtl(*library, {base, *textures, builder.report().warnings}))
             if (indices.emplace(material.name, static_cast<std::uint32_t>(materials.size() + 1)).second)
                 materials.push_back(std::move(material));
@@ -210,6 +211,7 @@ ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transfor
                 TextureLibrary *textures) {
     ObjLines lines(file);
     ObjMeshBuilder builder(lines.fileName(), transform);
+    builder.report().files.push_back(file);
     std::size_t unusedStatementCount = 0;
     ObjMaterials materials(file, builder, textures);
     CheckedObjSource source(lines, builder, textures != nullptr ? &materials : nullptr, unusedStatementCount,

@@ -32,6 +32,7 @@ struct MeshReport {
     std::size_t lostNormalCount = 0;
 
     std::size_t unknownMaterialCount = 0;     ///< `usemtl` with a name that no library of the file has
+    std::vector<std::filesystem::path> files{}; ///< what was read: the mesh and its libraries
     std::vector<std::string> lostLibraries{}; ///< `mtllib` that is not there, or not in the mesh's folder
     std::size_t uvLessCount = 0;          ///< triangles without texture coordinates, where others have some
     std::vector<std::string> warnings{};  ///< what of its materials was passed over, though it would be seen

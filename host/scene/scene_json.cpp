@@ -81,10 +81,14 @@ Light readLight(const JsonNode &node) {
     return light;
 }
 
-Environment readEnvironment(const JsonObject &object, const FileReach &reach) {
+/// Adds the file to `inputFiles`.
+Environment readEnvironment(const JsonObject &object, const FileReach &reach,
+                            std::vector<std::string> &inputFiles) {
     Environment environment;
     const JsonNode file = object.at("file");
-    LoadedImage loaded = readImage(reach.resolve(file));
+    const std::filesystem::path path = reach.resolve(file);
+    inputFiles.push_back(path.string());
+    LoadedImage loaded = readImage(path);
     if (loaded.encoding != Encoding::Linear)
         file.fail(
             "found a PNG, whose numbers are not proportional to light; allowed: a .hdr, .exr or .pfm file");
@@ -309,7 +313,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
     const FileReach reach(file, allowedPaths);
     TextureLibrary textures;
     if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
-        scene.environment = readEnvironment(*environment, reach);
+        scene.environment = readEnvironment(*environment, reach, loaded.inputFiles);
     if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera))
         scene.camera = readCamera(*camera);
     for (const JsonNode &light : top.elements("lights", limits::lightCount))

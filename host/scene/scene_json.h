@@ -119,6 +119,7 @@ struct LoadEvents {
 struct LoadedScene {
     Scene scene;
     std::filesystem::path file;
+    std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
     std::vector<MeshReport> meshReports; ///< one for each of scene.meshes
     bool autoFramed = false; ///< a bare mesh: where the image size is overridden, call frameCamera again
 };

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -128,6 +129,46 @@ TEST_F(OutputFiles, AFolderThatIsDeletedMeanwhileDoesNotStopTheCheckpointsOfOthe
     EXPECT_EQ(outcome.exitCode, 7) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "gone/c")) << outcome;
     EXPECT_EQ(load("a.pfm"), renderPfm("spheres --device cpu --width 96 --height 96 --spp 256"));
+}
+
+TEST_F(OutputFiles, WhatASceneIsMadeOfIsNotReplaced) {
+    const std::string mesh = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+    store("a.obj", mesh);
+    store("a.mtl", "newmtl m\nKd 1 0 0\n");
+    ASSERT_EQ(run("render spheres -o sky.pfm" + tiny).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o paint.png" + tiny).exitCode, 0);
+    store("s.json", R"({"environment": {"file": "sky.pfm"}, "meshes": [{"file": "a.obj"}],
+        "materials": {"m": {"type": "diffuse", "textures": {"baseColour": {"file": "paint.png"}}}},
+        "spheres": [{"centre": [0, 0, -5], "radius": 1, "material": "m"}]})");
+    const std::vector<std::string> inputs{"s.json", "a.obj", "a.mtl", "sky.pfm", "paint.png"};
+    std::vector<std::string> before;
+    for (const std::string &input : inputs)
+        before.push_back(load(input));
+    for (const std::string &input : inputs)
+        for (const std::string line :
+             {"render s.json -o o.pfm --report ", "render s.json -o o.pfm --checkpoint ",
+              "compare s.json --report ", "profile s.json --csv "})
+            expectFailure(line + input + (line.starts_with("profile") ? " --width 8 --height 8" : tiny), 2,
+                          {input, "this would replace what is read"});
+    expectFailure("render s.json -o sky.pfm" + tiny, 2, {"this would replace what is read"});
+    expectFailure("render s.json -o paint.png" + tiny, 2, {"this would replace what is read"});
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        EXPECT_EQ(load(inputs[i]), before[i]) << inputs[i];
+}
+
+TEST_F(OutputFiles, ALinkThatLeadsNowhereYetIsTheFileThatItNames) {
+    fs::create_symlink("a.png", folder / "link.png");
+    for (const char *line :
+         {"render spheres -o a.png --checkpoint link.png", "render spheres -o link.png --report a.png"})
+        expectFailure(line + tiny, 2, {"name the same file"});
+}
+
+TEST_F(OutputFiles, AReaderOfMessagesThatGoesAwayStopsNoRender) {
+    const std::string line = std::string(HYALITE_PROGRAM) + " render spheres -o " +
+                             (folder / "a.pfm").string() +
+                             " --width 64 --height 64 --spp 64 2>&1 >/dev/null | head -c 1 >/dev/null";
+    ASSERT_EQ(std::system(line.c_str()), 0);
+    EXPECT_TRUE(fs::exists(folder / "a.pfm"));
 }
 
 } // namespace

@@ -41,7 +41,9 @@ Surroundings signalled(int signal) {
     return surroundings;
 }
 
-const char *nameOf(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
+const char *nameOf(int signal) {
+    return signal == SIGINT ? "SIGINT" : signal == SIGHUP ? "SIGHUP" : "SIGTERM";
+}
 
 /// Hundreds of tiles of a software device, the first one of 32x32 pixels.
 const std::string manyTiles = " --width 2048 --height 2048 --spp 4";
@@ -51,7 +53,7 @@ const std::string endless = " --width 512 --height 512 --spp 65536 --device cpu"
 const std::string atOnce = " --time-limit 1e-6";
 
 TEST_F(RenderStop, ASignalWritesWhatTheDeviceHasFinished) {
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const Outcome outcome =
             runIn(signalled(signal),
                   "render spheres -o a.pfm --report report.json --device " + softwareDevice() + manyTiles);

@@ -540,7 +540,7 @@ PackedScene sceneUnderSky() {
     for (vec3 &pixel : scene.environment.radiance.pixels())
         pixel = draw.chance(3) ? vec3(0.0f) : vec3(draw.unit(), draw.unit() * 9.0f, draw.unit());
     scene.environment.rotateDegrees = 123.0;
-    return packScene(scene, buildBvh(TreeKind::None, {}, 1));
+    return packScene(scene, buildBvh(TreeKind::None, std::vector<BuildTriangle>{}, 1));
 }
 
 TEST(EnvironmentTwin, FromADirection) {
@@ -594,7 +594,7 @@ PackedScene texturedScene() {
     material.textures[layout::slotOpacity] = TextureUse{3, {1.0f, 1.0f}, {0.5f, 0.0f}};
     material.normalStrength = 1.5f;
     scene.spheres.push_back({});
-    return packScene(scene, buildBvh(TreeKind::None, {}, 1));
+    return packScene(scene, buildBvh(TreeKind::None, std::vector<BuildTriangle>{}, 1));
 }
 
 float drawUv(Draw &draw) {

@@ -253,7 +253,7 @@ TEST_P(AtomicFileTest, AFullDiskIsReportedAndTheOldFileStays) {
     EXPECT_EQ(entryCount(), 1);
 }
 
-TEST_P(AtomicFileTest, AFailingRenameIsReportedAndLeavesNoTemporaryFile) {
+TEST_P(AtomicFileTest, AFailingRenameSaysWhereWhatIsFinishedIs) {
     AtomicFile file = open(folder / "out.txt");
     file.write("new");
     fs::create_directory(folder / "out.txt"); // appears while the render runs
@@ -262,8 +262,20 @@ TEST_P(AtomicFileTest, AFailingRenameIsReportedAndLeavesNoTemporaryFile) {
         FAIL() << "renamed a file over a folder";
     } catch (const Error &error) {
         EXPECT_EQ(error.exitCode, ExitCode::OutputNotWritten);
+        for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
+            if (entry.is_directory())
+                continue;
+            EXPECT_EQ(load(entry.path()), "new");
+            EXPECT_NE(std::string(error.what()).find(entry.path().string()), std::string::npos)
+                << error.what();
+        }
     }
-    EXPECT_EQ(entryCount(), 1);
+    EXPECT_EQ(entryCount(), 2);
+}
+
+TEST_P(AtomicFileTest, ANameThatIsTooLongIsRefusedAtOnce) {
+    EXPECT_THROW(static_cast<void>(open(folder / std::string(256, 'e'))), Error);
+    EXPECT_EQ(entryCount(), 0);
 }
 
 } // namespace
