@@ -214,8 +214,12 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
             printMessage("hyalite: warning: {}\n", cleanText(warning));
     applyOverrides(options, prepared.loaded);
     Scene &scene = prepared.loaded.scene;
+    const bool isCameraMoved =
+        !options.cameraPosition.empty() || !options.lookAt.empty() || !options.up.empty();
     try {
-        validateScene(scene, prepared.loaded.file.string() + " with these options");
+        validateScene(scene,
+                      fmt::format("{} with {}", prepared.loaded.file.string(),
+                                  isCameraMoved ? "--camera-position, --look-at, --up" : "these options"));
     } catch (const Error &error) {
         // The scene was valid as loaded and each option is in range: they do not go together.
         throw Error(ExitCode::Usage, error.what());

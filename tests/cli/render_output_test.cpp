@@ -295,7 +295,7 @@ TEST_F(RenderOutput, TheSceneIsNotReplacedByTheReport) {
 
 TEST_F(RenderOutput, ARenderThatIsKilledLeavesNothingBehind) {
     store("a.png", "old");
-    for (const int signal : {SIGHUP, SIGKILL}) {
+    for (const int signal : {SIGUSR1, SIGKILL}) {
         Surroundings interrupted;
         interrupted.signalAfter = "device:";
         interrupted.signal = signal;
