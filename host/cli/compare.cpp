@@ -269,8 +269,8 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
 
 ExitCode runCompare(const CompareOptions &options, const std::string &commandLine) {
     const Tolerance tolerance = parseTolerance(options.tolerance);
-    requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
-                         {resolveScene(options.scene.scene).string()});
+    const std::vector<NamedFile> outputs{{"--diff", options.heatMap}, {"--report", options.report}};
+    requireDistinctFiles(outputs, {resolveScene(options.scene.scene).string()});
     std::optional<AtomicFile> heatMapFile;
     std::optional<AtomicFile> reportFile;
     if (!options.heatMap.empty()) {
@@ -282,8 +282,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
         reportFile.emplace(options.report);
 
     const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
-    requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
-                         scene.loaded.inputFiles);
+    requireDistinctFiles(outputs, scene.loaded.inputFiles);
     if (heatMapFile)
         requirePngSize(options.heatMap, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, 2);

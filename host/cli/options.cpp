@@ -1,5 +1,6 @@
 #include "host/cli/options.h"
 
+#include "host/report/atomic_file.h"
 #include "host/scene/json_document.h"
 
 #include <fmt/format.h>
@@ -27,11 +28,8 @@ template <class Number> std::optional<Number> parse(std::string_view text) {
 
 /// One file has one such path: absolute, without links. It need not exist, though a link may lead to it.
 std::filesystem::path canonicalPath(const std::string &path) {
-    constexpr int mostLinks = 40; // as Linux does; a circle is refused when the file is opened
     std::error_code error;
-    std::filesystem::path target = std::filesystem::absolute(path, error);
-    for (int i = 0; i < mostLinks && std::filesystem::is_symlink(target, error); ++i)
-        target = target.parent_path() / std::filesystem::read_symlink(target, error);
+    const std::filesystem::path target = followLinks(std::filesystem::absolute(path, error));
     const std::filesystem::path canonical = std::filesystem::weakly_canonical(target, error);
     return error ? std::filesystem::path(path)
                  : canonical; // a path that leads nowhere is refused when it is opened

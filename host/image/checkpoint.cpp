@@ -35,15 +35,6 @@ class OtherRender : public Error {
     using Error::Error;
 };
 
-/// Both generations lie beside the file itself where `path` is a link to it: only there one can take the other's place.
-std::filesystem::path followLink(std::filesystem::path path) {
-    constexpr int mostLinks = 40; // as Linux does; a circle is refused when the file is opened
-    std::error_code error;
-    for (int i = 0; i < mostLinks && std::filesystem::is_symlink(path, error); ++i)
-        path = path.parent_path() / std::filesystem::read_symlink(path, error);
-    return path;
-}
-
 std::string identityText(const RenderIdentity &identity) {
     std::string text;
     for (const auto &[name, value] : identity)
@@ -175,12 +166,13 @@ class Reader {
 } // namespace
 
 std::filesystem::path olderCheckpoint(const std::filesystem::path &path) {
-    return followLink(path).string() + ".1";
+    // Beside the file itself where `path` is a link to it: only there one can take the other's place.
+    return followLinks(path).string() + ".1";
 }
 
 CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, RenderIdentity identity,
                                    bool isNewestWhole)
-    : path_(followLink(path)), identity_(std::move(identity)), isNewestWhole_(isNewestWhole) {
+    : path_(followLinks(path)), identity_(std::move(identity)), isNewestWhole_(isNewestWhole) {
     const AtomicFile newer(path_);
     const AtomicFile older(olderCheckpoint(path_));
 }

@@ -57,22 +57,11 @@ std::string remedyFor(int errorNumber) {
                              remedyFor(errorNumber)));
 }
 
-/// Follows symbolic links by hand: canonical() fails on a dangling link, through which open() would create a file.
-fs::path followLinks(const fs::path &givenPath) {
-    constexpr int linkCountMax = 40; // as Linux does
-    std::error_code error;
-    fs::path path = fs::absolute(givenPath, error);
-    for (int linkCount = 0; !error && fs::is_symlink(fs::symlink_status(path, error)); ++linkCount) {
-        if (linkCount == linkCountMax) {
-            refuse(givenPath, "its symbolic links lead in a circle; remove them, or name another file");
-        }
-        path = path.parent_path() / fs::read_symlink(path, error); // an absolute target replaces the parent
-    }
-    // What else is wrong with the path (a missing folder, a file as parent) is found when the file is created.
-    return path;
-}
-
 void requireReplaceable(const fs::path &givenPath, const fs::path &targetPath) {
+    std::error_code error;
+    if (fs::is_symlink(targetPath, error)) {
+        refuse(givenPath, "its symbolic links lead in a circle; remove them, or name another file");
+    }
     if (!targetPath.has_filename()) {
         refuse(givenPath, "this names no file; add a file name");
     }
@@ -139,6 +128,15 @@ int synchronize(int descriptor) {
 
 } // namespace
 
+fs::path followLinks(fs::path path) {
+    constexpr int linkCountMax = 40; // as Linux does
+    std::error_code error;
+    for (int linkCount = 0; linkCount < linkCountMax && fs::is_symlink(path, error); ++linkCount) {
+        path = path.parent_path() / fs::read_symlink(path, error); // an absolute target replaces the parent
+    }
+    return path;
+}
+
 template <class Create> int AtomicFile::claimName(const Create &create) {
     std::random_device random;
     constexpr int attemptCount = 16; // each fails only if a 64-bit random number was used before
@@ -160,7 +158,8 @@ AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(
     if (target.empty()) {
         refuse(target, "the name is empty; name a file");
     }
-    targetPath_ = followLinks(target);
+    std::error_code error; // what is wrong with the path is found when the file is created
+    targetPath_ = followLinks(fs::absolute(target, error));
     requireReplaceable(givenPath_, targetPath_);
 
     if (kind == TemporaryFile::Automatic) {

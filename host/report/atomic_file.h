@@ -14,6 +14,10 @@
 
 namespace hyalite {
 
+/// Where a file is that is written through `path`, which may be a link, even a dangling one: canonical() fails there, and
+/// open() would create a file. Of links in a circle, one of them. Folders above may be links still.
+[[nodiscard]] std::filesystem::path followLinks(std::filesystem::path path);
+
 /// Whether the temporary file has a name from the start. Automatic: only where it must.
 enum class TemporaryFile { Automatic, Named };
 
