@@ -89,7 +89,9 @@ void TileRenderer::warmUp() { warmUp(direct_ ? direct_->kernel : resumable_->ker
 
 void TileRenderer::warmUp(Kernel &kernel) {
     const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
+    const std::uint32_t groupCount = std::exchange(groupCount_, dispatch_.interleave); // the fewest there are
     (void)runOnce(kernel);
+    groupCount_ = groupCount;
     dispatch_.sampleEnd = sampleEnd;
 }
 
