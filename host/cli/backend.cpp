@@ -3,6 +3,7 @@
 #include "host/cli/options.h"
 #include "host/cli/tuning.h"
 #include "host/error.h"
+#include "host/gpu/instance.h"
 #include "host/host_memory.h"
 #include "host/reference/renderer.h"
 #include "host/report/message.h"
@@ -153,9 +154,16 @@ std::uint64_t filmBytes(const Crop &crop) {
                             crop.width(), crop.height(), sizeText(neededBytes), available));
 }
 
-std::vector<gpu::DeviceInfo> listDevices() {
+/// The loader unloads drivers with the last instance: this one keeps them until the device that is chosen has its own.
+struct DeviceList {
+    std::unique_ptr<gpu::Instance> instance;
+    std::vector<gpu::DeviceInfo> devices;
+};
+
+DeviceList listDevices() {
     try {
-        return gpu::listDevices();
+        auto instance = std::make_unique<gpu::Instance>();
+        return {std::move(instance), gpu::listDevices()};
     } catch (const Error &error) {
         if (error.exitCode != ExitCode::NoDevice)
             throw;
@@ -172,7 +180,8 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
         return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
     if (name == "cpu-double")
         return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
-    return std::make_unique<DeviceBackend>(gpu::chooseDevice(listDevices(), name), batching);
+    const DeviceList list = listDevices();
+    return std::make_unique<DeviceBackend>(gpu::chooseDevice(list.devices, name), batching);
 }
 
 } // namespace
