@@ -19,6 +19,7 @@ namespace {
 struct Frame {
     const char *name;
     std::string scene; ///< as `hyalite render` takes it
+    std::string sampler = "sobol";
 };
 
 std::string contentsOf(const std::filesystem::path &file) {
@@ -30,13 +31,14 @@ std::string contentsOf(const std::filesystem::path &file) {
 class Rendering {
   public:
     Rendering(const Frame &frame, std::string deviceName)
-        : scene_(frame.scene), deviceName_(std::move(deviceName)) {}
+        : scene_(frame.scene), sampler_(frame.sampler), deviceName_(std::move(deviceName)) {}
 
     /// Returns the seconds of all dispatches, or of the reference renderer; of the processor's only those of the whole
     /// process are known. Keeps these.
     double run() {
-        processSeconds_.push_back(runHyalite({"render", scene_, "--quiet", "--device", deviceName_,
-                                              "--output", image().string(), "--report", report().string()}));
+        processSeconds_.push_back(runHyalite({"render", scene_, "--sampler", sampler_, "--quiet", "--device",
+                                              deviceName_, "--output", image().string(), "--report",
+                                              report().string()}));
         if (areProcessorSecondsCounted())
             return processSeconds_.back();
         return nlohmann::json::parse(contentsOf(report())).at("seconds").at("render").get<double>();
@@ -51,6 +53,7 @@ class Rendering {
     [[nodiscard]] std::filesystem::path report() const { return folder_.path() / "report.json"; }
 
     std::string scene_;
+    std::string sampler_;
     std::string deviceName_;
     TemporaryFolder folder_;
     std::vector<double> processSeconds_;
@@ -102,7 +105,12 @@ void measureStartUp(benchmark::State &state, const std::string &deviceName, Shad
 } // namespace
 
 void registerFrames(Context &context) {
-    const Frame frames[] = {{"spheres", "spheres"}, {"cat", "cat"}, {"cat of 4k", HYALITE_CAT_4K_SCENE}};
+    // At pixel centres all samples of a pixel are alike, and no lane waits for another.
+    const Frame frames[] = {{"spheres", "spheres"},
+                            {"cat", "cat"},
+                            {"cat, pixel centres", "cat", "centre"},
+                            {"cat of 4k", HYALITE_CAT_4K_SCENE},
+                            {"cat of 4k, pixel centres", HYALITE_CAT_4K_SCENE, "centre"}};
     for (const Frame &frame : frames) {
         const std::string row = fmt::format("frames/{}/", frame.name);
         addBenchmark(row + "device", 3,
