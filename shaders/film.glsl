@@ -74,14 +74,13 @@ void addRoundToFilm(uint slot) {
     if (!isTrueForAllAbreast(path[slot].stage == stageSampleDone))
         return;
     uint first = path[slot].sampleIndex - sampleLane(slot);
+    // Slots that had no sample left add 0, which changes no bit of a sum that is not -0.
     [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
         vec3 radiance = radianceOfSample(slot, lane);
-        if (first + lane < dispatch.sampleEnd) {
-            film[slot].sum = add(film[slot].sum, radiance);
-            film[slot].sumOfSquares = addProduct(film[slot].sumOfSquares, radiance, radiance);
-            film[slot].sampleCount += 1u;
-        }
+        film[slot].sum = add(film[slot].sum, radiance);
+        film[slot].sumOfSquares = addProduct(film[slot].sumOfSquares, radiance, radiance);
     }
+    film[slot].sampleCount += min(samplesAbreast, dispatch.sampleEnd - first);
     if (path[slot].sampleIndex < dispatch.sampleEnd)
         finishedSampleCount += 1u;
     finishedRayCounts += rayCounts[slot];
