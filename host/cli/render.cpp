@@ -40,7 +40,7 @@ struct RenderOptions {
     std::string report;
     std::optional<double> timeLimitSeconds;
     std::string checkpoint;
-    double checkpointSeconds = 10.0;
+    std::optional<double> checkpointSeconds;
     bool isResuming = false;
     std::optional<double> partialSeconds;
     bool isQuiet = false;
@@ -126,6 +126,8 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     requireDistinctFiles(outputs, {resolveScene(options.scene.scene).string()});
     if (options.checkpoint.empty() && options.isResuming)
         throw Error(ExitCode::Usage, "--resume needs --checkpoint FILE, to go on from");
+    if (options.checkpoint.empty() && options.checkpointSeconds)
+        throw Error(ExitCode::Usage, "--checkpoint-interval needs --checkpoint FILE, to write each time");
     if (!options.checkpoint.empty() && options.device == "cpu-double")
         throw Error(ExitCode::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
@@ -187,9 +189,9 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
                 finishedWork(resumed->checkpoint.film, settings.samplesPerPixel).sampleCount, raysBefore};
             continuation.film = std::move(resumed->checkpoint.film);
         }
-        periodicFiles.push_back({options.checkpointSeconds, [&](const Film &film, const RayCounts &rays) {
-                                     checkpoint->write(film, raysBefore + rays);
-                                 }});
+        periodicFiles.push_back(
+            {options.checkpointSeconds.value_or(10.0),
+             [&](const Film &film, const RayCounts &rays) { checkpoint->write(film, raysBefore + rays); }});
     }
     if (options.partialSeconds)
         periodicFiles.push_back({*options.partialSeconds, [&](const Film &film, const RayCounts &) {

@@ -4,7 +4,6 @@
 #include "host/bvh/statistics.h"
 #include "host/cli/options.h"
 #include "host/error.h"
-#include "host/report/clean_text.h"
 #include "host/report/message.h"
 #include "host/report/progress.h"
 #include "host/scene/framing.h"
@@ -211,7 +210,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     }
     for (const MeshReport &report : prepared.loaded.meshReports)
         for (const std::string &warning : report.warnings)
-            printMessage("hyalite: warning: {}\n", cleanText(warning));
+            printMessage("hyalite: warning: {}\n", warning);
     applyOverrides(options, prepared.loaded);
     Scene &scene = prepared.loaded.scene;
     const bool isCameraMoved =

@@ -120,9 +120,15 @@ ProfileFigures readFigures(const std::filesystem::path &file) {
     const Json json = readJsonFile(file);
     try {
         return figuresOf(json);
-    } catch (const std::exception &error) {
-        throw Error(ExitCode::BadInput, fmt::format("{}: this is no report of `hyalite profile`: {}",
-                                                    file.string(), printable(error.what())));
+    } catch (const Json::exception &) { // its words are about the library's own types
+        throw Error(
+            ExitCode::BadInput,
+            fmt::format("{}: this is no report of `hyalite profile --report`: a value is missing or has "
+                        "another type",
+                        file.string()));
+    } catch (const Error &error) {
+        throw Error(ExitCode::BadInput, fmt::format("{}: this is no report of `hyalite profile --report`: {}",
+                                                    file.string(), error.what()));
     }
 }
 

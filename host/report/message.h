@@ -1,6 +1,8 @@
 // What is said to people on standard error.
 #pragma once
 
+#include "host/report/clean_text.h"
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -9,10 +11,11 @@
 
 namespace hyalite {
 
-/// Prints on standard error. A message that is lost, because nobody reads it or a disk is full, stops no work.
+/// Prints on standard error. Names from files may be in it: a terminal must not obey them. A message that is lost, because
+/// nobody reads it or a disk is full, stops no work.
 template <class... Arguments>
 void printMessage(fmt::format_string<Arguments...> format, Arguments &&...arguments) {
-    const std::string text = fmt::format(format, std::forward<Arguments>(arguments)...);
+    const std::string text = cleanText(fmt::format(format, std::forward<Arguments>(arguments)...));
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

@@ -36,9 +36,9 @@ class Rendering {
     /// Returns the seconds of all dispatches, or of the reference renderer; of the processor's only those of the whole
     /// process are known. Keeps these.
     double run() {
-        processSeconds_.push_back(runHyalite({"render", scene_, "--sampler", sampler_, "--quiet", "--device",
-                                              deviceName_, "--output", image().string(), "--report",
-                                              report().string()}));
+        processSeconds_.push_back(
+            runHyalite({"render", scene_, "--sampler", sampler_, "--quiet", "--device", deviceName_,
+                        "--output", image().string(), "--report", report().string()}));
         if (areProcessorSecondsCounted())
             return processSeconds_.back();
         return nlohmann::json::parse(contentsOf(report())).at("seconds").at("render").get<double>();

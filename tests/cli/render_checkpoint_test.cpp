@@ -194,6 +194,7 @@ TEST_F(RenderCheckpoint, WithoutOneItBeginsAnewAndSaysSo) {
 
 TEST_F(RenderCheckpoint, WhatCannotBeAskedForIsRefused) {
     expectFailure("render spheres -o a.png --resume", 2, {"--checkpoint"});
+    expectFailure("render spheres -o a.png --checkpoint-interval 5", 2, {"--checkpoint FILE"});
     expectFailure("render spheres -o a.png --checkpoint c --device cpu-double", 2, {"cpu-double"});
     expectFailure("render spheres -o a.png --checkpoint a.png", 2, {"same file"});
     expectFailure("render spheres -o c.1 --checkpoint c", 2);

@@ -20,6 +20,14 @@ TEST(CleanText, HasNoControlCharacters) {
     EXPECT_EQ(cleanText("\u0080\u009F"), instead + instead);
 }
 
+TEST(CleanText, DoesNotTurnOrBreakLines) {
+    for (const char *character :
+         {"\u061C", "\u200E", "\u200F", "\u2028", "\u2029", "\u202A", "\u202E", "\u2066", "\u2069"})
+        EXPECT_EQ(cleanText(std::string("a") + character + "gnp.exe"), "a" + instead + "gnp.exe");
+    for (const char *text : {"\u061B", "\u061D", "\u200D", "\u2010", "\u2027", "\u202F", "\u2065", "\u206A"})
+        EXPECT_EQ(cleanText(text), text);
+}
+
 TEST(CleanText, IsUtf8) {
     EXPECT_EQ(cleanText("a\xff"), "a" + instead);
     EXPECT_EQ(cleanText("\xC2"), instead);
