@@ -2,30 +2,15 @@
 
 #include "host/report/hash.h"
 
-#include "pathSkipOneSlot.h"
-#include "pathSkipTwoSlots.h"
-#include "pathStackOneSlot.h"
-#include "pathStackTwoSlots.h"
-#include "richPathSkipOneSlot.h"
-#include "richPathSkipTwoSlots.h"
-#include "richPathStackOneSlot.h"
-#include "richPathStackTwoSlots.h"
-#include "richWhittedSkipOneSlot.h"
-#include "richWhittedSkipTwoSlots.h"
-#include "richWhittedStackOneSlot.h"
-#include "richWhittedStackTwoSlots.h"
-#include "viewSkipOneSlot.h"
-#include "viewSkipTwoSlots.h"
-#include "viewStackOneSlot.h"
-#include "viewStackTwoSlots.h"
-#include "whittedSkipOneSlot.h"
-#include "whittedSkipTwoSlots.h"
-#include "whittedStackOneSlot.h"
-#include "whittedStackTwoSlots.h"
+#include "kernel_list.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
+#include <iterator>
+#include <stdexcept>
+#include <string>
 
 namespace hyalite::gpu {
 
@@ -81,39 +66,24 @@ bool isLeanEnough(const Batching &batching, Integrator integrator, const KernelD
 
 std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator,
                                            const KernelDuties &duties) {
-    using Words = std::span<const std::uint32_t>;
     if (!batching.kernel.empty())
         return batching.kernel;
-    const std::array<Words, 4> whitted{whittedStackOneSlot, whittedStackTwoSlots, whittedSkipOneSlot,
-                                       whittedSkipTwoSlots};
-    const std::array<Words, 4> path{pathStackOneSlot, pathStackTwoSlots, pathSkipOneSlot, pathSkipTwoSlots};
-    const std::size_t index =
-        (batching.traversal == Traversal::SkipList ? 2u : 0u) + (batching.slotsPerInvocation == 2 ? 1u : 0u);
-    const std::array<Words, 4> view{viewStackOneSlot, viewStackTwoSlots, viewSkipOneSlot, viewSkipTwoSlots};
-    const std::array<Words, 4> richWhitted{richWhittedStackOneSlot, richWhittedStackTwoSlots,
-                                           richWhittedSkipOneSlot, richWhittedSkipTwoSlots};
-    const std::array<Words, 4> richPath{richPathStackOneSlot, richPathStackTwoSlots, richPathSkipOneSlot,
-                                        richPathSkipTwoSlots};
-    const bool isLean = isLeanEnough(batching, integrator, duties);
-    if (isWhitted(integrator))
-        return isLean ? whitted[index] : richWhitted[index];
-    if (integrator == Integrator::Path)
-        return isLean ? path[index] : richPath[index];
-    return view[index];
+    const bool isView = !isWhitted(integrator) && integrator != Integrator::Path;
+    const std::string name =
+        fmt::format("{}{}{}{}", isView ? "view" : (isWhitted(integrator) ? "whitted" : "path"),
+                    batching.traversal == Traversal::SkipList ? "Skip" : "Stack",
+                    batching.slotsPerInvocation == 2 ? "TwoSlots" : "OneSlot",
+                    isView || isLeanEnough(batching, integrator, duties) ? "" : "Rich");
+    const auto *kernel = std::ranges::find(embeddedKernels, std::string_view(name), &EmbeddedKernel::name);
+    if (kernel == std::end(embeddedKernels))
+        throw std::logic_error("no kernel is called " + name);
+    return kernel->words;
 }
 
 std::uint64_t hashOfKernels() {
     std::uint64_t hash = 0;
-    for (const Integrator integrator : {Integrator::Whitted, Integrator::Path, Integrator::Normal})
-        for (const Traversal traversal : {Traversal::Stack, Traversal::SkipList})
-            for (const int slots : {1, 2})
-                for (const bool isPlain : {true, false}) {
-                    Batching batching;
-                    batching.traversal = traversal;
-                    batching.slotsPerInvocation = slots;
-                    batching.arithmetic = Arithmetic::Native;
-                    hash = hashBytes(std::as_bytes(kernelWords(batching, integrator, {isPlain})), hash);
-                }
+    for (const EmbeddedKernel &kernel : embeddedKernels)
+        hash = hashBytes(std::as_bytes(kernel.words), hash);
     return hash;
 }
 
