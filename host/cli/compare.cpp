@@ -1,12 +1,12 @@
 #include "host/cli/backend.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
+#include "host/cli/outliers.h"
 #include "host/cli/statistical.h"
 #include "host/error.h"
 #include "host/image/comparison_json.h"
 #include "host/image/heat_map.h"
 #include "host/image/png.h"
-#include "host/image/tone_map.h"
 #include "host/reference/explain.h"
 #include "host/report/divergence.h"
 #include "host/report/json_text.h"
@@ -15,8 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -39,76 +37,6 @@ struct CompareOptions {
     std::optional<std::uint32_t> againstSeed;
     bool isQuiet = false;
 };
-
-/// How far two channels may be apart: "4ulp" or an absolute difference of linear radiance.
-struct Tolerance {
-    double absolute = 0.0;
-    std::uint32_t ulps = 0;
-
-    [[nodiscard]] bool allows(float a, float b) const {
-        if (ulpDistance(a, b) <= ulps)
-            return true;
-        return std::abs(static_cast<double>(a) - static_cast<double>(b)) <= absolute;
-    }
-};
-
-Tolerance parseTolerance(const std::string &text) {
-    std::size_t end = 0;
-    double value = -1.0;
-    try {
-        value = std::stod(text, &end);
-    } catch (const std::exception &) {
-        end = 0;
-    }
-    const std::string unit = text.substr(end);
-    const bool isUlps = unit == "ulp" || unit == "ulps";
-    if (end == 0 || !(value >= 0.0) || !std::isfinite(value) || !(isUlps || unit.empty()) ||
-        (isUlps && value > 1e9))
-        throw Error(
-            ExitCode::Usage,
-            fmt::format("--tolerance {}: give a difference of radiance such as 1e-5, or ULPs such as 4ulp",
-                        text));
-    return isUlps ? Tolerance{0.0, static_cast<std::uint32_t>(value)} : Tolerance{value, 0};
-}
-
-/// Pixels of the images, that is of the crop.
-using Pixels = std::vector<glm::ivec2>;
-
-Pixels findOutliers(const Image &a, const Image &b, const Tolerance &tolerance) {
-    Pixels outliers;
-    for (int y = 0; y < a.height(); ++y)
-        for (int x = 0; x < a.width(); ++x)
-            for (int channel = 0; channel < 3; ++channel)
-                if (!tolerance.allows(a.at(x, y)[channel], b.at(x, y)[channel])) {
-                    outliers.push_back({x, y});
-                    break;
-                }
-    return outliers;
-}
-
-/// More than two of 255 levels apart in a PNG: what an eye could find.
-Pixels findVisibleOutliers(const Image &a, const Image &b) {
-    const std::vector<std::uint8_t> levelsA = toneMap(a, 0.0);
-    const std::vector<std::uint8_t> levelsB = toneMap(b, 0.0);
-    Pixels outliers;
-    for (std::size_t i = 0; i < levelsA.size(); i += 3) {
-        const auto isFar = [&](std::size_t k) {
-            return std::abs(int{levelsA[i + k]} - int{levelsB[i + k]}) > 2;
-        };
-        const int pixel = static_cast<int>(i / 3);
-        if (isFar(0) || isFar(1) || isFar(2))
-            outliers.push_back({pixel % a.width(), pixel / a.width()});
-    }
-    return outliers;
-}
-
-/// The pixel that a difference is explained at: the one with the largest, or the first with any.
-glm::ivec2 worstPixel(const Image &a, const Image &b, const PixelMetrics &metrics) {
-    if (metrics.maxAbsoluteDifference > 0.0)
-        return {metrics.worstX, metrics.worstY};
-    const Pixels differing = findOutliers(a, b, {});
-    return differing.empty() ? glm::ivec2(0) : differing.front();
-}
 
 glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel) {
     return {static_cast<std::uint32_t>(crop.x0 + pixel.x), static_cast<std::uint32_t>(crop.y0 + pixel.y)};
