@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 #include <optional>
 #include <span>
 #include <string>
@@ -190,7 +191,13 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     };
     const std::vector<Crop> bands = cutIntoBands(crop, state_->info);
     const ScenePlan scenePlan = planScene(scene, isSkipList);
-    result.memory = state_->requireMemory(scenePlan, planJob(jobOf(bands.front()), batching, state_->info));
+    const Job firstJob = jobOf(bands.front());
+    const JobPlan firstPlan = planJob(firstJob, batching, state_->info);
+    result.memory = state_->requireMemory(scenePlan, firstPlan);
+    // Drivers make a pipeline on one processor: meanwhile the others prepare what it works on.
+    std::future<Pipeline> firstPipeline = std::async(std::launch::async, [&] {
+        return TileRenderer::makePipeline(*state_->device, batching, firstJob, scenePlan, firstPlan);
+    });
     const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
     result.timing.uploadSeconds = endStage("upload");
 
@@ -204,9 +211,12 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         if (isBegun)
             job.film = bandPixels;
         const RayCounts raysBefore = result.rays;
-        TileRenderer tiles(*state_->device, buffers, batching, job, planJob(job, batching, state_->info));
+        const JobPlan plan = planJob(job, batching, state_->info);
+        TileRenderer tiles(*state_->device, buffers, batching, job, scenePlan, plan);
         result.timing.pipelineSeconds += endStage("buffers");
-        tiles.makeKernel();
+        tiles.makeKernel(firstPipeline.valid()
+                             ? firstPipeline.get()
+                             : TileRenderer::makePipeline(*state_->device, batching, job, scenePlan, plan));
         result.timing.pipelineSeconds += endStage("pipeline");
         tiles.warmUp();
         result.timing.pipelineSeconds += endStage("first dispatch");
@@ -265,8 +275,8 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     const JobPlan jobPlan = planJob(job, batching, state_->info);
     (void)state_->requireMemory(scenePlan, jobPlan);
     const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
-    TileRenderer tiles(*state_->device, buffers, batching, job, jobPlan);
-    tiles.makeKernel();
+    TileRenderer tiles(*state_->device, buffers, batching, job, scenePlan, jobPlan);
+    tiles.makeKernel(TileRenderer::makePipeline(*state_->device, batching, job, scenePlan, jobPlan));
     (void)tiles.run({});
     return tiles.readTrace();
 }

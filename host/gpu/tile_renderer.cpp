@@ -32,11 +32,27 @@ LaneCounts lanesOf(const layout::DispatchProgress &counters, std::uint32_t slots
     return {counters.traversalPasses, counters.busySlots, slotsPerSubgroup};
 }
 
+/// Of the kernel that can be resumed, or of the other.
+const WaitingPlan &waitingPlan(const JobPlan &plan, bool isResumable) {
+    return isResumable && plan.isDirect ? plan.helperWaiting : plan.waiting;
+}
+
+/// The buffers at bindings 0, 1, ..., or their plans.
+template <class Scene, class T>
+std::array<const T *, layout::bindingCount>
+inBindingOrder(const Scene &scene, const T &film, const T &progress, const T &paths, const T &pending,
+               const T &stacks, const T &trace) {
+    return {&scene.frame,     &scene.spheres, &scene.lights, &scene.materials,   &scene.nodes,
+            &scene.triangles, &scene.normals, &film,         &progress,          &paths,
+            &pending,         &stacks,        &trace,        &scene.sphereArray, &scene.emitters,
+            &scene.texels,    &scene.textures};
+}
+
 } // namespace
 
 TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching,
-                           const Job &job, const JobPlan &plan)
-    : device_(device), buffers_(buffers), batching_(batching), job_(job), plan_(plan),
+                           const Job &job, const ScenePlan &scenePlan, const JobPlan &plan)
+    : device_(device), buffers_(buffers), batching_(batching), job_(job), scenePlan_(scenePlan), plan_(plan),
       film_(device, plan.film), progress_(device, plan.progress), stacks_(device, plan.stacks),
       trace_(device, plan.trace),
       pace_(batching.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount()) {
@@ -78,11 +94,8 @@ void TileRenderer::moveTo(const Tile &tile) {
     groupCount_ = (slotCount(tile) + slotsPerRound - 1) / slotsPerRound * dispatch_.interleave;
 }
 
-void TileRenderer::makeKernel() {
-    if (!plan_.isDirect)
-        resumable_.emplace(makeProgram(true));
-    else
-        direct_.emplace(makeProgram(false));
+void TileRenderer::makeKernel(Pipeline pipeline) {
+    (plan_.isDirect ? direct_ : resumable_).emplace(makeProgram(std::move(pipeline), !plan_.isDirect));
 }
 
 void TileRenderer::warmUp() { warmUp(direct_ ? direct_->kernel : resumable_->kernel); }
@@ -95,12 +108,15 @@ void TileRenderer::warmUp(Kernel &kernel) {
     dispatch_.sampleEnd = sampleEnd;
 }
 
-TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
-    const PackedScene &scene = job_.scene;
-    const WaitingPlan &waiting = isResumable && plan_.isDirect ? plan_.helperWaiting : plan_.waiting;
-    Buffer paths(device_, waiting.paths);
-    Buffer pending(device_, waiting.pending);
+Pipeline TileRenderer::makePipeline(Device &device, const Batching &batching, const Job &job,
+                                    const ScenePlan &scenePlan, const JobPlan &plan) {
+    return makePipeline(device, batching, job, scenePlan, plan, !plan.isDirect);
+}
 
+Pipeline TileRenderer::makePipeline(Device &device, const Batching &batching, const Job &job,
+                                    const ScenePlan &scenePlan, const JobPlan &plan, bool isResumable) {
+    const PackedScene &scene = job.scene;
+    const WaitingPlan &waiting = waitingPlan(plan, isResumable);
     SpecializationConstants constants{};
     constants[layout::constantWorkgroupSize] = workgroupSize;
     constants[layout::constantSphereCount] = static_cast<std::uint32_t>(scene.spheres.size());
@@ -114,46 +130,41 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     constants[layout::constantLighting] = scene.lighting;
     constants[layout::constantCamera] = scene.camera;
     constants[layout::constantTexturing] = scene.texturing;
-    constants[layout::constantView] = viewOf(job_.integrator);
-    constants[layout::constantSampler] = job_.sampler;
-    constants[layout::constantStackSize] = plan_.stackSize;
-    constants[layout::constantIsTracing] = job_.isTraced;
-    constants[layout::constantExactDivision] = batching_.arithmetic == Arithmetic::Native;
-    constants[layout::constantSamplesAbreast] = plan_.samplesAbreast;
+    constants[layout::constantView] = viewOf(job.integrator);
+    constants[layout::constantSampler] = job.sampler;
+    constants[layout::constantStackSize] = plan.stackSize;
+    constants[layout::constantIsTracing] = job.isTraced;
+    constants[layout::constantExactDivision] = batching.arithmetic == Arithmetic::Native;
+    constants[layout::constantSamplesAbreast] = plan.samplesAbreast;
     constants[layout::constantIsResumable] = isResumable;
-    constants[layout::constantIsCounting] = batching_.isCounting;
-    constants[layout::constantShowsCost] = job_.integrator == Integrator::Cost;
+    constants[layout::constantIsCounting] = batching.isCounting;
+    constants[layout::constantShowsCost] = job.integrator == Integrator::Cost;
     constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;
-    const std::array<const Buffer *, layout::bindingCount> bound{&buffers_.frame,
-                                                                 &buffers_.spheres,
-                                                                 &buffers_.lights,
-                                                                 &buffers_.materials,
-                                                                 &buffers_.nodes,
-                                                                 &buffers_.triangles,
-                                                                 &buffers_.normals,
-                                                                 &film_,
-                                                                 &progress_,
-                                                                 &paths,
-                                                                 &pending,
-                                                                 &stacks_,
-                                                                 &trace_,
-                                                                 &buffers_.sphereArray,
-                                                                 &buffers_.emitters,
-                                                                 &buffers_.texels,
-                                                                 &buffers_.textures};
-    const std::string name =
-        fmt::format("{} {}{}", nameOf(job_.integrator), kernelName(batching_),
-                    isResumable && batching_.traversal == Traversal::SkipList ? ", resumable" : "");
-    Kernel kernel(device_, name,
-                  kernelWords(batching_, job_.integrator, {scene.isPlain(), isResumable, job_.isTraced}),
-                  constants, bound);
+    std::array<BufferUse, layout::bindingCount> uses{};
+    std::ranges::transform(inBindingOrder(scenePlan, plan.film, plan.progress, waiting.paths, waiting.pending,
+                                          plan.stacks, plan.trace),
+                           uses.begin(), [](const BufferPlan *buffer) { return buffer->use; });
+    return Pipeline(
+        device,
+        fmt::format("{} {}{}", nameOf(job.integrator), kernelName(batching),
+                    isResumable && batching.traversal == Traversal::SkipList ? ", resumable" : ""),
+        kernelWords(batching, job.integrator, {scene.isPlain(), isResumable, job.isTraced}), constants, uses);
+}
+
+TileRenderer::Program TileRenderer::makeProgram(Pipeline pipeline, bool isResumable) {
+    const WaitingPlan &waiting = waitingPlan(plan_, isResumable);
+    Buffer paths(device_, waiting.paths);
+    Buffer pending(device_, waiting.pending);
+    const auto bound = inBindingOrder(buffers_, film_, progress_, paths, pending, stacks_, trace_);
+    Kernel kernel(device_, std::move(pipeline), bound);
     return {std::move(paths), std::move(pending), std::move(kernel)};
 }
 
 Kernel &TileRenderer::resumableKernel(Timeline *timeline) {
     if (!resumable_) {
         Stopwatch watch;
-        resumable_.emplace(makeProgram(true));
+        resumable_.emplace(
+            makeProgram(makePipeline(device_, batching_, job_, scenePlan_, plan_, true), true));
         warmUp(resumable_->kernel);
         const Span span = watch.lap();
         lateBuildSeconds_ += span.seconds();

@@ -36,12 +36,17 @@ struct TileTotals {
 /// few samples.
 class TileRenderer {
   public:
-    /// `batching` is complete, and `plan` was made for it and the job. Throws as Buffer does.
-    TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job,
-                 const JobPlan &plan);
+    /// The pipeline of a job's kernel, which takes drivers as long as many samples: it can be made before there are
+    /// buffers. `batching` is complete, and the plans were made for it and the job. Throws as Pipeline does.
+    [[nodiscard]] static Pipeline makePipeline(Device &device, const Batching &batching, const Job &job,
+                                               const ScenePlan &scenePlan, const JobPlan &plan);
 
-    /// Builds the kernel. Throws as Kernel does.
-    void makeKernel();
+    /// As above. Throws as Buffer does.
+    TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job,
+                 const ScenePlan &scenePlan, const JobPlan &plan);
+
+    /// Puts the kernel together from what makePipeline made. Throws as Kernel does.
+    void makeKernel(Pipeline pipeline);
 
     /// Runs the kernel without samples: drivers that compile at the first dispatch do it now.
     void warmUp();
@@ -89,7 +94,10 @@ class TileRenderer {
     /// Whether a part that wants samples up to `end` is too large for one dispatch.
     [[nodiscard]] bool mustHalve(const Part &part, std::uint32_t end) const;
     void moveTo(const Tile &tile);
-    [[nodiscard]] Program makeProgram(bool isResumable);
+    [[nodiscard]] static Pipeline makePipeline(Device &device, const Batching &batching, const Job &job,
+                                               const ScenePlan &scenePlan, const JobPlan &plan,
+                                               bool isResumable);
+    [[nodiscard]] Program makeProgram(Pipeline pipeline, bool isResumable);
     Kernel &resumableKernel(Timeline *timeline);
     Step runOnce(Kernel &kernel);
     /// Runs `kernel` over no samples.
@@ -100,6 +108,7 @@ class TileRenderer {
     const SceneBuffers &buffers_;
     Batching batching_;
     Job job_;
+    ScenePlan scenePlan_;
     JobPlan plan_;
     Buffer film_;
     Buffer progress_;
