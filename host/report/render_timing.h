@@ -7,7 +7,7 @@ namespace hyalite {
 
 struct RenderTiming {
     double uploadSeconds = 0.0;   ///< scene data to the device
-    double pipelineSeconds = 0.0; ///< kernels built, and run once without work as some drivers compile then
+    double pipelineSeconds = 0.0; ///< building kernels, beyond the upload, and their first runs, without work
     double renderSeconds = 0.0;   ///< from the first ray to the last
     std::uint64_t dispatchCount = 0;
 };
