@@ -163,7 +163,8 @@ struct DeviceList {
 DeviceList listDevices() {
     try {
         auto instance = std::make_unique<gpu::Instance>();
-        return {std::move(instance), gpu::listDevices()};
+        auto devices = gpu::listDevices(*instance);
+        return {std::move(instance), std::move(devices)};
     } catch (const Error &error) {
         if (error.exitCode != ExitCode::NoDevice)
             throw;

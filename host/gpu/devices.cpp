@@ -87,8 +87,9 @@ const char *deviceTypeName(DeviceType type) {
     return "other";
 }
 
-std::vector<DeviceInfo> listDevices() {
-    const Instance instance;
+std::vector<DeviceInfo> listDevices() { return listDevices(Instance()); }
+
+std::vector<DeviceInfo> listDevices(const Instance &instance) {
     std::vector<DeviceInfo> devices;
     for (VkPhysicalDevice physical : instance.physicalDevices()) {
         devices.push_back(describePhysicalDevice(physical));

@@ -11,6 +11,8 @@ enum class DeviceType { Discrete, Integrated, Virtual, Cpu, Other };
 
 [[nodiscard]] const char *deviceTypeName(DeviceType type);
 
+class Instance;
+
 struct DeviceInfo {
     int index = 0; ///< in the order of vkEnumeratePhysicalDevices
     std::string name;
@@ -46,6 +48,8 @@ struct DeviceInfo {
 /// All devices that the Vulkan loader finds, usable or not. Throws Error{NoDevice}, saying what to install, where
 /// there is no loader, no driver or no device at all.
 [[nodiscard]] std::vector<DeviceInfo> listDevices();
+/// The same, by an instance that stays.
+[[nodiscard]] std::vector<DeviceInfo> listDevices(const Instance &instance);
 
 /// Chooses by "auto" (a hardware GPU before a software one), an index, or a part of a name, in any case and whatever
 /// the width of vectors in it. Throws Error{NoDevice} listing what there is, if none or an unusable one is meant.
