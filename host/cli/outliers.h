@@ -12,7 +12,7 @@
 
 namespace hyalite {
 
-/// How far two channels may be apart: by so many representable numbers, or by an absolute difference of linear radiance.
+/// How far two channels may be apart: by so many representable numbers, or by a difference of linear radiance.
 struct Tolerance {
     double absolute = 0.0;
     std::uint32_t ulps = 0;

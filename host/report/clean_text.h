@@ -6,9 +6,9 @@
 
 namespace hyalite {
 
-/// Valid UTF-8 without control characters other than line feeds, and without those that change lines or the direction of
-/// text (Unicode Standard Annex 9, section 2), which can make a name look like another: each byte and character that is
-/// not becomes U+FFFD.
+/// Valid UTF-8 without control characters other than line feeds, and without those that change lines or the direction
+/// of text (Unicode Standard Annex 9, section 2), which can make a name look like another: each byte and character that
+/// is not becomes U+FFFD.
 [[nodiscard]] std::string cleanText(std::string_view text);
 
 } // namespace hyalite

@@ -11,8 +11,8 @@
 
 namespace hyalite {
 
-/// Prints on standard error. Names from files may be in it: a terminal must not obey them. A message that is lost, because
-/// nobody reads it or a disk is full, stops no work.
+/// Prints on standard error. Names from files may be in it: a terminal must not obey them. A message that is lost,
+/// because nobody reads it or a disk is full, stops no work.
 template <class... Arguments>
 void printMessage(fmt::format_string<Arguments...> format, Arguments &&...arguments) {
     const std::string text = cleanText(fmt::format(format, std::forward<Arguments>(arguments)...));
