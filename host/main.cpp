@@ -134,14 +134,14 @@ ExitCode runAndReport(std::span<char *> arguments) {
         printMessage("hyalite: out of memory\n");
         return ExitCode::LimitExceeded;
     } catch (const std::exception &error) {
+        if (std::ferror(stdout) != 0) // fmt::print throws
+            return ExitCode::Ok;      // which finishOutput corrects
         const auto *systemError = dynamic_cast<const std::system_error *>(&error);
         if (systemError != nullptr && systemError->code() == std::errc::resource_unavailable_try_again) {
             printMessage(
                 "hyalite: no thread can be started; raise the limit (ulimit -u), or end other programs\n");
             return ExitCode::LimitExceeded;
         }
-        if (std::ferror(stdout) != 0) // fmt::print throws
-            return ExitCode::Ok;      // which finishOutput corrects
         printMessage("hyalite: internal error: {}\n", error.what());
         return ExitCode::BadInput;
     }

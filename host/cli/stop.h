@@ -5,10 +5,10 @@
 
 namespace hyalite {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only noted, and SIGPIPE is ignored. Another one ends the program at once, as if none of this
-/// existed; one that follows within `echoSeconds` is taken for the same wish, since `timeout` and terminals behind
-/// wrappers send each signal twice. A signal that the program was started to ignore, as in the background of a script,
-/// stays ignored.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only noted, and SIGPIPE is ignored. Another wish to stop ends
+/// the program at once, as if none of this existed; one that follows within `echoSeconds` is taken for the same, since
+/// `timeout` and terminals behind wrappers send each signal twice. A signal that the program was started to ignore, as
+/// in the background of a script, stays ignored.
 /// At most one of them lives at a time.
 class CaughtSignals {
   public:

@@ -65,7 +65,7 @@ std::size_t checkNativeArithmetic(Device &device) {
     const Buffer resultBuffer(device, "the results of the arithmetic check", BufferUse::Counters,
                               std::as_bytes(std::span(results)).size());
     const std::array<const Buffer *, 2> buffers{&inputBuffer, &resultBuffer};
-    Kernel kernel(device, Pipeline(device, "checkArithmetic", checkArithmetic, {}, usesOf(buffers)), buffers);
+    Kernel kernel(device, "checkArithmetic", checkArithmetic, {}, buffers);
     kernel.run({}, checkedInputCount / checkWorkgroupSize);
     resultBuffer.download(std::as_writable_bytes(std::span(results)));
     return countWrongResults(inputs, results);

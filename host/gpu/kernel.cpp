@@ -19,12 +19,24 @@ std::string describeTile(const layout::DispatchConstants &dispatch) {
                        dispatch.isResumed != 0 ? ", resumed" : "");
 }
 
+/// In the order of the buffers.
+std::vector<BufferUse> usesOf(std::span<const Buffer *const> buffers) {
+    std::vector<BufferUse> uses;
+    for (const Buffer *buffer : buffers)
+        uses.push_back(buffer->use());
+    return uses;
+}
+
 } // namespace
 
 Kernel::Kernel(Device &device, Pipeline pipeline, std::span<const Buffer *const> buffers)
     : device_(device), pipeline_(std::move(pipeline)) {
     makeDescriptors(buffers);
 }
+
+Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
+               std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers)
+    : Kernel(device, Pipeline(device, std::move(name), spirv, constants, usesOf(buffers)), buffers) {}
 
 void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
     std::vector<VkDescriptorPoolSize> sizes;
@@ -96,13 +108,6 @@ RunTimes Kernel::run(const layout::DispatchConstants &constants, std::uint32_t w
     });
     const Span host = watch.lap();
     return {host, timestamps.read(host)};
-}
-
-std::vector<BufferUse> usesOf(std::span<const Buffer *const> buffers) {
-    std::vector<BufferUse> uses;
-    for (const Buffer *buffer : buffers)
-        uses.push_back(buffer->use());
-    return uses;
 }
 
 } // namespace hyalite::gpu

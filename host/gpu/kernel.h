@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace hyalite::gpu {
 
@@ -19,6 +18,10 @@ class Kernel {
   public:
     /// `buffers` are bindings 0, 1, ..., of the uses that the pipeline was made for. Throws as `check` does.
     Kernel(Device &device, Pipeline pipeline, std::span<const Buffer *const> buffers);
+
+    /// With a pipeline of its own. Throws as Pipeline does, too.
+    Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
+           std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers);
 
     [[nodiscard]] const std::string &name() const { return pipeline_.name(); }
 
@@ -33,8 +36,5 @@ class Kernel {
     DescriptorPoolHandle descriptorPool_;
     VkDescriptorSet descriptorSet_ = VK_NULL_HANDLE; ///< freed with its pool
 };
-
-/// The uses of buffers, in their order.
-[[nodiscard]] std::vector<BufferUse> usesOf(std::span<const Buffer *const> buffers);
 
 } // namespace hyalite::gpu

@@ -95,8 +95,7 @@ struct RayTracer::State {
         bound[layout::bindingStacks] = &stacks;
         bound[layout::bindingRays] = &rays;
         bound[layout::bindingHits] = &hits;
-        return Kernel(scene.device, Pipeline(scene.device, code.name, code.spirv, constants, usesOf(bound)),
-                      bound);
+        return Kernel(scene.device, code.name, code.spirv, constants, bound);
     }
 };
 

@@ -211,12 +211,13 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         if (isBegun)
             job.film = bandPixels;
         const RayCounts raysBefore = result.rays;
-        const JobPlan plan = planJob(job, batching, state_->info);
-        TileRenderer tiles(*state_->device, buffers, batching, job, scenePlan, plan);
+        TileRenderer tiles(*state_->device, buffers, batching, job, scenePlan,
+                           planJob(job, batching, state_->info));
         result.timing.pipelineSeconds += endStage("buffers");
-        tiles.makeKernel(firstPipeline.valid()
-                             ? firstPipeline.get()
-                             : TileRenderer::makePipeline(*state_->device, batching, job, scenePlan, plan));
+        if (firstPipeline.valid())
+            tiles.makeKernel(firstPipeline.get());
+        else
+            tiles.makeKernel();
         result.timing.pipelineSeconds += endStage("pipeline");
         tiles.warmUp();
         result.timing.pipelineSeconds += endStage("first dispatch");
@@ -276,7 +277,7 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     (void)state_->requireMemory(scenePlan, jobPlan);
     const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
     TileRenderer tiles(*state_->device, buffers, batching, job, scenePlan, jobPlan);
-    tiles.makeKernel(TileRenderer::makePipeline(*state_->device, batching, job, scenePlan, jobPlan));
+    tiles.makeKernel();
     (void)tiles.run({});
     return tiles.readTrace();
 }

@@ -98,6 +98,8 @@ void TileRenderer::makeKernel(Pipeline pipeline) {
     (plan_.isDirect ? direct_ : resumable_).emplace(makeProgram(std::move(pipeline), !plan_.isDirect));
 }
 
+void TileRenderer::makeKernel() { makeKernel(makePipeline(device_, batching_, job_, scenePlan_, plan_)); }
+
 void TileRenderer::warmUp() { warmUp(direct_ ? direct_->kernel : resumable_->kernel); }
 
 void TileRenderer::warmUp(Kernel &kernel) {

@@ -45,8 +45,9 @@ class TileRenderer {
     TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job,
                  const ScenePlan &scenePlan, const JobPlan &plan);
 
-    /// Puts the kernel together from what makePipeline made. Throws as Kernel does.
+    /// Puts the kernel together, with what makePipeline made or makes now. Throws as Kernel does.
     void makeKernel(Pipeline pipeline);
+    void makeKernel();
 
     /// Runs the kernel without samples: drivers that compile at the first dispatch do it now.
     void warmUp();

@@ -113,9 +113,7 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
         &triangle.buffer,   &normal.buffer,  &film.buffer,  &progress.buffer, &trace.buffer,
         &path.buffer,       &pending.buffer, &skip.buffer,  &emitter.buffer,  &texel.buffer,
         &textureRow.buffer, &texture.buffer, &output};
-    gpu::Kernel(probeDevice(), gpu::Pipeline(probeDevice(), "echo", echoKernel, {}, gpu::usesOf(buffers)),
-                buffers)
-        .run(dispatch, 1);
+    gpu::Kernel(probeDevice(), "echo", echoKernel, {}, buffers).run(dispatch, 1);
     output.download(std::as_writable_bytes(std::span(words)));
     for (std::size_t i = 0; i < words.size(); ++i)
         EXPECT_EQ(words[i], expected.words.get()[i].bits) << expected.names[i] << ", word " << i;

@@ -68,8 +68,7 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
     std::vector<const gpu::Buffer *> bound;
     for (const std::unique_ptr<gpu::Buffer> &buffer : buffers_)
         bound.push_back(buffer.get());
-    kernel_ = std::make_unique<gpu::Kernel>(
-        probeDevice(), gpu::Pipeline(probeDevice(), "probe", probeKernel, constants, gpu::usesOf(bound)), bound);
+    kernel_ = std::make_unique<gpu::Kernel>(probeDevice(), "probe", probeKernel, constants, bound);
 }
 
 std::vector<std::uint32_t> Probe::run(const std::vector<std::uint32_t> &inputs) {

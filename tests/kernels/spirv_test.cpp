@@ -25,8 +25,9 @@ bool mayDivide(const Instruction &instruction) {
 }
 
 TEST(EmbeddedKernels, AreAllListed) {
-    for (const char *name : {"checkArithmetic", "whittedStackOneSlot", "pathSkipTwoSlotsRich", "probeKernel",
-                             "unoptimisedStack", "unoptimisedSkipList"})
+    for (const char *name :
+         {"checkArithmetic", "whittedStackOneSlot", "whittedStackTwoSlots", "pathSkipTwoSlotsRich",
+          "probeKernel", "unoptimisedStack", "unoptimisedSkipList"})
         EXPECT_EQ(std::ranges::count(embeddedKernels, name, &EmbeddedKernel::name), 1) << name;
 }
 
