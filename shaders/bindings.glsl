@@ -20,36 +20,15 @@ layout(constant_id = constantLightCount) const uint lightCount = 1u;
 layout(constant_id = constantPendingInRegisters) const uint pendingInRegisters = 0u;
 layout(constant_id = constantEmitterCount) const uint emitterCount = 0u;
 layout(constant_id = constantHasEmission) const bool hasEmission = true;
-// Drivers read all of a kernel before they leave out what constants tell them to, and take their time: what few renders
-// need is left out of kernels with RICH=0 (batching.cpp says when they will do). Over skip lists, which are for lavapipe,
-// these also rely on its own division, and do not go on with samples that did not fit into a dispatch.
-#ifndef RICH
-#define RICH 1
-#endif
-#if RICH
 layout(constant_id = constantIsCounting) const bool isCounting = false;
 layout(constant_id = constantShowsCost) const bool showsCost = false;
 layout(constant_id = constantIsTracing) const bool isTracing = false;
+layout(constant_id = constantIsResumable) const bool isResumable = true;
 layout(constant_id = constantScattering) const uint scattering = 0u;
 layout(constant_id = constantLighting) const uint lighting = 0u;
 layout(constant_id = constantCamera) const uint camera = cameraPinhole;
 layout(constant_id = constantTexturing) const uint texturing = 0u;
-#else
-const bool isCounting = false;
-const bool showsCost = false;
-const bool isTracing = false;
-const uint scattering = 0u;
-const uint lighting = 0u;
-const uint camera = cameraPinhole;
-const uint texturing = 0u;
-#endif
-#if RICH || !SKIP_LIST
 layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
-layout(constant_id = constantIsResumable) const bool isResumable = true;
-#else
-const bool hasExactDivision = true;
-const bool isResumable = false;
-#endif
 
 // Entry kernels begin with loadConstants(), and everything else reads these copies: inside of loops and branches
 // lavapipe loads every word of a uniform buffer and of the push constants lane by lane.

@@ -1,5 +1,5 @@
 // Entry kernel: the Whitted integrator, RAYS path slots an invocation, over a stack or a skip list
-// (SKIP_LIST=1), for all scenes or for plain ones (RICH=0: bindings.glsl).
+// (SKIP_LIST=1).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

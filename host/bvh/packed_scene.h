@@ -31,12 +31,6 @@ struct PackedScene {
     std::uint32_t texturing = 0; ///< bits of layout::textures...
     std::uint32_t camera = layout::cameraPinhole;
 
-    /// Whether surfaces are diffuse, mirrors or clear glass, without textures, lit by point lights or by surfaces that
-    /// emit, and seen through a pinhole: kernels for these scenes know nothing else.
-    [[nodiscard]] bool isPlain() const {
-        return scattering == 0 && lighting == 0 && texturing == 0 && camera == layout::cameraPinhole;
-    }
-
     /// Of all arrays together: what a device has to hold of the scene.
     [[nodiscard]] std::size_t sizeBytes() const;
 

@@ -53,27 +53,14 @@ Batching completed(Batching batching, const DeviceInfo &device, Workload workloa
     return batching;
 }
 
-namespace {
-
-/// Whether a kernel with RICH=0 will do: bindings.glsl says what they leave out.
-bool isLeanEnough(const Batching &batching, Integrator integrator, const KernelDuties &duties) {
-    const bool isForLavapipe = batching.traversal == Traversal::SkipList;
-    return duties.isPlain && !batching.isCounting && integrator != Integrator::Cost && !duties.isTracing &&
-           (!isForLavapipe || (!duties.isResumable && batching.arithmetic == Arithmetic::Native));
-}
-
-} // namespace
-
-std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator,
-                                           const KernelDuties &duties) {
+std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator) {
     if (!batching.kernel.empty())
         return batching.kernel;
     const bool isView = !isWhitted(integrator) && integrator != Integrator::Path;
     const std::string name =
-        fmt::format("{}{}{}{}", isView ? "view" : (isWhitted(integrator) ? "whitted" : "path"),
+        fmt::format("{}{}{}", isView ? "view" : (isWhitted(integrator) ? "whitted" : "path"),
                     batching.traversal == Traversal::SkipList ? "Skip" : "Stack",
-                    batching.slotsPerInvocation == 2 ? "TwoSlots" : "OneSlot",
-                    isView || isLeanEnough(batching, integrator, duties) ? "" : "Rich");
+                    batching.slotsPerInvocation == 2 ? "TwoSlots" : "OneSlot");
     const auto *kernel = std::ranges::find(embeddedKernels, std::string_view(name), &EmbeddedKernel::name);
     if (kernel == std::end(embeddedKernels))
         throw std::logic_error("no kernel is called " + name);

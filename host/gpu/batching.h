@@ -52,17 +52,8 @@ inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNa
 [[nodiscard]] Batching completed(Batching batching, const DeviceInfo &device,
                                  Workload workload = Workload::Triangles);
 
-/// What an integrator's kernel has to do.
-struct KernelDuties {
-    bool isPlain = false;     ///< it is for a scene that PackedScene calls plain
-    bool isResumable = false; ///< samples that do not fit into a dispatch wait for the next
-    bool isTracing = false;   ///< keeps what one path does
-};
-
-/// The kernel of `integrator` that a complete `batching` names, as SPIR-V: that of few constants, which drivers read in
-/// less time, wherever it will do.
-[[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator,
-                                                         const KernelDuties &duties);
+/// The kernel of `integrator` that a complete `batching` names, as SPIR-V.
+[[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator);
 
 /// Of all kernels together: what was measured of others does not hold.
 [[nodiscard]] std::uint64_t hashOfKernels();

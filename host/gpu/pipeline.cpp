@@ -2,6 +2,7 @@
 
 #include "host/gpu/check.h"
 #include "host/gpu/float_controls.h"
+#include "host/gpu/specialise.h"
 #include "shaders/layout.h"
 
 #include <vector>
@@ -63,7 +64,7 @@ void Pipeline::makeLayouts(Device &device, std::span<const BufferUse> uses) {
 void Pipeline::makePipeline(Device &device, std::span<const std::uint32_t> spirv,
                             std::span<const std::uint32_t> constants) {
     const std::vector<std::uint32_t> words = addFloatControls(
-        spirv, {device.info().canRoundToNearestEven, device.info().canPreserveSignedZeroInfNan});
+        specialise(spirv, constants), {device.info().canRoundToNearestEven, device.info().canPreserveSignedZeroInfNan});
     VkShaderModuleCreateInfo moduleInfo{};
     moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     moduleInfo.codeSize = std::span(words).size_bytes();
@@ -74,21 +75,12 @@ void Pipeline::makePipeline(Device &device, std::span<const std::uint32_t> spirv
     const ShaderModuleHandle moduleOwner(device.get(), module);
     device.debugUtils().name(VK_OBJECT_TYPE_SHADER_MODULE, module, name_);
 
-    std::vector<VkSpecializationMapEntry> entries;
-    for (std::uint32_t id = 0; id < constants.size(); ++id)
-        entries.push_back({id, id * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t)});
-    VkSpecializationInfo specialization{};
-    specialization.mapEntryCount = static_cast<std::uint32_t>(entries.size());
-    specialization.pMapEntries = entries.data();
-    specialization.dataSize = constants.size_bytes();
-    specialization.pData = constants.data();
     VkComputePipelineCreateInfo pipelineInfo{};
     pipelineInfo.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     pipelineInfo.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     pipelineInfo.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     pipelineInfo.stage.module = module;
     pipelineInfo.stage.pName = "main";
-    pipelineInfo.stage.pSpecializationInfo = &specialization;
     pipelineInfo.layout = layout_.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device.get(), VK_NULL_HANDLE, 1, &pipelineInfo, nullptr, &pipeline),

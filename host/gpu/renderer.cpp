@@ -129,8 +129,7 @@ std::string_view Renderer::kernelName(const PackedScene &scene, Integrator integ
 }
 
 std::uint64_t Renderer::kernelHash(const PackedScene &scene, Integrator integrator) const {
-    return hashBytes(
-        std::as_bytes(kernelWords(state_->batchingFor(scene, integrator), integrator, {scene.isPlain()})));
+    return hashBytes(std::as_bytes(kernelWords(state_->batchingFor(scene, integrator), integrator)));
 }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,

@@ -150,7 +150,7 @@ Pipeline TileRenderer::makePipeline(Device &device, const Batching &batching, co
         device,
         fmt::format("{} {}{}", nameOf(job.integrator), kernelName(batching),
                     isResumable && batching.traversal == Traversal::SkipList ? ", resumable" : ""),
-        kernelWords(batching, job.integrator, {scene.isPlain(), isResumable, job.isTraced}), constants, uses);
+        kernelWords(batching, job.integrator), constants, uses);
 }
 
 TileRenderer::Program TileRenderer::makeProgram(Pipeline pipeline, bool isResumable) {

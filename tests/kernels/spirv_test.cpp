@@ -1,12 +1,9 @@
 // What our kernels may consist of, so that every device computes the same bits; and the float controls that the host
 // adds to them.
-#include "host/gpu/batching.h"
 #include "host/gpu/float_controls.h"
-#include "shaders/layout.h"
 #include "tested_kernel_list.h"
 #include "tests/kernels/spirv_module.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +23,7 @@ bool mayDivide(const Instruction &instruction) {
 
 TEST(EmbeddedKernels, AreAllListed) {
     for (const char *name :
-         {"checkArithmetic", "whittedStackOneSlot", "whittedStackTwoSlots", "pathSkipTwoSlotsRich",
+         {"checkArithmetic", "whittedStackOneSlot", "whittedStackTwoSlots", "pathSkipTwoSlots",
           "probeKernel", "unoptimisedStack", "unoptimisedSkipList"})
         EXPECT_EQ(std::ranges::count(embeddedKernels, name, &EmbeddedKernel::name), 1) << name;
 }
@@ -75,47 +72,6 @@ TEST(EmbeddedKernels, UseExactOperationsOnly) {
         // The same check sees them where they are.
         if (isUnoptimised(kernel)) {
             EXPECT_EQ(nativeCount, 3u) << kernel.name;
-        }
-    }
-}
-
-// ---- Constants
-
-std::set<std::uint32_t> specializationConstants(std::span<const std::uint32_t> words) {
-    std::set<std::uint32_t> ids;
-    for (const Instruction &instruction : SpirvModule(words).instructions)
-        if (instruction.opcode == spirv::opDecorate && instruction.operands[1] == spirv::decorationSpecId)
-            ids.insert(instruction.operands[2]);
-    return ids;
-}
-
-TEST(EmbeddedKernels, KnowTheConstantsOfTheirDuties) {
-    // A driver ignores constants that a module does not have: the wrong kernel would do without what it was told.
-    for (const Integrator integrator : {Integrator::Whitted, Integrator::Path, Integrator::Cost}) {
-        for (unsigned bits = 0; bits < 1u << 7; ++bits) {
-            const auto bit = [&](unsigned i) { return (bits >> i & 1u) != 0; };
-            gpu::Batching batching;
-            batching.slotsPerInvocation = bit(0) ? 2 : 1;
-            batching.traversal = bit(1) ? gpu::Traversal::SkipList : gpu::Traversal::Stack;
-            batching.isCounting = bit(3);
-            batching.arithmetic = bit(4) ? gpu::Arithmetic::Own : gpu::Arithmetic::Native;
-            const gpu::KernelDuties duties{bit(2), bit(5), bit(6)};
-            const std::set<std::uint32_t> known =
-                specializationConstants(gpu::kernelWords(batching, integrator, duties));
-            const auto knows = [&](std::uint32_t id) { return known.contains(id); };
-            SCOPED_TRACE(fmt::format("integrator {}, bits {}", static_cast<int>(integrator), bits));
-            EXPECT_TRUE(duties.isPlain || knows(layout::constantCamera));
-            EXPECT_TRUE(duties.isPlain || knows(layout::constantTexturing));
-            EXPECT_TRUE(duties.isPlain || knows(layout::constantScattering));
-            EXPECT_TRUE(duties.isPlain || knows(layout::constantLighting));
-            EXPECT_TRUE(integrator != Integrator::Cost || knows(layout::constantShowsCost));
-            EXPECT_TRUE(!batching.isCounting || knows(layout::constantIsCounting));
-            EXPECT_TRUE(!duties.isTracing || knows(layout::constantIsTracing));
-            // Over stacks kernels always go on with what waits, and skip lists may do without.
-            EXPECT_TRUE(!duties.isResumable || knows(layout::constantIsResumable));
-            EXPECT_TRUE(batching.traversal == gpu::Traversal::SkipList || knows(layout::constantIsResumable));
-            EXPECT_TRUE(batching.arithmetic == gpu::Arithmetic::Native ||
-                        knows(layout::constantExactDivision));
         }
     }
 }

@@ -1,0 +1,21 @@
+// A kernel's SPIR-V for known specialization constants, without the code that they rule out.
+//
+// A driver takes specialization constants as well, but reads, inlines and lowers a whole module before it drops what they
+// rule out, and most of our kernels' code is for features that a scene does not use.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyalite::gpu {
+
+/// The module `spirv` with the specialization constants 0, 1, ... set to `constants`, in the way of Vulkan (a boolean is
+/// true where its word is not 0); constants beyond these keep their defaults. No block is left that only a selection
+/// leads to whose condition follows from them (spirv_blocks.h), and no specialization constant but for operations that
+/// spirv_constants.h does not know. `spirv` is a valid module for Vulkan in the byte order of this machine, whose
+/// integers have 32 bits.
+[[nodiscard]] std::vector<std::uint32_t> specialise(std::span<const std::uint32_t> spirv,
+                                                    std::span<const std::uint32_t> constants);
+
+} // namespace hyalite::gpu

@@ -1,0 +1,465 @@
+// Specialization constants in SPIR-V: valid modules without the code that they rule out. That pictures stay what they
+// are is for tests of images to show: all of them run specialised kernels.
+#include "host/gpu/specialise.h"
+
+#include "host/gpu/spirv_instructions.h"
+#include "shaders/layout.h"
+#include "tested_kernel_list.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <spirv-tools/libspirv.hpp>
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+/// The errors of the validator in a module for Vulkan 1.1: empty if it is valid.
+std::string errorsIn(const Words &words) {
+    std::string errors;
+    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
+    tools.SetMessageConsumer([&](spv_message_level_t, const char *, const spv_position_t &, const char *message) {
+        errors += message;
+        errors += '\n';
+    });
+    return tools.Validate(words) ? "" : errors + "invalid";
+}
+
+std::size_t countOf(const Words &words, spv::Op opcode) {
+    const auto instructions = gpu::instructionsOf(words);
+    return static_cast<std::size_t>(
+        std::ranges::count(instructions, opcode, [](const auto &i) { return i.opcode(); }));
+}
+
+// ---- Our kernels
+
+/// What the host may set a constant to, with values that are rare among them.
+std::vector<std::uint32_t> valuesOf(std::uint32_t id) {
+    switch (id) {
+    case layout::constantWorkgroupSize:
+        return {64};
+    case layout::constantSphereCount:
+        return {0, 1, 3, 16, 17, 200};
+    case layout::constantLightCount:
+    case layout::constantEmitterCount:
+        return {0, 1, 2, 39};
+    case layout::constantSamplesAbreast:
+        return {1, 2, 4, 8};
+    case layout::constantStackSize:
+        return {1, 20, layout::maxTreeDepth};
+    case layout::constantPendingInRegisters:
+        return {0, 1, 4};
+    case layout::constantScattering:
+    case layout::constantLighting:
+    case layout::constantTexturing:
+        return {0, 1, 2, 4, 5, ~0u};
+    default:
+        return {0, 1, 2, 3};
+    }
+}
+
+/// Constants of some scene.
+Words drawConstants(std::mt19937 &random) {
+    Words constants(layout::constantCount);
+    for (std::uint32_t id = 0; id < constants.size(); ++id) {
+        const Words values = valuesOf(id);
+        constants[id] = values[random() % values.size()];
+    }
+    return constants;
+}
+
+TEST(Specialise, LeavesValidKernels) {
+    std::mt19937 random(1);
+    for (const EmbeddedKernel &kernel : embeddedKernels) {
+        for (int i = 0; i < 6; ++i) {
+            const Words constants = drawConstants(random);
+            const Words words = gpu::specialise(kernel.words, constants);
+            ASSERT_EQ(errorsIn(words), "") << kernel.name << " with " << fmt::format("{}", fmt::join(constants, " "));
+            for (const spv::Op opcode : {spv::Op::OpSpecConstant, spv::Op::OpSpecConstantTrue,
+                                         spv::Op::OpSpecConstantFalse, spv::Op::OpSpecConstantOp})
+                ASSERT_EQ(countOf(words, opcode), 0u) << kernel.name;
+        }
+    }
+}
+
+TEST(Specialise, LeavesOutWhatASceneDoesNotUse) {
+    const auto *kernel = std::ranges::find(embeddedKernels, "pathSkipOneSlot", &EmbeddedKernel::name);
+    ASSERT_NE(kernel, std::end(embeddedKernels));
+    Words constants(layout::constantCount);
+    constants[layout::constantWorkgroupSize] = 64;
+    constants[layout::constantSamplesAbreast] = 8;
+    constants[layout::constantExactDivision] = 1;
+    const Words least = gpu::specialise(kernel->words, constants);
+    EXPECT_LT(least.size() * 10, kernel->words.size());
+    const std::size_t reads = countOf(least, spv::Op::OpImageRead);
+    constants[layout::constantHasTriangles] = 1;
+    const Words triangles = gpu::specialise(kernel->words, constants);
+    EXPECT_GT(countOf(triangles, spv::Op::OpImageRead), reads);
+    constants[layout::constantTexturing] = layout::texturesBaseColour;
+    const Words textures = gpu::specialise(kernel->words, constants);
+    EXPECT_GT(countOf(textures, spv::Op::OpImageRead), countOf(triangles, spv::Op::OpImageRead));
+    // Our own division and root are integer arithmetic on significands.
+    const std::size_t native = countOf(textures, spv::Op::OpFDiv);
+    constants[layout::constantExactDivision] = 0;
+    const Words ours = gpu::specialise(kernel->words, constants);
+    EXPECT_LT(countOf(ours, spv::Op::OpFDiv), native);
+    EXPECT_GT(countOf(ours, spv::Op::OpIMul), countOf(textures, spv::Op::OpIMul));
+}
+
+// ---- Written by hand
+
+/// A module whose function `main` has this body, between its first label and the end. There are the constants %yes and
+/// %no by SpecId 0 and 1 (true and false by default), %seven by SpecId 2, %unknown from a buffer, and %c0 to %c9.
+Words moduleWith(const std::string &body, const std::string &declarations = "") {
+    std::string text = R"(
+        OpCapability Shader
+        OpMemoryModel Logical GLSL450
+        OpEntryPoint GLCompute %main "main"
+        OpExecutionMode %main LocalSize 1 1 1
+        OpDecorate %yes SpecId 0
+        OpDecorate %no SpecId 1
+        OpDecorate %seven SpecId 2
+        OpDecorate %Block Block
+        OpMemberDecorate %Block 0 Offset 0
+        OpDecorate %buffer DescriptorSet 0
+        OpDecorate %buffer Binding 0
+        %void = OpTypeVoid
+        %bool = OpTypeBool
+        %uint = OpTypeInt 32 0
+        %function = OpTypeFunction %void
+        %yes = OpSpecConstantTrue %bool
+        %no = OpSpecConstantFalse %bool
+        %seven = OpSpecConstant %uint 7
+        %Block = OpTypeStruct %uint
+        %BlockPointer = OpTypePointer StorageBuffer %Block
+        %UintPointer = OpTypePointer StorageBuffer %uint
+        %buffer = OpVariable %BlockPointer StorageBuffer
+    )";
+    for (int i = 0; i < 10; ++i)
+        text += fmt::format("%c{} = OpConstant %uint {}\n", i, i);
+    text += declarations + R"(
+        %main = OpFunction %void None %function
+        %entry = OpLabel
+        %word = OpAccessChain %UintPointer %buffer %c0
+        %value = OpLoad %uint %word
+        %unknown = OpINotEqual %bool %value %c0
+    )" + body + "\nOpFunctionEnd\n";
+    std::string errors;
+    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
+    tools.SetMessageConsumer([&](spv_message_level_t, const char *, const spv_position_t &at, const char *message) {
+        errors += fmt::format("line {}: {}\n", at.line, message);
+    });
+    Words words;
+    EXPECT_TRUE(tools.Assemble(text, &words)) << errors;
+    EXPECT_EQ(errorsIn(words), "") << "before";
+    return words;
+}
+
+/// The values that are stored, in the order of the code: constants as numbers, others as "?".
+std::string storesOf(const Words &words) {
+    std::map<std::uint32_t, std::string> constants;
+    std::string stores;
+    for (const gpu::SpirvInstruction &instruction : gpu::instructionsOf(words)) {
+        if (instruction.opcode() == spv::Op::OpConstant)
+            constants[instruction.words[2]] = fmt::format("{}", instruction.words[3]);
+        if (instruction.opcode() == spv::Op::OpStore) {
+            const auto constant = constants.find(instruction.words[2]);
+            stores += (constant == constants.end() ? "?" : constant->second) + " ";
+        }
+    }
+    return stores;
+}
+
+/// The module for these constants, which must be valid.
+Words specialised(const Words &words, const Words &constants = {}) {
+    Words result = gpu::specialise(words, constants);
+    EXPECT_EQ(errorsIn(result), "") << "after";
+    return result;
+}
+
+const std::string eitherOne = R"(
+    OpSelectionMerge %end None
+    OpBranchConditional %yes %then %else
+    %then = OpLabel
+    OpStore %word %c1
+    OpBranch %end
+    %else = OpLabel
+    OpStore %word %c2
+    OpBranch %end
+    %end = OpLabel
+    %which = OpPhi %uint %c3 %then %c4 %else
+    OpStore %word %which
+    OpReturn
+)";
+
+TEST(Specialise, TakesGivenValuesAndElseDefaults) {
+    const Words words = moduleWith(eitherOne);
+    EXPECT_EQ(storesOf(words), "1 2 ? ");
+    EXPECT_EQ(storesOf(specialised(words)), "1 ? ") << "true by default";
+    EXPECT_EQ(storesOf(specialised(words, {0})), "2 ? ");
+    EXPECT_EQ(storesOf(specialised(words, {7})), "1 ? ") << "any word but 0 is true";
+    EXPECT_EQ(countOf(specialised(words), spv::Op::OpBranchConditional), 0u);
+    EXPECT_EQ(countOf(specialised(words), spv::Op::OpSelectionMerge), 0u);
+}
+
+TEST(Specialise, KeepsWhatItCannotKnow) {
+    const std::string body = R"(
+        OpSelectionMerge %end None
+        OpBranchConditional %unknown %then %end
+        %then = OpLabel
+        OpStore %word %c1
+        OpBranch %end
+        %end = OpLabel
+        OpReturn
+    )";
+    const Words words = specialised(moduleWith(body));
+    EXPECT_EQ(storesOf(words), "1 ");
+    EXPECT_EQ(countOf(words, spv::Op::OpBranchConditional), 1u);
+}
+
+TEST(Specialise, EvaluatesOperationsOnConstants) {
+    const std::string declarations = R"(
+        %sum = OpSpecConstantOp %uint IAdd %seven %c2
+        %difference = OpSpecConstantOp %uint ISub %c1 %seven
+        %product = OpSpecConstantOp %uint IMul %seven %c3
+        %both = OpSpecConstantOp %uint BitwiseAnd %seven %c4
+        %any = OpSpecConstantOp %uint BitwiseOr %seven %c8
+        %complement = OpSpecConstantOp %uint Not %seven
+        %equal = OpSpecConstantOp %bool IEqual %sum %c9
+        %less = OpSpecConstantOp %bool ULessThan %difference %c1
+        %most = OpSpecConstantOp %bool ULessThanEqual %seven %c7
+        %more = OpSpecConstantOp %bool UGreaterThan %difference %c1
+        %least = OpSpecConstantOp %bool UGreaterThanEqual %seven %c8
+        %and = OpSpecConstantOp %bool LogicalAnd %equal %less
+        %or = OpSpecConstantOp %bool LogicalOr %least %more
+        %not = OpSpecConstantOp %bool LogicalNot %or
+        %same = OpSpecConstantOp %bool LogicalEqual %most %or
+        %other = OpSpecConstantOp %bool LogicalNotEqual %and %not
+        %unequal = OpSpecConstantOp %bool INotEqual %seven %c7
+        %a = OpSpecConstantOp %uint Select %and %c1 %c2
+        %b = OpSpecConstantOp %uint Select %same %c3 %c4
+        %c = OpSpecConstantOp %uint Select %other %c5 %c6
+        %d = OpSpecConstantOp %uint Select %unequal %c7 %c8
+        %shifted = OpSpecConstantOp %uint ShiftLeftLogical %seven %c1
+    )";
+    std::string body;
+    for (const char *name :
+         {"sum", "difference", "product", "both", "any", "complement", "a", "b", "c", "d", "shifted"})
+        body += fmt::format("OpStore %word %{}\n", name);
+    const Words words = specialised(moduleWith(body + "OpReturn", declarations));
+    EXPECT_EQ(storesOf(words), "9 4294967290 21 4 15 4294967288 2 3 6 8 ? ");
+    EXPECT_EQ(countOf(words, spv::Op::OpSpecConstantOp), 1u) << "what it does not know is left to the driver";
+    EXPECT_EQ(storesOf(specialised(moduleWith("OpStore %word %seven\nOpReturn"), {1, 1, 5})), "5 ");
+}
+
+TEST(Specialise, KnowsWhatFollowsFromConstants) {
+    // `no && unknown`, as compilers write it, and a selection by it.
+    const std::string body = R"(
+        OpSelectionMerge %joined None
+        OpBranchConditional %no %right %joined
+        %right = OpLabel
+        OpBranch %joined
+        %joined = OpLabel
+        %both = OpPhi %bool %no %entry %unknown %right
+        %neither = OpLogicalNot %bool %both
+        %all = OpLogicalAnd %bool %neither %unknown
+        OpSelectionMerge %end None
+        OpBranchConditional %both %then %end
+        %then = OpLabel
+        OpStore %word %c1
+        OpBranch %end
+        %end = OpLabel
+        OpSelectionMerge %last None
+        OpBranchConditional %all %more %last
+        %more = OpLabel
+        OpStore %word %c2
+        OpBranch %last
+        %last = OpLabel
+        OpReturn
+    )";
+    const Words words = moduleWith(body);
+    EXPECT_EQ(storesOf(specialised(words)), "2 ");
+    EXPECT_EQ(storesOf(specialised(words, {1, 1})), "1 2 ");
+}
+
+TEST(Specialise, KnowsNothingOfLoops) {
+    // i is 0 where the loop begins, but not on its way back.
+    const std::string body = R"(
+        OpBranch %header
+        %header = OpLabel
+        %i = OpPhi %uint %c0 %entry %next %continue
+        %isFirst = OpIEqual %bool %i %c0
+        OpLoopMerge %end %continue None
+        OpBranch %body
+        %body = OpLabel
+        OpSelectionMerge %after None
+        OpBranchConditional %isFirst %first %later
+        %first = OpLabel
+        OpStore %word %c1
+        OpBranch %after
+        %later = OpLabel
+        OpStore %word %c2
+        OpBranch %after
+        %after = OpLabel
+        OpBranch %continue
+        %continue = OpLabel
+        %next = OpIAdd %uint %i %c1
+        %goesOn = OpULessThan %bool %next %c5
+        OpBranchConditional %goesOn %header %end
+        %end = OpLabel
+        OpReturn
+    )";
+    EXPECT_EQ(storesOf(specialised(moduleWith(body))), "1 2 ");
+}
+
+TEST(Specialise, KeepsALoopWhoseWayBackIsGone) {
+    const std::string body = R"(
+        OpBranch %header
+        %header = OpLabel
+        %i = OpPhi %uint %c0 %entry %next %continue
+        OpLoopMerge %end %continue None
+        OpBranch %body
+        %body = OpLabel
+        OpStore %word %i
+        OpSelectionMerge %after None
+        OpBranchConditional %yes %leave %after
+        %leave = OpLabel
+        OpBranch %end
+        %after = OpLabel
+        %next = OpIAdd %uint %i %c1
+        OpStore %word %c2
+        OpBranch %continue
+        %continue = OpLabel
+        OpBranch %header
+        %end = OpLabel
+        OpStore %word %c3
+        OpReturn
+    )";
+    const Words words = moduleWith(body);
+    EXPECT_EQ(storesOf(specialised(words)), "? 3 ");
+    EXPECT_EQ(countOf(specialised(words), spv::Op::OpLoopMerge), 1u);
+    EXPECT_EQ(storesOf(specialised(words, {0})), "? 2 ") << "and one that nothing leaves";
+}
+
+TEST(Specialise, KeepsASelectionThatIsLeftOnACondition) {
+    const std::string body = R"(
+        OpSelectionMerge %end None
+        OpBranchConditional %yes %then %else
+        %then = OpLabel
+        OpStore %word %c1
+        OpBranchConditional %unknown %more %end
+        %more = OpLabel
+        OpStore %word %c2
+        OpBranch %end
+        %else = OpLabel
+        OpStore %word %c3
+        OpBranch %end
+        %end = OpLabel
+        OpReturn
+    )";
+    EXPECT_EQ(storesOf(specialised(moduleWith(body))), "1 2 3 ");
+    EXPECT_EQ(storesOf(specialised(moduleWith(body), {0})), "3 ");
+}
+
+TEST(Specialise, KeepsWhereASelectionEndsThatIsNeverLeft) {
+    const std::string body = R"(
+        OpSelectionMerge %end None
+        OpBranchConditional %unknown %then %else
+        %then = OpLabel
+        OpStore %word %c1
+        OpReturn
+        %else = OpLabel
+        OpSelectionMerge %inner None
+        OpBranchConditional %yes %leave %inner
+        %leave = OpLabel
+        OpReturn
+        %inner = OpLabel
+        OpStore %word %c2
+        OpBranch %end
+        %end = OpLabel
+        OpStore %word %c3
+        OpReturn
+    )";
+    const Words words = specialised(moduleWith(body));
+    EXPECT_EQ(storesOf(words), "1 ");
+    EXPECT_EQ(countOf(words, spv::Op::OpUnreachable), 1u);
+}
+
+/// What inlining makes of `if (CONDITION) { store 1; return; } store 2;`, and then 3.
+std::string inlinedWithReturn(const std::string &condition) {
+    return R"(
+        OpSelectionMerge %end None
+        OpSwitch %c0 %body
+        %body = OpLabel
+        OpSelectionMerge %after None
+        OpBranchConditional )" +
+           condition + R"( %early %after
+        %early = OpLabel
+        OpStore %word %c1
+        OpBranch %end
+        %after = OpLabel
+        OpStore %word %c2
+        OpBranch %end
+        %end = OpLabel
+        OpStore %word %c3
+        OpReturn
+    )";
+}
+
+TEST(Specialise, UnwrapsFunctionsThatNoLongerReturnEarly) {
+    for (const char *condition : {"%yes", "%no"}) {
+        const Words words = specialised(moduleWith(inlinedWithReturn(condition)));
+        EXPECT_EQ(countOf(words, spv::Op::OpSwitch), 0u) << condition;
+        EXPECT_EQ(storesOf(words), condition == std::string("%yes") ? "1 3 " : "2 3 ");
+    }
+    const Words words = specialised(moduleWith(inlinedWithReturn("%unknown")));
+    EXPECT_EQ(countOf(words, spv::Op::OpSwitch), 1u);
+    EXPECT_EQ(storesOf(words), "1 2 3 ");
+}
+
+TEST(Specialise, KeepsASwitchThatIsLeftFromWithin) {
+    // One way out is left, but from inside of a selection.
+    const std::string body = R"(
+        OpSelectionMerge %end None
+        OpSwitch %c0 %body
+        %body = OpLabel
+        OpSelectionMerge %after None
+        OpBranchConditional %unknown %early %other
+        %early = OpLabel
+        OpStore %word %c1
+        OpBranch %end
+        %other = OpLabel
+        OpReturn
+        %after = OpLabel
+        OpBranch %end
+        %end = OpLabel
+        OpStore %word %c3
+        OpReturn
+    )";
+    const Words words = specialised(moduleWith(body));
+    EXPECT_EQ(countOf(words, spv::Op::OpSwitch), 1u);
+    EXPECT_EQ(storesOf(words), "1 3 ");
+}
+
+TEST(Specialise, DropsNamesAndDecorationsOfWhatIsGone) {
+    for (const EmbeddedKernel &kernel : embeddedKernels) {
+        const Words words = gpu::specialise(kernel.words, Words(layout::constantCount));
+        std::vector<bool> isDefined(words[gpu::spirvBoundWord]);
+        const auto instructions = gpu::instructionsOf(words);
+        for (const gpu::SpirvInstruction &instruction : instructions)
+            isDefined[instruction.result()] = true;
+        for (const gpu::SpirvInstruction &instruction : instructions) {
+            if (instruction.opcode() == spv::Op::OpName || instruction.opcode() == spv::Op::OpDecorate) {
+                ASSERT_TRUE(isDefined[instruction.words[1]]) << kernel.name;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace hyalite::testing
