@@ -31,7 +31,9 @@ layout(constant_id = constantTexturing) const uint texturing = 0u;
 layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
 
 // Entry kernels begin with loadConstants(), and everything else reads these copies: inside of loops and branches
-// lavapipe loads every word of a uniform buffer and of the push constants lane by lane.
+// lavapipe loads every word of a uniform buffer and of the push constants lane by lane. No branch, and no length of a loop,
+// may depend on them alone: lavapipe would write their values into the kernel and build it anew for each dispatch
+// (tests/kernels/uniform_branch_test.cpp).
 FrameRecord frame;
 DispatchConstants dispatch;
 

@@ -72,14 +72,17 @@ EnvironmentLight environmentFrom(vec3 direction) {
     return EnvironmentLight(direction, environmentRadianceAt(place), environmentDensity(pixel, sineToVertical(direction)));
 }
 
-// The first of `count` texels, from `first` on, whose `word` is more than `bits`; the last one if none is.
+// The first of `count` texels, from `first` on, whose `word` is more than `bits`; the last one if none is. Takes no more
+// than findMSB(count) + 1 steps.
 uint searchTexels(uint first, uint count, uint bits) {
     uint found = 0u; // all before it end at or below `bits`
-    for (int bit = findMSB(count); bit >= 0; --bit) {
-        uint next = found + (1u << bit);
-        if (next < count && fetchTexel(first + next - 1u).word <= bits)
-            found = next;
-    }
+    uint last = count - 1u;
+    do {
+        uint middle = (found + last) >> 1u;
+        bool isBefore = fetchTexel(first + middle).word <= bits;
+        found = isBefore ? min(middle + 1u, last) : found;
+        last = isBefore ? last : middle;
+    } while (found < last);
     return found;
 }
 

@@ -303,7 +303,7 @@ struct FrameRecord {
     float environmentProbability; // that it is chosen among all emitters
     float lensScale;              // the lens' radius in units of pixelRight and pixelUp
     float focusDistance;          // along the view direction
-    float radianceLimit;          // path: most that a path may add behind its first segment; 0: no limit
+    float radianceLimit;          // path: most that a path may add behind its first segment, or infinity
     uint filterTexels;            // the first one
     uint pad0;
     uint pad1;

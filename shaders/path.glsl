@@ -34,7 +34,7 @@ void endPath(uint slot) { path[slot].stage = stageSampleDone; }
 
 void addRadiance(uint slot, vec3 weight, vec3 radiance) {
     vec3 added = weight * radiance;
-    if (frame.radianceLimit > 0.0 && path[slot].rayDepth > 1u)
+    if (path[slot].rayDepth > 1u)
         added = lesser(added, vec3(frame.radianceLimit));
     path[slot].sampleRadiance = add(path[slot].sampleRadiance, added);
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);

@@ -74,7 +74,8 @@ void shareWork() {
 void loadSlot(uint slot, uint samplesInFilm) {
     rayCounts[slot] = uvec4(0u);
     bounceCounts[slot] = 0u;
-    if (isResumable && dispatch.isResumed != 0u && isSlotUsed[slot]) {
+    uint isWaiting = isSlotUsed[slot] ? dispatch.isResumed : 0u;
+    if (isResumable && isWaiting != 0u) {
         path[slot] = pathRecords[slotIndex[slot]];
         rayCounts[slot] = uvec4(path[slot].primaryRays, path[slot].shadowRays, path[slot].reflectionRays,
                                 path[slot].refractionRays);

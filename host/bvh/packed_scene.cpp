@@ -14,6 +14,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -42,7 +43,8 @@ layout::FrameRecord packFrame(const Scene &scene) {
     frame.pixelUp = glm::vec3(up / scale);
     frame.lensScale = static_cast<float>(0.5 * camera.aperture * scale);
     frame.focusDistance = static_cast<float>(camera.focusDistance);
-    frame.radianceLimit = static_cast<float>(scene.settings.radianceLimit);
+    frame.radianceLimit = scene.settings.radianceLimit > 0.0 ? static_cast<float>(scene.settings.radianceLimit)
+                                                             : std::numeric_limits<float>::infinity();
     frame.imagePlane = glm::vec3(forward);
     frame.seed = scene.settings.seed;
     frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);

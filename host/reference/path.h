@@ -84,7 +84,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
 
     void addRadiance(const Vec3<Real> &weight, const Vec3<Real> &radiance) {
         Vec3<Real> added = weight * radiance;
-        if (scene_.frame.radianceLimit > 0.0f && depth_ > 1)
+        if (depth_ > 1)
             added = lesser(added, Vec3<Real>(static_cast<Real>(scene_.frame.radianceLimit)));
         radiance_ = radiance_ + added;
         traceEvent(layout::traceRadiance, 0, radiance_);
