@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <utility>
+#include <vector>
 
 namespace hyalite::bench {
 
@@ -19,7 +21,7 @@ namespace {
 struct Frame {
     const char *name;
     std::string scene; ///< as `hyalite render` takes it
-    std::string sampler = "sobol";
+    std::vector<std::string> options{};
 };
 
 std::string contentsOf(const std::filesystem::path &file) {
@@ -31,14 +33,15 @@ std::string contentsOf(const std::filesystem::path &file) {
 class Rendering {
   public:
     Rendering(const Frame &frame, std::string deviceName)
-        : scene_(frame.scene), sampler_(frame.sampler), deviceName_(std::move(deviceName)) {}
+        : arguments_{"render",   frame.scene, "--quiet",  "--device",       std::move(deviceName),
+                     "--output", image(),     "--report", report().string()} {
+        arguments_.insert(arguments_.end(), frame.options.begin(), frame.options.end());
+    }
 
     /// Returns the seconds of all dispatches, or of the reference renderer; of the processor's only those of the whole
     /// process are known. Keeps these.
     double run() {
-        processSeconds_.push_back(
-            runHyalite({"render", scene_, "--sampler", sampler_, "--quiet", "--device", deviceName_,
-                        "--output", image().string(), "--report", report().string()}));
+        processSeconds_.push_back(runHyalite(arguments_));
         if (areProcessorSecondsCounted())
             return processSeconds_.back();
         return nlohmann::json::parse(contentsOf(report())).at("seconds").at("render").get<double>();
@@ -52,10 +55,8 @@ class Rendering {
     [[nodiscard]] std::filesystem::path image() const { return folder_.path() / "image.png"; }
     [[nodiscard]] std::filesystem::path report() const { return folder_.path() / "report.json"; }
 
-    std::string scene_;
-    std::string sampler_;
-    std::string deviceName_;
     TemporaryFolder folder_;
+    std::vector<std::string> arguments_;
     std::vector<double> processSeconds_;
 };
 
@@ -87,11 +88,11 @@ void measureFrameOnCpu(benchmark::State &state, const Frame &frame) {
 enum class ShaderCache { Warm, Cold };
 
 /// The least that a render can take.
-void measureStartUp(benchmark::State &state, const std::string &deviceName, ShaderCache cache) {
+void measureStartUp(benchmark::State &state, const Frame &frame, const std::string &deviceName, ShaderCache cache) {
     const TemporaryFolder folder;
-    const std::vector<std::string> arguments{"render",   "spheres",  "--spp",
-                                             "1",        "--quiet",  "--device",
-                                             deviceName, "--output", folder.path() / "image.png"};
+    std::vector<std::string> arguments{"render",   frame.scene, "--quiet",  "--device",
+                                       deviceName, "--output",  folder.path() / "image.png"};
+    arguments.insert(arguments.end(), frame.options.begin(), frame.options.end());
     const auto run = [&] {
         const TemporaryFolder empty;
         return cache == ShaderCache::Warm
@@ -106,11 +107,15 @@ void measureStartUp(benchmark::State &state, const std::string &deviceName, Shad
 
 void registerFrames(Context &context) {
     // At pixel centres all samples of a pixel are alike, and no lane waits for another.
-    const Frame frames[] = {{"spheres", "spheres"},
-                            {"cat", "cat"},
-                            {"cat, pixel centres", "cat", "centre"},
-                            {"cat of 4k", HYALITE_CAT_4K_SCENE},
-                            {"cat of 4k, pixel centres", HYALITE_CAT_4K_SCENE, "centre"}};
+    const std::vector<std::string> centres{"--sampler", "centre"};
+    std::vector<Frame> frames{{"spheres", "spheres"},
+                              {"cat", "cat"},
+                              {"cat, pixel centres", "cat", centres},
+                              {"cat of 4k", HYALITE_CAT_4K_SCENE},
+                              {"cat of 4k, pixel centres", HYALITE_CAT_4K_SCENE, centres}};
+    // Paths: diffuse walls, glass, metals below a sky, a mesh below a sky, many lights, textures with cut-outs.
+    for (const char *scene : {"cornell", "caustics", "metals", "studio-cat", "many-lights", "still-life"})
+        frames.push_back({scene, scene, {"--spp", "16"}});
     for (const Frame &frame : frames) {
         const std::string row = fmt::format("frames/{}/", frame.name);
         addBenchmark(row + "device", 3,
@@ -121,15 +126,22 @@ void registerFrames(Context &context) {
 }
 
 void registerStartUp(Context &context) {
-    const std::string row = "start-up/spheres at 1 spp/";
-    addBenchmark(row + "device", 5, [&context](benchmark::State &state) {
-        measureStartUp(state, deviceArgument(context), ShaderCache::Warm);
-    });
-    addBenchmark(row + "device, cold shader cache", 3, [&context](benchmark::State &state) {
-        measureStartUp(state, deviceArgument(context), ShaderCache::Cold);
-    });
-    addBenchmark(row + "CPU reference", 5,
-                 [](benchmark::State &state) { measureStartUp(state, "cpu", ShaderCache::Warm); });
+    const std::vector<std::string> fewPixels{"--spp", "1", "--width", "48", "--height", "32"};
+    const Frame frames[] = {{"spheres at 1 spp", "spheres", {"--spp", "1"}},
+                            {"caustics at 48x32 and 1 spp", "caustics", fewPixels},
+                            {"still-life at 48x32 and 1 spp", "still-life", fewPixels}};
+    for (const Frame &frame : frames) {
+        const std::string row = fmt::format("start-up/{}/", frame.name);
+        addBenchmark(row + "device", 5, [=, &context](benchmark::State &state) {
+            measureStartUp(state, frame, deviceArgument(context), ShaderCache::Warm);
+        });
+        addBenchmark(row + "device, cold shader cache", 3, [=, &context](benchmark::State &state) {
+            measureStartUp(state, frame, deviceArgument(context), ShaderCache::Cold);
+        });
+        addBenchmark(row + "CPU reference", 5, [=](benchmark::State &state) {
+            measureStartUp(state, frame, "cpu", ShaderCache::Warm);
+        });
+    }
 }
 
 } // namespace hyalite::bench
