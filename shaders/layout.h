@@ -147,8 +147,8 @@ struct TexelRecord {
 
 // Textures, in rows of four words. First two tables of what the levels 0 to 255 of 8-bit images stand for, four floats a
 // row. From firstCoordinateRow on the coordinates of each triangle record: u and v of v0 and v1, then of v2. Then for
-// each material with textures one TextureRecord a slot, and then the images' texels: four a row, 8 bits each for red,
-// green, blue and alpha from the lowest bits up, or one a row, as floats; rows of the image from the top.
+// each material with textures one TextureRecord a slot, and then the images' texels: one a row, as floats, or four a row,
+// 8 bits each for red, green, blue and alpha from the lowest bits up; rows of the image from the top.
 struct TextureRow {
     uint x;
     uint y;
@@ -186,13 +186,14 @@ const uint slotNormal = 4u;
 const uint slotOpacity = 5u;
 const uint textureSlotCount = 6u;
 
-// Which slots the materials of a scene have textures in: bits of constantTexturing.
+// Which slots the materials of a scene have textures in, and whether any texels have 8 bits: bits of constantTexturing.
 const uint texturesBaseColour = 1u;
 const uint texturesEmission = 2u;
 const uint texturesRoughness = 4u;
 const uint texturesMetallic = 8u;
 const uint texturesNormal = 16u;
 const uint texturesOpacity = 32u;
+const uint texturesLevels = 64u;
 const uint texturesMaterials = 15u; // any of those that change what a material is
 
 const uint energyCosines = 32u; // nodes of the table over the cosine, and over the roughness

@@ -50,7 +50,7 @@ float decodeLevel(uint tableRow, uint level) {
 
 vec3 textureTexel(uvec4 description, uint x, uint y) {
     uint index = y * (description.y & 0xFFFFu) + x;
-    if ((description.z & textureIsFloat) != 0u)
+    if ((texturing & texturesLevels) == 0u || (description.z & textureIsFloat) != 0u)
         return uintBitsToFloat(fetchTextureRow(description.x + index).xyz);
     uint levels = wordOf(fetchTextureRow(description.x + (index >> 2u)), index);
     if ((description.z & textureIsAlpha) != 0u)

@@ -325,7 +325,7 @@ std::uint32_t viewOf(Integrator integrator) {
     return layout::viewNormal;
 }
 
-PackedScene packScene(const Scene &scene, const Bvh &bvh) {
+PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t mostDecoded) {
     assert(bvh.order.size() <= triangleCount(scene));
     PackedScene packed;
     packed.frame = packFrame(scene);
@@ -382,7 +382,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh) {
     }
     packTriangles(scene, bvh, packedMaterial, packed);
     packNodes(bvh, packed);
-    packTextures(scene, order, packed);
+    packTextures(scene, order, mostDecoded, packed);
     const bool isPath = scene.settings.integrator == Integrator::Path;
     if (isPath && (packed.scattering & layout::scattersAtRough) != 0)
         packed.texels = makeEnergyTexels();

@@ -62,21 +62,7 @@ void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
     }
 }
 
-std::size_t texelRowCount(const Texture &texture) {
-    return texture.isFloat() ? texture.pixelCount() : (texture.pixelCount() + 3) / 4;
-}
-
-void addTexels(const Texture &texture, Rows &rows) {
-    if (texture.isFloat()) {
-        for (const glm::vec3 &value : texture.values)
-            rows.push_back(rowOf(value.x, value.y, value.z, 0.0f));
-        return;
-    }
-    const std::size_t first = rows.size();
-    rows.resize(first + texelRowCount(texture), layout::TextureRow{});
-    std::memcpy(&rows[first], texture.levels.data(), texture.levels.size() * sizeof(texture.levels[0]));
-}
-
+/// How the texels of an image are read for a slot: bits of layout::textureIs...
 std::uint32_t formatOf(const Texture &texture, std::uint32_t slot) {
     if (texture.isFloat())
         return layout::textureIsFloat;
@@ -84,6 +70,110 @@ std::uint32_t formatOf(const Texture &texture, std::uint32_t slot) {
         return layout::textureIsSrgb;
     return slot == layout::slotOpacity && texture.hasAlpha ? layout::textureIsAlpha : 0u;
 }
+
+/// An image as it is stored.
+struct StoredImage {
+    const Texture *texture;
+    std::uint32_t format; ///< as slots read it; of levels that stay levels 0, for all slots
+    std::size_t firstRow = 0;
+
+    bool operator==(const StoredImage &other) const { return texture == other.texture && format == other.format; }
+};
+
+/// The images of a scene, each stored once: the decoded ones for each way to read them.
+class ImageStore {
+  public:
+    /// Levels are decoded, for a texel is then read at once, where all images take no more than `mostDecoded` bytes so.
+    ImageStore(const Scene &scene, std::size_t mostDecoded) : scene_(scene) {
+        std::size_t pixelCount = 0;
+        forEachUse([&](const Texture &texture, std::uint32_t slot) {
+            pixelCount += add({&texture, formatOf(texture, slot)}) ? texture.pixelCount() : 0;
+        });
+        areDecoded_ = pixelCount <= mostDecoded / sizeof(layout::TextureRow);
+        if (areDecoded_)
+            return;
+        images_.clear();
+        forEachUse([&](const Texture &texture, std::uint32_t slot) { add({&texture, storedFormat(texture, slot)}); });
+    }
+
+    [[nodiscard]] bool hasLevels() const {
+        return std::ranges::any_of(images_, [&](const auto &image) { return isOfLevels(image); });
+    }
+
+    /// Gives all images their rows, from `row` on, and returns the first row behind them.
+    std::size_t place(std::size_t row) {
+        for (StoredImage &image : images_) {
+            image.firstRow = row;
+            row += isOfLevels(image) ? (image.texture->pixelCount() + 3) / 4 : image.texture->pixelCount();
+        }
+        return row;
+    }
+
+    /// Where a slot finds the image's texels, and their format.
+    void describe(const Texture &texture, std::uint32_t slot, layout::TextureRecord &record) const {
+        const auto image = std::ranges::find(images_, StoredImage{&texture, storedFormat(texture, slot)});
+        record.firstRow = static_cast<std::uint32_t>(image->firstRow);
+        record.format = isOfLevels(*image) ? formatOf(texture, slot) : layout::textureIsFloat;
+    }
+
+    /// Appends all images in the order of their rows. The tables are there.
+    void append(Rows &rows) const {
+        for (const StoredImage &image : images_) {
+            if (isOfLevels(image))
+                appendLevels(*image.texture, rows);
+            else if (image.texture->isFloat())
+                for (const glm::vec3 &value : image.texture->values)
+                    rows.push_back(rowOf(value.x, value.y, value.z, 0.0f));
+            else
+                appendDecoded(image, rows);
+        }
+    }
+
+  private:
+    template <class Action> void forEachUse(const Action &action) const {
+        for (const Material &material : scene_.materials)
+            for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
+                if (const std::optional<TextureUse> &use = material.textures[slot])
+                    action(scene_.textures[use->textureIndex], slot);
+    }
+
+    [[nodiscard]] std::uint32_t storedFormat(const Texture &texture, std::uint32_t slot) const {
+        return areDecoded_ || texture.isFloat() ? formatOf(texture, slot) : 0;
+    }
+
+    [[nodiscard]] bool isOfLevels(const StoredImage &image) const { return !areDecoded_ && !image.texture->isFloat(); }
+
+    /// Whether it was not there.
+    bool add(const StoredImage &image) {
+        if (std::ranges::count(images_, image) > 0)
+            return false;
+        images_.push_back(image);
+        return true;
+    }
+
+    static void appendLevels(const Texture &texture, Rows &rows) {
+        const std::size_t first = rows.size();
+        rows.resize(first + (texture.pixelCount() + 3) / 4, layout::TextureRow{});
+        std::memcpy(&rows[first], texture.levels.data(), texture.levels.size() * sizeof(texture.levels[0]));
+    }
+
+    /// With the numbers of the tables, so that decoded or not a kernel reads the same bits.
+    static void appendDecoded(const StoredImage &image, Rows &rows) {
+        const std::size_t table =
+            (image.format & layout::textureIsSrgb) != 0 ? layout::srgbTableRow : layout::linearTableRow;
+        std::vector<std::uint32_t> words(256);
+        std::memcpy(words.data(), &rows[table], words.size() * sizeof(words[0]));
+        for (std::uint32_t levels : image.texture->levels) {
+            if ((image.format & layout::textureIsAlpha) != 0)
+                levels = (levels >> 24u) * 0x010101u;
+            rows.push_back({words[levels & 255u], words[levels >> 8u & 255u], words[levels >> 16u & 255u], 0u});
+        }
+    }
+
+    const Scene &scene_;
+    std::vector<StoredImage> images_;
+    bool areDecoded_ = true;
+};
 
 float factorOf(const Material &material, std::uint32_t slot) {
     switch (slot) {
@@ -98,13 +188,12 @@ float factorOf(const Material &material, std::uint32_t slot) {
     }
 }
 
-layout::TextureRecord recordOf(const Texture &texture, std::uint32_t firstRow, const TextureUse &use,
+layout::TextureRecord recordOf(const ImageStore &images, const Texture &texture, const TextureUse &use,
                                const Material &material, std::uint32_t slot) {
     layout::TextureRecord record{};
-    record.firstRow = firstRow;
+    images.describe(texture, slot, record);
     record.size = static_cast<std::uint32_t>(texture.width) | static_cast<std::uint32_t>(texture.height)
                                                                   << 16u;
-    record.format = formatOf(texture, slot);
     record.factor = factorOf(material, slot);
     record.scaleU = use.scale.x;
     record.scaleV = use.scale.y;
@@ -119,7 +208,8 @@ bool hasTextures(const Material &material) {
 
 } // namespace
 
-void packTextures(const Scene &scene, std::span<const std::uint32_t> order, PackedScene &packed) {
+void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std::size_t mostDecoded,
+                  PackedScene &packed) {
     if (packed.texturing == 0 && scene.settings.integrator != Integrator::Uv)
         return;
     constexpr std::size_t rowsPerMaterial = layout::rowsPerTexture * layout::textureSlotCount;
@@ -127,12 +217,9 @@ void packTextures(const Scene &scene, std::span<const std::uint32_t> order, Pack
         layout::firstCoordinateRow + layout::rowsPerCoordinates * packed.triangles.size();
     for (const Material &material : scene.materials)
         firstTexelRow += hasTextures(material) ? rowsPerMaterial : 0;
-    std::vector<std::uint32_t> firstRows;
-    std::size_t rowCount = firstTexelRow;
-    for (const Texture &texture : scene.textures) {
-        firstRows.push_back(static_cast<std::uint32_t>(rowCount));
-        rowCount += texelRowCount(texture);
-    }
+    ImageStore images(scene, mostDecoded);
+    const std::size_t rowCount = images.place(firstTexelRow);
+    packed.texturing |= images.hasLevels() ? layout::texturesLevels : 0u;
 
     Rows &rows = packed.textures;
     rows.reserve(rowCount);
@@ -148,15 +235,14 @@ void packTextures(const Scene &scene, std::span<const std::uint32_t> order, Pack
         rows.resize(rows.size() + rowsPerMaterial, layout::TextureRow{});
         for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
             if (const std::optional<TextureUse> &use = material.textures[slot]) {
-                const layout::TextureRecord record = recordOf(
-                    scene.textures[use->textureIndex], firstRows[use->textureIndex], *use, material, slot);
+                const layout::TextureRecord record =
+                    recordOf(images, scene.textures[use->textureIndex], *use, material, slot);
                 std::memcpy(&rows[packed.materials[i].textures + layout::rowsPerTexture * slot], &record,
                             sizeof(record));
             }
     }
     assert(rows.size() == firstTexelRow);
-    for (const Texture &texture : scene.textures)
-        addTexels(texture, rows);
+    images.append(rows);
     assert(rows.size() == rowCount);
 }
 

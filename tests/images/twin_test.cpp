@@ -337,6 +337,17 @@ TEST(Twins, AgreeOnEachTextureAlone) {
     }
 }
 
+TEST(Twins, AgreeOnTexturesDecodedOrNot) {
+    const Scene scene = texturedScene(48, 40, 4);
+    const reference::Result decoded = renderOnCpu(scene);
+    const PackedScene levels = testing::pack(scene, 0);
+    ASSERT_NE(levels.texturing & layout::texturesLevels, 0u);
+    ASSERT_LT(levels.textures.size(), testing::pack(scene).textures.size());
+    EXPECT_EQ(differingPixels(renderOnCpu(scene, reference::Precision::Float32, 0).film, decoded.film), 0u);
+    for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+        EXPECT_EQ(differingPixels(renderOnDevice(scene, {.traversal = traversal}, 0).film, decoded.film), 0u);
+}
+
 TEST(Twins, AgreeOnCoordinatesOfWhatHasNoTextures) {
     Scene scene = pathScene(48, 40, 2);
     scene.settings.integrator = Integrator::Uv;

@@ -100,6 +100,23 @@ TEST(Texture, OnlyColoursAreEncoded) {
                 1e-7);
 }
 
+TEST(Texture, IsDecodedWhereAllAreSmallEnough) {
+    Scene scene = quadScene(layout::slotBaseColour, drawnTexture(5, 3, [](int x, int y) {
+                                return levels(static_cast<std::uint32_t>(40 * x), static_cast<std::uint32_t>(90 * y), 7);
+                            }));
+    const auto isOfLevels = [&](std::size_t mostDecoded) {
+        const Bvh bvh = buildBvh(TreeKind::Midpoint, buildTriangles(scene), 8);
+        return (packScene(scene, bvh, mostDecoded).texturing & layout::texturesLevels) != 0;
+    };
+    EXPECT_FALSE(isOfLevels(5 * 3 * 16));
+    EXPECT_TRUE(isOfLevels(5 * 3 * 16 - 1));
+    // As light and as a number it is decoded twice, as numbers once.
+    scene.materials[0].textures[layout::slotRoughness] = scene.materials[0].textures[layout::slotBaseColour];
+    scene.materials[0].textures[layout::slotMetallic] = scene.materials[0].textures[layout::slotBaseColour];
+    EXPECT_FALSE(isOfLevels(2 * 5 * 3 * 16));
+    EXPECT_TRUE(isOfLevels(2 * 5 * 3 * 16 - 1));
+}
+
 TEST(Texture, OfFloatsIsTakenAsItIs) {
     Texture bright;
     bright.width = 2;
