@@ -12,7 +12,8 @@ class Specialiser {
   public:
     Specialiser(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants)
         : spirv_(spirv), bound_(spirv[spirvBoundWord]), instructions_(instructionsOf(spirv)),
-          known_(knownConstants(instructions_, bound_, constants)), blocks_(instructions_, known_), isDefined_(bound_) {}
+          known_(knownConstants(instructions_, bound_, constants)), blocks_(instructions_, known_), isDefined_(bound_),
+          isUndecided_(bound_) {}
 
     std::vector<std::uint32_t> write() {
         const auto isFunction = [](const SpirvInstruction &instruction) {
@@ -51,8 +52,12 @@ class Specialiser {
         const std::uint32_t id = instruction.result();
         switch (instruction.opcode()) {
         case spv::Op::OpSpecConstantComposite:
-            append(words, spv::Op::OpConstantComposite, instruction.words.subspan(1));
-            return;
+            if (std::ranges::none_of(instruction.words.subspan(3), [&](auto part) { return isUndecided_[part]; })) {
+                append(words, spv::Op::OpConstantComposite, instruction.words.subspan(1));
+                return;
+            }
+            isUndecided_[id] = true;
+            break;
         case spv::Op::OpSpecConstantTrue:
         case spv::Op::OpSpecConstantFalse:
         case spv::Op::OpSpecConstant:
@@ -65,6 +70,7 @@ class Specialiser {
                     append(words, spv::Op::OpConstant, {type, id, *known_[id]});
                 return;
             }
+            isUndecided_[id] = true;
             break;
         default:
             break;
@@ -80,7 +86,7 @@ class Specialiser {
             const SpirvBlock &from = blocks_.at(phi[i + 1]);
             if (blocks_.isEdge(from.label, block.label)) {
                 operands.insert(operands.end(), {phi[i], phi[i + 1]});
-            } else if (block.continueTarget != 0 && isBeyond(from, block)) {
+            } else if (from.continuedLoop == block.label && !blocks_.at(block.continueTarget).isReached) {
                 append(undefined_, spv::Op::OpUndef, {phi[1], bound_});
                 operands.insert(operands.end(), {bound_++, block.continueTarget});
             }
@@ -89,16 +95,12 @@ class Specialiser {
         define(phi[2]);
     }
 
-    /// Whether `from`, which has a way back to the header of a loop, is gone with the loop's continue target.
-    [[nodiscard]] bool isBeyond(const SpirvBlock &from, const SpirvBlock &header) const {
-        return !from.isReached && !blocks_.at(header.continueTarget).isReached && from.begin > header.begin;
-    }
-
     void writeBlock(std::vector<std::uint32_t> &words, const SpirvBlock &block) {
         copy(words, instructions_[block.begin]);
         if (!block.isReached) {
-            if (block.continuedLoop != 0)
-                append(words, spv::Op::OpBranch, {block.continuedLoop});
+            const std::uint32_t loop = block.continuedLoop;
+            if (loop != 0 && blocks_.at(loop).continueTarget == block.label)
+                append(words, spv::Op::OpBranch, {loop});
             else
                 append(words, spv::Op::OpUnreachable, {});
             return;
@@ -152,6 +154,7 @@ class Specialiser {
     SpirvBlocks blocks_;
     std::uint32_t boolType_ = 0;
     std::vector<bool> isDefined_;          // by id: in what is written
+    std::vector<bool> isUndecided_;        // by id: constants that stay for specialization
     std::vector<std::uint32_t> undefined_; // values for phis, as instructions
 };
 

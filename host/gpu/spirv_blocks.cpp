@@ -7,6 +7,7 @@ namespace hyalite::gpu {
 SpirvBlocks::SpirvBlocks(std::span<const SpirvInstruction> instructions, const std::vector<SpirvValue> &known)
     : instructions_(instructions), constants_(known), indexOf_(known.size()), isNeeded_(known.size()) {
     findBlocks();
+    findContinueConstructs();
     do
         while (propagate()) {
         }
@@ -40,9 +41,26 @@ void SpirvBlocks::findBlocks() {
             break;
         }
     }
-    for (const SpirvBlock &block : blocks_)
-        if (block.continueTarget != 0)
-            blockAt(block.continueTarget).continuedLoop = block.label;
+}
+
+// What leads from continue targets back to the headers of their loops. It has to lead there from its beginning to its end,
+// so no part of it may go.
+void SpirvBlocks::findContinueConstructs() {
+    for (const SpirvBlock &header : blocks_) { // of loops before those within them
+        if (header.continueTarget == 0)
+            continue;
+        std::vector<std::uint32_t> labels{header.continueTarget};
+        while (!labels.empty()) {
+            SpirvBlock &block = blockAt(labels.back());
+            labels.pop_back();
+            if (block.label == header.label || block.label == header.merge || block.continuedLoop == header.label)
+                continue;
+            block.continuedLoop = header.label;
+            block.isPinned = true;
+            for (const std::uint32_t label : successors(block))
+                labels.push_back(label);
+        }
+    }
 }
 
 std::vector<std::uint32_t> SpirvBlocks::successors(const SpirvBlock &block) const {

@@ -1,8 +1,8 @@
 // The basic blocks of a SPIR-V module, and which of them are reached once its constants are known.
 //
 // Wegman and Zadeck, "Constant Propagation with Conditional Branches", TOPLAS 13(2), 1991, without loops, whose headers
-// are taken to know nothing. Only selections are decided: a loop ends as it did, and its blocks stay structured
-// (SPIR-V, section 2.11).
+// are taken to know nothing. What is decided are selections with two ways (OpSelectionMerge and OpBranchConditional), and
+// not those in continue constructs: a loop goes back and ends as it did, and blocks stay structured (SPIR-V, section 2.11).
 #pragma once
 
 #include "host/gpu/spirv_constants.h"
@@ -16,7 +16,7 @@ struct SpirvBlock {
     std::uint32_t label = 0;
     std::uint32_t merge = 0;          ///< where the construct ends that it heads, or 0
     std::uint32_t continueTarget = 0; ///< of the loop that it heads, or 0
-    std::uint32_t continuedLoop = 0;  ///< the header of the loop whose continue target it is, or 0
+    std::uint32_t continuedLoop = 0;  ///< the header of the innermost loop whose continue construct it is in, or 0
     bool isReached = false;
     std::uint32_t only = 0; ///< of the successors of a selection the one that is ever taken, where that is known; or 0
     bool isPinned = false;  ///< all its successors count, whatever is known
@@ -44,6 +44,7 @@ class SpirvBlocks {
     [[nodiscard]] SpirvValue valueOfPhi(const SpirvBlock &block, std::span<const std::uint32_t> phi,
                                         const std::vector<SpirvValue> &known) const;
     void findBlocks();
+    void findContinueConstructs();
     bool propagate();
     bool pinSelectionsLeftOnConditions();
     void unwrapSwitches();

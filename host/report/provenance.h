@@ -18,7 +18,7 @@ struct RendererIdentity {
     std::string driver;           ///< name and version
     std::string arithmetic;       ///< which / and sqrt ran
     std::string kernel;           ///< empty for the reference renderer, which has none
-    std::uint64_t kernelHash = 0; ///< of its SPIR-V, before float controls of the device are added to it
+    std::uint64_t kernelHash = 0; ///< of its SPIR-V for all scenes and devices
 };
 
 /// What was rendered.

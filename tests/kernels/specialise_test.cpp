@@ -5,14 +5,17 @@
 #include "host/gpu/spirv_instructions.h"
 #include "shaders/layout.h"
 #include "tested_kernel_list.h"
+#include "tests/kernels/drawn_constants.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <spirv-tools/libspirv.hpp>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace hyalite::testing {
 namespace {
@@ -38,46 +41,11 @@ std::size_t countOf(const Words &words, spv::Op opcode) {
 
 // ---- Our kernels
 
-/// What the host may set a constant to, with values that are rare among them.
-std::vector<std::uint32_t> valuesOf(std::uint32_t id) {
-    switch (id) {
-    case layout::constantWorkgroupSize:
-        return {64};
-    case layout::constantSphereCount:
-        return {0, 1, 3, 16, 17, 200};
-    case layout::constantLightCount:
-    case layout::constantEmitterCount:
-        return {0, 1, 2, 39};
-    case layout::constantSamplesAbreast:
-        return {1, 2, 4, 8};
-    case layout::constantStackSize:
-        return {1, 20, layout::maxTreeDepth};
-    case layout::constantPendingInRegisters:
-        return {0, 1, 4};
-    case layout::constantScattering:
-    case layout::constantLighting:
-    case layout::constantTexturing:
-        return {0, 1, 2, 4, 5, ~0u};
-    default:
-        return {0, 1, 2, 3};
-    }
-}
-
-/// Constants of some scene.
-Words drawConstants(std::mt19937 &random) {
-    Words constants(layout::constantCount);
-    for (std::uint32_t id = 0; id < constants.size(); ++id) {
-        const Words values = valuesOf(id);
-        constants[id] = values[random() % values.size()];
-    }
-    return constants;
-}
-
 TEST(Specialise, LeavesValidKernels) {
     std::mt19937 random(1);
     for (const EmbeddedKernel &kernel : embeddedKernels) {
         for (int i = 0; i < 6; ++i) {
-            const Words constants = drawConstants(random);
+            const Words constants = drawnConstants(random);
             const Words words = gpu::specialise(kernel.words, constants);
             ASSERT_EQ(errorsIn(words), "") << kernel.name << " with " << fmt::format("{}", fmt::join(constants, " "));
             for (const spv::Op opcode : {spv::Op::OpSpecConstant, spv::Op::OpSpecConstantTrue,
@@ -251,9 +219,16 @@ TEST(Specialise, EvaluatesOperationsOnConstants) {
     for (const char *name :
          {"sum", "difference", "product", "both", "any", "complement", "a", "b", "c", "d", "shifted"})
         body += fmt::format("OpStore %word %{}\n", name);
-    const Words words = specialised(moduleWith(body + "OpReturn", declarations));
+    const std::string composites = R"(
+        %pair = OpTypeVector %uint 2
+        %known = OpSpecConstantComposite %pair %seven %c1
+        %shiftedToo = OpSpecConstantComposite %pair %seven %shifted
+    )";
+    const Words words = specialised(moduleWith(body + "OpReturn", declarations + composites));
     EXPECT_EQ(storesOf(words), "9 4294967290 21 4 15 4294967288 2 3 6 8 ? ");
     EXPECT_EQ(countOf(words, spv::Op::OpSpecConstantOp), 1u) << "what it does not know is left to the driver";
+    EXPECT_EQ(countOf(words, spv::Op::OpSpecConstantComposite), 1u) << "and what is made of that";
+    EXPECT_EQ(countOf(words, spv::Op::OpConstantComposite), 1u);
     EXPECT_EQ(storesOf(specialised(moduleWith("OpStore %word %seven\nOpReturn"), {1, 1, 5})), "5 ");
 }
 
@@ -364,6 +339,44 @@ TEST(Specialise, KeepsASelectionThatIsLeftOnACondition) {
     )";
     EXPECT_EQ(storesOf(specialised(moduleWith(body))), "1 2 3 ");
     EXPECT_EQ(storesOf(specialised(moduleWith(body), {0})), "3 ");
+}
+
+TEST(Specialise, KeepsTheWaysBackOfLoops) {
+    // `do ... while (f())`, where f returns early, whatever `unknown` is.
+    const std::string body = R"(
+        OpBranch %header
+        %header = OpLabel
+        OpLoopMerge %end %continue None
+        OpBranch %body
+        %body = OpLabel
+        OpStore %word %c1
+        OpBranch %continue
+        %continue = OpLabel
+        OpSelectionMerge %returned None
+        OpSwitch %c0 %inlined
+        %inlined = OpLabel
+        OpSelectionMerge %after None
+        OpBranchConditional %unknown %early %else
+        %early = OpLabel
+        OpBranch %returned
+        %else = OpLabel
+        OpSelectionMerge %inner None
+        OpBranchConditional %yes %leave %inner
+        %leave = OpLabel
+        OpBranch %returned
+        %inner = OpLabel
+        OpStore %word %c2
+        OpBranch %after
+        %after = OpLabel
+        OpBranch %returned
+        %returned = OpLabel
+        %goesOn = OpPhi %bool %unknown %early %no %leave %yes %after
+        OpBranchConditional %goesOn %header %end
+        %end = OpLabel
+        OpReturn
+    )";
+    EXPECT_EQ(storesOf(specialised(moduleWith(body))), "1 2 ");
+    EXPECT_EQ(storesOf(specialised(moduleWith(body), {0})), "1 2 ");
 }
 
 TEST(Specialise, KeepsWhereASelectionEndsThatIsNeverLeft) {

@@ -44,7 +44,6 @@ constexpr std::uint32_t opMatrixTimesVector = 145; // and vector by matrix (144)
 constexpr std::uint32_t opVectorTimesMatrix = 144;
 constexpr std::uint32_t opMatrixTimesMatrix = 146;
 constexpr std::uint32_t opDot = 148;
-constexpr std::uint32_t decorationSpecId = 1;
 constexpr std::uint32_t decorationNoContraction = 42;
 } // namespace spirv
 
