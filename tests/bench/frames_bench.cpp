@@ -115,7 +115,7 @@ void registerFrames(Context &context) {
                               {"cat of 4k, pixel centres", HYALITE_CAT_4K_SCENE, centres}};
     // Paths: diffuse walls, glass, metals below a sky, a mesh below a sky, many lights, textures with cut-outs.
     for (const char *scene : {"cornell", "caustics", "metals", "studio-cat", "many-lights", "still-life"})
-        frames.push_back({scene, scene, {"--spp", "16"}});
+        frames.push_back({scene, scene, {"--spp", "8"}});
     for (const Frame &frame : frames) {
         const std::string row = fmt::format("frames/{}/", frame.name);
         addBenchmark(row + "device", 3,
