@@ -49,7 +49,7 @@ struct PackedScene {
 inline constexpr std::size_t mostDecodedBytes = std::size_t{64} << 20;
 
 /// `scene` is valid, and `bvh` was built from its triangles. Textures of 8 bits are decoded if all together take no more
-/// than `mostDecoded` bytes so: they look the same, and are read in a third of the time.
+/// than `mostDecoded` bytes so: they look the same, and a lookup reads 4 rows in place of 16.
 [[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh,
                                     std::size_t mostDecoded = mostDecodedBytes);
 

@@ -104,7 +104,7 @@ class ImageStore {
     std::size_t place(std::size_t row) {
         for (StoredImage &image : images_) {
             image.firstRow = row;
-            row += isOfLevels(image) ? (image.texture->pixelCount() + 3) / 4 : image.texture->pixelCount();
+            row += rowCount(image);
         }
         return row;
     }
@@ -120,7 +120,7 @@ class ImageStore {
     void append(Rows &rows) const {
         for (const StoredImage &image : images_) {
             if (isOfLevels(image))
-                appendLevels(*image.texture, rows);
+                appendLevels(image, rows);
             else if (image.texture->isFloat())
                 for (const glm::vec3 &value : image.texture->values)
                     rows.push_back(rowOf(value.x, value.y, value.z, 0.0f));
@@ -143,6 +143,11 @@ class ImageStore {
 
     [[nodiscard]] bool isOfLevels(const StoredImage &image) const { return !areDecoded_ && !image.texture->isFloat(); }
 
+    [[nodiscard]] std::size_t rowCount(const StoredImage &image) const {
+        const std::size_t pixelCount = image.texture->pixelCount();
+        return isOfLevels(image) ? (pixelCount + 3) / 4 : pixelCount;
+    }
+
     /// Whether it was not there.
     bool add(const StoredImage &image) {
         if (std::ranges::count(images_, image) > 0)
@@ -151,10 +156,11 @@ class ImageStore {
         return true;
     }
 
-    static void appendLevels(const Texture &texture, Rows &rows) {
+    void appendLevels(const StoredImage &image, Rows &rows) const {
+        const std::vector<std::uint32_t> &levels = image.texture->levels;
         const std::size_t first = rows.size();
-        rows.resize(first + (texture.pixelCount() + 3) / 4, layout::TextureRow{});
-        std::memcpy(&rows[first], texture.levels.data(), texture.levels.size() * sizeof(texture.levels[0]));
+        rows.resize(first + rowCount(image), layout::TextureRow{});
+        std::memcpy(&rows[first], levels.data(), levels.size() * sizeof(levels[0]));
     }
 
     /// With the numbers of the tables, so that decoded or not a kernel reads the same bits.

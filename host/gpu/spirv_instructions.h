@@ -1,11 +1,11 @@
 // SPIR-V as a sequence of instructions: sections 2.3 and 2.4 of its specification.
 #pragma once
 
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #define SPV_ENABLE_UTILITY_CODE
@@ -30,12 +30,16 @@ struct SpirvInstruction {
     }
 };
 
-/// All instructions of the valid module `spirv`, which must outlive them.
+/// All instructions of the module `spirv`, which must outlive them. Throws std::invalid_argument for what is not a header
+/// and a sequence of instructions.
 [[nodiscard]] inline std::vector<SpirvInstruction> instructionsOf(std::span<const std::uint32_t> spirv) {
+    if (spirv.size() < spirvHeaderWords || spirv[0] != spv::MagicNumber)
+        throw std::invalid_argument("no SPIR-V header");
     std::vector<SpirvInstruction> instructions;
     for (std::size_t at = spirvHeaderWords; at < spirv.size();) {
         const std::size_t length = spirv[at] >> spv::WordCountShift;
-        assert(length > 0 && at + length <= spirv.size());
+        if (length == 0 || at + length > spirv.size())
+            throw std::invalid_argument("a SPIR-V instruction of impossible length");
         instructions.push_back({spirv.subspan(at, length)});
         at += length;
     }

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <utility>
 #include <vector>
 
 namespace hyalite::bench {
@@ -24,6 +23,15 @@ struct Frame {
     std::vector<std::string> options{};
 };
 
+/// What `hyalite` is given to render a frame.
+std::vector<std::string> argumentsOf(const Frame &frame, const std::string &deviceName,
+                                     const std::filesystem::path &image) {
+    std::vector<std::string> arguments{"render",   frame.scene, "--quiet",  "--device",
+                                       deviceName, "--output",  image.string()};
+    arguments.insert(arguments.end(), frame.options.begin(), frame.options.end());
+    return arguments;
+}
+
 std::string contentsOf(const std::filesystem::path &file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -32,10 +40,8 @@ std::string contentsOf(const std::filesystem::path &file) {
 /// `hyalite render` of one frame on one device, again and again, to a file that is overwritten.
 class Rendering {
   public:
-    Rendering(const Frame &frame, std::string deviceName)
-        : arguments_{"render",   frame.scene, "--quiet",  "--device",       std::move(deviceName),
-                     "--output", image(),     "--report", report().string()} {
-        arguments_.insert(arguments_.end(), frame.options.begin(), frame.options.end());
+    Rendering(const Frame &frame, const std::string &deviceName) : arguments_(argumentsOf(frame, deviceName, image())) {
+        arguments_.insert(arguments_.end(), {"--report", report().string()});
     }
 
     /// Returns the seconds of all dispatches, or of the reference renderer; of the processor's only those of the whole
@@ -90,9 +96,7 @@ enum class ShaderCache { Warm, Cold };
 /// The least that a render can take.
 void measureStartUp(benchmark::State &state, const Frame &frame, const std::string &deviceName, ShaderCache cache) {
     const TemporaryFolder folder;
-    std::vector<std::string> arguments{"render",   frame.scene, "--quiet",  "--device",
-                                       deviceName, "--output",  folder.path() / "image.png"};
-    arguments.insert(arguments.end(), frame.options.begin(), frame.options.end());
+    const std::vector<std::string> arguments = argumentsOf(frame, deviceName, folder.path() / "image.png");
     const auto run = [&] {
         const TemporaryFolder empty;
         return cache == ShaderCache::Warm

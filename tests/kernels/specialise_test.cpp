@@ -22,15 +22,23 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-/// The errors of the validator in a module for Vulkan 1.1: empty if it is valid.
+/// An assembler and validator for Vulkan 1.1 that keeps what it says.
+struct Tools {
+    std::string messages;
+    spvtools::SpirvTools tools{SPV_ENV_VULKAN_1_1};
+
+    Tools() {
+        tools.SetMessageConsumer(
+            [this](spv_message_level_t, const char *, const spv_position_t &at, const char *message) {
+                messages += fmt::format("line {}: {}\n", at.line, message);
+            });
+    }
+};
+
+/// The errors of the validator in a module: empty if it is valid.
 std::string errorsIn(const Words &words) {
-    std::string errors;
-    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
-    tools.SetMessageConsumer([&](spv_message_level_t, const char *, const spv_position_t &, const char *message) {
-        errors += message;
-        errors += '\n';
-    });
-    return tools.Validate(words) ? "" : errors + "invalid";
+    Tools validator;
+    return validator.tools.Validate(words) ? "" : validator.messages + "invalid";
 }
 
 std::size_t countOf(const Words &words, spv::Op opcode) {
@@ -117,13 +125,9 @@ Words moduleWith(const std::string &body, const std::string &declarations = "") 
         %value = OpLoad %uint %word
         %unknown = OpINotEqual %bool %value %c0
     )" + body + "\nOpFunctionEnd\n";
-    std::string errors;
-    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
-    tools.SetMessageConsumer([&](spv_message_level_t, const char *, const spv_position_t &at, const char *message) {
-        errors += fmt::format("line {}: {}\n", at.line, message);
-    });
+    Tools assembler;
     Words words;
-    EXPECT_TRUE(tools.Assemble(text, &words)) << errors;
+    EXPECT_TRUE(assembler.tools.Assemble(text, &words)) << assembler.messages;
     EXPECT_EQ(errorsIn(words), "") << "before";
     return words;
 }

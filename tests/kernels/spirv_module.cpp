@@ -1,7 +1,5 @@
 #include "tests/kernels/spirv_module.h"
 
-#include <stdexcept>
-
 namespace hyalite::testing {
 
 namespace {
@@ -23,27 +21,21 @@ std::string readString(std::span<const std::uint32_t> words) {
 } // namespace
 
 SpirvModule::SpirvModule(std::span<const std::uint32_t> words) {
-    constexpr std::size_t headerWords = 5;
-    if (words.size() < headerWords || words[0] != 0x07230203u)
-        throw std::runtime_error("no SPIR-V header");
     std::map<std::uint32_t, std::string> names;
     std::string function;
-    for (std::size_t at = headerWords; at < words.size();) {
-        const std::size_t length = words[at] >> 16;
-        if (length == 0 || at + length > words.size())
-            throw std::runtime_error("a SPIR-V instruction of impossible length");
-        const std::uint32_t opcode = words[at] & 0xFFFFu;
-        const std::span<const std::uint32_t> operands = words.subspan(at + 1, length - 1);
-        if (opcode == spirv::opName)
+    for (const gpu::SpirvInstruction &instruction : gpu::instructionsOf(words)) {
+        const spv::Op opcode = instruction.opcode();
+        const std::span<const std::uint32_t> operands = instruction.words.subspan(1);
+        if (opcode == spv::Op::OpName)
             names[operands[0]] = readString(operands.subspan(1));
-        if (opcode == spirv::opDecorate && operands[1] == spirv::decorationNoContraction)
+        if (opcode == spv::Op::OpDecorate &&
+            operands[1] == static_cast<std::uint32_t>(spv::Decoration::NoContraction))
             uncontracted.insert(operands[0]);
-        if (opcode == spirv::opFunction)
+        if (opcode == spv::Op::OpFunction)
             function = names[operands[1]];
         instructions.push_back({opcode, operands, function});
-        if (opcode == spirv::opFunctionEnd)
+        if (opcode == spv::Op::OpFunctionEnd)
             function.clear();
-        at += length;
     }
 }
 

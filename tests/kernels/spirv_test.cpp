@@ -1,6 +1,8 @@
 // What our kernels may consist of, so that every device computes the same bits; and the float controls that the host
 // adds to them.
+#include "host/gpu/batching.h"
 #include "host/gpu/float_controls.h"
+#include "shaders/layout.h"
 #include "tested_kernel_list.h"
 #include "tests/kernels/spirv_module.h"
 
@@ -32,7 +34,7 @@ TEST(EmbeddedKernels, FuseNoSum) {
     for (const EmbeddedKernel &kernel : embeddedKernels) {
         const SpirvModule module(kernel.words);
         for (const Instruction &instruction : module.instructions) {
-            if (instruction.opcode != spirv::opFAdd && instruction.opcode != spirv::opFSub)
+            if (instruction.opcode != spv::Op::OpFAdd && instruction.opcode != spv::Op::OpFSub)
                 continue;
             EXPECT_TRUE(module.uncontracted.contains(instruction.operands[1]))
                 << kernel.name << ": a sum that is not precise, in " << instruction.function;
@@ -45,22 +47,22 @@ TEST(EmbeddedKernels, UseExactOperationsOnly) {
     // UClamp, SClamp, FindILsb, FindSMsb, FindUMsb.
     const std::set<std::uint32_t> exact{4, 5, 8, 37, 38, 39, 40, 41, 42, 43, 44, 45, 73, 74, 75};
     constexpr std::uint32_t sqrtNumber = 31;
-    const std::set<std::uint32_t> withoutOrder{spirv::opDot,
-                                               spirv::opVectorTimesMatrix,
-                                               spirv::opMatrixTimesVector,
-                                               spirv::opMatrixTimesMatrix,
-                                               spirv::opFRem,
-                                               spirv::opFMod};
+    const std::set<spv::Op> withoutOrder{spv::Op::OpDot,
+                                               spv::Op::OpVectorTimesMatrix,
+                                               spv::Op::OpMatrixTimesVector,
+                                               spv::Op::OpMatrixTimesMatrix,
+                                               spv::Op::OpFRem,
+                                               spv::Op::OpFMod};
     for (const EmbeddedKernel &kernel : embeddedKernels) {
         std::size_t nativeCount = 0;
         const SpirvModule module(kernel.words);
         for (const Instruction &instruction : module.instructions) {
             const auto where = [&] { return std::string(kernel.name) + ", in " + instruction.function; };
             EXPECT_FALSE(withoutOrder.contains(instruction.opcode))
-                << "opcode " << instruction.opcode << ": " << where();
-            const bool isExtended = instruction.opcode == spirv::opExtInst;
+                << "opcode " << static_cast<int>(instruction.opcode) << ": " << where();
+            const bool isExtended = instruction.opcode == spv::Op::OpExtInst;
             const bool isNative =
-                instruction.opcode == spirv::opFDiv || (isExtended && instruction.operands[3] == sqrtNumber);
+                instruction.opcode == spv::Op::OpFDiv || (isExtended && instruction.operands[3] == sqrtNumber);
             nativeCount += isNative ? 1u : 0u;
             if (isNative && isUnoptimised(kernel)) {
                 EXPECT_TRUE(mayDivide(instruction)) << "the device's own / or sqrt: " << where();
@@ -72,6 +74,32 @@ TEST(EmbeddedKernels, UseExactOperationsOnly) {
         // The same check sees them where they are.
         if (isUnoptimised(kernel)) {
             EXPECT_EQ(nativeCount, 3u) << kernel.name;
+        }
+    }
+}
+
+// ---- Constants
+
+TEST(EmbeddedKernels, KnowTheConstantsOfTheirDuties) {
+    // Constants that a module does not have are ignored: the wrong kernel would do without what it was told.
+    for (const Integrator integrator : {Integrator::Whitted, Integrator::Path, Integrator::Cost}) {
+        for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
+            for (const int slots : {1, 2}) {
+                gpu::Batching batching;
+                batching.traversal = traversal;
+                batching.slotsPerInvocation = slots;
+                std::set<std::uint32_t> known;
+                for (const Instruction &instruction : SpirvModule(gpu::kernelWords(batching, integrator)).instructions)
+                    if (instruction.opcode == spv::Op::OpDecorate &&
+                        instruction.operands[1] == static_cast<std::uint32_t>(spv::Decoration::SpecId))
+                        known.insert(instruction.operands[2]);
+                for (const std::uint32_t id :
+                     {layout::constantCamera, layout::constantTexturing, layout::constantScattering,
+                      layout::constantLighting, layout::constantShowsCost, layout::constantIsCounting,
+                      layout::constantIsTracing, layout::constantIsResumable, layout::constantExactDivision})
+                    EXPECT_TRUE(known.contains(id)) << "integrator " << static_cast<int>(integrator) << ", " << slots
+                                                    << " slots, constant " << id;
+            }
         }
     }
 }
@@ -102,20 +130,20 @@ TEST(FloatControls, AreAddedInTheirSections) {
             // The order of sections in a module, as far as it concerns us.
             int section = 0;
             for (const Instruction &instruction : module.instructions) {
-                const int wanted = instruction.opcode == spirv::opCapability      ? 0
-                                   : instruction.opcode == spirv::opExtension     ? 1
-                                   : instruction.opcode == spirv::opEntryPoint    ? 2
-                                   : instruction.opcode == spirv::opExecutionMode ? 3
+                const int wanted = instruction.opcode == spv::Op::OpCapability      ? 0
+                                   : instruction.opcode == spv::Op::OpExtension     ? 1
+                                   : instruction.opcode == spv::Op::OpEntryPoint    ? 2
+                                   : instruction.opcode == spv::Op::OpExecutionMode ? 3
                                                                                   : section;
-                EXPECT_GE(wanted, section) << kernel.name << ": opcode " << instruction.opcode;
+                EXPECT_GE(wanted, section) << kernel.name << ": opcode " << static_cast<int>(instruction.opcode);
                 section = wanted;
-                if (instruction.opcode == spirv::opEntryPoint)
+                if (instruction.opcode == spv::Op::OpEntryPoint)
                     entryPoint = instruction.operands[1];
-                if (instruction.opcode == spirv::opExtension)
+                if (instruction.opcode == spv::Op::OpExtension)
                     ++extensionCount;
-                if (instruction.opcode == spirv::opCapability && instruction.operands[0] >= 4464)
+                if (instruction.opcode == spv::Op::OpCapability && instruction.operands[0] >= 4464)
                     addedCapabilities.push_back(instruction.operands[0]);
-                if (instruction.opcode == spirv::opExecutionMode && instruction.operands[1] >= 4459) {
+                if (instruction.opcode == spv::Op::OpExecutionMode && instruction.operands[1] >= 4459) {
                     EXPECT_EQ(instruction.operands[0], entryPoint);
                     addedModes.push_back(instruction.operands[1]);
                     EXPECT_EQ(instruction.operands[2], 32u);
