@@ -55,7 +55,7 @@ vec3 triangleEmission(vec3 emission, TriangleRecord triangle, uint record, vec2 
 
 // What a sphere sends out at the point `outward` from its centre, likewise.
 vec3 sphereEmission(vec3 emission, SphereRecord sphere, vec3 outward) {
-    uint textures = fetchMaterial(sphere.materialIndex).textures;
+    uint textures = fetchMaterial(materialIndexOf(sphere)).textures;
     if (textures == 0u || !hasTexture(textures, slotEmission))
         return emission;
     return emission * lookUpTexture(textureRow(textures, slotEmission), sphereUv(outward));
@@ -81,22 +81,22 @@ LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
 
 LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
     SphereRecord sphere = fetchSphere(emitter.record);
-    precise float squaredRadius = sphere.radius * sphere.radius;
+    SphereShape shape = makeSphereShape(sphere.centre, sphere.radius);
     vec3 toCentre = subtract(sphere.centre, position);
     float squaredDistance = dotProduct(toCentre, toCentre);
-    bool isOutside = squaredDistance > squaredRadius * leastConeDistance;
+    bool isOutside = squaredDistance > shape.squaredRadius * leastConeDistance;
     vec3 direction;
     float distance;
     float density;
     bool isSeen;
     if (isOutside) {
         float centreDistance = squareRoot(squaredDistance);
-        float height = coneHeight(squaredRadius, squaredDistance);
+        float height = coneHeight(shape.squaredRadius, squaredDistance);
         direction = sampleCone(toCentre * divide(1.0, centreDistance), height, u);
-        float meeting = intersectSphere(position, direction, sphere.centre, sphere.radius, false);
+        float meeting = intersectSphere(position, direction, shape, false);
         distance = meeting > 0.0 ? meeting : centreDistance; // past the rim by rounding
         density = emitter.probability * pdfCone(height);
-        isSeen = sphere.normalSign > 0.0 || emitter.isTwoSided != 0u;
+        isSeen = normalSignOf(sphere) > 0.0 || emitter.isTwoSided != 0u;
     } else {
         vec3 outward = sampleSphere(u);
         vec3 toLight = addProduct(toCentre, outward, vec3(sphere.radius));
@@ -104,7 +104,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
         direction = toLight * divide(1.0, distance);
         float cosine = dotProduct(direction, outward);
         density = solidAngleDensity(emitter.density, distance, cosine);
-        isSeen = cosine > 0.0 && distance > 0.0 && (sphere.normalSign < 0.0 || emitter.isTwoSided != 0u);
+        isSeen = cosine > 0.0 && distance > 0.0 && (normalSignOf(sphere) < 0.0 || emitter.isTwoSided != 0u);
     }
     vec3 emission = emitter.emission;
     if ((texturing & texturesEmission) != 0u)

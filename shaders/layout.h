@@ -14,6 +14,9 @@
 namespace hyalite::layout {
 using glm::vec3;
 using uint = std::uint32_t;
+#define HYALITE_INLINE inline
+#else
+#define HYALITE_INLINE
 #endif
 
 // ---- Limits
@@ -30,14 +33,24 @@ const uint maxTreeDepth = 64u; // subtrees that can wait for one ray: the builde
 const uint noPrimitive = 0xFFFFFFFFu;
 const uint firstTriangleId = maxSphereCount; // id of the triangle with input index 0
 
+// Shading reads the first row alone: lavapipe takes as long for a row as for a test of a sphere.
 struct SphereRecord {
     vec3 centre; // world space
+    uint materialAndSide;
     float radius;
-    uint materialIndex;
-    float normalSign;    // +1: outward, -1: towards the centre
     uint isTransmissive; // 1 for a dielectric: light passes, dimmed
     uint pad0;
+    uint pad1;
 };
+
+const uint sphereFacesInward = 0x80000000u;
+
+HYALITE_INLINE uint materialIndexOf(SphereRecord sphere) { return sphere.materialAndSide & ~sphereFacesInward; }
+
+// +1: the normal points outward, -1: towards the centre.
+HYALITE_INLINE float normalSignOf(SphereRecord sphere) {
+    return (sphere.materialAndSide & sphereFacesInward) != 0u ? -1.0f : 1.0f;
+}
 
 struct TriangleRecord {
     vec3 v0; // world space; counter-clockwise seen from outside
@@ -109,14 +122,14 @@ const uint mostMedia = 8u; // dielectrics that the path integrator tells apart
 
 struct MaterialRecord {
     vec3 albedo; // of a conductor its reflectance seen head on, of a principled material its colour
-    uint kind;
+    uint kindAndSides;
     vec3 segmentTint; // Whitted: factor on all that a segment inside this dielectric returns
     float refractiveIndex;
-    vec3 emission; // radiance on the side of the normal, on both where isTwoSided
+    vec3 emission; // radiance on the side of the normal, on both where it is two-sided
     // path: with which density, per unit of area, a light sample lies at a point that emits
     float emitterDensity;
     vec3 absorption; // path: of this dielectric, per unit of length
-    uint isTwoSided;
+    uint pad0;
     // What follows is read where constantScattering asks for it.
     vec3 conductorIndex;      // real part of the refractive index
     float alpha;              // of microfacets: roughness squared; 0: smooth
@@ -130,6 +143,12 @@ struct MaterialRecord {
     float clearcoatAlpha;
     uint textures; // row of the first of its textures, see below; 0: it has none
 };
+
+const uint materialIsTwoSided = 0x80000000u;
+
+HYALITE_INLINE uint kindOf(MaterialRecord material) { return material.kindAndSides & ~materialIsTwoSided; }
+
+HYALITE_INLINE bool isTwoSided(MaterialRecord material) { return (material.kindAndSides & materialIsTwoSided) != 0u; }
 
 // What the materials of a scene need of the path integrator: bits of constantScattering.
 const uint scattersAtConductors = 1u; // conductors, smooth or rough
@@ -510,7 +529,7 @@ const uint constantTexturing = 21u;
 const uint constantCount = 22u;
 
 #ifdef __cplusplus
-static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, materialIndex) == 16);
+static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, radius) == 16);
 static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) == 44);
 static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
 static_assert(sizeof(SkipNode) == 16);

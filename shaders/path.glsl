@@ -44,7 +44,7 @@ void addRadiance(uint slot, vec3 weight, vec3 radiance) {
 void addEmission(uint slot, Surface surface, MaterialRecord material) {
     vec3 direction = path[slot].rayDirection;
     precise float facing = -dotProduct(direction, surface.geometricNormal);
-    float cosine = material.isTwoSided != 0u ? abs(facing) : facing;
+    float cosine = isTwoSided(material) ? abs(facing) : facing;
     if (material.emitterDensity <= 0.0 || cosine <= 0.0)
         return;
     float weight = 1.0;
@@ -55,7 +55,7 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
         } else {
             SphereRecord sphere = fetchSphere(path[slot].hitRecord);
             density = sphereLightDensity(path[slot].rayOrigin, direction, path[slot].rayLength, sphere.centre, sphere.radius,
-                                         surface.normal * sphere.normalSign, material.emitterDensity);
+                                         surface.normal * normalSignOf(sphere), material.emitterDensity);
         }
         weight = powerHeuristic(path[slot].scatterDensity, density);
     }
@@ -101,7 +101,7 @@ void continueRay(uint slot, vec3 origin, vec3 direction, uint excluded) {
 
 void reflectRay(uint slot, Surface surface, vec3 normal) {
     vec3 direction = mirrorDirection(path[slot].rayDirection, normal);
-    vec3 origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, direction);
+    vec3 origin = spawnPoint(surface, direction);
     path[slot].scatterDensity = 0.0;
     rayCounts[slot].z += 1u;
     continueRay(slot, origin, direction, path[slot].hitPrimitive);
@@ -134,7 +134,7 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
     if (crossing.isNothing) {
         path[slot].mediaInside = crossing.beyond;
         path[slot].scatterDensity = 0.0; // no light is aimed at through glass
-        continueRay(slot, spawnPoint(surface.position, surface.error, surface.geometricNormal, direction), direction,
+        continueRay(slot, spawnPoint(surface, direction), direction,
                     path[slot].hitPrimitive);
         return;
     }
@@ -154,29 +154,30 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
     path[slot].throughput *= squaredEta;
     path[slot].scatterDensity = 0.0;
     rayCounts[slot].w += 1u;
-    continueRay(slot, spawnPoint(surface.position, surface.error, surface.geometricNormal, glass.refracted), glass.refracted,
+    continueRay(slot, spawnPoint(surface, glass.refracted), glass.refracted,
                 path[slot].hitPrimitive);
 }
 
 bool isGlass(MaterialRecord material) {
-    return material.kind == materialDielectric ||
-           ((scattering & scattersAtPrincipled) != 0u && material.kind == materialPrincipled && material.transmission > 0.0);
+    return kindOf(material) == materialDielectric ||
+           ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled &&
+            material.transmission > 0.0);
 }
 
 // Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
 bool isSmooth(uint slot, MaterialRecord material, uint materialIndex, bool isEntering) {
-    if (material.kind == materialDiffuse)
+    if (kindOf(material) == materialDiffuse)
         return false;
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material) && material.alpha > 0.0) {
         Crossing crossing = crossingOf(slot, materialIndex, isEntering);
         return crossing.isNothing || crossing.eta == 1.0;
     }
-    return material.kind == materialMirror || material.alpha == 0.0;
+    return kindOf(material) == materialMirror || material.alpha == 0.0;
 }
 
 // The reflectance of what is smooth and no glass.
 vec3 mirrorReflectance(uint slot, Surface surface, MaterialRecord material) {
-    if ((scattering & scattersAtConductors) == 0u || material.kind != materialConductor)
+    if ((scattering & scattersAtConductors) == 0u || kindOf(material) != materialConductor)
         return vec3(1.0);
     float cosine = abs(dotProduct(path[slot].rayDirection, surface.normal));
     return conductorReflectance(lesser(cosine, 1.0), material.conductorIndex, material.conductorExtinction);
@@ -184,7 +185,7 @@ vec3 mirrorReflectance(uint slot, Surface surface, MaterialRecord material) {
 
 // Whether what is not smooth is black from behind.
 bool isBlackBehind(MaterialRecord material) {
-    return material.isTwoSided == 0u && (scattering == 0u || material.kind != materialConductor && !isGlass(material));
+    return !isTwoSided(material) && (scattering == 0u || kindOf(material) != materialConductor && !isGlass(material));
 }
 
 // Stage: the nearest hit is known.
@@ -209,7 +210,7 @@ void shadeHit(uint slot) {
         return;
     bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
     if (scattering != 0u ? !isSmooth(slot, material, materialIndex, !isBehind)
-                         : !hasSpecular || material.kind == materialDiffuse) {
+                         : !hasSpecular || kindOf(material) == materialDiffuse) {
         if (isBehind) {
             if (isBlackBehind(material))
                 return;
@@ -242,9 +243,7 @@ void scatter(uint slot) {
         return;
     traceEvent(slot, traceScatter, floatBitsToUint(path[slot].scatterDensity), direction);
     bounceCounts[slot] += 1u;
-    continueRay(slot, spawnPoint(path[slot].surfacePosition, path[slot].surfaceError, path[slot].surfaceGeometricNormal,
-                                 direction),
-                direction, path[slot].surfacePrimitive);
+    continueRay(slot, spawnPoint(surfaceAt(slot), direction), direction, path[slot].surfacePrimitive);
 }
 
 void aimAtNothing(uint slot, uint emitter) {
@@ -264,7 +263,7 @@ void aimFromRough(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
     MaterialRecord material = hitMaterial(slot, materialIndex, path[slot].surfacePosition);
-    vec3 geometricNormal = path[slot].surfaceGeometricNormal;
+    vec3 geometricNormal = surfaceAt(slot).geometricNormal;
     Crossing crossing = Crossing(path[slot].mediaInside, path[slot].mediaInside, 1.0, true);
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
         crossing = crossingOf(slot, materialIndex, !isBehind);
@@ -309,7 +308,7 @@ void aimAtLight(uint slot) {
     }
     vec3 normal = path[slot].surfaceNormal;
     vec3 direction = sampleCosine(normal, unitFloats(vertexBits(slot, pairScatter)));
-    bool isAbove = dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0;
+    bool isAbove = dotProduct(surfaceAt(slot).geometricNormal, direction) > 0.0;
     path[slot].scatterDirection = direction;
     path[slot].scatterDensity = isAbove ? pdfCosine(dotProduct(normal, direction)) : 0.0;
 
@@ -317,7 +316,7 @@ void aimAtLight(uint slot) {
     LightSample light = sampleEmitter(emitter, path[slot].surfacePosition, vertexBits(slot, pairLight));
     float cosine = dotProduct(normal, light.direction);
     bool isLit = largestComponent(light.radiance) > 0.0 && cosine > 0.0 &&
-                 dotProduct(path[slot].surfaceGeometricNormal, light.direction) > 0.0;
+                 dotProduct(surfaceAt(slot).geometricNormal, light.direction) > 0.0;
     if (!isLit) {
         aimAtNothing(slot, emitter);
         return;

@@ -29,16 +29,6 @@ PendingRay loadPendingRay(uint index) { return pendingRays[index]; }
 
 PendingRay pendingLevels[RAYS][mostPendingInRegisters];
 
-void pushPendingRay(uint slot, PendingRay ray) {
-    uint level = path[slot].pendingCount;
-    if (pendingInRegisters == 0u)
-        storePendingRay(level * slotCount() + slotIndex[slot], ray);
-    [[unroll]] for (uint i = 0u; i < pendingInRegisters; ++i)
-        if (i == level)
-            pendingLevels[slot][i] = ray;
-    path[slot].pendingCount = level + 1u;
-}
-
 // There is one.
 PendingRay popPendingRay(uint slot) {
     uint level = path[slot].pendingCount - 1u;

@@ -3,11 +3,11 @@
 
 const uint unrolledSphereCount = 16u;
 
-vec4 sphereShapes[unrolledSphereCount]; // centre and radius
+SphereShape sphereShapes[unrolledSphereCount];
 uint transmissiveSpheres = 0u;          // a bit each
 LightRecord firstLight;
 
-vec4 sphereShape(uint index) { return vec4(spheres[index].centre, spheres[index].radius); }
+SphereShape sphereShape(uint index) { return makeSphereShape(spheres[index].centre, spheres[index].radius); }
 
 void preload() {
     [[unroll]] for (uint i = 0u; i < min(sphereCount, unrolledSphereCount); ++i) {

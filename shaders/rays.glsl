@@ -25,15 +25,15 @@ void sendPrimaryRay(uint slot) {
 
 bool isTarget(uint slot, uint primitive) { return raysHaveTargets && path[slot].rayTarget == primitive; }
 
-void meetSphere(uint slot, uint i, vec4 shape) {
-    float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape.xyz, shape.w, path[slot].rayExcluded == i);
+void meetSphere(uint slot, uint i, SphereShape shape) {
+    float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape, path[slot].rayExcluded == i);
     bool isNearer = distance > 0.0 && distance < path[slot].rayLength;
     path[slot].rayLength = isNearer ? distance : path[slot].rayLength;
     path[slot].hitPrimitive = isNearer ? i : path[slot].hitPrimitive;
 }
 
-void meetSphereInShadow(uint slot, uint i, vec4 shape) {
-    float meeting = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape.xyz, shape.w, path[slot].rayExcluded == i);
+void meetSphereInShadow(uint slot, uint i, SphereShape shape) {
+    float meeting = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape, path[slot].rayExcluded == i);
     bool isBetween = meeting > 0.0 && meeting < path[slot].rayLength && !isTarget(slot, i);
     bool isTransmissive = lightPassesGlass && isSphereTransmissive(i);
     path[slot].isLightDimmed = isBetween && isTransmissive ? 1u : path[slot].isLightDimmed;
@@ -60,11 +60,21 @@ void beginClosest(uint slot) {
     path[slot].stage = stageClosest;
 }
 
+// Where the path stands. What is known without them is not read from the path's variables, which then need not be kept.
+Surface surfaceAt(uint slot) {
+    Surface surface;
+    surface.position = path[slot].surfacePosition;
+    surface.normal = path[slot].surfaceNormal;
+    surface.error = hasTriangles ? path[slot].surfaceError : vec3(0.0);
+    bool hasTwoNormals = hasTriangles || (texturing & texturesNormal) != 0u;
+    surface.geometricNormal = hasTwoNormals ? path[slot].surfaceGeometricNormal : surface.normal;
+    return surface;
+}
+
 // Stage: look for what lies between the surface where the path stands and a light, `distance` away in `direction`.
 void beginShadow(uint slot, vec3 direction, float distance) {
     rayCounts[slot].y += 1u;
-    path[slot].rayOrigin = spawnPoint(path[slot].surfacePosition, path[slot].surfaceError,
-                                      path[slot].surfaceGeometricNormal, direction);
+    path[slot].rayOrigin = spawnPoint(surfaceAt(slot), direction);
     path[slot].rayDirection = direction;
     path[slot].rayLength = distance;
     path[slot].rayExcluded = path[slot].surfacePrimitive;
@@ -120,10 +130,10 @@ Surface hitSurface(uint slot, out uint materialIndex) {
         return surface;
     }
     SphereRecord sphere = fetchSphere(path[slot].hitRecord);
-    materialIndex = sphere.materialIndex;
+    materialIndex = materialIndexOf(sphere);
     Surface surface = sphereSurface(path[slot].rayOrigin, path[slot].rayDirection, path[slot].rayLength, sphere);
     if ((texturing & texturesNormal) != 0u)
-        mapNormal(slot, surface, materialIndex, sphereTangent(surface.normal * sphere.normalSign));
+        mapNormal(slot, surface, materialIndex, sphereTangent(surface.normal * normalSignOf(sphere)));
     return surface;
 }
 

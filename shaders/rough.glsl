@@ -141,13 +141,13 @@ Rough roughOf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     rough.coatEnergy = 0.0;
     rough.weight = 1.0;
     rough.facetChance = 0.0;
-    if ((scattering & scattersAtPrincipled) != 0u && material.kind == materialPrincipled)
+    if ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled)
         return principledOf(rough, material, isBehind, choice);
-    if ((scattering & scattersAtRoughConductors) != 0u && material.kind == materialConductor) {
+    if ((scattering & scattersAtRoughConductors) != 0u && kindOf(material) == materialConductor) {
         rough.isConductor = true;
         return withLobes(rough, 1.0, 0.0, vec3(0.0), material.averageReflectance);
     }
-    if ((scattering & scattersAtRoughGlass) != 0u && material.kind == materialDielectric) {
+    if ((scattering & scattersAtRoughGlass) != 0u && kindOf(material) == materialDielectric) {
         rough.kind = roughGlass;
         return rough;
     }

@@ -24,7 +24,7 @@ layout(set = 0, binding = bindingSphereArray, rgba32ui) uniform restrict readonl
 SphereRecord fetchSphere(uint index) {
     uvec4 a = imageLoad(sphereTexels, int(index) * 2);
     uvec4 b = imageLoad(sphereTexels, int(index) * 2 + 1);
-    return SphereRecord(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), b.x, uintBitsToFloat(b.y), b.z, b.w);
+    return SphereRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.x), b.y, b.z, b.w);
 }
 
 MaterialRecord fetchMaterial(uint index) {

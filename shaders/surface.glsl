@@ -10,7 +10,7 @@ struct Surface {
 Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord sphere) {
     precise vec3 position = origin + direction * distance;
     precise vec3 outward = position - sphere.centre;
-    precise vec3 normal = unitVector(outward) * sphere.normalSign;
+    precise vec3 normal = unitVector(outward) * normalSignOf(sphere);
     return Surface(position, vec3(0.0), normal, normal);
 }
 
@@ -34,9 +34,11 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
 // Where a ray leaves the surface in `direction`: moved along the geometric normal by twice the error bound, to the
 // side that the ray goes to (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
 // Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
-vec3 spawnPoint(vec3 position, vec3 error, vec3 geometricNormal, vec3 direction) {
-    precise float distance = 2.0 * dotProduct(abs(geometricNormal), error);
-    precise float side = dotProduct(direction, geometricNormal) < 0.0 ? -distance : distance;
-    precise vec3 origin = position + geometricNormal * side;
+vec3 spawnPoint(Surface surface, vec3 direction) {
+    if (!hasTriangles)
+        return surface.position; // the error is 0, and no coordinate is -0
+    precise float distance = 2.0 * dotProduct(abs(surface.geometricNormal), surface.error);
+    precise float side = dotProduct(direction, surface.geometricNormal) < 0.0 ? -distance : distance;
+    precise vec3 origin = surface.position + surface.geometricNormal * side;
     return origin;
 }

@@ -49,7 +49,7 @@ void shadeHit(uint slot) {
     }
     if (view == viewAlbedo) {
         MaterialRecord material = hitMaterial(slot, materialIndex, surface.position);
-        bool isClear = material.kind == materialMirror || material.kind == materialDielectric;
+        bool isClear = kindOf(material) == materialMirror || kindOf(material) == materialDielectric;
         show(slot, isClear ? vec3(1.0) : material.albedo);
     }
     if (view == viewOcclusion) {
@@ -67,7 +67,7 @@ void aimAtLight(uint slot) {
     uvec2 bits = sampleBits(pairKeys(imagePixel[slot], frame.seed, 1u), path[slot].sampleIndex);
     vec3 direction = sampleCosine(path[slot].surfaceNormal, unitFloats(bits));
     path[slot].stage = stageSampleDone;
-    if (dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0)
+    if (dotProduct(surfaceAt(slot).geometricNormal, direction) > 0.0)
         beginShadow(slot, direction, frame.occlusionDistance);
 }
 

@@ -22,9 +22,32 @@ void takePendingRay(uint slot) {
 
 void reflectRay(uint slot, Surface surface, uint medium) {
     vec3 direction = mirrorDirection(path[slot].rayDirection, surface.normal);
-    vec3 origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, direction);
+    vec3 origin = spawnPoint(surface, direction);
     startRay(slot, origin, direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u, medium);
     rayCounts[slot].z += 1u;
+}
+
+PendingRay reflectedRay(uint slot, Surface surface, float reflectance, uint medium) {
+    PendingRay reflected;
+    reflected.direction = mirrorDirection(path[slot].rayDirection, surface.normal);
+    reflected.origin = spawnPoint(surface, reflected.direction);
+    reflected.excluded = path[slot].hitPrimitive;
+    reflected.depth = path[slot].rayDepth + 1u;
+    reflected.medium = medium;
+    reflected.throughput = path[slot].throughput * reflectance;
+    return reflected;
+}
+
+// The ray is made anew in each branch. A branch that only copies would be turned into selections, which lavapipe merges a
+// second time, under the mask of the loop around; what the branches compute alike it computes once.
+void pushReflectedRay(uint slot, Surface surface, float reflectance, uint medium) {
+    uint level = path[slot].pendingCount;
+    path[slot].pendingCount = level + 1u;
+    if (pendingInRegisters == 0u)
+        storePendingRay(level * slotCount() + slotIndex[slot], reflectedRay(slot, surface, reflectance, medium));
+    [[unroll]] for (uint i = 0u; i < pendingInRegisters; ++i)
+        if (i == level)
+            pendingLevels[slot][i] = reflectedRay(slot, surface, reflectance, medium);
 }
 
 void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint materialIndex, bool isEntering) {
@@ -38,18 +61,11 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
         return;
     }
     // The reflected ray waits, the refracted one goes on.
-    PendingRay reflected;
-    reflected.direction = mirrorDirection(direction, surface.normal);
-    reflected.origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, reflected.direction);
-    reflected.excluded = path[slot].hitPrimitive;
-    reflected.depth = path[slot].rayDepth + 1u;
-    reflected.medium = mediumOfReflection;
-    reflected.throughput = path[slot].throughput * refraction.reflectance;
-    pushPendingRay(slot, reflected);
+    pushReflectedRay(slot, surface, refraction.reflectance, mediumOfReflection);
     rayCounts[slot].z += 1u;
 
     path[slot].throughput = path[slot].throughput * refraction.transmittance;
-    vec3 origin = spawnPoint(surface.position, surface.error, surface.geometricNormal, refraction.direction);
+    vec3 origin = spawnPoint(surface, refraction.direction);
     startRay(slot, origin, refraction.direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u,
              isEntering ? materialIndex : noMaterial);
     rayCounts[slot].w += 1u;
@@ -62,12 +78,10 @@ vec3 radianceAround(vec3 direction) {
     return frame.background;
 }
 
-void leaveScene(uint slot) {
-    vec3 throughput = path[slot].throughput;
-    if (hasDielectric && path[slot].rayMedium != noMaterial)
-        throughput *= fetchMaterial(path[slot].rayMedium).segmentTint;
+void leaveScene(uint slot, vec3 tint) {
     if (!showsCost)
-        path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, throughput, radianceAround(path[slot].rayDirection));
+        path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, path[slot].throughput * tint,
+                                               radianceAround(path[slot].rayDirection));
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     endPath(slot);
 }
@@ -75,8 +89,12 @@ void leaveScene(uint slot) {
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
     traceNearestHit(slot);
+    // Of the glass that the ray was sent into. Once for all that follows: as long as two tests of spheres on lavapipe.
+    vec3 tint = vec3(1.0);
+    if (hasDielectric && path[slot].rayMedium != noMaterial)
+        tint = fetchMaterial(path[slot].rayMedium).segmentTint;
     if (path[slot].hitPrimitive == noPrimitive) {
-        leaveScene(slot);
+        leaveScene(slot, tint);
         return;
     }
     uint materialIndex;
@@ -84,25 +102,22 @@ void shadeHit(uint slot) {
     MaterialRecord material = hitMaterial(slot, materialIndex, surface.position);
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
-    bool isGlass = hasDielectric && material.kind == materialDielectric;
-    if (hasDielectric) {
-        uint medium = isGlass && !isEntering ? materialIndex : path[slot].rayMedium;
-        if (medium != noMaterial)
-            path[slot].throughput *= fetchMaterial(medium).segmentTint;
-    }
+    bool isGlass = hasDielectric && kindOf(material) == materialDielectric;
+    if (hasDielectric)
+        path[slot].throughput *= isGlass && !isEntering ? material.segmentTint : tint;
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
     bool isSeenFromFront = dotProduct(direction, surface.geometricNormal) < 0.0;
-    if (hasEmission && !showsCost && (isSeenFromFront || material.isTwoSided != 0u)) {
+    if (hasEmission && !showsCost && (isSeenFromFront || isTwoSided(material))) {
         path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, path[slot].throughput, material.emission);
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
     endPath(slot);
     // Rough metals are mirrors here, and principled materials diffuse.
-    bool isPrincipled = (scattering & scattersAtPrincipled) != 0u && material.kind == materialPrincipled;
-    if (!hasSpecular || material.kind == materialDiffuse || isPrincipled) {
-        if (material.isTwoSided != 0u && dotProduct(direction, surface.geometricNormal) > 0.0) {
+    bool isPrincipled = (scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled;
+    if (!hasSpecular || kindOf(material) == materialDiffuse || isPrincipled) {
+        if (isTwoSided(material) && dotProduct(direction, surface.geometricNormal) > 0.0) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
@@ -113,7 +128,7 @@ void shadeHit(uint slot) {
         if (isGlass) {
             splitAtGlass(slot, surface, material, materialIndex, isEntering);
         } else {
-            if ((scattering & scattersAtConductors) != 0u && material.kind == materialConductor)
+            if ((scattering & scattersAtConductors) != 0u && kindOf(material) == materialConductor)
                 path[slot].throughput *= material.albedo;
             reflectRay(slot, surface, path[slot].rayMedium);
         }
@@ -135,7 +150,7 @@ void aimAtLight(uint slot) {
         direction = -light.axis;
     }
     bool isLit = dotProduct(path[slot].surfaceNormal, direction) > 0.0 &&
-                 dotProduct(path[slot].surfaceGeometricNormal, direction) > 0.0;
+                 dotProduct(surfaceAt(slot).geometricNormal, direction) > 0.0;
     if (!isLit) {
         traceEvent(slot, traceVisibility, visibilityUnlit, vec3(path[slot].lightIndex));
         path[slot].lightIndex += 1u;

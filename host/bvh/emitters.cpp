@@ -18,7 +18,7 @@ double exitance(const PackedScene &packed, const layout::MaterialRecord &materia
     if (material.emission == glm::vec3(0.0f))
         return 0.0;
     const glm::dvec3 radiance = glm::dvec3(material.emission) * meanEmissionFactor(packed, material);
-    return std::numbers::pi * mean(radiance) * (material.isTwoSided != 0 ? 2.0 : 1.0);
+    return std::numbers::pi * mean(radiance) * (isTwoSided(material) ? 2.0 : 1.0);
 }
 
 double areaOf(const layout::TriangleRecord &triangle) {
@@ -32,7 +32,7 @@ layout::EmitterRecord surfaceEmitter(std::uint32_t kind, std::size_t record,
     emitter.kind = kind;
     emitter.record = static_cast<std::uint32_t>(record);
     emitter.emission = material.emission;
-    emitter.isTwoSided = material.isTwoSided;
+    emitter.isTwoSided = isTwoSided(material) ? 1u : 0u;
     return emitter;
 }
 
@@ -95,9 +95,10 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
     }
     for (std::size_t i = 0; i < packed.spheres.size(); ++i) {
         const layout::SphereRecord &sphere = packed.spheres[i];
-        const layout::MaterialRecord &material = packed.materials[sphere.materialIndex];
+        const layout::MaterialRecord &material = packed.materials[materialIndexOf(sphere)];
         const double area = 4.0 * std::numbers::pi * sphere.radius * sphere.radius;
-        add(surfaceEmitter(layout::emitterSphere, i, material), exitances[sphere.materialIndex] * area, area);
+        add(surfaceEmitter(layout::emitterSphere, i, material), exitances[materialIndexOf(sphere)] * area,
+            area);
     }
     if (packed.hasEmission)
         for (const std::uint32_t record : inInputOrder(packed.triangles)) {

@@ -36,15 +36,16 @@ layout::FrameRecord packFrame(const Scene &scene) {
     else if (camera.kind == CameraKind::Panorama)
         scale = 1.0;
     layout::FrameRecord frame{};
-    frame.eye = glm::vec3(camera.position);
+    frame.eye = glm::vec3(camera.position) + 0.0f; // -0 becomes 0, for spawnPoint in shaders/surface.glsl
     frame.imageWidth = static_cast<std::uint32_t>(camera.width);
     frame.imageHeight = static_cast<std::uint32_t>(camera.height);
     frame.pixelRight = glm::vec3(right / scale);
     frame.pixelUp = glm::vec3(up / scale);
     frame.lensScale = static_cast<float>(0.5 * camera.aperture * scale);
     frame.focusDistance = static_cast<float>(camera.focusDistance);
-    frame.radianceLimit = scene.settings.radianceLimit > 0.0 ? static_cast<float>(scene.settings.radianceLimit)
-                                                             : std::numeric_limits<float>::infinity();
+    frame.radianceLimit = scene.settings.radianceLimit > 0.0
+                              ? static_cast<float>(scene.settings.radianceLimit)
+                              : std::numeric_limits<float>::infinity();
     frame.imagePlane = glm::vec3(forward);
     frame.seed = scene.settings.seed;
     frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);
@@ -114,12 +115,12 @@ std::uint32_t scatteringOf(const Material &material) {
 layout::MaterialRecord packMaterial(const Material &material) {
     layout::MaterialRecord record{};
     record.albedo = material.albedo;
-    record.kind = static_cast<std::uint32_t>(material.kind);
+    record.kindAndSides =
+        static_cast<std::uint32_t>(material.kind) | (material.twoSided ? layout::materialIsTwoSided : 0u);
     record.segmentTint = material.segmentTint;
     record.refractiveIndex = material.refractiveIndex;
     record.emission = material.emission;
     record.absorption = material.absorption;
-    record.isTwoSided = material.twoSided ? 1u : 0u;
     const bool isPrincipled = material.kind == MaterialKind::Principled;
     record.alpha = material.roughness > 0.0f || isPrincipled ? alphaOf(material.roughness) : 0.0f;
     if (material.kind == MaterialKind::Conductor) {
@@ -366,10 +367,10 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t mostDecode
         layout::SphereRecord record{};
         record.centre = glm::vec3(sphere.centre);
         record.radius = static_cast<float>(sphere.radius);
-        record.materialIndex = packedMaterial[sphere.materialIndex];
+        record.materialAndSide =
+            packedMaterial[sphere.materialIndex] | (sphere.inwardNormal ? layout::sphereFacesInward : 0u);
         record.isTransmissive =
             scene.materials[sphere.materialIndex].kind == MaterialKind::Dielectric ? 1u : 0u;
-        record.normalSign = sphere.inwardNormal ? -1.0f : 1.0f;
         packed.spheres.push_back(record);
     }
     for (const TriangleMesh &mesh : scene.meshes)

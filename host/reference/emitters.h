@@ -105,7 +105,7 @@ template <class Real>
 template <class Real>
 [[nodiscard]] Vec3<Real> sphereEmission(const PackedScene &scene, const Vec3<Real> &emission,
                                         const layout::SphereRecord &sphere, const Vec3<Real> &outward) {
-    const std::uint32_t textures = scene.materials[sphere.materialIndex].textures;
+    const std::uint32_t textures = scene.materials[materialIndexOf(sphere)].textures;
     if (textures == 0 || !hasTexture(scene.textures, textures, layout::slotEmission))
         return emission;
     return emission *
@@ -152,7 +152,7 @@ template <class Real>
         const Real meeting = intersectSphere(position, light.direction, centre, radius, false);
         light.distance = meeting > 0 ? meeting : centreDistance; // past the rim by rounding
         light.density = static_cast<Real>(emitter.probability) * pdfCone(height);
-        isSeen = sphere.normalSign > 0.0f || emitter.isTwoSided != 0;
+        isSeen = normalSignOf(sphere) > 0.0f || emitter.isTwoSided != 0;
     } else {
         const Vec3<Real> outward = sampleSphere(u);
         const Vec3<Real> toLight = toCentre + outward * radius;
@@ -160,7 +160,7 @@ template <class Real>
         light.direction = toLight * (Real(1) / light.distance);
         const Real cosine = dotProduct(light.direction, outward);
         light.density = solidAngleDensity(static_cast<Real>(emitter.density), light.distance, cosine);
-        isSeen = cosine > 0 && light.distance > 0 && (sphere.normalSign < 0.0f || emitter.isTwoSided != 0);
+        isSeen = cosine > 0 && light.distance > 0 && (normalSignOf(sphere) < 0.0f || emitter.isTwoSided != 0);
     }
     if (isSeen)
         light.radiance = sphereEmission(scene, Vec3<Real>(emitter.emission), sphere,

@@ -50,10 +50,10 @@ template <class Real>
         return surface;
     }
     const layout::SphereRecord &sphere = scene.spheres[hit.record];
-    materialIndex = sphere.materialIndex;
+    materialIndex = materialIndexOf(sphere);
     Surface<Real> surface = sphereSurface(ray.origin, ray.direction, hit.distance, sphere);
     mapNormal(scene, ray, hit, surface, materialIndex,
-              [&] { return sphereTangent<Real>(surface.normal * static_cast<Real>(sphere.normalSign)); });
+              [&] { return sphereTangent<Real>(surface.normal * static_cast<Real>(normalSignOf(sphere))); });
     return surface;
 }
 

@@ -94,7 +94,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     void addEmission(const Ray<Real> &ray, const Hit<Real> &hit, const Surface<Real> &surface,
                      const layout::MaterialRecord &material) {
         const Real facing = -dotProduct(ray.direction, surface.geometricNormal);
-        const Real cosine = material.isTwoSided != 0 ? std::abs(facing) : facing;
+        const Real cosine = isTwoSided(material) ? std::abs(facing) : facing;
         const Real areaDensity = static_cast<Real>(material.emitterDensity);
         if (areaDensity <= 0 || cosine <= 0)
             return;
@@ -108,7 +108,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                 density =
                     sphereLightDensity(ray.origin, ray.direction, hit.distance, Vec3<Real>(sphere.centre),
                                        static_cast<Real>(sphere.radius),
-                                       surface.normal * static_cast<Real>(sphere.normalSign), areaDensity);
+                                       surface.normal * static_cast<Real>(normalSignOf(sphere)), areaDensity);
             }
             weight = powerHeuristic(scatterDensity_, density);
         }
@@ -211,26 +211,26 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     }
 
     [[nodiscard]] static bool isGlass(const layout::MaterialRecord &material) {
-        return material.kind == layout::materialDielectric ||
-               (material.kind == layout::materialPrincipled && material.transmission > 0.0f);
+        return kindOf(material) == layout::materialDielectric ||
+               (kindOf(material) == layout::materialPrincipled && material.transmission > 0.0f);
     }
 
     /// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
     [[nodiscard]] bool isSmooth(const layout::MaterialRecord &material, std::uint32_t materialIndex,
                                 bool isEntering) const {
-        if (material.kind == layout::materialDiffuse)
+        if (kindOf(material) == layout::materialDiffuse)
             return false;
         if (isGlass(material) && material.alpha > 0.0f) {
             const Crossing crossing = crossingOf(materialIndex, isEntering);
             return crossing.isNothing || crossing.eta == Real(1);
         }
-        return material.kind == layout::materialMirror || material.alpha == 0.0f;
+        return kindOf(material) == layout::materialMirror || material.alpha == 0.0f;
     }
 
     /// The reflectance of what is smooth and no glass.
     [[nodiscard]] static Vec3<Real> mirrorReflectance(const Ray<Real> &ray, const Surface<Real> &surface,
                                                       const layout::MaterialRecord &material) {
-        if (material.kind != layout::materialConductor)
+        if (kindOf(material) != layout::materialConductor)
             return Vec3<Real>(Real(1));
         const Real cosine = std::abs(dotProduct(ray.direction, surface.normal));
         return conductorReflectance(lesser(cosine, Real(1)), Vec3<Real>(material.conductorIndex),
@@ -239,7 +239,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
 
     /// Whether what is not smooth is black from behind.
     [[nodiscard]] static bool isBlackBehind(const layout::MaterialRecord &material) {
-        return material.isTwoSided == 0 && material.kind != layout::materialConductor && !isGlass(material);
+        return !isTwoSided(material) && kindOf(material) != layout::materialConductor && !isGlass(material);
     }
 
     /// What the path does next, or nothing.

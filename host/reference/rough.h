@@ -154,14 +154,14 @@ template <class Real>
                       .extinction = Vec3<Real>(material.conductorExtinction),
                       .reflectance = Vec3<Real>(material.albedo),
                       .eta = eta};
-    if (material.kind == layout::materialPrincipled)
+    if (kindOf(material) == layout::materialPrincipled)
         return principledOf(rough, material, isBehind, choice);
-    if (material.kind == layout::materialConductor) {
+    if (kindOf(material) == layout::materialConductor) {
         rough.isConductor = true;
         return withLobes(rough, Real(1), Real(0), Vec3<Real>(Real(0)),
                          Vec3<Real>(material.averageReflectance));
     }
-    rough.kind = material.kind == layout::materialDielectric ? RoughKind::Glass : RoughKind::Diffuse;
+    rough.kind = kindOf(material) == layout::materialDielectric ? RoughKind::Glass : RoughKind::Diffuse;
     return rough;
 }
 

@@ -18,7 +18,7 @@ template <class Real>
                                           Real distance, const layout::SphereRecord &sphere) {
     const Vec3<Real> position = origin + direction * distance;
     const Vec3<Real> outward = position - Vec3<Real>(sphere.centre);
-    const Vec3<Real> normal = unitVector(outward) * static_cast<Real>(sphere.normalSign);
+    const Vec3<Real> normal = unitVector(outward) * static_cast<Real>(normalSignOf(sphere));
     return {position, Vec3<Real>(Real(0)), normal, normal};
 }
 

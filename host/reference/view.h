@@ -65,7 +65,8 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         case layout::viewId:
             return show(idColour<Real>(hit.primitive));
         case layout::viewAlbedo:
-            return show(material.kind == layout::materialMirror || material.kind == layout::materialDielectric
+            return show(kindOf(material) == layout::materialMirror ||
+                                kindOf(material) == layout::materialDielectric
                             ? Vec3<Real>(Real(1))
                             : Vec3<Real>(material.albedo));
         default:

@@ -79,7 +79,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         const Surface<Real> surface = hitSurface(scene_, segment.ray, hit, materialIndex);
         const layout::MaterialRecord material = hitMaterial(scene_, hit, materialIndex, surface.position);
         const bool isEntering = dotProduct(segment.ray.direction, surface.normal) < 0;
-        const bool isGlass = material.kind == layout::materialDielectric;
+        const bool isGlass = kindOf(material) == layout::materialDielectric;
         const std::uint32_t medium = isGlass && !isEntering ? materialIndex : segment.medium;
         if (medium != layout::noMaterial)
             segment.throughput *= Vec3<Real>(scene_.materials[medium].segmentTint);
@@ -88,19 +88,19 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, segment.throughput);
         const bool isSeenFromFront = dotProduct(segment.ray.direction, surface.geometricNormal) < 0;
-        if (scene_.hasEmission && (isSeenFromFront || material.isTwoSided != 0)) {
+        if (scene_.hasEmission && (isSeenFromFront || isTwoSided(material))) {
             radiance_ = radiance_ + segment.throughput * Vec3<Real>(material.emission);
             traceEvent(layout::traceRadiance, 0, radiance_);
         }
         // Rough metals are mirrors here, and principled materials diffuse.
-        if (material.kind == layout::materialDiffuse || material.kind == layout::materialPrincipled)
+        if (kindOf(material) == layout::materialDiffuse || kindOf(material) == layout::materialPrincipled)
             shadeDiffuse(segment, surface, material, hit.primitive);
         else if (segment.depth < scene_.frame.maxDepth && isGlass)
             splitAtGlass(segment, surface, material.refractiveIndex, materialIndex, isEntering,
                          hit.primitive);
         else if (segment.depth < scene_.frame.maxDepth)
             reflect(segment, surface,
-                    material.kind == layout::materialConductor
+                    kindOf(material) == layout::materialConductor
                         ? segment.throughput * Vec3<Real>(material.albedo)
                         : segment.throughput,
                     segment.medium, hit.primitive);
@@ -115,7 +115,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
 
     void shadeDiffuse(const Segment &segment, Surface<Real> surface, const layout::MaterialRecord &material,
                       std::uint32_t primitive) {
-        if (material.isTwoSided != 0 && dotProduct(segment.ray.direction, surface.geometricNormal) > 0) {
+        if (isTwoSided(material) && dotProduct(segment.ray.direction, surface.geometricNormal) > 0) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }

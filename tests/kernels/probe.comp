@@ -255,7 +255,7 @@ void main() {
         vec3 direction = takeVec3();
         vec3 centre = takeVec3();
         float radius = takeFloat();
-        give(intersectSphere(origin, direction, centre, radius, takeUint() != 0u));
+        give(intersectSphere(origin, direction, makeSphereShape(centre, radius), takeUint() != 0u));
         break;
     }
     case probeRefractRay: {
@@ -275,7 +275,7 @@ void main() {
         float distance = takeFloat();
         SphereRecord sphere;
         sphere.centre = takeVec3();
-        sphere.normalSign = takeFloat();
+        sphere.materialAndSide = takeUint();
         give(sphereSurface(origin, direction, distance, sphere));
         break;
     }
@@ -293,10 +293,11 @@ void main() {
         break;
     }
     case probeSpawnPoint: {
-        vec3 position = takeVec3();
-        vec3 error = takeVec3();
-        vec3 geometricNormal = takeVec3();
-        give(spawnPoint(position, error, geometricNormal, takeVec3()));
+        Surface surface;
+        surface.position = takeVec3();
+        surface.error = takeVec3();
+        surface.geometricNormal = takeVec3();
+        give(spawnPoint(surface, takeVec3()));
         break;
     }
     case probeDivide: {
@@ -451,7 +452,7 @@ void main() {
     }
     case probeRough: {
         MaterialRecord material;
-        material.kind = takeUint();
+        material.kindAndSides = takeUint();
         material.albedo = takeVec3();
         material.conductorIndex = takeVec3();
         material.conductorExtinction = takeVec3();

@@ -58,6 +58,7 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
 
     std::array<std::uint32_t, probeConstantCount> constants{};
     constants[layout::constantWorkgroupSize] = workgroupSize;
+    constants[layout::constantHasTriangles] = 1;
     constants[layout::constantSampler] = scene.samplerKind;
     constants[layout::constantExactDivision] = arithmetic == gpu::Arithmetic::Native;
     constants[layout::constantScattering] = scene.scattering;

@@ -365,11 +365,11 @@ TEST(SurfaceTwin, SphereSurface) {
     expectTwin(probeSphereSurface, [](Draw &draw, Words &input, Words &expected) {
         layout::SphereRecord sphere{};
         sphere.centre = draw.point();
-        sphere.normalSign = draw.chance(2) ? -1.0f : 1.0f;
+        sphere.materialAndSide = draw.chance(2) ? layout::sphereFacesInward : 0u;
         const vec3 origin = draw.point();
         const vec3 direction = draw.direction();
         const float distance = std::abs(draw.coordinate());
-        input << origin << direction << distance << sphere.centre << sphere.normalSign;
+        input << origin << direction << distance << sphere.centre << sphere.materialAndSide;
         expected << reference::sphereSurface(origin, direction, distance, sphere);
     });
 }
@@ -817,7 +817,7 @@ TEST(RoughTwin, DrawnAndEvaluated) {
         layout::MaterialRecord material{};
         constexpr std::array<std::uint32_t, 4> kinds{layout::materialDiffuse, layout::materialDielectric,
                                                      layout::materialConductor, layout::materialPrincipled};
-        material.kind = kinds[draw.index(4)];
+        material.kindAndSides = kinds[draw.index(4)];
         material.albedo = drawColour(draw);
         material.conductorIndex = drawColour(draw) * 2.0f;
         material.conductorExtinction = drawColour(draw) * 5.0f + vec3(0.01f);
@@ -838,11 +838,11 @@ TEST(RoughTwin, DrawnAndEvaluated) {
         const vec2 choice = unitPair(draw);
         const vec2 u = unitPair(draw);
         const vec3 light = draw.chance(4) ? -drawAbove(draw) : drawAbove(draw);
-        input << material.kind << material.albedo << material.conductorIndex << material.conductorExtinction
-              << material.averageReflectance << material.alpha << material.metallic << material.transmission
-              << material.normalReflectance << material.clearcoat << material.clearcoatAlpha << direction
-              << normal << geometricNormal << static_cast<std::uint32_t>(isBehind) << eta << choice << u
-              << light;
+        input << material.kindAndSides << material.albedo << material.conductorIndex
+              << material.conductorExtinction << material.averageReflectance << material.alpha
+              << material.metallic << material.transmission << material.normalReflectance
+              << material.clearcoat << material.clearcoatAlpha << direction << normal << geometricNormal
+              << static_cast<std::uint32_t>(isBehind) << eta << choice << u << light;
         const auto rough =
             reference::roughOf(texels, material, direction, normal, geometricNormal, isBehind, eta, choice.x);
         const vec3 drawn = reference::drawRough(rough, u, choice.y);

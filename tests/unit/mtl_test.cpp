@@ -219,7 +219,7 @@ TEST_F(Mtl, ABareMeshHasItsMaterials) {
     for (const layout::TriangleRecord &triangle : packed.triangles) {
         const std::uint32_t input = triangle.primitiveId - layout::firstTriangleId;
         const bool isGlass = input == 1 || input == 2;
-        EXPECT_EQ(packed.materials.at(triangle.materialIndex).kind == layout::materialDielectric, isGlass);
+        EXPECT_EQ(kindOf(packed.materials.at(triangle.materialIndex)) == layout::materialDielectric, isGlass);
         EXPECT_EQ((triangle.flags & layout::triangleIsTransmissive) != 0, isGlass);
     }
 }

@@ -238,21 +238,21 @@ TEST(PackedScene, SpheresLightsAndMaterialsAreCopied) {
     ASSERT_EQ(result.spheres.size(), 2u);
     EXPECT_EQ(result.spheres[0].centre, glm::vec3(1, 2, 3));
     EXPECT_EQ(result.spheres[0].radius, 4.0f);
-    EXPECT_EQ(result.spheres[0].materialIndex, 0u) << "glass comes first";
-    EXPECT_EQ(result.spheres[1].materialIndex, 1u);
-    EXPECT_EQ(result.spheres[0].normalSign, -1.0f);
-    EXPECT_EQ(result.spheres[1].normalSign, 1.0f);
+    EXPECT_EQ(materialIndexOf(result.spheres[0]), 0u) << "glass comes first";
+    EXPECT_EQ(materialIndexOf(result.spheres[1]), 1u);
+    EXPECT_EQ(normalSignOf(result.spheres[0]), -1.0f);
+    EXPECT_EQ(normalSignOf(result.spheres[1]), 1.0f);
     ASSERT_EQ(result.lights.size(), 1u);
     EXPECT_EQ(result.frame.lightCount, 1u);
     EXPECT_EQ(result.lights[0].position, glm::vec3(1));
     EXPECT_EQ(result.lights[0].intensity, glm::vec3(1, 0, 2)) << "power / 4 pi";
     ASSERT_EQ(result.materials.size(), 2u);
-    EXPECT_EQ(result.materials[0].kind, layout::materialDielectric);
+    EXPECT_EQ(kindOf(result.materials[0]), layout::materialDielectric);
     EXPECT_EQ(result.materials[0].albedo, glm::vec3(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(result.materials[0].segmentTint, glm::vec3(0.4f, 0.5f, 0.6f));
     EXPECT_EQ(result.materials[0].refractiveIndex, 1.7f);
-    EXPECT_EQ(result.materials[0].isTwoSided, 1u);
-    EXPECT_EQ(result.materials[1].isTwoSided, 0u);
+    EXPECT_TRUE(isTwoSided(result.materials[0]));
+    EXPECT_FALSE(isTwoSided(result.materials[1]));
 }
 
 TEST(PackedScene, DielectricsComeFirstByPriority) {
@@ -267,10 +267,11 @@ TEST(PackedScene, DielectricsComeFirstByPriority) {
         scene.spheres.push_back({{0, 0, 0}, 1.0, i, false});
     const PackedScene result = packed(scene);
     for (std::uint32_t i = 0; i < 5; ++i)
-        EXPECT_EQ(result.materials[result.spheres[i].materialIndex].albedo, scene.materials[i].albedo) << i;
-    EXPECT_EQ(result.spheres[3].materialIndex, 0u);
-    EXPECT_EQ(result.spheres[1].materialIndex, 1u);
-    EXPECT_EQ(result.spheres[4].materialIndex, 2u);
+        EXPECT_EQ(result.materials[materialIndexOf(result.spheres[i])].albedo, scene.materials[i].albedo)
+            << i;
+    EXPECT_EQ(materialIndexOf(result.spheres[3]), 0u);
+    EXPECT_EQ(materialIndexOf(result.spheres[1]), 1u);
+    EXPECT_EQ(materialIndexOf(result.spheres[4]), 2u);
 }
 
 // ---- Emitters

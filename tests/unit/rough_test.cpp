@@ -30,7 +30,7 @@ Rough<double> seenFrom(const layout::MaterialRecord &material, const Direction &
 
 layout::MaterialRecord conductor(double alpha, float index, float extinction) {
     layout::MaterialRecord material{};
-    material.kind = layout::materialConductor;
+    material.kindAndSides = layout::materialConductor;
     material.alpha = static_cast<float>(alpha);
     material.conductorIndex = glm::vec3(index);
     material.conductorExtinction = glm::vec3(extinction);
@@ -44,7 +44,7 @@ layout::MaterialRecord whiteMetal(double alpha) { return conductor(alpha, 0.0f, 
 
 layout::MaterialRecord principled(double alpha, float metallic, float colour, float clearcoat = 0.0f) {
     layout::MaterialRecord material{};
-    material.kind = layout::materialPrincipled;
+    material.kindAndSides = layout::materialPrincipled;
     material.alpha = static_cast<float>(alpha);
     material.albedo = glm::vec3(colour);
     material.metallic = metallic;
@@ -56,7 +56,7 @@ layout::MaterialRecord principled(double alpha, float metallic, float colour, fl
 
 layout::MaterialRecord roughGlass(double alpha) {
     layout::MaterialRecord material{};
-    material.kind = layout::materialDielectric;
+    material.kindAndSides = layout::materialDielectric;
     material.alpha = static_cast<float>(alpha);
     return material;
 }

@@ -151,7 +151,6 @@ struct SurfacePoint {
         SurfacePoint point;
         point.sphere.radius = static_cast<float>(radius);
         point.sphere.centre = glm::vec3(random.direction() * centreDistance);
-        point.sphere.normalSign = 1.0f;
         const glm::dvec3 centre(point.sphere.centre);
         const glm::vec3 origin(centre + random.direction() * (radius * random.logUniform(1e-2, 1e2)));
         const glm::vec3 direction(glm::normalize(centre + random.inBall(radius) - glm::dvec3(origin)));
@@ -222,12 +221,11 @@ TEST(Sphere, NormalsPointOutwardsUnlessTheSphereIsInverted) {
     layout::SphereRecord sphere{};
     sphere.centre = {1, 2, 3};
     sphere.radius = 2;
-    sphere.normalSign = 1;
     Surface<float> surface = sphereSurface<float>({1, 2, 10}, {0, 0, -1}, 5, sphere);
     EXPECT_EQ(surface.position, glm::vec3(1, 2, 5));
     EXPECT_EQ(surface.normal, glm::vec3(0, 0, 1));
     EXPECT_EQ(surface.geometricNormal, glm::vec3(0, 0, 1));
-    sphere.normalSign = -1;
+    sphere.materialAndSide = layout::sphereFacesInward;
     surface = sphereSurface<float>({1, 2, 10}, {0, 0, -1}, 5, sphere);
     EXPECT_EQ(surface.normal, glm::vec3(0, 0, -1));
     EXPECT_EQ(spawnPoint(surface, {0, 1, 0}), surface.position) << "spheres need no offset";
