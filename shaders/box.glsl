@@ -25,11 +25,16 @@ BoxRay makeBoxRay(vec3 origin, vec3 direction, vec3 lower, vec3 upper) {
     return BoxRay(origin, boxPadScale * reach, divide(1.0, bounded));
 }
 
-// The distances (x to y) at which the ray is inside of the box, from 0 on; x > y where it misses.
-vec2 boxInterval(BoxRay ray, vec3 lower, vec3 upper) {
-    precise vec3 toLower = ((lower - ray.origin) - ray.pad) * ray.inverse;
-    precise vec3 toUpper = ((upper - ray.origin) + ray.pad) * ray.inverse;
+// The distances (x to y) at which the ray is inside of the box, from 0 on; x > y where it misses. The corners of this
+// box are given relative to the ray's origin.
+vec2 relativeBoxInterval(BoxRay ray, vec3 lower, vec3 upper) {
+    precise vec3 toLower = (lower - ray.pad) * ray.inverse;
+    precise vec3 toUpper = (upper + ray.pad) * ray.inverse;
     float enter = greater(largestComponent(lesser(toLower, toUpper)), 0.0);
     float leave = smallestComponent(greater(toLower, toUpper));
     return vec2(enter, leave);
+}
+
+vec2 boxInterval(BoxRay ray, vec3 lower, vec3 upper) {
+    return relativeBoxInterval(ray, subtract(lower, ray.origin), subtract(upper, ray.origin));
 }

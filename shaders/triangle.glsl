@@ -36,23 +36,29 @@ TriangleRay makeTriangleRay(vec3 origin, vec3 direction) {
 }
 
 TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, vec3 v2) {
-    precise vec3 a = axisToZ(v0 - ray.origin, ray.axis);
-    precise vec3 b = axisToZ(v1 - ray.origin, ray.axis);
-    precise vec3 c = axisToZ(v2 - ray.origin, ray.axis);
+    vec3 to0 = subtract(v0, ray.origin);
+    vec3 to1 = subtract(v1, ray.origin);
+    vec3 to2 = subtract(v2, ray.origin);
+    vec3 a = axisToZ(to0, ray.axis);
+    vec3 b = axisToZ(to1, ray.axis);
+    vec3 c = axisToZ(to2, ray.axis);
     precise vec2 p = a.xy - ray.shear.xy * a.z;
     precise vec2 q = b.xy - ray.shear.xy * b.z;
     precise vec2 r = c.xy - ray.shear.xy * c.z;
     precise float e0 = r.x * q.y - r.y * q.x;
     precise float e1 = p.x * r.y - p.y * r.x;
     precise float e2 = q.x * p.y - q.y * p.x;
-    bool isInside = lesser(lesser(e0, e1), e2) >= 0.0 || greater(greater(e0, e1), e2) <= 0.0;
+    float least = lesser(lesser(e0, e1), e2);
+    float greatest = greater(greater(e0, e1), e2);
+    bool isInside = lesser(greatest, -least) <= 0.0; // least >= 0 or greatest <= 0
     precise float determinant = e0 + e1 + e2;
     float inverse = divide(1.0, determinant);
     precise float u = e0 * inverse;
     precise float v = e1 * inverse;
     precise float w = e2 * inverse;
     precise float depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
-    vec2 interval = boxInterval(boxRay, lesser(lesser(v0, v1), v2), greater(greater(v0, v1), v2));
+    vec2 interval =
+        relativeBoxInterval(boxRay, lesser(lesser(to0, to1), to2), greater(greater(to0, to1), to2));
     float distance = lesser(greater(depth, interval.x), interval.y);
     bool isHit = isInside && determinant != 0.0 && interval.x <= interval.y;
     return TriangleHit(isHit ? distance : 0.0, u, v);

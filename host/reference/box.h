@@ -44,15 +44,22 @@ template <class Real>
     return {origin, Real(16) * roundingUnit<Real> * reach, Real(1) / bounded};
 }
 
-/// The distances at which the ray is inside of the box, from 0 on.
+/// The distances at which the ray is inside of the box, from 0 on. The corners of this box are given relative to the
+/// ray's origin.
 template <class Real>
-[[nodiscard]] Interval<Real> boxInterval(const BoxRay<Real> &ray, const Vec3<Real> &lower,
-                                         const Vec3<Real> &upper) {
-    const Vec3<Real> toLower = ((lower - ray.origin) - ray.pad) * ray.inverse;
-    const Vec3<Real> toUpper = ((upper - ray.origin) + ray.pad) * ray.inverse;
+[[nodiscard]] Interval<Real> relativeBoxInterval(const BoxRay<Real> &ray, const Vec3<Real> &lower,
+                                                 const Vec3<Real> &upper) {
+    const Vec3<Real> toLower = (lower - ray.pad) * ray.inverse;
+    const Vec3<Real> toUpper = (upper + ray.pad) * ray.inverse;
     const Real enter = greater(largestComponent(lesser(toLower, toUpper)), Real(0));
     const Real leave = smallestComponent(greater(toLower, toUpper));
     return {enter, leave};
+}
+
+template <class Real>
+[[nodiscard]] Interval<Real> boxInterval(const BoxRay<Real> &ray, const Vec3<Real> &lower,
+                                         const Vec3<Real> &upper) {
+    return relativeBoxInterval<Real>(ray, lower - ray.origin, upper - ray.origin);
 }
 
 } // namespace hyalite::reference

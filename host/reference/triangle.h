@@ -38,9 +38,12 @@ template <class Real>
 [[nodiscard]] TriangleHit<Real> intersectTriangle(const TriangleRay<Real> &ray, const BoxRay<Real> &boxRay,
                                                   const Vec3<Real> &v0, const Vec3<Real> &v1,
                                                   const Vec3<Real> &v2) {
-    const Vec3<Real> a = axisToZ(v0 - ray.origin, ray.axis);
-    const Vec3<Real> b = axisToZ(v1 - ray.origin, ray.axis);
-    const Vec3<Real> c = axisToZ(v2 - ray.origin, ray.axis);
+    const Vec3<Real> to0 = v0 - ray.origin;
+    const Vec3<Real> to1 = v1 - ray.origin;
+    const Vec3<Real> to2 = v2 - ray.origin;
+    const Vec3<Real> a = axisToZ(to0, ray.axis);
+    const Vec3<Real> b = axisToZ(to1, ray.axis);
+    const Vec3<Real> c = axisToZ(to2, ray.axis);
     const Vec2<Real> shear(ray.shear);
     const Vec2<Real> p = Vec2<Real>(a) - shear * a.z;
     const Vec2<Real> q = Vec2<Real>(b) - shear * b.z;
@@ -48,7 +51,9 @@ template <class Real>
     const Real e0 = r.x * q.y - r.y * q.x;
     const Real e1 = p.x * r.y - p.y * r.x;
     const Real e2 = q.x * p.y - q.y * p.x;
-    const bool isInside = lesser(lesser(e0, e1), e2) >= 0 || greater(greater(e0, e1), e2) <= 0;
+    const Real least = lesser(lesser(e0, e1), e2);
+    const Real greatest = greater(greater(e0, e1), e2);
+    const bool isInside = lesser(greatest, -least) <= 0; // least >= 0 or greatest <= 0
     const Real determinant = e0 + e1 + e2;
     const Real inverse = Real(1) / determinant;
     const Real u = e0 * inverse;
@@ -56,7 +61,7 @@ template <class Real>
     const Real w = e2 * inverse;
     const Real depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
     const Interval<Real> interval =
-        boxInterval(boxRay, lesser(lesser(v0, v1), v2), greater(greater(v0, v1), v2));
+        relativeBoxInterval(boxRay, lesser(lesser(to0, to1), to2), greater(greater(to0, to1), to2));
     const Real distance = lesser(greater(depth, interval.enter), interval.leave);
     const bool isHit = isInside && determinant != 0 && interval.enter <= interval.leave;
     return {isHit ? distance : Real(0), u, v};
