@@ -124,21 +124,28 @@ uint chooseEmitter(uint bits) {
     return first;
 }
 
+// Whether the emitter is of this kind. Where there is no other nobody asks.
+bool isEmitter(EmitterRecord emitter, uint kind) {
+    uint bit = 1u << kind;
+    return (lighting & bit) != 0u && (lighting == bit || emitter.kind == kind);
+}
+
 // A point of an emitter as seen from `position`, chosen by two numbers of 32 bits.
 LightSample sampleEmitter(uint index, vec3 position, uvec2 bits) {
     if (emitterCount == 0u)
         return noLight;
     EmitterRecord emitter = fetchEmitter(index);
-    if (emitter.kind == emitterPoint)
+    if (isEmitter(emitter, emitterPoint))
         return samplePoint(emitter, position);
-    if ((lighting & lightsBySpots) != 0u && emitter.kind == emitterSpot)
+    if (isEmitter(emitter, emitterSpot))
         return sampleSpot(emitter, position);
-    if ((lighting & lightsByDirections) != 0u && emitter.kind == emitterDirectional)
+    if (isEmitter(emitter, emitterDirectional))
         return sampleDirectional(emitter);
-    if ((lighting & lightsByEnvironment) != 0u && emitter.kind == emitterEnvironment)
+    if (isEmitter(emitter, emitterEnvironment))
         return sampleSurroundings(emitter, bits);
-    vec2 u = unitFloats(bits);
-    if (hasTriangles && emitter.kind == emitterTriangle)
-        return sampleTriangleLight(emitter, position, u);
-    return sampleSphereLight(emitter, position, u);
+    if (isEmitter(emitter, emitterTriangle))
+        return sampleTriangleLight(emitter, position, unitFloats(bits));
+    if (isEmitter(emitter, emitterSphere))
+        return sampleSphereLight(emitter, position, unitFloats(bits));
+    return noLight;
 }

@@ -259,10 +259,14 @@ struct EmitterRecord {
     float cosineOuter; // of a spot
 };
 
-// What else than points and surfaces lights a scene: bits of constantLighting.
-const uint lightsBySpots = 1u;
-const uint lightsByDirections = 2u;
-const uint lightsByEnvironment = 4u; // an image around the scene
+// What lights a scene: bits of constantLighting, 1 << kind of emitter. Surfaces are only told where the path integrator
+// aims at them.
+const uint lightsByPoints = 1u << emitterPoint;
+const uint lightsBySpheres = 1u << emitterSphere;
+const uint lightsByTriangles = 1u << emitterTriangle;
+const uint lightsBySpots = 1u << emitterSpot;
+const uint lightsByDirections = 1u << emitterDirectional;
+const uint lightsByEnvironment = 1u << emitterEnvironment; // an image around the scene
 
 // ---- Cameras
 

@@ -50,7 +50,8 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
     float weight = 1.0;
     if (path[slot].scatterDensity > 0.0) {
         float density;
-        if (hasTriangles && path[slot].hitPrimitive >= firstTriangleId) {
+        bool isTriangle = hasTriangles && path[slot].hitPrimitive >= firstTriangleId;
+        if ((lighting & lightsBySpheres) == 0u || isTriangle) {
             density = solidAngleDensity(material.emitterDensity, path[slot].rayLength, cosine);
         } else {
             SphereRecord sphere = fetchSphere(path[slot].hitRecord);

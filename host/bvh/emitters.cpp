@@ -116,8 +116,10 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
     }
 
     double finiteTotal = 0.0;
-    for (const Candidate &candidate : found)
+    for (const Candidate &candidate : found) {
         finiteTotal += candidate.power;
+        packed.lighting |= 1u << candidate.emitter.kind;
+    }
     // What is infinitely far away has no power that could be compared: each is worth as much as all others together.
     double total = finiteTotal;
     for (Candidate &candidate : found)

@@ -379,7 +379,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t mostDecode
         packed.lights.push_back(packLight(light));
         packed.lighting |= light.kind == LightKind::Spot          ? layout::lightsBySpots
                            : light.kind == LightKind::Directional ? layout::lightsByDirections
-                                                                  : 0u;
+                                                                  : layout::lightsByPoints;
     }
     packTriangles(scene, bvh, packedMaterial, packed);
     packNodes(bvh, packed);

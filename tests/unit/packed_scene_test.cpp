@@ -296,6 +296,7 @@ TEST(Emitters, AreChosenByPowerInTheOrderOfTheInput) {
     const double total =
         8.0 * std::numbers::pi + 8.0 * std::numbers::pi * std::numbers::pi + 8.0 * std::numbers::pi;
     ASSERT_EQ(result.emitters.size(), 3u);
+    EXPECT_EQ(result.lighting, layout::lightsByPoints | layout::lightsBySpheres | layout::lightsByTriangles);
     EXPECT_EQ(result.emitters[0].kind, layout::emitterPoint);
     EXPECT_EQ(result.emitters[1].kind, layout::emitterSphere);
     EXPECT_EQ(result.emitters[1].record, 1u);
