@@ -50,8 +50,7 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
     float weight = 1.0;
     if (path[slot].scatterDensity > 0.0) {
         float density;
-        bool isTriangle = hasTriangles && path[slot].hitPrimitive >= firstTriangleId;
-        if ((lighting & lightsBySpheres) == 0u || isTriangle) {
+        if ((lighting & lightsBySpheres) == 0u || isTriangle(path[slot].hitPrimitive)) {
             density = solidAngleDensity(material.emitterDensity, path[slot].rayLength, cosine);
         } else {
             SphereRecord sphere = fetchSphere(path[slot].hitRecord);

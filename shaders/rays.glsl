@@ -93,10 +93,13 @@ void beginShadow(uint slot, vec3 direction, float distance) {
     path[slot].stage = stageShadow;
 }
 
+// Whether a primitive that a ray has met is a triangle.
+bool isTriangle(uint primitive) { return hasTriangles && (sphereCount == 0u || primitive >= firstTriangleId); }
+
 // Texture coordinates where the ray has met a surface, at `position`.
 vec2 hitUv(uint slot, vec3 position) {
     uint record = path[slot].hitRecord;
-    if (hasTriangles && path[slot].hitPrimitive >= firstTriangleId)
+    if (isTriangle(path[slot].hitPrimitive))
         return triangleUv(fetchCoordinates(record), path[slot].hitU, path[slot].hitV);
     return sphereUv(subtract(position, fetchSphere(record).centre));
 }
@@ -120,7 +123,7 @@ void mapNormal(uint slot, inout Surface surface, uint materialIndex, Tangent tan
 
 // The surface that the ray has met.
 Surface hitSurface(uint slot, out uint materialIndex) {
-    if (hasTriangles && path[slot].hitPrimitive >= firstTriangleId) {
+    if (isTriangle(path[slot].hitPrimitive)) {
         TriangleRecord triangle = fetchTriangle(path[slot].hitRecord);
         materialIndex = triangle.materialIndex;
         Surface surface =
@@ -148,10 +151,9 @@ void standOn(uint slot, Surface surface) {
 }
 
 void traceNearestHit(uint slot) {
-    bool isTriangle = hasTriangles && path[slot].hitPrimitive >= firstTriangleId &&
-                      path[slot].hitPrimitive != noPrimitive;
+    bool hasWeights = path[slot].hitPrimitive != noPrimitive && isTriangle(path[slot].hitPrimitive);
     traceEvent(slot, traceHit, path[slot].hitPrimitive,
-               vec3(path[slot].rayLength, isTriangle ? vec2(path[slot].hitU, path[slot].hitV) : vec2(0.0)));
+               vec3(path[slot].rayLength, hasWeights ? vec2(path[slot].hitU, path[slot].hitV) : vec2(0.0)));
 }
 
 bool isUnfinished() {
