@@ -26,14 +26,17 @@ void sendPrimaryRay(uint slot) {
 bool isTarget(uint slot, uint primitive) { return raysHaveTargets && path[slot].rayTarget == primitive; }
 
 void meetSphere(uint slot, uint i, SphereShape shape) {
-    float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape, path[slot].rayExcluded == i);
+    bool areAllPrimary = !hasSpecular && !hasBounces; // and start on no surface
+    float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape,
+                                     !areAllPrimary && path[slot].rayExcluded == i);
     bool isNearer = distance > 0.0 && distance < path[slot].rayLength;
     path[slot].rayLength = isNearer ? distance : path[slot].rayLength;
     path[slot].hitPrimitive = isNearer ? i : path[slot].hitPrimitive;
 }
 
 void meetSphereInShadow(uint slot, uint i, SphereShape shape) {
-    float meeting = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape, path[slot].rayExcluded == i);
+    float meeting =
+        intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape, path[slot].rayExcluded == i);
     bool isBetween = meeting > 0.0 && meeting < path[slot].rayLength && !isTarget(slot, i);
     bool isTransmissive = lightPassesGlass && isSphereTransmissive(i);
     path[slot].isLightDimmed = isBetween && isTransmissive ? 1u : path[slot].isLightDimmed;

@@ -196,11 +196,12 @@ void followPaths() {
 }
 
 void advancePaths() {
+    bool takesOnePass = !hasSpecular && lightCount <= 1u; // there need be no loop
     do {
         do
             followPaths();
         while (hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
         lightSurfaces();
         stepsTaken += 1u;
-    } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
+    } while (!takesOnePass && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }
