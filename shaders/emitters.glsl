@@ -145,7 +145,7 @@ LightSample sampleEmitter(uint index, vec3 position, uvec2 bits) {
         return sampleSurroundings(emitter, bits);
     if (isEmitter(emitter, emitterTriangle))
         return sampleTriangleLight(emitter, position, unitFloats(bits));
-    if (isEmitter(emitter, emitterSphere))
+    if ((lighting & lightsBySpheres) != 0u)
         return sampleSphereLight(emitter, position, unitFloats(bits));
     return noLight;
 }

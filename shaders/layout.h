@@ -33,10 +33,10 @@ const uint maxTreeDepth = 64u; // subtrees that can wait for one ray: the builde
 const uint noPrimitive = 0xFFFFFFFFu;
 const uint firstTriangleId = maxSphereCount; // id of the triangle with input index 0
 
-// Shading reads the first row alone: lavapipe takes as long for a row as for a test of a sphere.
+// Most shading reads the first row alone: lavapipe takes as long for a row as for a test of a sphere.
 struct SphereRecord {
     vec3 centre; // world space
-    uint materialAndSide;
+    uint materialAndSide; // see materialIndexOf, normalSignOf
     float radius;
     uint isTransmissive; // 1 for a dielectric: light passes, dimmed
     uint pad0;
@@ -122,7 +122,7 @@ const uint mostMedia = 8u; // dielectrics that the path integrator tells apart
 
 struct MaterialRecord {
     vec3 albedo; // of a conductor its reflectance seen head on, of a principled material its colour
-    uint kindAndSides;
+    uint kindAndSides; // see kindOf, isTwoSided
     vec3 segmentTint; // Whitted: factor on all that a segment inside this dielectric returns
     float refractiveIndex;
     vec3 emission; // radiance on the side of the normal, on both where it is two-sided
@@ -555,4 +555,5 @@ static_assert(sizeof(PathRecord) == 224 && offsetof(PathRecord, rayTarget) == 19
 static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
 } // namespace hyalite::layout
 #endif
+#undef HYALITE_INLINE
 #endif

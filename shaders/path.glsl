@@ -50,6 +50,7 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
     float weight = 1.0;
     if (path[slot].scatterDensity > 0.0) {
         float density;
+        // A sphere that emits is aimed at, unless its radius is 0 and it is never met.
         if ((lighting & lightsBySpheres) == 0u || isTriangle(path[slot].hitPrimitive)) {
             density = solidAngleDensity(material.emitterDensity, path[slot].rayLength, cosine);
         } else {
@@ -134,8 +135,7 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
     if (crossing.isNothing) {
         path[slot].mediaInside = crossing.beyond;
         path[slot].scatterDensity = 0.0; // no light is aimed at through glass
-        continueRay(slot, spawnPoint(surface, direction), direction,
-                    path[slot].hitPrimitive);
+        continueRay(slot, spawnPoint(surface, direction), direction, path[slot].hitPrimitive);
         return;
     }
     vec3 geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
@@ -154,8 +154,7 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
     path[slot].throughput *= squaredEta;
     path[slot].scatterDensity = 0.0;
     rayCounts[slot].w += 1u;
-    continueRay(slot, spawnPoint(surface, glass.refracted), glass.refracted,
-                path[slot].hitPrimitive);
+    continueRay(slot, spawnPoint(surface, glass.refracted), glass.refracted, path[slot].hitPrimitive);
 }
 
 bool isGlass(MaterialRecord material) {

@@ -4,7 +4,7 @@
 const uint unrolledSphereCount = 16u;
 
 SphereShape sphereShapes[unrolledSphereCount];
-uint transmissiveSpheres = 0u;          // a bit each
+uint transmissiveSpheres = 0u; // a bit each
 LightRecord firstLight;
 
 SphereShape sphereShape(uint index) { return makeSphereShape(spheres[index].centre, spheres[index].radius); }

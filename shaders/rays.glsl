@@ -63,7 +63,7 @@ void beginClosest(uint slot) {
     path[slot].stage = stageClosest;
 }
 
-// Where the path stands. What is known without them is not read from the path's variables, which then need not be kept.
+// Where the path stands. What is known anyway is not read from the path's variables, which then need not be kept.
 Surface surfaceAt(uint slot) {
     Surface surface;
     surface.position = path[slot].surfacePosition;

@@ -36,7 +36,7 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
 // Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
 vec3 spawnPoint(Surface surface, vec3 direction) {
     if (!hasTriangles)
-        return surface.position; // the error is 0, and no coordinate is -0
+        return surface.position; // the same, unless the normal is NaN
     precise float distance = 2.0 * dotProduct(abs(surface.geometricNormal), surface.error);
     precise float side = dotProduct(direction, surface.geometricNormal) < 0.0 ? -distance : distance;
     precise vec3 origin = surface.position + surface.geometricNormal * side;

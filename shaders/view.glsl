@@ -81,9 +81,7 @@ void addLight(uint slot) {
 }
 
 void advancePaths() {
-    do {
-        traceRays();
-        if (view == viewOcclusion)
-            lightSurfaces();
-    } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
+    traceRays();
+    if (view == viewOcclusion)
+        lightSurfaces();
 }

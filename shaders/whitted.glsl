@@ -38,8 +38,8 @@ PendingRay reflectedRay(uint slot, Surface surface, float reflectance, uint medi
     return reflected;
 }
 
-// The ray is made anew in each branch. A branch that only copies would be turned into selections, which lavapipe merges a
-// second time, under the mask of the loop around; what the branches compute alike it computes once.
+// The ray is made anew in each branch. A branch that only copies would be turned into selections, which lavapipe merges
+// a second time, under the mask of the loop around; what the branches compute alike it computes once.
 void pushReflectedRay(uint slot, Surface surface, float reflectance, uint medium) {
     uint level = path[slot].pendingCount;
     path[slot].pendingCount = level + 1u;
@@ -89,7 +89,7 @@ void leaveScene(uint slot, vec3 tint) {
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
     traceNearestHit(slot);
-    // Of the glass that the ray was sent into. Once for all that follows: as long as two tests of spheres on lavapipe.
+    // Of the glass that the ray was sent into: fetched once for all that follows.
     vec3 tint = vec3(1.0);
     if (hasDielectric && path[slot].rayMedium != noMaterial)
         tint = fetchMaterial(path[slot].rayMedium).segmentTint;

@@ -36,7 +36,7 @@ layout::FrameRecord packFrame(const Scene &scene) {
     else if (camera.kind == CameraKind::Panorama)
         scale = 1.0;
     layout::FrameRecord frame{};
-    frame.eye = glm::vec3(camera.position) + 0.0f; // -0 becomes 0, for spawnPoint in shaders/surface.glsl
+    frame.eye = glm::vec3(camera.position);
     frame.imageWidth = static_cast<std::uint32_t>(camera.width);
     frame.imageHeight = static_cast<std::uint32_t>(camera.height);
     frame.pixelRight = glm::vec3(right / scale);

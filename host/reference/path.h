@@ -158,7 +158,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const Vec3<Real> direction = mirrorDirection(ray.direction, normal);
         scatterDensity_ = 0;
         ++counts_.reflection;
-        return {spawnPoint(surface, direction), direction, primitive};
+        return {spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive};
     }
 
     /// The glass on both sides of a surface of glass.
@@ -190,7 +190,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         if (crossing.isNothing) {
             mediaInside_ = crossing.beyond;
             scatterDensity_ = 0; // no light is aimed at through glass
-            return {spawnPoint(surface, ray.direction), ray.direction, primitive};
+            return {spawnPoint(surface, ray.direction, scene_.hasTriangles), ray.direction, primitive};
         }
         const Vec3<Real> geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
         const Vec3<Real> shadingFacing = isEntering ? surface.normal : -surface.normal;
@@ -207,7 +207,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         throughput_ *= eta * eta;
         scatterDensity_ = 0;
         ++counts_.refraction;
-        return {spawnPoint(surface, glass.refracted), glass.refracted, primitive};
+        return {spawnPoint(surface, glass.refracted, scene_.hasTriangles), glass.refracted, primitive};
     }
 
     [[nodiscard]] static bool isGlass(const layout::MaterialRecord &material) {
@@ -356,7 +356,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceEvent(layout::traceScatter, std::bit_cast<std::uint32_t>(static_cast<float>(scatterDensity_)),
                    direction);
         ++counts_.bounce;
-        return Ray<Real>{spawnPoint(surface, direction), direction, primitive};
+        return Ray<Real>{spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive};
     }
 
     void aimAtNothing(std::uint32_t emitter) {
@@ -367,7 +367,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     void aimAt(const Surface<Real> &surface, std::uint32_t emitter, const LightSample<Real> &light,
                const Vec3<Real> &weight, std::uint32_t primitive) {
         ++counts_.shadow;
-        const Ray<Real> ray{spawnPoint(surface, light.direction), light.direction, primitive};
+        const Ray<Real> ray{spawnPoint(surface, light.direction, scene_.hasTriangles), light.direction,
+                            primitive};
         const bool isBlocked = isAnythingBefore(scene_, ray, light.distance, light.target, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
                    Vec3<Real>(static_cast<Real>(emitter)));

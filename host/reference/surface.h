@@ -48,7 +48,10 @@ template <class Real>
 /// side that the ray goes to (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
 /// Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
 template <class Real>
-[[nodiscard]] Vec3<Real> spawnPoint(const Surface<Real> &surface, const Vec3<Real> &direction) {
+[[nodiscard]] Vec3<Real> spawnPoint(const Surface<Real> &surface, const Vec3<Real> &direction,
+                                    bool hasTriangles = true) {
+    if (!hasTriangles)
+        return surface.position; // the same, unless the normal is NaN
     const Real distance = Real(2) * dotProduct<Real>(absolute(surface.geometricNormal), surface.error);
     const Real side = dotProduct(direction, surface.geometricNormal) < 0 ? -distance : distance;
     return surface.position + surface.geometricNormal * side;

@@ -103,7 +103,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         if (!(dotProduct(surface.geometricNormal, direction) > 0))
             return Vec3<Real>(Real(0));
         ++counts_.shadow;
-        const Ray<Real> toSky{spawnPoint(surface, direction), direction, primitive};
+        const Ray<Real> toSky{spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive};
         const Real length = static_cast<Real>(scene_.frame.occlusionDistance);
         const bool isBlocked = isAnythingBefore(scene_, toSky, length, layout::noPrimitive, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,

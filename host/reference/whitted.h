@@ -134,7 +134,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                 continue;
             }
             ++counts_.shadow;
-            const Ray<Real> ray{spawnPoint(surface, direction), direction, primitive};
+            const Ray<Real> ray{spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive};
             const Shadow shadow = castShadowRay(scene_, ray, distance, counter_);
             traceEvent(layout::traceVisibility,
                        shadow.isBlocked  ? layout::visibilityBlocked
@@ -163,8 +163,10 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                  std::uint32_t medium, std::uint32_t primitive) {
         const Vec3<Real> direction = mirrorDirection(segment.ray.direction, surface.normal);
         ++counts_.reflection;
-        pending_.push_back(
-            {{spawnPoint(surface, direction), direction, primitive}, throughput, segment.depth + 1, medium});
+        pending_.push_back({{spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive},
+                            throughput,
+                            segment.depth + 1,
+                            medium});
     }
 
     void splitAtGlass(const Segment &segment, const Surface<Real> &surface, float refractiveIndex,
@@ -181,7 +183,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         // The refracted ray is followed first.
         reflect(segment, surface, segment.throughput * refraction.reflectance, mediumOfReflection, primitive);
         ++counts_.refraction;
-        pending_.push_back({{spawnPoint(surface, refraction.direction), refraction.direction, primitive},
+        pending_.push_back({{spawnPoint(surface, refraction.direction, scene_.hasTriangles),
+                             refraction.direction, primitive},
                             segment.throughput * refraction.transmittance,
                             segment.depth + 1,
                             isEntering ? materialIndex : layout::noMaterial});

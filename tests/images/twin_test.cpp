@@ -65,6 +65,26 @@ TEST(Twins, AgreeWithACameraInsideGlass) {
     expectTwins(scene);
 }
 
+// A sphere so small that the point where it is met is its centre, which has no normal: a ray passes on, through glass of
+// higher priority around it, in a direction that has nothing to do with the normal.
+TEST(Twins, AgreeOnASphereWithoutANormal) {
+    Scene scene;
+    scene.camera.direction = {0, 0, -1};
+    scene.camera.width = 3;
+    scene.camera.height = 3;
+    scene.settings.integrator = Integrator::Path;
+    scene.settings.sampler = SamplerKind::Centre;
+    scene.settings.samplesPerPixel = 1;
+    scene.background = {0.1f, 0.2f, 0.3f};
+    scene.materials.resize(2);
+    for (Material &glass : scene.materials)
+        glass.kind = MaterialKind::Dielectric;
+    scene.materials[0].priority = 1;
+    scene.spheres.push_back({{0, 0, -1000}, 1.0, 0, false});
+    scene.spheres.push_back({{0, 0, -1000}, 1e-5, 1, false});
+    expectTwins(scene);
+}
+
 // More spheres than kernels unroll, and more than one light.
 TEST(Twins, AgreeOnManySpheresAndLights) {
     Scene scene = shippedScene("spheres", 64, 48, 2);

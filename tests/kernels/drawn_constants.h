@@ -25,8 +25,9 @@ namespace hyalite::testing {
         return {1, 20, layout::maxTreeDepth};
     case layout::constantPendingInRegisters:
         return {0, 1, 4};
-    case layout::constantScattering:
     case layout::constantLighting:
+        return {0, 1, 2, 4, 6, 8, 16, 32, 33, ~0u};
+    case layout::constantScattering:
     case layout::constantTexturing:
         return {0, 1, 2, 4, 5, ~0u};
     default:
