@@ -45,9 +45,7 @@ struct Candidate {
 
 layout::EmitterRecord lightEmitter(const layout::LightRecord &light) {
     layout::EmitterRecord emitter{};
-    emitter.kind = light.kind == layout::lightSpot          ? layout::emitterSpot
-                   : light.kind == layout::lightDirectional ? layout::emitterDirectional
-                                                            : layout::emitterPoint;
+    emitter.kind = emitterKindOf(light);
     emitter.position = light.position;
     emitter.emission = light.intensity;
     emitter.axis = light.axis;
@@ -75,6 +73,12 @@ std::vector<std::uint32_t> inInputOrder(const std::vector<layout::TriangleRecord
 }
 
 } // namespace
+
+std::uint32_t emitterKindOf(const layout::LightRecord &light) {
+    return light.kind == layout::lightSpot          ? layout::emitterSpot
+           : light.kind == layout::lightDirectional ? layout::emitterDirectional
+                                                    : layout::emitterPoint;
+}
 
 void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
     std::vector<double> exitances; // of each material

@@ -377,9 +377,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t mostDecode
         useMaterials(mesh);
     for (const Light &light : scene.lights) {
         packed.lights.push_back(packLight(light));
-        packed.lighting |= light.kind == LightKind::Spot          ? layout::lightsBySpots
-                           : light.kind == LightKind::Directional ? layout::lightsByDirections
-                                                                  : layout::lightsByPoints;
+        packed.lighting |= 1u << emitterKindOf(packed.lights.back());
     }
     packTriangles(scene, bvh, packedMaterial, packed);
     packNodes(bvh, packed);
