@@ -240,6 +240,10 @@ gpu::Batching batchingFor(const DeviceOptions &options) {
     return batching;
 }
 
+gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene) {
+    return {threadCount, scene.packed.hasTriangles, scene.loaded.scene.settings.integrator};
+}
+
 std::unique_ptr<Backend> openBackend(const std::string &name, const gpu::ProcessorUse &processors,
                                      const gpu::Batching &batching) {
     gpu::tellLavapipe(processors);

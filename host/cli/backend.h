@@ -85,6 +85,9 @@ void addDeviceOptions(CLI::App &command, DeviceOptions &options);
 /// What openBackend takes of them.
 [[nodiscard]] gpu::Batching batchingFor(const DeviceOptions &options);
 
+/// How a scene is best rendered on the processors, by so many threads; 0: all.
+[[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene);
+
 /// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. What `processors` asks of lavapipe holds
 /// where it is for the first device that is opened. Throws Error{NoDevice}, and Error{Usage} where the reference renderer
 /// is asked for a kernel.

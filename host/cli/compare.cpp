@@ -133,8 +133,8 @@ struct Contestants {
     std::unique_ptr<Backend> second;
 };
 
-Contestants openContestants(const CompareOptions &options, const PackedScene &scene) {
-    const gpu::ProcessorUse processors{options.threads, scene.hasTriangles};
+Contestants openContestants(const CompareOptions &options, const PreparedScene &scene) {
+    const gpu::ProcessorUse processors = processorsFor(options.threads, scene);
     std::unique_ptr<Backend> first =
         openBackend(options.device, processors, batchingFor(options.deviceOptions));
     return {std::move(first),
@@ -169,7 +169,7 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
         throw Error(
             ExitCode::Usage,
             fmt::format("--against-seed {}: the first render has this seed; name another", secondSeed));
-    const Contestants contestants = openContestants(options, scene.packed);
+    const Contestants contestants = openContestants(options, scene);
     if (!options.isQuiet) {
         printContestants(scene, contestants);
         fmt::print("seeds        {} and {}\n", firstSeed, secondSeed);
@@ -214,7 +214,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     if (heatMapFile)
         requirePngSize(options.heatMap, scene.crop.width(), scene.crop.height());
     requireFilmMemory(scene.crop, 2);
-    const Contestants contestants = openContestants(options, scene.packed);
+    const Contestants contestants = openContestants(options, scene);
     Backend *const first = contestants.first.get();
     Backend *const second = contestants.second.get();
     const bool isAgainstOracle = options.against == "cpu-double";

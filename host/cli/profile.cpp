@@ -130,7 +130,7 @@ KernelWork countKernelWork(const ProfileOptions &options, const PreparedScene &s
     gpu::Batching batching = batchingFor(options.deviceOptions);
     batching.isCounting = true;
     const std::unique_ptr<Backend> counter =
-        openBackend(options.device, {options.threads, scene.packed.hasTriangles}, batching);
+        openBackend(options.device, processorsFor(options.threads, scene), batching);
     const BackendResult result =
         renderWithProgress(*counter, scene, "counting the kernel's work", options.isQuiet);
     return {counter->identity(scene.packed, scene.loaded.scene.settings.integrator).kernel, result.work,
@@ -140,7 +140,7 @@ KernelWork countKernelWork(const ProfileOptions &options, const PreparedScene &s
 /// Renders the work of a traversal with a stack, whichever kernel is measured, and writes down what it came to.
 Drawing countWork(const ProfileOptions &options, PreparedScene &scene, Profile &profile) {
     const std::unique_ptr<Backend> counter =
-        openBackend(options.device, {options.threads, scene.packed.hasTriangles});
+        openBackend(options.device, processorsFor(options.threads, scene));
     RenderSettings &settings = scene.loaded.scene.settings;
     const Integrator measured = std::exchange(settings.integrator, Integrator::Cost);
     const BackendResult result = renderWithProgress(*counter, scene, "counting", options.isQuiet);
@@ -187,7 +187,7 @@ PreparedScene prepare(const ProfileOptions &options, const std::string &commandL
     profile.hostStages.push_back({"build", {loaded, loaded + nanos(scene.buildSeconds)}});
     requireFilmMemory(scene.crop, 2);
     watch = {};
-    backend = openBackend(options.device, {options.threads, scene.packed.hasTriangles},
+    backend = openBackend(options.device, processorsFor(options.threads, scene),
                           batchingFor(options.deviceOptions));
     profile.hostStages.push_back({"open the device", watch.lap()});
     profile.origin = provenanceOf(scene, commandLine);

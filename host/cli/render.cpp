@@ -144,10 +144,12 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         const CheckpointWriter writability(options.checkpoint, {}, false);
 
     std::future<std::unique_ptr<Backend>> opening;
-    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet, [&](bool hasMeshes) {
-        opening = beginOpeningBackend(options.device, {options.threads, hasMeshes},
-                                      batchingFor(options.deviceOptions));
-    });
+    const auto beginOpening = [&](const SceneOutline &outline) {
+        opening =
+            beginOpeningBackend(options.device, {options.threads, outline.hasMeshes, outline.integrator},
+                                batchingFor(options.deviceOptions));
+    };
+    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet, beginOpening);
     requireDistinctFiles(outputs, scene.loaded.inputFiles);
     if (format == ImageFormat::Png)
         requirePngSize(options.output, scene.crop.width(), scene.crop.height());

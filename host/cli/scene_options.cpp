@@ -198,15 +198,19 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
 }
 
 PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
-                           std::function<void(bool hasMeshes)> onOutline) {
+                           const std::function<void(const SceneOutline &)> &onOutline) {
     using Clock = std::chrono::steady_clock;
     PreparedScene prepared;
     const Clock::time_point start = Clock::now();
     {
         ProgressLine progress("load", isQuiet);
-        prepared.loaded =
-            loadScene(options.scene, {std::move(onOutline), [&](double share) { progress.update(share); }},
-                      options.allowedPaths);
+        const auto tellOutline = [&](SceneOutline outline) {
+            outline.integrator = options.integrator.value_or(outline.integrator);
+            if (onOutline)
+                onOutline(outline);
+        };
+        prepared.loaded = loadScene(
+            options.scene, {tellOutline, [&](double share) { progress.update(share); }}, options.allowedPaths);
     }
     for (const MeshReport &report : prepared.loaded.meshReports)
         for (const std::string &warning : report.warnings)

@@ -61,9 +61,9 @@ struct PreparedScene {
 
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for options that do not go
 /// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet. `onOutline`
-/// is told whether there are meshes before they are read.
+/// is told of the scene, as the options make it, before large files are read.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
-                                         std::function<void(bool hasMeshes)> onOutline = {});
+                                         const std::function<void(const SceneOutline &)> &onOutline = {});
 
 /// What reports say of it.
 [[nodiscard]] Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine);

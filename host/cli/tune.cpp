@@ -1,8 +1,8 @@
 #include "host/cli/tune.h"
 
+#include "host/cli/backend.h"
 #include "host/cli/scene_options.h"
 #include "host/error.h"
-#include "host/gpu/processor_use.h"
 #include "host/gpu/renderer.h"
 #include "host/image/metrics.h"
 
@@ -43,13 +43,13 @@ constexpr double shareNeeded =
     0.5; // of the best rate in the first round: what is slower is not measured again
 
 KernelRates measure(const Trial &trial, const std::string &deviceName) {
-    gpu::tellLavapipe({0, trial.workload != gpu::Workload::Spheres});
-    const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     SceneOptions options;
     options.scene = trial.scene;
     options.width = options.height = imageSide;
     options.samplesPerPixel = trial.samplesPerPixel;
     const PreparedScene scene = prepareScene(options, Source::Dropped, true);
+    gpu::tellLavapipe(processorsFor(0, scene));
+    const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     const RenderSettings &settings = scene.loaded.scene.settings;
 
     const gpu::Workload workload = gpu::workloadOf(scene.packed, settings.integrator);

@@ -23,7 +23,8 @@ bool hasWideVectors() {
 void tellLavapipe(const ProcessorUse &use) {
     if (use.threadCount > 0)
         setenv("LP_NUM_THREADS", std::to_string(use.threadCount).c_str(), 1);
-    if (!use.hasTriangles && hasWideVectors())
+    const bool areRaysTogether = !use.hasTriangles || use.integrator != Integrator::Path;
+    if (areRaysTogether && hasWideVectors())
         setenv("LP_NATIVE_VECTOR_WIDTH", "512", 0);
 }
 

@@ -302,13 +302,18 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
     for (const std::string_view ignored : {"$schema"sv, "description"sv})
         static_cast<void>(top.text(ignored, ""));
 
-    const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
-    if (events.onOutline)
-        events.onOutline(!meshes.empty());
-
     LoadedScene loaded;
     loaded.file = file;
     Scene &scene = loaded.scene;
+    if (const std::optional<JsonObject> settings = top.object("settings", scene_keys::settings)) {
+        scene.settings = readSettings(*settings);
+        scene.shadowThroughGlass = static_cast<float>(
+            settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
+    }
+    const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
+    if (events.onOutline)
+        events.onOutline({!meshes.empty(), scene.settings.integrator});
+
     scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
     const FileReach reach(file, allowedPaths);
     TextureLibrary textures;
@@ -323,11 +328,6 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
             scene.materials.push_back(readMaterial(name, JsonObject(material), {reach, textures}));
     for (const JsonNode &sphere : top.elements("spheres", limits::sphereCount))
         scene.spheres.push_back(readSphere({sphere, scene_keys::sphere}, scene.materials));
-    if (const std::optional<JsonObject> settings = top.object("settings", scene_keys::settings)) {
-        scene.settings = readSettings(*settings);
-        scene.shadowThroughGlass = static_cast<float>(
-            settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
-    }
     const auto onReadingMesh = [&](double share) {
         if (events.onReading)
             events.onReading((static_cast<double>(scene.meshes.size()) + share) /

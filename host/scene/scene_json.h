@@ -109,10 +109,15 @@
 
 namespace hyalite {
 
+/// What is known of a scene before its large files are read.
+struct SceneOutline {
+    bool hasMeshes;
+    Integrator integrator;
+};
+
 /// What is told while a scene is loaded.
 struct LoadEvents {
-    std::function<void(bool hasMeshes)>
-        onOutline;       ///< once it is known which large files are to be read, before they are
+    std::function<void(const SceneOutline &)> onOutline;
     OnReading onReading; ///< the share of all meshes that is read, each counting the same
 };
 
