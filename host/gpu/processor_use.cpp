@@ -5,10 +5,8 @@
 
 namespace hyalite::gpu {
 
-namespace {
-
-/// All that compilers take for granted where vectors have 512 bits.
 bool hasWideVectors() {
+    // All that compilers take for granted then.
 #if defined(__x86_64__)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
@@ -17,8 +15,6 @@ bool hasWideVectors() {
     return false;
 #endif
 }
-
-} // namespace
 
 void tellLavapipe(const ProcessorUse &use) {
     if (use.threadCount > 0)

@@ -11,6 +11,9 @@ struct ProcessorUse {
     Integrator integrator = Integrator::Path;
 };
 
+/// Whether the processor has vectors of 512 bits.
+[[nodiscard]] bool hasWideVectors();
+
 /// Sets what lavapipe reads of the environment when its driver is loaded (https://docs.mesa3d.org/envvars.html): how many
 /// threads it has, and how wide its vectors are, unless the user has said so. Where the processor has vectors of 512 bits
 /// they take three quarters of the time without triangles, when kernels compute and hardly read, and nine tenths with

@@ -1,4 +1,5 @@
 // --device and --threads: which device renders, and that the image does not depend on it.
+#include "host/gpu/processor_use.h"
 #include "tests/cli/command_line.h"
 
 #include <gtest/gtest.h>
@@ -155,6 +156,26 @@ TEST_F(RenderDevice, TheWidthOfVectorsDoesNotChangeTheImage) {
             EXPECT_EQ(load("wide.pfm"), wanted) << scene << ", " << bits << " bits";
         }
     }
+}
+
+TEST_F(RenderDevice, VectorsAreWideWhereRaysStayTogether) {
+    store("sheet.obj", wavySheetObj(12));
+    store("sheet.json", wavySheetScene());
+    const bool hasWideVectors = gpu::hasWideVectors();
+    const auto isWide = [&](const std::string &scene) {
+        Surroundings surroundings;
+        surroundings.environment["LP_NATIVE_VECTOR_WIDTH"] = std::nullopt;
+        const Outcome outcome =
+            runIn(surroundings, "render " + scene + small + " -o wide.pfm --device " + softwareDevice());
+        EXPECT_EQ(outcome.exitCode, 0) << outcome;
+        return contains(outcome.errors, "512 bits");
+    };
+    EXPECT_EQ(isWide("spheres"), hasWideVectors);
+    EXPECT_EQ(isWide("spheres --integrator path"), hasWideVectors);
+    EXPECT_EQ(isWide("sheet.json"), hasWideVectors);
+    EXPECT_EQ(isWide("sheet.json --integrator ao"), hasWideVectors);
+    EXPECT_FALSE(isWide("sheet.json --integrator path"));
+    EXPECT_FALSE(isWide("cornell"));
 }
 
 TEST_F(RenderDevice, OnlyVulkanDevicesHaveKernels) {
