@@ -241,7 +241,8 @@ gpu::Batching batchingFor(const DeviceOptions &options) {
 }
 
 gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene) {
-    return {threadCount, scene.packed.hasTriangles, scene.loaded.scene.settings.integrator};
+    const RenderSettings &settings = scene.loaded.scene.settings;
+    return {threadCount, scene.packed.hasTriangles, settings.integrator, settings.maxDepth};
 }
 
 std::unique_ptr<Backend> openBackend(const std::string &name, const gpu::ProcessorUse &processors,

@@ -206,6 +206,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
         ProgressLine progress("load", isQuiet);
         const auto tellOutline = [&](SceneOutline outline) {
             outline.integrator = options.integrator.value_or(outline.integrator);
+            outline.maxDepth = options.maxDepth.value_or(outline.maxDepth);
             if (onOutline)
                 onOutline(outline);
         };

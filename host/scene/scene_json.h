@@ -113,6 +113,7 @@ namespace hyalite {
 struct SceneOutline {
     bool hasMeshes;
     Integrator integrator;
+    int maxDepth; ///< as RenderSettings has it
 };
 
 /// What is told while a scene is loaded.

@@ -172,10 +172,12 @@ TEST_F(RenderDevice, VectorsAreWideWhereRaysStayTogether) {
     };
     EXPECT_EQ(isWide("spheres"), hasWideVectors);
     EXPECT_EQ(isWide("spheres --integrator path"), hasWideVectors);
-    EXPECT_EQ(isWide("sheet.json"), hasWideVectors);
+    EXPECT_EQ(isWide("sheet.json --max-depth 5"), hasWideVectors);
     EXPECT_EQ(isWide("sheet.json --integrator ao"), hasWideVectors);
     EXPECT_FALSE(isWide("sheet.json --integrator path"));
     EXPECT_FALSE(isWide("cornell"));
+    EXPECT_FALSE(isWide("sheet.json --max-depth 6"));
+    EXPECT_FALSE(isWide("spheres --max-depth 11"));
 }
 
 TEST_F(RenderDevice, OnlyVulkanDevicesHaveKernels) {
