@@ -240,9 +240,12 @@ gpu::Batching batchingFor(const DeviceOptions &options) {
     return batching;
 }
 
+gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline) {
+    return {threadCount, outline.hasMeshes, outline.settings.integrator, outline.settings.maxDepth};
+}
+
 gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene) {
-    const RenderSettings &settings = scene.loaded.scene.settings;
-    return {threadCount, scene.packed.hasTriangles, settings.integrator, settings.maxDepth};
+    return processorsFor(threadCount, SceneOutline{scene.packed.hasTriangles, scene.loaded.scene.settings});
 }
 
 std::unique_ptr<Backend> openBackend(const std::string &name, const gpu::ProcessorUse &processors,

@@ -86,6 +86,7 @@ void addDeviceOptions(CLI::App &command, DeviceOptions &options);
 [[nodiscard]] gpu::Batching batchingFor(const DeviceOptions &options);
 
 /// How a scene is best rendered on the processors, by so many threads; 0: all.
+[[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline);
 [[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene);
 
 /// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. What `processors` asks of lavapipe holds

@@ -145,9 +145,8 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
 
     std::future<std::unique_ptr<Backend>> opening;
     const auto beginOpening = [&](const SceneOutline &outline) {
-        opening = beginOpeningBackend(
-            options.device, {options.threads, outline.hasMeshes, outline.integrator, outline.maxDepth},
-            batchingFor(options.deviceOptions));
+        opening = beginOpeningBackend(options.device, processorsFor(options.threads, outline),
+                                      batchingFor(options.deviceOptions));
     };
     PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet, beginOpening);
     requireDistinctFiles(outputs, scene.loaded.inputFiles);

@@ -54,9 +54,7 @@ void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &
     }
 }
 
-void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
-    Scene &scene = loaded.scene;
-    RenderSettings &settings = scene.settings;
+void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
     settings.samplesPerPixel = options.samplesPerPixel.value_or(settings.samplesPerPixel);
     settings.integrator = options.integrator.value_or(settings.integrator);
     settings.occlusionDistance = options.occlusionDistance.value_or(settings.occlusionDistance);
@@ -65,14 +63,20 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     settings.leafSize = options.leafSize.value_or(settings.leafSize);
     settings.sampler = options.sampler.value_or(settings.sampler);
     settings.filter = options.filter.value_or(settings.filter);
+    settings.seed = options.seed.value_or(settings.seed);
+    settings.radianceLimit = options.radianceLimit.value_or(settings.radianceLimit);
+    settings.exposureStops = options.exposureStops.value_or(settings.exposureStops);
+}
+
+void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
+    Scene &scene = loaded.scene;
+    RenderSettings &settings = scene.settings;
+    overrideSettings(options, settings);
     if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
         throw Error(ExitCode::Usage,
                     fmt::format("--filter {}: all samples are at the pixel's centre; add --sampler sobol, or "
                                 "--filter box",
                                 nameOf(settings.filter)));
-    settings.seed = options.seed.value_or(settings.seed);
-    settings.radianceLimit = options.radianceLimit.value_or(settings.radianceLimit);
-    settings.exposureStops = options.exposureStops.value_or(settings.exposureStops);
     if (!options.background.empty())
         scene.background = glm::vec3(toVector(options.background));
 
@@ -205,8 +209,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     {
         ProgressLine progress("load", isQuiet);
         const auto tellOutline = [&](SceneOutline outline) {
-            outline.integrator = options.integrator.value_or(outline.integrator);
-            outline.maxDepth = options.maxDepth.value_or(outline.maxDepth);
+            overrideSettings(options, outline.settings);
             if (onOutline)
                 onOutline(outline);
         };

@@ -31,7 +31,7 @@ void requireFile(const std::filesystem::path &file) {
 
 LoadedScene loadBareMesh(const std::filesystem::path &file, const LoadEvents &events) {
     if (events.onOutline)
-        events.onOutline({true, RenderSettings{}.integrator, RenderSettings{}.maxDepth});
+        events.onOutline({true, RenderSettings{}});
     TextureLibrary textures;
     ObjMesh mesh = loadObj(file, {}, events.onReading, &textures);
     LoadedScene loaded;

@@ -312,7 +312,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
     }
     const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
     if (events.onOutline)
-        events.onOutline({!meshes.empty(), scene.settings.integrator, scene.settings.maxDepth});
+        events.onOutline({!meshes.empty(), scene.settings});
 
     scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
     const FileReach reach(file, allowedPaths);

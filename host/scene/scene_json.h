@@ -112,8 +112,7 @@ namespace hyalite {
 /// What is known of a scene before its large files are read.
 struct SceneOutline {
     bool hasMeshes;
-    Integrator integrator;
-    int maxDepth; ///< as RenderSettings has it
+    RenderSettings settings;
 };
 
 /// What is told while a scene is loaded.
