@@ -56,7 +56,8 @@ build_all() {
     local log tests=$1
     shift
     log=$(mktemp)
-    if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$tests" "$@" &&
+    if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$tests" \
+                 ${HYALITE_WARNINGS_AS_ERRORS:+-DHYALITE_WARNINGS_AS_ERRORS="$HYALITE_WARNINGS_AS_ERRORS"} "$@" &&
            cmake --build "$build" --target "$target" --parallel "$(nproc)"; } >"$log" 2>&1; then
         cat "$log" >&2
         rm -f "$log"

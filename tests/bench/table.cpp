@@ -59,6 +59,14 @@ std::string cellText(const benchmark::UserCounters &counters) {
     return text;
 }
 
+/// Google Benchmark 1.8 renamed the flag of a run that SkipWithError ended.
+template <class Run> bool hasFailed(const Run &run) {
+    if constexpr (requires { run.error_occurred; })
+        return run.error_occurred;
+    else
+        return run.skipped != 0;
+}
+
 void addOnce(std::vector<std::string> &names, const std::string &name) {
     if (std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
@@ -90,8 +98,8 @@ void TableReporter::ReportRuns(const std::vector<Run> &runs) {
         Table &table = findTable(name.substr(0, first));
         addOnce(table.rows, row);
         addOnce(table.columns, column);
-        table.cells[{row, column}] = run.error_occurred ? "failed" : cellText(run.counters);
-        table.hasFailures = table.hasFailures || run.error_occurred;
+        table.cells[{row, column}] = hasFailed(run) ? "failed" : cellText(run.counters);
+        table.hasFailures = table.hasFailures || hasFailed(run);
         if (const auto share = run.counters.find("Embree differs"); share != run.counters.end())
             largestEmbreeDifference_ = std::max(largestEmbreeDifference_, share->second.value);
     }

@@ -78,8 +78,8 @@ TEST(ZTest, DeviatesAreNormal) {
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         Film oneA({0, 1, 0, 1});
         Film oneB({0, 1, 0, 1});
-        oneA.pixels = {a.pixels[i]};
-        oneB.pixels = {b.pixels[i]};
+        oneA.pixels.front() = a.pixels[i];
+        oneB.pixels.front() = b.pixels[i];
         exceeding += test(oneA, oneB).largest > 1.96;
     }
     // The largest of three: 1 - 0.95^3.
