@@ -1,9 +1,9 @@
 # hyalite_layout_fields(HEADER)
 #
-# Writes a header, for C++ and GLSL, that knows the structs of shaders/layout.h: FIELDS_X(G, r) is G(r.field) for each
+# Writes a header, for C++ and GLSL, that knows the structs of shaders/layout/layout.h: FIELDS_X(G, r) is G(r.field) for each
 # field of struct X, in order, and layoutStructCount tells how many structs there are.
 function(hyalite_layout_fields header)
-    set(layout ${PROJECT_SOURCE_DIR}/shaders/layout.h)
+    set(layout ${PROJECT_SOURCE_DIR}/shaders/layout/layout.h)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${layout})
     file(READ ${layout} text)
     string(REGEX REPLACE "//[^\n]*" "" text "${text}")
@@ -19,5 +19,5 @@ function(hyalite_layout_fields header)
         list(JOIN fields " " fields)
         string(APPEND macros "#define FIELDS_${name}(G, r) ${fields}\n")
     endforeach()
-    file(CONFIGURE OUTPUT ${header} CONTENT "// Made from shaders/layout.h by cmake/LayoutFields.cmake.\n${macros}" @ONLY)
+    file(CONFIGURE OUTPUT ${header} CONTENT "// Made from shaders/layout/layout.h by cmake/LayoutFields.cmake.\n${macros}" @ONLY)
 endfunction()

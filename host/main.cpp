@@ -1,12 +1,12 @@
 // The program's entry: the standard streams, the command line, the one catch, and the exit code.
+#include "host/base/error.h"
+#include "host/base/host_memory.h"
+#include "host/base/json_reader.h"
+#include "host/base/message.h"
+#include "host/base/shell.h"
+#include "host/base/version.h"
 #include "host/cli/commands.h"
 #include "host/cli/help_formatter.h"
-#include "host/error.h"
-#include "host/host_memory.h"
-#include "host/report/message.h"
-#include "host/report/shell.h"
-#include "host/scene/json_reader.h"
-#include "host/version.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
+#include "host/base/error.h"
 #include "host/bvh/bvh.h"
 #include "host/bvh/duplicates.h"
 #include "host/bvh/split.h"
-#include "host/error.h"
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 
 #include <fmt/format.h>
 

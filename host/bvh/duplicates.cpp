@@ -1,6 +1,6 @@
 #include "host/bvh/duplicates.h"
 
-#include "host/report/hash.h"
+#include "host/base/hash.h"
 
 #include <algorithm>
 #include <array>

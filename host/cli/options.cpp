@@ -1,7 +1,7 @@
 #include "host/cli/options.h"
 
-#include "host/report/atomic_file.h"
-#include "host/scene/json_document.h"
+#include "host/base/atomic_file.h"
+#include "host/base/json_document.h"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 // adds an option to `command`, which sets `value` when it is parsed: `value` must outlive the command.
 #pragma once
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/json_reader.h"
 #include "host/image/tone_map.h"
-#include "host/scene/json_reader.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 

@@ -1,6 +1,6 @@
 #include "host/cli/outliers.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/image/tone_map.h"
 
 #include <fmt/format.h>

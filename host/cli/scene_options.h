@@ -1,71 +1,13 @@
-// What all commands that take a SCENE have in common: the argument, and options that override the scene file.
+// The SCENE argument and the options that override the scene file, of all commands that render.
 #pragma once
 
-#include "host/bvh/bvh.h"
-#include "host/bvh/packed_scene.h"
-#include "host/image/film.h"
-#include "host/report/provenance.h"
-#include "host/scene/scene_json.h"
+#include "host/render/prepare.h"
 
 #include <CLI/CLI.hpp>
 
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace hyalite {
-
-/// Command line beats scene file beats defaults: only what was given is set.
-struct SceneOptions {
-    std::string scene;
-    std::optional<int> width;
-    std::optional<int> height;
-    std::optional<int> samplesPerPixel;
-    std::optional<Integrator> integrator;
-    std::optional<double> occlusionDistance;
-    std::optional<int> maxDepth;
-    std::optional<TreeKind> tree;
-    std::optional<int> leafSize;
-    std::optional<SamplerKind> sampler;
-    std::optional<FilterKind> filter;
-    std::optional<std::uint32_t> seed;
-    std::optional<double> radianceLimit;
-    std::optional<double> exposureStops;
-    std::optional<double> fovDegrees;
-    std::vector<double> cameraPosition;
-    std::vector<double> lookAt;
-    std::vector<double> up;
-    std::vector<double> background;
-    std::vector<int> crop;
-    std::vector<std::filesystem::path> allowedPaths;
-};
 
 /// Adds the SCENE argument and the options. `options` must outlive `command`.
 void addSceneOptions(CLI::App &command, SceneOptions &options);
-
-/// What becomes of a scene's meshes and tree once they are packed. Renderers read the packed scene alone; of a large
-/// mesh the rest takes a sixth of the memory.
-enum class Source { Kept, Dropped };
-
-/// A scene made ready for both renderers.
-struct PreparedScene {
-    LoadedScene loaded; ///< its scene without meshes if the source was dropped
-    Bvh bvh;            ///< empty if the source was dropped
-    PackedScene packed;
-    Crop crop;
-    double loadSeconds = 0.0;
-    double buildSeconds = 0.0;
-};
-
-/// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for options that do not go
-/// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet. `onOutline`
-/// is told of the scene, as the options make it, before large files are read.
-[[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
-                                         const std::function<void(const SceneOutline &)> &onOutline = {});
-
-/// What reports say of it.
-[[nodiscard]] Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine);
 
 } // namespace hyalite

@@ -1,7 +1,7 @@
 // --statistical, of `compare` and `diff`: two renders as estimates of one picture.
 #pragma once
 
-#include "host/image/z_test.h"
+#include "host/film/welch_test.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 #include "host/gpu/arithmetic.h"
 
-#include "checkArithmetic.h"
 #include "host/gpu/hard_inputs.h"
 #include "host/gpu/kernel.h"
+#include "shaders/embedded_kernels.h"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ std::size_t checkNativeArithmetic(Device &device) {
     const Buffer resultBuffer(device, "the results of the arithmetic check", BufferUse::Counters,
                               std::as_bytes(std::span(results)).size());
     const std::array<const Buffer *, 2> buffers{&inputBuffer, &resultBuffer};
-    Kernel kernel(device, "checkArithmetic", checkArithmetic, {}, buffers);
+    Kernel kernel(device, "checkArithmetic", embeddedKernel("checkArithmetic"), {}, buffers);
     kernel.run({}, checkedInputCount / checkWorkgroupSize);
     resultBuffer.download(std::as_writable_bytes(std::span(results)));
     return countWrongResults(inputs, results);

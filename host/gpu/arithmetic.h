@@ -1,11 +1,11 @@
-// Which division and square root the kernels run: the device's own operators, or those of shaders/arithmetic.glsl.
+// Which division and square root the kernels run: the device's own operators, or those of shaders/math/arithmetic.glsl.
 //
 // Vulkan promises correctly rounded + - * only, and to nearest only where RoundingModeRTE is offered. The operators of
-// shaders/arithmetic.glsl need no more, and cost some time. Whether a driver's own are correctly rounded as well,
+// shaders/math/arithmetic.glsl need no more, and cost some time. Whether a driver's own are correctly rounded as well,
 // samples cannot prove: they run only for drivers on a list, each with its reason, and hard inputs can still veto.
 #pragma once
 
-#include "host/gpu/devices.h"
+#include "host/gpu/vk/device_list.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ struct HardInput;
 
 enum class Arithmetic {
     Automatic, ///< the device's own where the list and the check allow it
-    Own,       ///< shaders/arithmetic.glsl
+    Own,       ///< shaders/math/arithmetic.glsl
     Native,    ///< the device's own, unchecked
 };
 

@@ -1,15 +1,13 @@
 #include "host/gpu/batching.h"
 
-#include "host/report/hash.h"
+#include "host/base/hash.h"
 
-#include "kernel_list.h"
+#include "shaders/embedded_kernels.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
-#include <stdexcept>
 #include <string>
 
 namespace hyalite::gpu {
@@ -62,15 +60,12 @@ std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator 
         fmt::format("{}{}{}", isView ? "view" : (isWhitted(integrator) ? "whitted" : "path"),
                     batching.traversal == Traversal::SkipList ? "Skip" : "Stack",
                     batching.slotsPerInvocation == 2 ? "TwoSlots" : "OneSlot");
-    const auto *kernel = std::ranges::find(embeddedKernels, std::string_view(name), &EmbeddedKernel::name);
-    if (kernel == std::end(embeddedKernels))
-        throw std::logic_error("no kernel is called " + name);
-    return kernel->words;
+    return embeddedKernel(name);
 }
 
 std::uint64_t hashOfKernels() {
     std::uint64_t hash = 0;
-    for (const EmbeddedKernel &kernel : embeddedKernels)
+    for (const EmbeddedKernel &kernel : embeddedKernels())
         hash = hashBytes(std::as_bytes(kernel.words), hash);
     return hash;
 }

@@ -1,9 +1,9 @@
 // How work is cut into dispatches, and which kernel does it.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
 #include "host/gpu/arithmetic.h"
-#include "host/gpu/devices.h"
+#include "host/gpu/vk/device_list.h"
+#include "host/packing/packed_scene.h"
 #include "host/scene/scene.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // What a buffer is for, and how large it will be.
 #pragma once
 
-#include "host/gpu/devices.h"
+#include "host/gpu/vk/device_list.h"
 
 #include <cstdint>
 #include <string>

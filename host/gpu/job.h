@@ -1,8 +1,8 @@
 // What a render is asked to do on a device.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
-#include "host/image/film.h"
+#include "host/film/film.h"
+#include "host/packing/packed_scene.h"
 #include "host/scene/scene.h"
 
 #include <cstdint>

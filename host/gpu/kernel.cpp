@@ -1,6 +1,6 @@
 #include "host/gpu/kernel.h"
 
-#include "host/gpu/check.h"
+#include "host/gpu/vk/check.h"
 
 #include <fmt/format.h>
 

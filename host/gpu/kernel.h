@@ -1,9 +1,9 @@
 // A compute kernel: a pipeline with the buffers that it works on.
 #pragma once
 
-#include "host/gpu/buffer.h"
-#include "host/gpu/pipeline.h"
-#include "shaders/layout.h"
+#include "host/gpu/vk/buffer.h"
+#include "host/gpu/vk/pipeline.h"
+#include "shaders/layout/layout.h"
 
 #include <array>
 #include <cstdint>

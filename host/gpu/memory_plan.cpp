@@ -1,9 +1,9 @@
 #include "host/gpu/memory_plan.h"
 
-#include "host/bvh/skip_list.h"
-#include "host/error.h"
-#include "host/host_memory.h"
-#include "host/report/quantities.h"
+#include "host/base/error.h"
+#include "host/base/host_memory.h"
+#include "host/base/quantities.h"
+#include "host/packing/skip_list.h"
 
 #include <fmt/format.h>
 

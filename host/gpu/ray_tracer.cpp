@@ -1,6 +1,6 @@
 #include "host/gpu/ray_tracer.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/scene_buffers.h"
 

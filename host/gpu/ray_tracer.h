@@ -1,10 +1,10 @@
 // Rays from a buffer through the tree of a scene on a device: traversal by itself, without an integrator around it.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
 #include "host/gpu/arithmetic.h"
-#include "host/gpu/devices.h"
-#include "shaders/ray_records.h"
+#include "host/gpu/vk/device_list.h"
+#include "host/packing/packed_scene.h"
+#include "shaders/layout/ray_records.h"
 
 #include <memory>
 #include <span>

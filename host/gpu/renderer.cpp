@@ -1,10 +1,10 @@
 #include "host/gpu/renderer.h"
 
-#include "host/error.h"
-#include "host/gpu/check.h"
-#include "host/gpu/device.h"
+#include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/gpu/tile_renderer.h"
-#include "host/report/hash.h"
+#include "host/gpu/vk/check.h"
+#include "host/gpu/vk/device.h"
 
 #include <fmt/format.h>
 

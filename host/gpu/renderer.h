@@ -1,16 +1,16 @@
 // The renderer on a Vulkan device.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/film/continuation.h"
+#include "host/film/film.h"
+#include "host/film/ray_counts.h"
+#include "host/film/render_timing.h"
+#include "host/film/timeline.h"
+#include "host/film/work_counts.h"
 #include "host/gpu/batching.h"
 #include "host/gpu/memory_plan.h"
-#include "host/image/film.h"
-#include "host/image/snapshots.h"
-#include "host/report/ray_counts.h"
-#include "host/report/render_timing.h"
-#include "host/report/timeline.h"
-#include "host/report/work_counts.h"
+#include "host/packing/packed_scene.h"
 
 #include <functional>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "host/gpu/scene_buffers.h"
 
-#include "host/bvh/skip_list.h"
+#include "host/packing/skip_list.h"
 
 #include <cassert>
 #include <span>

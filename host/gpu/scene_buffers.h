@@ -1,9 +1,9 @@
 // A scene in device memory.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
-#include "host/gpu/buffer.h"
 #include "host/gpu/memory_plan.h"
+#include "host/gpu/vk/buffer.h"
+#include "host/packing/packed_scene.h"
 
 namespace hyalite::gpu {
 

@@ -1,6 +1,6 @@
 #include "host/gpu/tile_renderer.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/scene/names.h"
 
 #include <fmt/format.h>

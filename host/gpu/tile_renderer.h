@@ -1,6 +1,10 @@
 // One job on the device: its buffers, and the loop over its tiles.
 #pragma once
 
+#include "host/film/film.h"
+#include "host/film/ray_counts.h"
+#include "host/film/timeline.h"
+#include "host/film/work_counts.h"
 #include "host/gpu/batching.h"
 #include "host/gpu/job.h"
 #include "host/gpu/kernel.h"
@@ -8,10 +12,6 @@
 #include "host/gpu/pace.h"
 #include "host/gpu/scene_buffers.h"
 #include "host/gpu/tile.h"
-#include "host/image/film.h"
-#include "host/report/ray_counts.h"
-#include "host/report/timeline.h"
-#include "host/report/work_counts.h"
 
 #include <functional>
 #include <optional>

@@ -1,9 +1,9 @@
 // OpenEXR files, through the library of that name (https://openexr.com).
 #pragma once
 
+#include "host/base/atomic_file.h"
+#include "host/base/input_file.h"
 #include "host/image/picture.h"
-#include "host/input_file.h"
-#include "host/report/atomic_file.h"
 
 #include <cstddef>
 #include <span>

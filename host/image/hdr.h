@@ -13,9 +13,9 @@
 // down, which makes pictures darker.
 #pragma once
 
+#include "host/base/atomic_file.h"
+#include "host/base/input_file.h"
 #include "host/image/image.h"
-#include "host/input_file.h"
-#include "host/report/atomic_file.h"
 
 #include <cstddef>
 #include <span>

@@ -1,12 +1,12 @@
 #include "host/image/image_file.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/input_file.h"
 #include "host/image/exr.h"
 #include "host/image/hdr.h"
 #include "host/image/pfm.h"
 #include "host/image/png.h"
 #include "host/image/tone_map.h"
-#include "host/input_file.h"
 
 #include <fmt/format.h>
 

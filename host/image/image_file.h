@@ -1,11 +1,11 @@
 // Picture files: which formats there are, and reading and writing them.
 #pragma once
 
+#include "host/base/atomic_file.h"
 #include "host/image/image.h"
 #include "host/image/image_limits.h"
 #include "host/image/picture.h"
 #include "host/image/tone_map.h"
-#include "host/report/atomic_file.h"
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 // How large images may be, and how much memory reading them may take.
 #pragma once
 
-#include "host/input_file.h"
+#include "host/base/input_file.h"
 
 #include <cstdint>
 

@@ -1,8 +1,8 @@
 // JPEG files (ISO/IEC 10918), through libjpeg-turbo.
 #pragma once
 
+#include "host/base/input_file.h"
 #include "host/image/texture.h"
-#include "host/input_file.h"
 
 #include <cstddef>
 #include <span>

@@ -87,11 +87,4 @@ PixelMetrics comparePixels(const Image &a, const Image &b, double outlierThresho
     return metrics;
 }
 
-std::size_t differingPixelCount(const Film &a, const Film &b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
-    return count;
-}
-
 } // namespace hyalite

@@ -1,7 +1,6 @@
 // The differences of two images, pixel by pixel.
 #pragma once
 
-#include "host/image/film.h"
 #include "host/image/image.h"
 #include "host/image/mask.h"
 
@@ -45,8 +44,5 @@ struct PixelMetrics {
 /// How many steps from float to float lead from a to b, over the number line
 /// -NaN, -inf, ..., -0, +0, ..., +inf, +NaN.
 [[nodiscard]] std::uint32_t ulpDistance(float a, float b);
-
-/// Pixels of two films of one crop that differ in any bit.
-[[nodiscard]] std::size_t differingPixelCount(const Film &a, const Film &b);
 
 } // namespace hyalite

@@ -8,9 +8,9 @@
 // Defined by Debevec's HDR Shop; described by P. Bourke, "PBM / PGM / PNM / PPM / PFM formats".
 #pragma once
 
+#include "host/base/atomic_file.h"
+#include "host/base/input_file.h"
 #include "host/image/image.h"
-#include "host/input_file.h"
-#include "host/report/atomic_file.h"
 
 #include <cstddef>
 #include <span>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/image/attribute.h"
-#include "host/image/film.h"
+#include "host/image/crop.h"
 #include "host/image/image.h"
 
 #include <functional>
@@ -33,12 +33,5 @@ struct Picture {
     std::vector<Layer> layers;
     std::vector<Attribute> attributes; ///< what made the picture, from what
 };
-
-/// Row y of the crop, from 0 on. `film` must outlive it.
-[[nodiscard]] std::span<const layout::FilmPixel> rowOf(const Film &film, int y);
-
-/// The film as layers: "variance" RGB, of the mean of the samples, see varianceOfMean(), unless no pixel has one; and
-/// "samples", their number. `film` must outlive them.
-[[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
 
 } // namespace hyalite

@@ -1,6 +1,6 @@
 #include "host/image/png.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/image/image_file.h"
 #include "host/image/png_chunks.h"
 #include "host/image/png_text.h"

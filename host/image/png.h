@@ -1,11 +1,11 @@
 // PNG files, through stb_image and stb_image_write.
 #pragma once
 
+#include "host/base/atomic_file.h"
+#include "host/base/input_file.h"
 #include "host/image/attribute.h"
 #include "host/image/image.h"
 #include "host/image/texture.h"
-#include "host/input_file.h"
-#include "host/report/atomic_file.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -5,7 +5,7 @@
 // make the picture are handed on.
 #pragma once
 
-#include "host/input_file.h"
+#include "host/base/input_file.h"
 
 #include <cstddef>
 #include <cstdint>

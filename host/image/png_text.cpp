@@ -1,7 +1,7 @@
 #include "host/image/png_text.h"
 
+#include "host/base/clean_text.h"
 #include "host/image/png_chunks.h"
-#include "host/report/clean_text.h"
 
 #include <cassert>
 #include <string>

@@ -1,9 +1,9 @@
 #include "host/image/texture_file.h"
 
+#include "host/base/input_file.h"
 #include "host/image/hdr.h"
 #include "host/image/jpeg.h"
 #include "host/image/png.h"
-#include "host/input_file.h"
 
 #include <utility>
 #include <vector>

@@ -1,4 +1,4 @@
-// Conservative ray-box tests. Twin: shaders/box.glsl.
+// Conservative ray-box tests. Twin: shaders/geometry/box.glsl.
 //
 // How wide the pad must be. Let u be the unit of rounding and M the largest coordinate distance from the ray's origin
 // to any box ("reach"). The triangle test moves the image of a vertex by at most 7 u M: one rounding of each of two

@@ -1,7 +1,7 @@
-// Primary rays. Twin: shaders/camera.glsl.
+// Primary rays. Twin: shaders/camera/camera.glsl.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
+#include "host/packing/packed_scene.h"
 #include "host/reference/functions.h"
 #include "host/reference/random.h"
 

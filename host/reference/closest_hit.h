@@ -3,7 +3,7 @@
 // The nearest hit is defined without a tree: the smallest distance, and of equal ones the smallest primitive id.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
+#include "host/packing/packed_scene.h"
 #include "host/reference/counting.h"
 #include "host/reference/sphere.h"
 #include "host/reference/texture.h"

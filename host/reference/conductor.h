@@ -1,4 +1,4 @@
-// What metals reflect. Twin: shaders/conductor.glsl.
+// What metals reflect. Twin: shaders/bsdf/conductor.glsl.
 #pragma once
 
 #include "host/reference/vector.h"

@@ -1,9 +1,9 @@
 // What a traversal is asked to count: nothing, which costs nothing, or all that the kernel over a stack counts.
-// Twin: the counts in shaders/traverse_stack.glsl.
+// Twin: the counts in shaders/traversal/traverse_stack.glsl.
 #pragma once
 
-#include "host/report/work_counts.h"
-#include "shaders/layout.h"
+#include "host/film/work_counts.h"
+#include "shaders/layout/layout.h"
 
 namespace hyalite::reference {
 

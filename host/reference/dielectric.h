@@ -1,4 +1,4 @@
-// Reflection and refraction at smooth glass. Twin: shaders/dielectric.glsl.
+// Reflection and refraction at smooth glass. Twin: shaders/bsdf/dielectric.glsl.
 #pragma once
 
 #include "host/reference/vector.h"

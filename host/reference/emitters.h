@@ -1,8 +1,8 @@
 // Light that a surface is aimed at: lights without size, spheres and triangles that emit, an image around. Twin:
-// shaders/emitters.glsl.
+// shaders/lights/emitters.glsl.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
+#include "host/packing/packed_scene.h"
 #include "host/reference/environment.h"
 #include "host/reference/lights.h"
 #include "host/reference/random.h"

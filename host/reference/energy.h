@@ -1,4 +1,4 @@
-// How much light microfacets reflect at once, and what becomes of the rest. Twin: shaders/energy.glsl.
+// How much light microfacets reflect at once, and what becomes of the rest. Twin: shaders/bsdf/energy.glsl.
 //
 // Light that one facet sends to another is lost to the model of single reflections; at roughness 1 that is up to half of
 // it. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, give it back as a
@@ -7,7 +7,7 @@
 #pragma once
 
 #include "host/reference/vector.h"
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,12 +1,12 @@
-// An image around the scene, and how it is aimed at. Twin: shaders/environment.glsl.
+// An image around the scene, and how it is aimed at. Twin: shaders/lights/environment.glsl.
 //
 // The image is a map of directions by longitude and latitude: its middle is -z, its top row is around +y. Between the
 // middles of its pixels radiance is interpolated. A pixel is chosen by integers, the row first; the weights are what
-// the interpolated image sends through the pixel's area (host/bvh/environment.cpp), so that nothing that shines is left
+// the interpolated image sends through the pixel's area (host/packing/environment.cpp), so that nothing that shines is left
 // out.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
+#include "host/packing/packed_scene.h"
 #include "host/reference/functions.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "host/reference/explain.h"
 
-#include "host/report/divergence.h"
+#include "host/reference/divergence.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere. Twin:
-// shaders/functions.glsl.
+// shaders/math/functions.glsl.
 #pragma once
 
 #include "host/reference/vector.h"

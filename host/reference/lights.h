@@ -1,4 +1,4 @@
-// Lights without size. Twin: shaders/lights.glsl.
+// Lights without size. Twin: shaders/lights/lights.glsl.
 #pragma once
 
 #include "host/reference/vector.h"

@@ -1,11 +1,11 @@
-// Which glass is around a point, where solids of glass lie in each other or overlap. Twin: shaders/media.glsl.
+// Which glass is around a point, where solids of glass lie in each other or overlap. Twin: shaders/bsdf/media.glsl.
 //
 // `inside` counts in 4 bits for each of the first dielectrics how many of its surfaces a path has entered and not left.
 // What is there is the one of highest priority: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT
 // 7(2), 2002. As materials are sorted by priority, it is the lowest one that is counted.
 #pragma once
 
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 
 #include <bit>
 #include <cstdint>

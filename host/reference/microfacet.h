@@ -1,4 +1,4 @@
-// Rough surfaces of microfacets with the GGX distribution. Twin: shaders/microfacet.glsl.
+// Rough surfaces of microfacets with the GGX distribution. Twin: shaders/bsdf/microfacet.glsl.
 //
 // All directions are unit vectors in the frame of the surface, whose normal is +z; `view` has z > 0 and leads back to
 // where the path comes from. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz,

@@ -1,4 +1,4 @@
-// Normals turned by images. Twin: shaders/normal_map.glsl.
+// Normals turned by images. Twin: shaders/textures/normal_map.glsl.
 #pragma once
 
 #include "host/reference/texture.h"

@@ -1,8 +1,8 @@
-// Sample points from integer hashes: no state, no order. Twin: shaders/random.glsl.
+// Sample points from integer hashes: no state, no order. Twin: shaders/math/random.glsl.
 #pragma once
 
 #include "host/reference/vector.h"
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 
 #include <cstdint>
 

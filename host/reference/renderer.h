@@ -1,11 +1,11 @@
 // The reference renderer on the CPU: the twin of the kernels, and the same text in double precision as an oracle.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
-#include "host/image/film.h"
-#include "host/image/snapshots.h"
-#include "host/report/ray_counts.h"
-#include "host/report/work_counts.h"
+#include "host/film/continuation.h"
+#include "host/film/film.h"
+#include "host/film/ray_counts.h"
+#include "host/film/work_counts.h"
+#include "host/packing/packed_scene.h"
 
 #include <functional>
 

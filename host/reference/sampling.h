@@ -1,4 +1,4 @@
-// Directions and points drawn from two numbers in [0, 1), and the densities that they have. Twin: shaders/sampling.glsl.
+// Directions and points drawn from two numbers in [0, 1), and the densities that they have. Twin: shaders/math/sampling.glsl.
 #pragma once
 
 #include "host/reference/functions.h"

@@ -1,4 +1,4 @@
-// Ray-sphere intersection. Twin: shaders/sphere.glsl.
+// Ray-sphere intersection. Twin: shaders/geometry/sphere.glsl.
 #pragma once
 
 #include "host/reference/vector.h"

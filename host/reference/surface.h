@@ -1,8 +1,8 @@
-// Points on surfaces and the rays that leave them. Twin: shaders/surface.glsl.
+// Points on surfaces and the rays that leave them. Twin: shaders/geometry/surface.glsl.
 #pragma once
 
 #include "host/reference/triangle.h"
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 
 namespace hyalite::reference {
 

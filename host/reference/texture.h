@@ -1,9 +1,9 @@
-// Images on surfaces. Twin: shaders/texture.glsl.
+// Images on surfaces. Twin: shaders/textures/texture.glsl.
 //
 // The filter is ours, and no sampler's: those have 8 bits of weights, and round as they like.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
+#include "host/packing/packed_scene.h"
 #include "host/reference/functions.h"
 
 #include <bit>

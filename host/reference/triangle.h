@@ -1,4 +1,4 @@
-// Watertight ray-triangle intersection. Twin: shaders/triangle.glsl, which explains why it is watertight.
+// Watertight ray-triangle intersection. Twin: shaders/geometry/triangle.glsl, which explains why it is watertight.
 #pragma once
 
 #include "host/reference/box.h"

@@ -1,4 +1,4 @@
-// Vector arithmetic with a fixed order of operations. Twin: shaders/vector.glsl.
+// Vector arithmetic with a fixed order of operations. Twin: shaders/math/vector.glsl.
 //
 // `Real` is float in the twin of the kernels, and double in the oracle that tells how far float32 is from the truth.
 // Compiled with -ffp-contract=off, so that what stands here is what is computed.

@@ -1,15 +1,15 @@
-// Views of what primary rays meet, and ambient occlusion. Twin: shaders/view.glsl.
+// Views of what primary rays meet, and ambient occlusion. Twin: shaders/integrators/view.glsl.
 //
 // Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with everything
 // further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", 1998.
 #pragma once
 
+#include "host/film/ray_counts.h"
 #include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/hit_surface.h"
 #include "host/reference/random.h"
 #include "host/reference/sampling.h"
-#include "host/report/ray_counts.h"
 
 #include <vector>
 

@@ -1,8 +1,9 @@
 // The classic integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
 // deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
-// Twin: shaders/whitted.glsl. Here a path is followed ray by ray; the order of all sums is the same.
+// Twin: shaders/integrators/whitted.glsl. Here a path is followed ray by ray; the order of all sums is the same.
 #pragma once
 
+#include "host/film/ray_counts.h"
 #include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/dielectric.h"
@@ -11,7 +12,6 @@
 #include "host/reference/lights.h"
 #include "host/reference/random.h"
 #include "host/reference/surface.h"
-#include "host/report/ray_counts.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "host/report/baseline.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
+#include "host/base/json_document.h"
 #include "host/report/profile_json.h"
 #include "host/report/render_report.h"
-#include "host/scene/json_document.h"
 
 #include <fmt/format.h>
 

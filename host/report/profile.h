@@ -1,10 +1,10 @@
 // What `hyalite profile` has measured, and what it comes to for each stage and kernel.
 #pragma once
 
+#include "host/base/summary.h"
+#include "host/film/timeline.h"
+#include "host/film/work_counts.h"
 #include "host/report/provenance.h"
-#include "host/report/statistics.h"
-#include "host/report/timeline.h"
-#include "host/report/work_counts.h"
 #include "host/report/work_histogram.h"
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 #include "host/report/profile_html.h"
 
-#include "host/report/clean_text.h"
-#include "host/report/hash.h"
-#include "host/report/quantities.h"
+#include "host/base/clean_text.h"
+#include "host/base/hash.h"
+#include "host/base/quantities.h"
+#include "host/base/version.h"
 #include "host/scene/names.h"
-#include "host/version.h"
 
 #include <fmt/format.h>
 

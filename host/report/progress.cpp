@@ -1,7 +1,7 @@
 #include "host/report/progress.h"
 
-#include "host/report/message.h"
-#include "host/report/quantities.h"
+#include "host/base/message.h"
+#include "host/base/quantities.h"
 
 #include <fmt/format.h>
 

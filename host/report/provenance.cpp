@@ -1,8 +1,8 @@
 #include "host/report/provenance.h"
 
-#include "host/report/hash.h"
+#include "host/base/hash.h"
+#include "host/base/version.h"
 #include "host/scene/names.h"
-#include "host/version.h"
 
 namespace hyalite {
 

@@ -1,6 +1,6 @@
 #include "host/report/render_report.h"
 
-#include "host/report/json_text.h"
+#include "host/base/json_text.h"
 
 namespace hyalite {
 

@@ -1,10 +1,10 @@
 // What a render did and how long it took, as JSON.
 #pragma once
 
-#include "host/image/film.h"
+#include "host/film/film.h"
+#include "host/film/ray_counts.h"
+#include "host/film/render_timing.h"
 #include "host/report/provenance.h"
-#include "host/report/ray_counts.h"
-#include "host/report/render_timing.h"
 
 #include <nlohmann/json.hpp>
 

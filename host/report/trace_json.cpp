@@ -1,7 +1,7 @@
 #include "host/report/trace_json.h"
 
+#include "host/base/version.h"
 #include "host/report/render_report.h"
-#include "host/version.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "host/scene/framing.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/scene/limits.h"
 
 #include <fmt/format.h>

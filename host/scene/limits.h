@@ -1,39 +1,12 @@
 // The ranges and counts of scene files and of options on the command line: the one place.
 #pragma once
 
-#include "shaders/layout.h"
+#include "host/base/interval.h"
+#include "shaders/layout/layout.h"
 
-#include <fmt/format.h>
-
-#include <concepts>
 #include <cstddef>
-#include <string>
 
 namespace hyalite {
-
-/// A range of numbers. NaN lies in none.
-struct Interval {
-    double low;
-    double high;
-    bool lowIncluded = true;
-    bool highIncluded = true;
-
-    /// The ends are first rounded to T: what was read in range as a double stays in range as a float.
-    template <std::floating_point T> [[nodiscard]] constexpr bool contains(T value) const {
-        const T lowest = static_cast<T>(low);
-        const T highest = static_cast<T>(high);
-        return (lowIncluded ? value >= lowest : value > lowest) &&
-               (highIncluded ? value <= highest : value < highest);
-    }
-
-    /// In words: "from 0 to 1", "more than 0 and less than 180".
-    [[nodiscard]] std::string text() const {
-        if (lowIncluded && highIncluded)
-            return fmt::format("from {:.10g} to {:.10g}", low, high);
-        return fmt::format("{} {:.10g} and {} {:.10g}", lowIncluded ? "at least" : "more than", low,
-                           highIncluded ? "at most" : "less than", high);
-    }
-};
 
 namespace limits {
 

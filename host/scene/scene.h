@@ -7,7 +7,7 @@
 #include "host/image/image.h"
 #include "host/image/texture.h"
 #include "host/scene/metals.h"
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

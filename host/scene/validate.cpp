@@ -1,7 +1,7 @@
 #include "host/scene/validate.h"
 
-#include "host/error.h"
-#include "host/report/clean_text.h"
+#include "host/base/clean_text.h"
+#include "host/base/error.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 

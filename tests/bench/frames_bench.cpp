@@ -1,4 +1,4 @@
-#include "host/error.h"
+#include "host/base/error.h"
 #include "host/image/image_file.h"
 #include "tests/bench/process.h"
 #include "tests/bench/race.h"
@@ -26,7 +26,7 @@ struct Frame {
 /// What `hyalite` is given to render a frame.
 std::vector<std::string> argumentsOf(const Frame &frame, const std::string &deviceName,
                                      const std::filesystem::path &image) {
-    std::vector<std::string> arguments{"render",   frame.scene, "--quiet",  "--device",
+    std::vector<std::string> arguments{"render",   frame.scene, "--quiet",     "--device",
                                        deviceName, "--output",  image.string()};
     arguments.insert(arguments.end(), frame.options.begin(), frame.options.end());
     return arguments;
@@ -40,7 +40,8 @@ std::string contentsOf(const std::filesystem::path &file) {
 /// `hyalite render` of one frame on one device, again and again, to a file that is overwritten.
 class Rendering {
   public:
-    Rendering(const Frame &frame, const std::string &deviceName) : arguments_(argumentsOf(frame, deviceName, image())) {
+    Rendering(const Frame &frame, const std::string &deviceName)
+        : arguments_(argumentsOf(frame, deviceName, image())) {
         arguments_.insert(arguments_.end(), {"--report", report().string()});
     }
 
@@ -94,7 +95,8 @@ void measureFrameOnCpu(benchmark::State &state, const Frame &frame) {
 enum class ShaderCache { Warm, Cold };
 
 /// The least that a render can take.
-void measureStartUp(benchmark::State &state, const Frame &frame, const std::string &deviceName, ShaderCache cache) {
+void measureStartUp(benchmark::State &state, const Frame &frame, const std::string &deviceName,
+                    ShaderCache cache) {
     const TemporaryFolder folder;
     const std::vector<std::string> arguments = argumentsOf(frame, deviceName, folder.path() / "image.png");
     const auto run = [&] {

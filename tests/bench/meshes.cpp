@@ -1,7 +1,7 @@
 #include "tests/bench/meshes.h"
 
-#include "host/error.h"
-#include "host/scene/obj.h"
+#include "host/base/error.h"
+#include "host/import/obj.h"
 
 #include <cmath>
 #include <numbers>

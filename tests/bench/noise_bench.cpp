@@ -1,11 +1,11 @@
 // How long paths take to show little noise. Two renders with different seeds differ by their noise alone: half of the
 // mean square of their differences is the variance of a pixel. It falls by the time, so that one pair tells how long it
 // takes until the noise is as small as is wanted.
+#include "host/base/error.h"
 #include "host/bvh/bvh.h"
-#include "host/error.h"
 #include "host/gpu/renderer.h"
+#include "host/import/load.h"
 #include "host/reference/renderer.h"
-#include "host/scene/load.h"
 #include "tests/bench/embree_paths.h"
 #include "tests/bench/race.h"
 #include "tests/bench/subject.h"

@@ -1,8 +1,8 @@
 // The rays that are traced, and their true hits by the reference.
 #pragma once
 
-#include "host/bvh/packed_scene.h"
 #include "host/gpu/ray_tracer.h"
+#include "host/packing/packed_scene.h"
 
 #include <vector>
 

@@ -19,8 +19,9 @@ namespace {
 /// What a table's figures are.
 const std::map<std::string, std::string> captions{
     {"rays", "Mray/s, and how many times as fast as Embree's calls for one ray:"},
-    {"frames", "Seconds for a whole image, in vectors as wide as `render` has them: of all dispatches, and of the "
-               "process from start to end:"},
+    {"frames",
+     "Seconds for a whole image, in vectors as wide as `render` has them: of all dispatches, and of the "
+     "process from start to end:"},
     {"noise", "Seconds until pixels have a standard deviation of 5 % of the image's mean, and how many times "
               "sooner that is:"},
     {"start-up", "Seconds from start to end of the process:"},

@@ -1,7 +1,7 @@
 // The figures as Markdown, in the form in which the README holds them.
 #pragma once
 
-#include "host/gpu/devices.h"
+#include "host/gpu/vk/device_list.h"
 
 #include <benchmark/benchmark.h>
 

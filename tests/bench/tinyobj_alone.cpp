@@ -1,6 +1,6 @@
 #include "tests/bench/tinyobj_alone.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 // The library itself has tinyobjloader in double, under the same names.
 #define tinyobj tinyobj_alone

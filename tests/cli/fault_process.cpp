@@ -1,7 +1,7 @@
 #include "tests/cli/fault_process.h"
 
+#include "host/base/error.h"
 #include "host/cli/commands.h"
-#include "host/error.h"
 #include "tests/faults/fault_layer.h"
 
 #include <sstream>

@@ -1,5 +1,5 @@
 // What a process renders again and again leaves nothing behind, on the device or in memory.
-#include "host/host_memory.h"
+#include "host/base/host_memory.h"
 #include "tests/cli/fault_process.h"
 
 #include <fmt/format.h>

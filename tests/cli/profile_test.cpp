@@ -1,7 +1,7 @@
 // `hyalite profile` as a user types it.
 #include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
-#include "tests/unit/trace_rules.h"
+#include "tests/fixtures/trace_rules.h"
 
 #include <gtest/gtest.h>
 
@@ -192,7 +192,8 @@ TEST_F(ProfileCommand, RefusesABaselineThatIsNone) {
     const std::string line = "profile spheres --device cpu" + small;
     ASSERT_EQ(run(line + " --report old.json").exitCode, 0);
     store("none.json", "{}");
-    expectFailure(line + " --baseline none.json", 3, {"none.json", "no report of `hyalite profile --report`"});
+    expectFailure(line + " --baseline none.json", 3,
+                  {"none.json", "no report of `hyalite profile --report`"});
     expectFailure(line + " --baseline missing.json", 3, {"missing.json"});
     expectFailure(line + " --baseline old.json --max-regression 5", 2, {"--max-regression", "a percentage"});
     expectFailure(line + " --baseline old.json --max-regression -1%", 2, {"--max-regression"});

@@ -1,6 +1,6 @@
 // Each option of render has its effect.
-#include "host/bvh/pixel_filter.h"
 #include "host/image/image_file.h"
+#include "host/packing/pixel_filter.h"
 #include "tests/cli/command_line.h"
 
 #include <glm/geometric.hpp>

@@ -93,7 +93,9 @@ TEST_F(RenderReport, APictureSaysWhatTheReportSays) {
         for (const char *key : {"commandLine", "scene", "sceneHash"})
             EXPECT_EQ(textOf(png, key), report.at(key).get<std::string>()) << key;
         for (const char *key : {"name", "driver", "arithmetic"})
-            EXPECT_EQ(textOf(png, std::string("device.") + key), report.at("device").at(key).get<std::string>()) << key;
+            EXPECT_EQ(textOf(png, std::string("device.") + key),
+                      report.at("device").at(key).get<std::string>())
+                << key;
         if (device != "cpu") {
             EXPECT_EQ(textOf(png, "device.kernel.spirvHash"),
                       report.at("device").at("kernel").at("spirvHash").get<std::string>());

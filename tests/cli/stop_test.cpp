@@ -1,5 +1,5 @@
 // Signals that are caught, and those that are not any more.
-#include "host/cli/stop.h"
+#include "host/render/stop.h"
 
 #include <gtest/gtest.h>
 

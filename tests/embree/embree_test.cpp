@@ -3,11 +3,11 @@
 // Two correct programs in float32 may name different triangles where a ray passes within rounding of an edge, where
 // two triangles lie at the same distance, or where a triangle lies at the ray's start. Each difference is put to all
 // triangles of the mesh in long double (exact_meeting.h): what that cannot explain fails the test.
-#include "host/bvh/packed_scene.h"
+#include "host/import/obj.h"
+#include "host/packing/packed_scene.h"
 #include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/surface.h"
-#include "host/scene/obj.h"
 #include "tests/embree/embree_scene.h"
 #include "tests/embree/exact_meeting.h"
 #include "tests/embree/meshes.h"

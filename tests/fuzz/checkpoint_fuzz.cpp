@@ -1,7 +1,7 @@
 // Checkpoints as `hyalite render --resume` reads them. The input is read twice: as it is, and with the hash at its end
 // put right, as one who makes up a file would.
-#include "host/image/checkpoint.h"
-#include "host/report/hash.h"
+#include "host/base/hash.h"
+#include "host/film/checkpoint.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/heap_peak.h"
 

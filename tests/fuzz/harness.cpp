@@ -1,6 +1,6 @@
 #include "tests/fuzz/harness.h"
 
-#include "host/error.h"
+#include "host/base/error.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // Material libraries as `hyalite render MESH.obj` reads them, beside a mesh that names them.
-#include "host/scene/load.h"
-#include "host/scene/mtl.h"
+#include "host/import/load.h"
+#include "host/import/mtl.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/heap_peak.h"
 

@@ -1,6 +1,6 @@
 // OBJ meshes: the reader's promises, its two ways of reading a statement, and a bare mesh's way into a scene.
+#include "host/import/obj.h"
 #include "host/scene/framing.h"
-#include "host/scene/obj.h"
 #include "host/scene/validate.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/heap_peak.h"

@@ -1,10 +1,10 @@
 // PFM pictures as `hyalite diff` reads them; small ones are compared as well, since their floats may be anything.
 // HDR-FLIP takes its time, up to hundreds of exposures, and so is for tiny ones, and for one in 64 of these.
+#include "host/base/hash.h"
 #include "host/image/comparison.h"
 #include "host/image/heat_map.h"
 #include "host/image/ssim.h"
 #include "host/image/tone_map.h"
-#include "host/report/hash.h"
 #include "tests/fuzz/harness.h"
 
 #include <algorithm>

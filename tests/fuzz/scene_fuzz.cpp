@@ -1,5 +1,5 @@
 // Scene files, with a mesh beside them that they can name.
-#include "host/scene/load.h"
+#include "host/import/load.h"
 #include "tests/fuzz/harness.h"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Pictures of the cost: the work of each pixel, equal on every device and on the CPU, and adding up to the counts.
 #include "tests/images/rendering.h"
 
-#include "host/error.h"
-#include "host/image/film_file.h"
+#include "host/base/error.h"
+#include "host/film/film_file.h"
 
 #include <gtest/gtest.h>
 

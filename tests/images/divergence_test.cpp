@@ -1,5 +1,5 @@
 // A fault planted in one twin is found, and named. Each faulty kernel is ours with one line changed (CMakeLists.txt).
-#include "host/report/divergence.h"
+#include "host/reference/divergence.h"
 #include "tests/images/rendering.h"
 
 #include "faultInCamera.h"

@@ -1,6 +1,6 @@
 #include "tests/images/rendering.h"
 
-#include "host/scene/load.h"
+#include "host/import/load.h"
 #include "host/scene/validate.h"
 
 #include <cassert>

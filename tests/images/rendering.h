@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/bvh/bvh.h"
-#include "host/bvh/packed_scene.h"
 #include "host/gpu/renderer.h"
+#include "host/packing/packed_scene.h"
 #include "host/reference/renderer.h"
 #include "host/scene/scene.h"
 
@@ -19,7 +19,7 @@ namespace hyalite::testing {
 
 /// Renders all of the image on the software device of the machine, which every test run must have.
 [[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::Batching &batching = {},
-                                          std::size_t mostDecoded = mostDecodedBytes);
+                                         std::size_t mostDecoded = mostDecodedBytes);
 
 [[nodiscard]] reference::Result renderOnCpu(const Scene &scene,
                                             reference::Precision precision = reference::Precision::Float32,

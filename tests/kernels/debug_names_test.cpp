@@ -1,6 +1,6 @@
 // Other tools speak our words: a message of the validation layer names our buffers.
-#include "host/error.h"
-#include "host/gpu/buffer.h"
+#include "host/base/error.h"
+#include "host/gpu/vk/buffer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// divide and squareRoot of shaders/arithmetic.glsl, and the device's own, against IEEE 754.
+// divide and squareRoot of shaders/math/arithmetic.glsl, and the device's own, against IEEE 754.
 #include "host/gpu/hard_inputs.h"
 #include "tests/kernels/probe_device.h"
 

@@ -1,7 +1,7 @@
 // Specialization constants by chance, as the host may set them.
 #pragma once
 
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 
 #include <cstdint>
 #include <random>

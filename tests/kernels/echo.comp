@@ -4,7 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 #include "layout_fields.h"
 
 layout(local_size_x = 1) in;

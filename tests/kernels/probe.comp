@@ -4,24 +4,24 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-#include "shaders/layout.h"
+#include "shaders/layout/layout.h"
 #include "tests/kernels/probe.h"
 
 layout(local_size_x_id = 0) in;
 
-#include "shaders/bindings.glsl"
-#include "shaders/arithmetic.glsl"
-#include "shaders/vector.glsl"
-#include "shaders/random.glsl"
-#include "shaders/functions.glsl"
-#include "shaders/box.glsl"
-#include "shaders/triangle.glsl"
-#include "shaders/sphere.glsl"
-#include "shaders/dielectric.glsl"
-#include "shaders/media.glsl"
-#include "shaders/sampling.glsl"
-#include "shaders/surface.glsl"
-#include "shaders/emitter_density.glsl"
+#include "shaders/memory/bindings.glsl"
+#include "shaders/math/arithmetic.glsl"
+#include "shaders/math/vector.glsl"
+#include "shaders/math/random.glsl"
+#include "shaders/math/functions.glsl"
+#include "shaders/geometry/box.glsl"
+#include "shaders/geometry/triangle.glsl"
+#include "shaders/geometry/sphere.glsl"
+#include "shaders/bsdf/dielectric.glsl"
+#include "shaders/bsdf/media.glsl"
+#include "shaders/math/sampling.glsl"
+#include "shaders/geometry/surface.glsl"
+#include "shaders/lights/emitter_density.glsl"
 
 layout(set = 0, binding = bindingTexels, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
 
@@ -35,15 +35,15 @@ layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuff
 
 MaterialRecord fetchMaterial(uint index) { return materials[index]; }
 
-#include "shaders/camera.glsl"
-#include "shaders/texture.glsl"
-#include "shaders/normal_map.glsl"
-#include "shaders/lights.glsl"
-#include "shaders/environment.glsl"
-#include "shaders/conductor.glsl"
-#include "shaders/microfacet.glsl"
-#include "shaders/energy.glsl"
-#include "shaders/rough.glsl"
+#include "shaders/camera/camera.glsl"
+#include "shaders/textures/texture.glsl"
+#include "shaders/textures/normal_map.glsl"
+#include "shaders/lights/lights.glsl"
+#include "shaders/lights/environment.glsl"
+#include "shaders/bsdf/conductor.glsl"
+#include "shaders/bsdf/microfacet.glsl"
+#include "shaders/bsdf/energy.glsl"
+#include "shaders/bsdf/rough.glsl"
 
 layout(set = 0, binding = bindingProbeInputs, std430) readonly buffer InputBuffer { uint inputWords[]; };
 layout(set = 0, binding = bindingProbeOutputs, std430) writeonly buffer OutputBuffer { uint outputWords[]; };

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "host/gpu/arithmetic.h"
-#include "host/gpu/device.h"
 #include "host/gpu/kernel.h"
-#include "shaders/layout.h"
+#include "host/gpu/vk/device.h"
+#include "shaders/layout/layout.h"
 #include "tests/kernels/draw.h"
 #include "tests/kernels/probe.h"
 #include "tests/kernels/words.h"

@@ -1,10 +1,10 @@
 // Specialization constants in SPIR-V: valid modules without the code that they rule out. That pictures stay what they
 // are is for tests of images to show: all of them run specialised kernels.
-#include "host/gpu/specialise.h"
+#include "host/gpu/spirv/specialise.h"
 
-#include "host/gpu/spirv_instructions.h"
-#include "shaders/layout.h"
-#include "tested_kernel_list.h"
+#include "host/gpu/spirv/instructions.h"
+#include "shaders/layout/layout.h"
+#include "tests/kernels/all_kernels.h"
 #include "tests/kernels/drawn_constants.h"
 
 #include <fmt/format.h>
@@ -51,11 +51,12 @@ std::size_t countOf(const Words &words, spv::Op opcode) {
 
 TEST(Specialise, LeavesValidKernels) {
     std::mt19937 random(1);
-    for (const EmbeddedKernel &kernel : embeddedKernels) {
+    for (const EmbeddedKernel &kernel : allKernels()) {
         for (int i = 0; i < 6; ++i) {
             const Words constants = drawnConstants(random);
             const Words words = gpu::specialise(kernel.words, constants);
-            ASSERT_EQ(errorsIn(words), "") << kernel.name << " with " << fmt::format("{}", fmt::join(constants, " "));
+            ASSERT_EQ(errorsIn(words), "")
+                << kernel.name << " with " << fmt::format("{}", fmt::join(constants, " "));
             for (const spv::Op opcode : {spv::Op::OpSpecConstant, spv::Op::OpSpecConstantTrue,
                                          spv::Op::OpSpecConstantFalse, spv::Op::OpSpecConstantOp})
                 ASSERT_EQ(countOf(words, opcode), 0u) << kernel.name;
@@ -64,25 +65,24 @@ TEST(Specialise, LeavesValidKernels) {
 }
 
 TEST(Specialise, LeavesOutWhatASceneDoesNotUse) {
-    const auto *kernel = std::ranges::find(embeddedKernels, "pathSkipOneSlot", &EmbeddedKernel::name);
-    ASSERT_NE(kernel, std::end(embeddedKernels));
+    const std::span<const std::uint32_t> kernel = embeddedKernel("pathSkipOneSlot");
     Words constants(layout::constantCount);
     constants[layout::constantWorkgroupSize] = 64;
     constants[layout::constantSamplesAbreast] = 8;
     constants[layout::constantExactDivision] = 1;
-    const Words least = gpu::specialise(kernel->words, constants);
-    EXPECT_LT(least.size() * 10, kernel->words.size());
+    const Words least = gpu::specialise(kernel, constants);
+    EXPECT_LT(least.size() * 10, kernel.size());
     const std::size_t reads = countOf(least, spv::Op::OpImageRead);
     constants[layout::constantHasTriangles] = 1;
-    const Words triangles = gpu::specialise(kernel->words, constants);
+    const Words triangles = gpu::specialise(kernel, constants);
     EXPECT_GT(countOf(triangles, spv::Op::OpImageRead), reads);
     constants[layout::constantTexturing] = layout::texturesBaseColour;
-    const Words textures = gpu::specialise(kernel->words, constants);
+    const Words textures = gpu::specialise(kernel, constants);
     EXPECT_GT(countOf(textures, spv::Op::OpImageRead), countOf(triangles, spv::Op::OpImageRead));
     // Our own division and root are integer arithmetic on significands.
     const std::size_t native = countOf(textures, spv::Op::OpFDiv);
     constants[layout::constantExactDivision] = 0;
-    const Words ours = gpu::specialise(kernel->words, constants);
+    const Words ours = gpu::specialise(kernel, constants);
     EXPECT_LT(countOf(ours, spv::Op::OpFDiv), native);
     EXPECT_GT(countOf(ours, spv::Op::OpIMul), countOf(textures, spv::Op::OpIMul));
 }
@@ -124,7 +124,8 @@ Words moduleWith(const std::string &body, const std::string &declarations = "") 
         %word = OpAccessChain %UintPointer %buffer %c0
         %value = OpLoad %uint %word
         %unknown = OpINotEqual %bool %value %c0
-    )" + body + "\nOpFunctionEnd\n";
+    )" + body +
+            "\nOpFunctionEnd\n";
     Tools assembler;
     Words words;
     EXPECT_TRUE(assembler.tools.Assemble(text, &words)) << assembler.messages;
@@ -464,7 +465,7 @@ TEST(Specialise, KeepsASwitchThatIsLeftFromWithin) {
 }
 
 TEST(Specialise, DropsNamesAndDecorationsOfWhatIsGone) {
-    for (const EmbeddedKernel &kernel : embeddedKernels) {
+    for (const EmbeddedKernel &kernel : allKernels()) {
         const Words words = gpu::specialise(kernel.words, Words(layout::constantCount));
         std::vector<bool> isDefined(words[gpu::spirvBoundWord]);
         const auto instructions = gpu::instructionsOf(words);

@@ -1,7 +1,7 @@
 // SPIR-V modules as lists of instructions.
 #pragma once
 
-#include "host/gpu/spirv_instructions.h"
+#include "host/gpu/spirv/instructions.h"
 
 #include <cstdint>
 #include <map>

@@ -1,9 +1,9 @@
 // What our kernels may consist of, so that every device computes the same bits; and the float controls that the host
 // adds to them.
 #include "host/gpu/batching.h"
-#include "host/gpu/float_controls.h"
-#include "shaders/layout.h"
-#include "tested_kernel_list.h"
+#include "host/gpu/vk/float_controls.h"
+#include "shaders/layout/layout.h"
+#include "tests/kernels/all_kernels.h"
 #include "tests/kernels/spirv_module.h"
 
 #include <gtest/gtest.h>
@@ -24,14 +24,13 @@ bool mayDivide(const Instruction &instruction) {
 }
 
 TEST(EmbeddedKernels, AreAllListed) {
-    for (const char *name :
-         {"checkArithmetic", "whittedStackOneSlot", "whittedStackTwoSlots", "pathSkipTwoSlots",
-          "probeKernel", "unoptimisedStack", "unoptimisedSkipList"})
-        EXPECT_EQ(std::ranges::count(embeddedKernels, name, &EmbeddedKernel::name), 1) << name;
+    for (const char *name : {"checkArithmetic", "whittedStackOneSlot", "whittedStackTwoSlots",
+                             "pathSkipTwoSlots", "probeKernel", "unoptimisedStack", "unoptimisedSkipList"})
+        EXPECT_EQ(std::ranges::count(allKernels(), name, &EmbeddedKernel::name), 1) << name;
 }
 
 TEST(EmbeddedKernels, FuseNoSum) {
-    for (const EmbeddedKernel &kernel : embeddedKernels) {
+    for (const EmbeddedKernel &kernel : allKernels()) {
         const SpirvModule module(kernel.words);
         for (const Instruction &instruction : module.instructions) {
             if (instruction.opcode != spv::Op::OpFAdd && instruction.opcode != spv::Op::OpFSub)
@@ -48,12 +47,12 @@ TEST(EmbeddedKernels, UseExactOperationsOnly) {
     const std::set<std::uint32_t> exact{4, 5, 8, 37, 38, 39, 40, 41, 42, 43, 44, 45, 73, 74, 75};
     constexpr std::uint32_t sqrtNumber = 31;
     const std::set<spv::Op> withoutOrder{spv::Op::OpDot,
-                                               spv::Op::OpVectorTimesMatrix,
-                                               spv::Op::OpMatrixTimesVector,
-                                               spv::Op::OpMatrixTimesMatrix,
-                                               spv::Op::OpFRem,
-                                               spv::Op::OpFMod};
-    for (const EmbeddedKernel &kernel : embeddedKernels) {
+                                         spv::Op::OpVectorTimesMatrix,
+                                         spv::Op::OpMatrixTimesVector,
+                                         spv::Op::OpMatrixTimesMatrix,
+                                         spv::Op::OpFRem,
+                                         spv::Op::OpFMod};
+    for (const EmbeddedKernel &kernel : allKernels()) {
         std::size_t nativeCount = 0;
         const SpirvModule module(kernel.words);
         for (const Instruction &instruction : module.instructions) {
@@ -61,8 +60,8 @@ TEST(EmbeddedKernels, UseExactOperationsOnly) {
             EXPECT_FALSE(withoutOrder.contains(instruction.opcode))
                 << "opcode " << static_cast<int>(instruction.opcode) << ": " << where();
             const bool isExtended = instruction.opcode == spv::Op::OpExtInst;
-            const bool isNative =
-                instruction.opcode == spv::Op::OpFDiv || (isExtended && instruction.operands[3] == sqrtNumber);
+            const bool isNative = instruction.opcode == spv::Op::OpFDiv ||
+                                  (isExtended && instruction.operands[3] == sqrtNumber);
             nativeCount += isNative ? 1u : 0u;
             if (isNative && isUnoptimised(kernel)) {
                 EXPECT_TRUE(mayDivide(instruction)) << "the device's own / or sqrt: " << where();
@@ -89,7 +88,8 @@ TEST(EmbeddedKernels, KnowTheConstantsOfTheirDuties) {
                 batching.traversal = traversal;
                 batching.slotsPerInvocation = slots;
                 std::set<std::uint32_t> known;
-                for (const Instruction &instruction : SpirvModule(gpu::kernelWords(batching, integrator)).instructions)
+                for (const Instruction &instruction :
+                     SpirvModule(gpu::kernelWords(batching, integrator)).instructions)
                     if (instruction.opcode == spv::Op::OpDecorate &&
                         instruction.operands[1] == static_cast<std::uint32_t>(spv::Decoration::SpecId))
                         known.insert(instruction.operands[2]);
@@ -97,8 +97,8 @@ TEST(EmbeddedKernels, KnowTheConstantsOfTheirDuties) {
                      {layout::constantCamera, layout::constantTexturing, layout::constantScattering,
                       layout::constantLighting, layout::constantShowsCost, layout::constantIsCounting,
                       layout::constantIsTracing, layout::constantIsResumable, layout::constantExactDivision})
-                    EXPECT_TRUE(known.contains(id)) << "integrator " << static_cast<int>(integrator) << ", " << slots
-                                                    << " slots, constant " << id;
+                    EXPECT_TRUE(known.contains(id)) << "integrator " << static_cast<int>(integrator) << ", "
+                                                    << slots << " slots, constant " << id;
             }
         }
     }
@@ -119,7 +119,7 @@ const ControlsCase controlsCases[] = {
 };
 
 TEST(FloatControls, AreAddedInTheirSections) {
-    for (const EmbeddedKernel &kernel : embeddedKernels) {
+    for (const EmbeddedKernel &kernel : allKernels()) {
         for (const auto &[controls, capabilities, modes] : controlsCases) {
             const std::vector<std::uint32_t> words = gpu::addFloatControls(kernel.words, controls);
             const SpirvModule module(words);
@@ -134,8 +134,9 @@ TEST(FloatControls, AreAddedInTheirSections) {
                                    : instruction.opcode == spv::Op::OpExtension     ? 1
                                    : instruction.opcode == spv::Op::OpEntryPoint    ? 2
                                    : instruction.opcode == spv::Op::OpExecutionMode ? 3
-                                                                                  : section;
-                EXPECT_GE(wanted, section) << kernel.name << ": opcode " << static_cast<int>(instruction.opcode);
+                                                                                    : section;
+                EXPECT_GE(wanted, section)
+                    << kernel.name << ": opcode " << static_cast<int>(instruction.opcode);
                 section = wanted;
                 if (instruction.opcode == spv::Op::OpEntryPoint)
                     entryPoint = instruction.operands[1];
@@ -157,7 +158,7 @@ TEST(FloatControls, AreAddedInTheirSections) {
 }
 
 TEST(FloatControls, LeaveTheRestAsItIs) {
-    for (const EmbeddedKernel &kernel : embeddedKernels) {
+    for (const EmbeddedKernel &kernel : allKernels()) {
         const std::vector<std::uint32_t> original(kernel.words.begin(), kernel.words.end());
         EXPECT_EQ(gpu::addFloatControls(kernel.words, {}), original);
         const std::vector<std::uint32_t> words = gpu::addFloatControls(kernel.words, {true, true});

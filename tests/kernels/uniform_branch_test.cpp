@@ -1,11 +1,11 @@
 // No branch of our kernels depends on uniform values alone. lavapipe (Mesa 22.3) writes the values of such branches into
 // the code and lowers the kernel anew for each dispatch: a search whose length came from the width of an environment made
 // renders 2 to 10 times slower.
-#include "host/gpu/specialise.h"
+#include "host/gpu/spirv/specialise.h"
 
-#include "host/gpu/spirv_instructions.h"
-#include "shaders/layout.h"
-#include "tested_kernel_list.h"
+#include "host/gpu/spirv/instructions.h"
+#include "shaders/layout/layout.h"
+#include "tests/kernels/all_kernels.h"
 #include "tests/kernels/drawn_constants.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,8 @@ class DataFlow {
     [[nodiscard]] std::pair<int, int> countBranches() const {
         std::pair<int, int> count{0, 0};
         for (const gpu::SpirvInstruction &instruction : instructions_) {
-            if (instruction.opcode() != spv::Op::OpBranchConditional && instruction.opcode() != spv::Op::OpSwitch)
+            if (instruction.opcode() != spv::Op::OpBranchConditional &&
+                instruction.opcode() != spv::Op::OpSwitch)
                 continue;
             const Source &condition = sources_[instruction.words[1]];
             count.first += condition.isUniform && !condition.isVarying ? 1 : 0;
@@ -52,7 +53,8 @@ class DataFlow {
   private:
     void readVariables() {
         // Of bindings.glsl and preloaded.glsl. All other memory may hold anything.
-        const std::set<std::string> copies{"frame", "dispatch", "sphereShapes", "transmissiveSpheres", "firstLight"};
+        const std::set<std::string> copies{"frame", "dispatch", "sphereShapes", "transmissiveSpheres",
+                                           "firstLight"};
         std::map<std::uint32_t, std::string> names;
         for (const gpu::SpirvInstruction &instruction : instructions_) {
             const auto words = instruction.words;
@@ -80,7 +82,8 @@ class DataFlow {
         case spv::Op::OpVectorShuffle:
             return instruction.words.subspan(3, 2);
         default:
-            return instruction.words.size() > 3 ? instruction.words.subspan(3) : std::span<const std::uint32_t>();
+            return instruction.words.size() > 3 ? instruction.words.subspan(3)
+                                                : std::span<const std::uint32_t>();
         }
     }
 
@@ -99,10 +102,10 @@ class DataFlow {
             if (!isCode || result == 0 || opcode == spv::Op::OpVariable || opcode == spv::Op::OpLabel)
                 continue;
             Source source;
-            source.isVarying = opcode == spv::Op::OpImageRead || (opcode == spv::Op::OpPhi && !isLoopHeader) ||
-                               (opcode >= spv::Op::OpAtomicLoad && opcode <= spv::Op::OpAtomicXor) ||
-                               (opcode >= spv::Op::OpGroupNonUniformElect &&
-                                opcode <= spv::Op::OpGroupNonUniformQuadSwap);
+            source.isVarying =
+                opcode == spv::Op::OpImageRead || (opcode == spv::Op::OpPhi && !isLoopHeader) ||
+                (opcode >= spv::Op::OpAtomicLoad && opcode <= spv::Op::OpAtomicXor) ||
+                (opcode >= spv::Op::OpGroupNonUniformElect && opcode <= spv::Op::OpGroupNonUniformQuadSwap);
             for (const std::uint32_t id : operandsOf(instruction)) {
                 source.isUniform = source.isUniform || (id < sources_.size() && sources_[id].isUniform);
                 source.isVarying = source.isVarying || (id < sources_.size() && sources_[id].isVarying);
@@ -118,7 +121,8 @@ class DataFlow {
         for (std::size_t i = label + 1; i < instructions_.size(); ++i) {
             if (instructions_[i].opcode() == spv::Op::OpLoopMerge)
                 return true;
-            if (instructions_[i].opcode() == spv::Op::OpLabel || instructions_[i].opcode() == spv::Op::OpFunctionEnd)
+            if (instructions_[i].opcode() == spv::Op::OpLabel ||
+                instructions_[i].opcode() == spv::Op::OpFunctionEnd)
                 return false;
         }
         return false;
@@ -149,12 +153,13 @@ std::vector<std::uint32_t> constantsOf(std::uint32_t camera, bool hasEverything,
 TEST(UniformBranches, AreInNoKernel) {
     std::mt19937 random(1);
     int kernelCount = 0;
-    for (const EmbeddedKernel &kernel : embeddedKernels) {
-        if (!kernel.name.starts_with("whitted") && !kernel.name.starts_with("path") && !kernel.name.starts_with("view"))
+    for (const EmbeddedKernel &kernel : allKernels()) {
+        if (!kernel.name.starts_with("whitted") && !kernel.name.starts_with("path") &&
+            !kernel.name.starts_with("view"))
             continue;
         ++kernelCount;
-        for (const std::uint32_t camera :
-             {layout::cameraPinhole, layout::cameraLens, layout::cameraOrthographic, layout::cameraPanorama}) {
+        for (const std::uint32_t camera : {layout::cameraPinhole, layout::cameraLens,
+                                           layout::cameraOrthographic, layout::cameraPanorama}) {
             for (int i = 0; i < 6; ++i) {
                 const auto words = gpu::specialise(kernel.words, constantsOf(camera, i == 0, random));
                 const auto [uniform, all] = DataFlow(words).countBranches();
@@ -168,9 +173,8 @@ TEST(UniformBranches, AreInNoKernel) {
 
 TEST(UniformBranches, AreFoundWhereTheyAre) {
     // Our own division looks at the exponents of an image's size. Without names of variables none would be found.
-    const auto *kernel = std::ranges::find(embeddedKernels, "viewSkipOneSlot", &EmbeddedKernel::name);
-    ASSERT_NE(kernel, std::end(embeddedKernels));
-    EXPECT_GT(DataFlow(kernel->words).countBranches().first, 0);
+    const std::span<const std::uint32_t> kernel = embeddedKernel("viewSkipOneSlot");
+    EXPECT_GT(DataFlow(kernel).countBranches().first, 0);
 }
 
 } // namespace

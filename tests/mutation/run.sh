@@ -15,7 +15,8 @@ last=${2:-1000000}
 
 (cd "$root" && git ls-files -z | xargs -0 tar cf - ) | tar xf - -C "$work" || exit 2
 cmake -S "$work" -B "$work/build" -DCMAKE_BUILD_TYPE=Release >/dev/null || exit 2
-targets=(kernels_tests images_tests unit_tests embree_tests)
+targets=(kernels_tests shaders_tests reference_tests packing_tests bvh_tests scene_tests import_tests film_tests image_tests
+         gpu_tests images_tests embree_tests)
 build() { cmake --build "$work/build" --parallel "$(nproc)" --target "${targets[@]}" assets >"$work/build.log" 2>&1; }
 echo "building without faults ..."
 build || { tail -n 30 "$work/build.log"; exit 2; }

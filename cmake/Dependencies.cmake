@@ -1,0 +1,13 @@
+# The libraries that the program is made of. cmake/run.sh installs Debian's packages of them.
+find_package(Vulkan REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(Threads REQUIRED)
+find_package(glm REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(OpenEXR REQUIRED)
+find_package(JPEG REQUIRED)
+find_package(SPIRV-Headers REQUIRED)
+find_path(TINYOBJLOADER_INCLUDE_DIR tiny_obj_loader.h REQUIRED)
+find_path(STB_INCLUDE_DIR stb/stb_image_write.h REQUIRED)

@@ -1,0 +1,11 @@
+# hyalite_library(TARGET)
+#
+# What all libraries of host/ share: includes by their path from the source folder, such as "host/scene/scene.h", and
+# warnings.
+function(hyalite_library target)
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+    hyalite_warnings(${target})
+    if(HYALITE_SANITIZE)
+        target_sources(${target} INTERFACE ${PROJECT_SOURCE_DIR}/tests/leaks.cpp)
+    endif()
+endfunction()

@@ -1,0 +1,52 @@
+#include "host/base/clean_text.h"
+
+#include <nlohmann/json.hpp>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::string_view replacement = "\xEF\xBF\xBD"; // U+FFFD
+
+/// What is not UTF-8 is replaced by the library that also writes it into reports.
+std::string validUtf8(std::string_view text) {
+    using Json = nlohmann::json;
+    return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+/// How many bytes the first character of valid UTF-8 has, if it is one that must not be shown; else 0.
+std::size_t hiddenBytes(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    if ((byte(0) < 0x20 && byte(0) != '\n') || byte(0) == 0x7F)
+        return 1;
+    if (byte(0) == 0xC2)
+        return byte(1) < 0xA0 ? 2 : 0; // U+0080 to U+009F
+    if (byte(0) == 0xD8)
+        return byte(1) == 0x9C ? 2 : 0; // U+061C
+    if (byte(0) != 0xE2)
+        return 0;
+    const bool isMark = byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F); // U+200E, U+200F
+    const bool isSeparatorOrEmbedding =
+        byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE;                    // U+2028 to U+202E
+    const bool isIsolate = byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9; // U+2066 to U+2069
+    return isMark || isSeparatorOrEmbedding || isIsolate ? 3 : 0;
+}
+
+} // namespace
+
+std::string cleanText(std::string_view text) {
+    const std::string valid = validUtf8(text);
+    std::string clean;
+    clean.reserve(valid.size());
+    for (std::size_t i = 0; i < valid.size();) {
+        const std::size_t hidden = hiddenBytes(std::string_view(valid).substr(i));
+        if (hidden > 0)
+            clean += replacement;
+        else
+            clean += valid[i];
+        i += hidden > 0 ? hidden : 1;
+    }
+    return clean;
+}
+
+} // namespace hyalite

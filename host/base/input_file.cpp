@@ -1,0 +1,85 @@
+#include "host/base/input_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace hyalite {
+
+namespace {
+
+std::string_view kindOf(mode_t mode) {
+    switch (mode & S_IFMT) {
+    case S_IFDIR:
+        return "a folder";
+    case S_IFIFO:
+        return "a pipe";
+    case S_IFSOCK:
+        return "a socket";
+    default:
+        return "a device";
+    }
+}
+
+} // namespace
+
+InputFile::InputFile(const std::filesystem::path &path) : path_(path) {
+    const auto requireRegular = [&](int failure, const struct stat &status) {
+        if (failure != 0)
+            throw bad(std::generic_category().message(errno));
+        if (!S_ISREG(status.st_mode))
+            throw bad(fmt::format("is {}, not a regular file; name a file", kindOf(status.st_mode)));
+    };
+    // Opening may itself do something to a device, so there is a look before it. If the file is exchanged in between,
+    // O_NONBLOCK keeps the opening of a pipe from waiting for its writer.
+    struct stat status {};
+    requireRegular(stat(path.c_str(), &status), status);
+    descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (descriptor_ < 0)
+        throw bad(std::generic_category().message(errno));
+    try {
+        requireRegular(fstat(descriptor_, &status), status);
+    } catch (const Error &) {
+        close(descriptor_);
+        throw;
+    }
+    sizeBytes_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+InputFile::~InputFile() { close(descriptor_); }
+
+void InputFile::read(std::uint64_t offsetBytes, std::span<std::byte> destination) const {
+    assert(offsetBytes <= sizeBytes_ && destination.size() <= sizeBytes_ - offsetBytes);
+    while (!destination.empty()) {
+        const ssize_t count =
+            pread(descriptor_, destination.data(), destination.size(), static_cast<off_t>(offsetBytes));
+        if (count > 0) {
+            destination = destination.subspan(static_cast<std::size_t>(count));
+            offsetBytes += static_cast<std::uint64_t>(count);
+        } else if (count == 0) {
+            throw bad(fmt::format("it became shorter than {} bytes while it was read", sizeBytes_));
+        } else if (errno != EINTR) {
+            throw bad(std::generic_category().message(errno));
+        }
+    }
+}
+
+std::vector<std::byte> InputFile::head(std::size_t countBytes) const {
+    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(countBytes, sizeBytes_)));
+    read(0, bytes);
+    return bytes;
+}
+
+Error InputFile::bad(const std::string &found) const {
+    return Error(ExitCode::BadInput, fmt::format("{}: {}", path_.string(), found));
+}
+
+} // namespace hyalite

@@ -1,0 +1,45 @@
+// A regular file that is read piece by piece, so that what it holds can be checked before anything is allocated. All
+// files that a user or a scene names are opened here.
+#pragma once
+
+#include "host/base/error.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+class InputFile {
+  public:
+    /// Throws Error{BadInput} where there is no such file, it cannot be read, or it is a folder, device, pipe or socket:
+    /// these are not opened, and nothing is waited for.
+    explicit InputFile(const std::filesystem::path &path);
+    InputFile(const InputFile &) = delete;
+    InputFile &operator=(const InputFile &) = delete;
+    ~InputFile();
+
+    [[nodiscard]] const std::filesystem::path &path() const { return path_; }
+    /// As it was when it was opened: what is written behind that later is not read.
+    [[nodiscard]] std::uint64_t sizeBytes() const { return sizeBytes_; }
+
+    /// Fills `destination` from `offsetBytes`; the range lies within sizeBytes(). Throws Error{BadInput} where the
+    /// file fails or has become shorter since it was opened.
+    void read(std::uint64_t offsetBytes, std::span<std::byte> destination) const;
+
+    /// The first `countBytes`, or the whole file if it is shorter.
+    [[nodiscard]] std::vector<std::byte> head(std::size_t countBytes) const;
+
+    /// The error to throw when what the file holds cannot be used: "FILE: found".
+    [[nodiscard]] Error bad(const std::string &found) const;
+
+  private:
+    std::filesystem::path path_;
+    std::uint64_t sizeBytes_ = 0;
+    int descriptor_ = -1;
+};
+
+} // namespace hyalite

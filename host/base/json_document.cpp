@@ -1,0 +1,153 @@
+#include "host/base/json_document.h"
+
+#include "host/base/error.h"
+#include "host/base/input_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+namespace hyalite {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t maxFileBytes = std::uint64_t{64} << 20;
+constexpr std::size_t maxNesting = 32;
+constexpr std::size_t maxSyntaxMessageBytes = 300;
+
+/// Walks through the text once and checks what a document cannot tell any more: the syntax with its place,
+/// the nesting before it costs memory, and keys given twice (of which the parser keeps the last).
+class DocumentCheck : public json::json_sax_t {
+  public:
+    DocumentCheck(const std::string &fileName, const std::string &text) : fileName_(fileName), text_(text) {}
+
+    bool null() override { return startValue(); }
+    bool boolean(bool) override { return startValue(); }
+    bool number_integer(number_integer_t) override { return startValue(); }
+    bool number_unsigned(number_unsigned_t) override { return startValue(); }
+    bool number_float(number_float_t, const string_t &) override { return startValue(); }
+    bool string(string_t &) override { return startValue(); }
+    bool binary(binary_t &) override { return startValue(); }
+    bool start_object(std::size_t) override { return open(false); }
+    bool end_object() override { return close(); }
+    bool start_array(std::size_t) override { return open(true); }
+    bool end_array() override { return close(); }
+
+    bool key(string_t &key) override {
+        Level &level = levels_.back();
+        level.key = key;
+        if (!level.keys.insert(key).second)
+            failAt(fileName_, path(), "the key is given twice");
+        return true;
+    }
+
+    /// `position` counts the bytes read, the last of which is at fault.
+    bool parse_error(std::size_t position, const std::string &, const json::exception &error) override {
+        // "[json.exception.parse_error.101] parse error at line 1, column 2: what" -> "what"
+        std::string what = error.what();
+        what.erase(0, what.find("] ") + 2);
+        if (what.starts_with("parse error"))
+            what.erase(0, what.find(": ") + 2);
+        // The bytes that it cites need not be UTF-8.
+        std::replace_if(
+            what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7F; }, '?');
+        failAtByte(std::max<std::size_t>(position, 1) - 1, printable(what, maxSyntaxMessageBytes));
+    }
+
+    /// Throws Error{BadInput} with the line and column of a byte of the text.
+    [[noreturn]] void failAtByte(std::size_t offset, std::string_view message) const {
+        const std::string_view before = std::string_view(text_).substr(0, offset);
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
+        throw Error(ExitCode::BadInput,
+                    fmt::format("{}:{}:{}: {}", fileName_, line, before.size() - lineStart + 1, message));
+    }
+
+  private:
+    struct Level {
+        bool isArray;
+        std::size_t begunCount = 0; ///< elements of an array
+        std::string key{};          ///< the last one of an object
+        std::unordered_set<std::string> keys{};
+    };
+
+    bool startValue() {
+        if (!levels_.empty())
+            ++levels_.back().begunCount;
+        return true;
+    }
+    bool open(bool isArray) {
+        startValue();
+        if (levels_.size() == maxNesting)
+            failAt(fileName_, path(), fmt::format("nested deeper than {} levels", maxNesting));
+        levels_.push_back({isArray});
+        return true;
+    }
+    bool close() {
+        levels_.pop_back();
+        return true;
+    }
+    json::json_pointer path() const {
+        json::json_pointer path;
+        for (const Level &level : levels_) {
+            if (level.isArray)
+                path /= level.begunCount - 1;
+            else
+                path /= level.key;
+        }
+        return path;
+    }
+
+    const std::string &fileName_;
+    const std::string &text_;
+    std::vector<Level> levels_;
+};
+
+std::string readText(const std::filesystem::path &path) {
+    const InputFile file(path);
+    if (file.sizeBytes() > maxFileBytes)
+        throw file.bad(
+            fmt::format("has {} bytes; at most {} (64 MiB) are read", file.sizeBytes(), maxFileBytes));
+    std::string text(static_cast<std::size_t>(file.sizeBytes()), '\0');
+    file.read(0, std::as_writable_bytes(std::span(text)));
+    return text;
+}
+
+} // namespace
+
+nlohmann::json readJsonFile(const std::filesystem::path &file) {
+    const std::string text = readText(file);
+    const std::string fileName = file.string();
+    DocumentCheck check(fileName, text);
+    json::sax_parse(text, &check);
+    // The parser takes a NUL behind the document for the file's end, and would not see what follows.
+    if (const std::size_t nul = text.find('\0'); nul != std::string::npos)
+        check.failAtByte(nul, "a NUL follows the document; allowed: nothing but white space");
+    return json::parse(text);
+}
+
+std::string printable(std::string text, std::size_t maxBytes) {
+    if (text.size() > maxBytes) {
+        std::size_t end = maxBytes;
+        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+            --end; // never inside a UTF-8 sequence
+        text = text.substr(0, end) + "...";
+    }
+    for (char &c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+            c = '?';
+    return text;
+}
+
+void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path, std::string_view message) {
+    const std::string place = path.empty() ? "the top level" : printable(path.to_string());
+    throw Error(ExitCode::BadInput, fmt::format("{}: {}: {}", fileName, place, message));
+}
+
+} // namespace hyalite

@@ -1,0 +1,192 @@
+#include "host/base/json_reader.h"
+
+#include "host/base/json_document.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+
+namespace hyalite {
+namespace {
+
+using nlohmann::json;
+
+std::string describe(const json &value) {
+    if (value.is_array())
+        return fmt::format("an array of {}", value.size());
+    if (value.is_object())
+        return "an object";
+    return printable(value.dump());
+}
+
+/// Levenshtein's edit distance, upper and lower case being the same.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (lower(a[i]) == lower(b[j]) ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+void JsonNode::refuse(std::string_view allowed) const {
+    fail(fmt::format("found {}; allowed: {}", describe(*value), allowed));
+}
+
+void JsonNode::fail(std::string_view message) const { failAt(*fileName, path, message); }
+
+double JsonNode::number(const Interval &allowed) const {
+    if (!value->is_number() || !allowed.contains(value->get<double>()))
+        refuse("a number " + allowed.text());
+    return value->get<double>();
+}
+
+glm::dvec3 JsonNode::vector(const Interval &allowed) const {
+    if (!value->is_array() || value->size() != 3)
+        refuse("an array of 3 numbers, each " + allowed.text());
+    const auto component = [&](std::size_t i) {
+        return JsonNode{&(*value)[i], fileName, path / i}.number(allowed);
+    };
+    return {component(0), component(1), component(2)};
+}
+
+glm::dvec2 JsonNode::pair(const Interval &allowed) const {
+    if (value->is_number())
+        return glm::dvec2(number(allowed));
+    if (!value->is_array() || value->size() != 2)
+        refuse("[u, v] or one number for both, each " + allowed.text());
+    const auto component = [&](std::size_t i) {
+        return JsonNode{&(*value)[i], fileName, path / i}.number(allowed);
+    };
+    return {component(0), component(1)};
+}
+
+glm::dvec3 JsonNode::colour(const Interval &allowed) const {
+    if (value->is_number())
+        return glm::dvec3(number(allowed));
+    if (!value->is_array() || value->size() != 3)
+        refuse("[red, green, blue] or one number for grey, each " + allowed.text());
+    return vector(allowed);
+}
+
+double JsonNode::wholeNumber(const Interval &allowed) const {
+    const double found = value->is_number() ? value->get<double>() : 0.5;
+    if (found != std::trunc(found) || !allowed.contains(found))
+        refuse("a whole number " + allowed.text());
+    return found;
+}
+
+bool JsonNode::boolean() const {
+    if (!value->is_boolean())
+        refuse("true or false");
+    return value->get<bool>();
+}
+
+std::string JsonNode::text() const {
+    if (!value->is_string())
+        refuse("a text");
+    const std::string &found = value->get_ref<const std::string &>();
+    if (found.find('\0') != std::string::npos)
+        refuse("a text without the character NUL"); // at which the system would cut a file name
+    return found;
+}
+
+std::size_t JsonNode::indexOfName(std::span<const std::string_view> names) const {
+    if (!value->is_string())
+        refuse(quotedList(names));
+    const std::string &found = value->get_ref<const std::string &>();
+    const auto name = std::find(names.begin(), names.end(), found);
+    if (name == names.end())
+        refuse(quotedList(names) + suggestion(found, names));
+    return static_cast<std::size_t>(name - names.begin());
+}
+
+JsonObject::JsonObject(JsonNode node) : node_(std::move(node)) {
+    if (!node_.value->is_object())
+        node_.refuse("an object { }");
+}
+
+void JsonObject::allowOnly(std::span<const std::string_view> keys) const {
+    for (const auto &[key, value] : node_.value->items()) {
+        if (std::find(keys.begin(), keys.end(), key) != keys.end())
+            continue;
+        const std::string allowed = keys.empty() ? "none" : quotedList(keys);
+        JsonNode{&value, node_.fileName, node_.path / key}.fail(
+            fmt::format("unknown key; allowed: {}{}", allowed, suggestion(key, keys)));
+    }
+}
+
+std::optional<JsonNode> JsonObject::find(std::string_view key) const {
+    const auto member = node_.value->find(key);
+    if (member == node_.value->end())
+        return {};
+    return JsonNode{&*member, node_.fileName, node_.path / std::string(key)};
+}
+
+JsonNode JsonObject::at(std::string_view key) const {
+    if (std::optional<JsonNode> node = find(key))
+        return *node;
+    failAt(*node_.fileName, node_.path / std::string(key), "missing; the key is required here");
+}
+
+std::optional<JsonObject> JsonObject::object(std::string_view key,
+                                             std::span<const std::string_view> keys) const {
+    if (std::optional<JsonNode> node = find(key))
+        return JsonObject(*node, keys);
+    return {};
+}
+
+std::vector<JsonNode> JsonObject::elements(std::string_view key, std::size_t maxCount) const {
+    std::vector<JsonNode> elements;
+    const std::optional<JsonNode> array = find(key);
+    if (!array)
+        return elements;
+    if (!array->value->is_array() || array->value->size() > maxCount)
+        array->refuse(fmt::format("an array of at most {} objects", maxCount));
+    for (const json &element : *array->value)
+        elements.push_back({&element, array->fileName, array->path / elements.size()});
+    return elements;
+}
+
+std::vector<std::pair<std::string, JsonNode>> JsonObject::members(std::size_t maxCount) const {
+    if (node_.value->size() > maxCount)
+        node_.fail(fmt::format("found {} keys; at most {} are allowed", node_.value->size(), maxCount));
+    std::vector<std::pair<std::string, JsonNode>> members;
+    for (const auto &[key, value] : node_.value->items())
+        members.push_back({key, {&value, node_.fileName, node_.path / key}});
+    return members;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> candidates) {
+    constexpr std::size_t longestWord = 64; // a longer one is no slip of the pen
+    std::string_view nearest;
+    std::size_t leastDistance = std::max<std::size_t>(2, word.size() / 2);
+    for (const std::string_view candidate : candidates) {
+        const std::size_t distance = word.size() > longestWord ? word.size() : editDistance(word, candidate);
+        if (distance < leastDistance || (nearest.empty() && distance == leastDistance)) {
+            nearest = candidate;
+            leastDistance = distance;
+        }
+    }
+    return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", printable(std::string(nearest)));
+}
+
+std::string quotedList(std::span<const std::string_view> words) {
+    constexpr std::size_t maxListed = 32; // a scene may define thousands of materials
+    std::string list;
+    for (const std::string_view word : words.first(std::min(words.size(), maxListed)))
+        list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", printable(std::string(word)));
+    return words.size() > maxListed ? list + ", ..." : list;
+}
+
+} // namespace hyalite

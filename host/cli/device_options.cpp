@@ -1,0 +1,29 @@
+#include "host/cli/device_options.h"
+
+#include "host/cli/options.h"
+#include "host/scene/limits.h"
+
+namespace hyalite {
+
+namespace {
+
+constexpr Interval dispatchMillis{1.0, 10'000.0};
+
+} // namespace
+
+void addThreadsOption(CLI::App &command, int &threadCount) {
+    addNumber(command, "--threads", threadCount, limits::threadCount,
+              "of the reference renderer and of lavapipe; default: all");
+}
+
+void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
+    addChoice(command, "--kernel", options.kernel, gpu::kernelNames,
+              "how rays go through the tree on a Vulkan device; auto: as `hyalite devices` says. The image "
+              "is the same");
+    addNumber(command, "--max-dispatch-ms", options.maxDispatchMillis, dispatchMillis,
+              "how long a dispatch on a Vulkan device should take, in milliseconds: long ones block a "
+              "display, short ones cost more. The image is the same")
+        ->default_str("100");
+}
+
+} // namespace hyalite

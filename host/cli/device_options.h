@@ -1,0 +1,16 @@
+// --threads, --kernel and --max-dispatch-ms, of all commands that open a renderer.
+#pragma once
+
+#include "host/render/backend.h"
+
+#include <CLI/CLI.hpp>
+
+namespace hyalite {
+
+/// Adds --threads, for openBackend. `threadCount` must outlive the command.
+void addThreadsOption(CLI::App &command, int &threadCount);
+
+/// Adds --kernel and --max-dispatch-ms, for openBackend. `options` must outlive the command.
+void addDeviceOptions(CLI::App &command, DeviceOptions &options);
+
+} // namespace hyalite

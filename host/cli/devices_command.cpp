@@ -1,0 +1,177 @@
+#include "host/base/atomic_file.h"
+#include "host/base/json_text.h"
+#include "host/base/version.h"
+#include "host/cli/commands.h"
+#include "host/gpu/arithmetic.h"
+#include "host/gpu/batching.h"
+#include "host/gpu/vk/device_list.h"
+#include "host/render/tune.h"
+#include "host/scene/names.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+constexpr double bytesPerMebibyte = 1024.0 * 1024.0;
+
+/// The kernels that `auto` means, by the names of workloads.
+std::vector<std::pair<std::string_view, std::string_view>> chosenKernels(const gpu::DeviceInfo &device,
+                                                                         const Tuning &tuning) {
+    std::vector<std::pair<std::string_view, std::string_view>> chosen;
+    for (const auto &[name, workload] : gpu::workloadNames) {
+        const gpu::KernelChoice &measured = tuning.kernels[static_cast<std::size_t>(workload)];
+        chosen.emplace_back(name, measured.traversal != gpu::Traversal::Automatic
+                                      ? gpu::kernelName(measured)
+                                      : gpu::kernelName(gpu::completed({}, device, workload)));
+    }
+    return chosen;
+}
+
+void printKernels(const gpu::DeviceInfo &device) {
+    const Tuning tuning = readTuning(device);
+    std::string text;
+    for (const auto &[workload, kernel] : chosenKernels(device, tuning))
+        text += fmt::format("{}{} for {}", text.empty() ? "" : ", ", kernel, workload);
+    fmt::print("   kernel      {}: {}\n", text,
+               tuning.isMeasured() ? "as measured on " + tuning.date
+                                   : "by its type; `hyalite devices --tune` measures");
+}
+
+void printTable(const std::vector<gpu::DeviceInfo> &devices) {
+    for (const gpu::DeviceInfo &device : devices) {
+        fmt::print("{}  {}\n", device.index, device.name);
+        fmt::print("   type        {}\n", gpu::deviceTypeName(device.type));
+        fmt::print("   driver      {}, Vulkan {}\n", device.driver, device.apiVersion);
+        fmt::print("   memory      {:.0f} MiB, at most {:.0f} MiB in a storage buffer\n",
+                   static_cast<double>(device.deviceMemoryBytes) / bytesPerMebibyte,
+                   static_cast<double>(device.maxStorageBufferBytes) / bytesPerMebibyte);
+        fmt::print("   kernels     subgroups of {}, workgroups of up to {}, timestamps: {}\n",
+                   device.subgroupSize, device.maxWorkgroupInvocations, device.hasTimestamps ? "yes" : "no");
+        fmt::print("   float32     round to nearest even: {}, signed zero, infinity and NaN kept: {}\n",
+                   device.canRoundToNearestEven ? "yes" : "not offered",
+                   device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
+        fmt::print("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
+        printKernels(device);
+        const std::string unpromised = gpu::explainUnpromisedBits(device);
+        fmt::print("   equal bits  {}\n", unpromised.empty() ? "promised" : "not promised: " + unpromised);
+        fmt::print("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
+    }
+    fmt::print("cpu  the reference renderer, without Vulkan\n");
+}
+
+void printJson(const std::vector<gpu::DeviceInfo> &devices) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const gpu::DeviceInfo &device : devices) {
+        nlohmann::ordered_json entry;
+        entry["index"] = device.index;
+        entry["name"] = device.name;
+        entry["type"] = gpu::deviceTypeName(device.type);
+        entry["driver"] = device.driver;
+        entry["apiVersion"] = device.apiVersion;
+        entry["vendorId"] = device.vendorId;
+        entry["deviceId"] = device.deviceId;
+        entry["deviceMemoryBytes"] = device.deviceMemoryBytes;
+        entry["maxStorageBufferBytes"] = device.maxStorageBufferBytes;
+        entry["maxStorageBuffersPerStage"] = device.maxStorageBuffersPerStage;
+        entry["maxWorkgroupInvocations"] = device.maxWorkgroupInvocations;
+        entry["maxWorkgroupCount"] = device.maxWorkgroupCount;
+        entry["subgroupSize"] = device.subgroupSize;
+        entry["hasTimestamps"] = device.hasTimestamps;
+        entry["canRoundToNearestEven"] = device.canRoundToNearestEven;
+        entry["canPreserveSignedZeroInfNan"] = device.canPreserveSignedZeroInfNan;
+        entry["hasExactDivisionListed"] = device.hasExactDivisionListed;
+        const Tuning tuning = readTuning(device);
+        for (const auto &[workload, kernel] : chosenKernels(device, tuning))
+            entry["kernels"][std::string(workload)] = kernel;
+        entry["areKernelsMeasured"] = tuning.isMeasured();
+        entry["areBitsPromised"] = device.areBitsPromised();
+        entry["isUsable"] = device.isUsable();
+        if (!device.isUsable())
+            entry["rejection"] = device.rejection;
+        list.push_back(entry);
+    }
+    nlohmann::ordered_json reference; // without an index: it is chosen by its name
+    reference["name"] = "cpu";
+    reference["type"] = "reference renderer";
+    reference["driver"] = "hyalite " HYALITE_VERSION;
+    reference["areBitsPromised"] = true;
+    reference["isUsable"] = true;
+    list.push_back(reference);
+    fmt::print("{}", jsonText(list));
+}
+
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
+
+/// Measures the kernels on one device, and keeps which are fast.
+void tune(const std::string &deviceName) {
+    const std::filesystem::path file = tuningFile();
+    std::error_code error;
+    if (std::filesystem::exists(file.parent_path(), error))
+        static_cast<void>(AtomicFile(file)); // throws where it could not be written half a minute later
+    const std::vector<KernelRates> all = measureKernels(deviceName);
+    const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
+    fmt::print("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");
+    for (const auto &[kernel, choice] : gpu::namedKernels)
+        fmt::print(" {:>12}", kernel);
+    fmt::print("   auto\n");
+    Tuning tuning;
+    tuning.date = today();
+    for (const KernelRates &rates : all) {
+        fmt::print("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);
+        for (const double rate : rates.megaraysPerSecond)
+            fmt::print(" {:>12.3g}", rate);
+        const auto &[kernel, choice] = gpu::namedKernels[rates.best];
+        fmt::print("   {}\n", kernel);
+        tuning.kernels[static_cast<std::size_t>(rates.workload)] = choice;
+    }
+    storeTuning(device, tuning);
+    fmt::print("\nkept in {}\n", file.string());
+}
+
+struct DevicesOptions {
+    bool isJson = false;
+    bool isTuning = false;
+    std::string device = "auto";
+};
+
+} // namespace
+
+void addDevicesCommand(CLI::App &app, CommandContext &) {
+    CLI::App *command = app.add_subcommand("devices", "list the Vulkan devices and what they can do");
+    const auto options = std::make_shared<DevicesOptions>();
+    CLI::Option *json = command->add_flag("--json", options->isJson, "print JSON");
+    CLI::Option *tuning =
+        command->add_flag("--tune", options->isTuning,
+                          "measure which kernels are fast on a device, and keep it for all renders to "
+                          "come: half a minute. The image is the same with all");
+    tuning->excludes(json);
+    command->add_option("--device", options->device, "for --tune: auto, an index or part of a name")
+        ->type_name("DEVICE")
+        ->capture_default_str()
+        ->needs(tuning);
+    command->callback([options] {
+        if (options->isTuning) {
+            tune(options->device);
+            return;
+        }
+        const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
+        if (options->isJson)
+            printJson(devices);
+        else
+            printTable(devices);
+    });
+}
+
+} // namespace hyalite

@@ -1,0 +1,164 @@
+#include "host/base/clean_text.h"
+#include "host/base/error.h"
+#include "host/base/quantities.h"
+#include "host/bvh/duplicates.h"
+#include "host/bvh/tree_statistics.h"
+#include "host/cli/commands.h"
+#include "host/cli/options.h"
+#include "host/cli/scene_options.h"
+#include "host/reference/camera.h"
+#include "host/reference/closest_hit.h"
+#include "host/scene/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+namespace hyalite {
+
+namespace {
+
+struct InspectOptions {
+    SceneOptions scene;
+    int rayCount = 0;
+};
+
+using Clock = std::chrono::steady_clock;
+
+void printMeshes(const PreparedScene &prepared) {
+    const Scene &scene = prepared.loaded.scene;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const TriangleMesh &mesh = scene.meshes[i];
+        const MeshReport &report = prepared.loaded.meshReports[i];
+        fmt::print("mesh         {}: {}, {}, {}\n", mesh.name, countText(mesh.triangles.size(), "triangle"),
+                   countText(mesh.positions.size(), "vertex", "vertices"),
+                   countText(mesh.normals.size(), "normal"));
+        fmt::print("  faces      {}, {} of them polygons of more than three corners\n", report.faceCount,
+                   report.polygonCount);
+        fmt::print("  dropped    {}, {}\n", countText(report.degenerateTriangleCount, "degenerate triangle"),
+                   countText(report.unusedStatementCount, "statement that is not geometry",
+                             "statements that are not geometry"));
+        for (const std::string &library : report.lostLibraries)
+            fmt::print("  not read   {}: no such material library in the mesh's folder\n",
+                       cleanText(library));
+        if (report.unknownMaterialCount > 0)
+            fmt::print("  neutral    {}\n",
+                       countText(report.unknownMaterialCount, "material that no library has",
+                                 "materials that no library has"));
+        fmt::print("  repaired   {}\n",
+                   countText(report.lostNormalCount, "triangle without usable normals gets the geometric one",
+                             "triangles without usable normals get the geometric one"));
+    }
+}
+
+void printTree(const PreparedScene &prepared, std::size_t droppedCount, const std::string &fault) {
+    const RenderSettings &settings = prepared.loaded.scene.settings;
+    const BvhStatistics statistics = measureBvh(prepared.bvh);
+    fmt::print("tree         {}, leaf size {}\n", nameOf(settings.tree), settings.leafSize);
+    fmt::print("  nodes      {} inner, {}, depth {}\n", statistics.innerCount,
+               countText(statistics.leafCount, "leaf", "leaves"), statistics.depth);
+    fmt::print("  leaves     mean {:.2f}, largest {}\n", statistics.meanLeaf,
+               countText(statistics.largestLeaf, "triangle"));
+    std::string histogram;
+    for (std::size_t i = 0; i < statistics.leafHistogram.size(); ++i) {
+        const bool isLast = i + 1 == statistics.leafHistogram.size();
+        if (statistics.leafHistogram[i] > 0)
+            histogram += fmt::format("  {}{}: {}", isLast ? ">" : "<=", 1u << (isLast ? i - 1 : i),
+                                     statistics.leafHistogram[i]);
+    }
+    fmt::print("  histogram{}\n", histogram);
+    if (droppedCount > 0)
+        fmt::print("  dropped    {} with the corners and the material of one before\n",
+                   countText(droppedCount, "triangle"));
+    fmt::print("  SAH cost   {:.2f}\n", statistics.sahCost);
+    fmt::print("  check      {}\n",
+               fault.empty() ? "every triangle in one leaf, every box encloses its subtree" : fault);
+}
+
+void printCosts(const PreparedScene &prepared) {
+    fmt::print("memory       {} bytes of nodes, {} of triangles, {} of normals, {} of the scene in all\n",
+               prepared.packed.nodes.size() * sizeof(layout::NodePair),
+               prepared.packed.triangles.size() * sizeof(layout::TriangleRecord),
+               prepared.packed.normals.size() * sizeof(layout::NormalRecord), prepared.packed.sizeBytes());
+    fmt::print("time         {:.3f} s to load, {:.3f} s to build and pack\n", prepared.loadSeconds,
+               prepared.buildSeconds);
+}
+
+/// Traces primary rays spread over the image, and returns the hits and the seconds it took.
+std::vector<reference::Hit<float>> traceRays(const PackedScene &scene, int count, double &seconds) {
+    std::vector<reference::Hit<float>> hits;
+    hits.reserve(static_cast<std::size_t>(count));
+    const Clock::time_point start = Clock::now();
+    for (int i = 0; i < count; ++i) {
+        const std::uint32_t index = static_cast<std::uint32_t>(i);
+        // The golden ratio's low-discrepancy sequence spreads any number of rays evenly.
+        const std::uint64_t pixelCount = std::uint64_t{scene.frame.imageWidth} * scene.frame.imageHeight;
+        const std::uint64_t position = (std::uint64_t{index * 2654435769u} * pixelCount) >> 32;
+        const glm::uvec2 pixel(static_cast<std::uint32_t>(position % scene.frame.imageWidth),
+                               static_cast<std::uint32_t>(position / scene.frame.imageWidth));
+        const auto primary = reference::primaryRay<float>(scene, layout::samplerCentre, pixel, 0);
+        hits.push_back(
+            reference::closestHit(scene, reference::Ray<float>{primary.origin, primary.direction}));
+    }
+    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return hits;
+}
+
+/// The tree against all triangles one by one, with the same rays on one thread of the reference renderer.
+bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
+    const Scene &scene = prepared.loaded.scene;
+    const PackedScene brute = packScene(scene, buildBvh(TreeKind::None, buildTriangles(scene), 1));
+    double treeSeconds = 0.0;
+    double bruteSeconds = 0.0;
+    const auto treeHits = traceRays(prepared.packed, rayCount, treeSeconds);
+    const auto bruteHits = traceRays(brute, rayCount, bruteSeconds);
+    const auto isSame = [](const reference::Hit<float> &a, const reference::Hit<float> &b) {
+        return a.primitive == b.primitive && a.distance == b.distance && a.u == b.u && a.v == b.v;
+    };
+    std::size_t differenceCount = 0;
+    for (std::size_t i = 0; i < treeHits.size(); ++i)
+        differenceCount += isSame(treeHits[i], bruteHits[i]) ? 0u : 1u;
+    const double rays = rayCount;
+    fmt::print("rays         {} on one thread of the reference renderer\n",
+               countText(static_cast<std::uint64_t>(rayCount), "primary ray"));
+    const bool hasTree = prepared.bvh.depth > 0; // or there is no difference to tell
+    if (hasTree)
+        fmt::print("  tree       {:.3f} us a ray\n", treeSeconds / rays * 1e6);
+    fmt::print("  brute      {:.3f} us a ray{}\n", bruteSeconds / rays * 1e6,
+               hasTree ? fmt::format(": the tree is {:.1f} times as fast", bruteSeconds / treeSeconds) : "");
+    fmt::print("  hits       {} of {} differ\n", differenceCount, rayCount);
+    return differenceCount == 0;
+}
+
+ExitCode runInspect(const InspectOptions &options) {
+    const PreparedScene prepared = prepareScene(options.scene, Source::Kept, false);
+    const Scene &scene = prepared.loaded.scene;
+    fmt::print("scene        {}\n", prepared.loaded.file.string());
+    fmt::print("contents     {} in {}, {}, {}, {}\n", countText(triangleCount(scene), "triangle"),
+               countText(scene.meshes.size(), "mesh", "meshes"), countText(scene.spheres.size(), "sphere"),
+               countText(scene.lights.size(), "light"), countText(scene.materials.size(), "material"));
+    printMeshes(prepared);
+    std::vector<BuildTriangle> distinct = buildTriangles(scene);
+    const std::size_t droppedCount = distinct.size() - Duplicates(scene).setAside(distinct);
+    const std::string fault = findBvhFault(prepared.bvh, buildTriangles(scene), droppedCount);
+    if (!prepared.bvh.nodes.empty())
+        printTree(prepared, droppedCount, fault);
+    printCosts(prepared);
+    const bool isSame = options.rayCount == 0 || compareWithBruteForce(prepared, options.rayCount);
+    return fault.empty() && isSame ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
+} // namespace
+
+void addInspectCommand(CLI::App &app, CommandContext &context) {
+    CLI::App *command = app.add_subcommand("inspect", "print what a scene or mesh is made of, and its tree");
+    const auto options = std::make_shared<InspectOptions>();
+    addSceneOptions(*command, options->scene);
+    addNumber(*command, "--rays", options->rayCount, limits::inspectedRays,
+              "trace so many primary rays through the tree and by brute force, and compare hits and times");
+    command->callback([options, &context] { context.exitCode = static_cast<int>(runInspect(*options)); });
+}
+
+} // namespace hyalite

@@ -1,0 +1,15 @@
+// --layers: what primary rays meet, beside the colours of an EXR.
+#pragma once
+
+#include "host/render/layers.h"
+
+#include <CLI/CLI.hpp>
+
+#include <vector>
+
+namespace hyalite {
+
+/// Adds --layers, with views by their names. `views` must outlive the command; it gets each of them once.
+void addLayersOption(CLI::App &command, std::vector<Integrator> &views);
+
+} // namespace hyalite

@@ -1,0 +1,40 @@
+#include "host/film/film.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace hyalite {
+
+std::span<const layout::FilmPixel> rowOf(const Film &film, int y) {
+    const auto width = static_cast<std::size_t>(film.crop.width());
+    return std::span(film.pixels).subspan(static_cast<std::size_t>(y) * width, width);
+}
+
+std::vector<Layer> filmLayers(const Film &film) {
+    std::vector<Layer> layers;
+    const auto hasVariance = [](const layout::FilmPixel &pixel) { return pixel.sampleCount > 1; };
+    if (std::any_of(film.pixels.begin(), film.pixels.end(), hasVariance))
+        layers.push_back({"variance", "RGB", [&film](int y, std::span<float> row) {
+                              float *next = row.data();
+                              for (const layout::FilmPixel &pixel : rowOf(film, y)) {
+                                  const glm::dvec3 variance = varianceOfMean(pixel);
+                                  for (int channel = 0; channel < 3; ++channel)
+                                      *next++ = static_cast<float>(variance[channel]);
+                              }
+                          }});
+    layers.push_back({"samples", "", [&film](int y, std::span<float> row) {
+                          float *next = row.data();
+                          for (const layout::FilmPixel &pixel : rowOf(film, y))
+                              *next++ = static_cast<float>(pixel.sampleCount);
+                      }});
+    return layers;
+}
+
+std::size_t differingPixelCount(const Film &a, const Film &b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
+    return count;
+}
+
+} // namespace hyalite

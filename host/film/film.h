@@ -1,0 +1,62 @@
+// The film: what both renderers fill, one record a pixel of the crop.
+#pragma once
+
+#include "host/image/crop.h"
+#include "host/image/image.h"
+#include "host/image/picture.h"
+#include "shaders/layout/layout.h"
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace hyalite {
+
+/// The unbiased estimate of the variance of the mean of a pixel's samples, per channel:
+///
+///     (sum x^2 - (sum x)^2 / n) / (n - 1) / n
+///
+/// with Bessel's correction. It takes samples for independent; low-discrepancy ones have less. NaN below two samples.
+/// The film's sums are float32: as little as 2^-24 of the square of the mean is beneath their rounding.
+[[nodiscard]] inline glm::dvec3 varianceOfMean(const layout::FilmPixel &pixel) {
+    if (pixel.sampleCount < 2)
+        return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    const double count = pixel.sampleCount;
+    const glm::dvec3 sum(pixel.sum);
+    const glm::dvec3 deviation = glm::dvec3(pixel.sumOfSquares) - sum * sum / count;
+    return glm::max(deviation, glm::dvec3(0.0)) / ((count - 1.0) * count);
+}
+
+struct Film {
+    Crop crop;
+    std::vector<layout::FilmPixel> pixels; ///< row by row from the top left
+
+    explicit Film(const Crop &region)
+        : crop(region),
+          pixels(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height())) {}
+
+    /// The mean of the samples of each pixel; black where there is none.
+    [[nodiscard]] Image toImage() const {
+        Image image(crop.width(), crop.height());
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            if (pixels[i].sampleCount > 0)
+                image.pixels()[i] = pixels[i].sum / static_cast<float>(pixels[i].sampleCount);
+        return image;
+    }
+};
+
+/// Row y of the crop, from 0 on. `film` must outlive it.
+[[nodiscard]] std::span<const layout::FilmPixel> rowOf(const Film &film, int y);
+
+/// The film as layers: "variance" RGB, of the mean of the samples, see varianceOfMean(), unless no pixel has one; and
+/// "samples", their number. `film` must outlive them.
+[[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
+
+/// Pixels of two films of one crop that differ in any bit.
+[[nodiscard]] std::size_t differingPixelCount(const Film &a, const Film &b);
+
+} // namespace hyalite

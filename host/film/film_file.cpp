@@ -1,0 +1,44 @@
+#include "host/film/film_file.h"
+
+#include "host/image/false_colour.h"
+#include "host/image/png.h"
+#include "host/image/tone_map.h"
+
+namespace hyalite {
+
+std::vector<float> testsPerSample(const Film &cost) {
+    const Image means = cost.toImage();
+    std::vector<float> tests;
+    tests.reserve(means.pixels().size());
+    for (const glm::vec3 &pixel : means.pixels())
+        tests.push_back(pixel.y + pixel.z);
+    return tests;
+}
+
+Drawing drawCost(const Film &cost) {
+    return falseColours(cost.crop.width(), cost.crop.height(), testsPerSample(cost),
+                        "box and triangle tests per sample");
+}
+
+Drawing drawFilm(const Film &film, const RenderSettings &settings) {
+    if (settings.integrator == Integrator::Cost)
+        return drawCost(film);
+    const Image image = film.toImage();
+    Drawing drawing;
+    drawing.width = image.width();
+    drawing.height = image.height();
+    drawing.rgb = toneMap(image, settings.exposureStops);
+    return drawing;
+}
+
+void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, const Picture &picture,
+               const RenderSettings &settings, ToneCurve tone) {
+    if (settings.integrator == Integrator::Cost && format == ImageFormat::Png) {
+        const Drawing drawing = drawCost(film);
+        writePng(file, drawing.width, drawing.height, drawing.rgb, picture.attributes);
+    } else {
+        writeImage(file, format, picture, settings.exposureStops, tone);
+    }
+}
+
+} // namespace hyalite

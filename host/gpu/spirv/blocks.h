@@ -1,0 +1,62 @@
+// The basic blocks of a SPIR-V module, and which of them are reached once its constants are known.
+//
+// Wegman and Zadeck, "Constant Propagation with Conditional Branches", TOPLAS 13(2), 1991, without loops, whose headers
+// are taken to know nothing. What is decided are selections with two ways (OpSelectionMerge and OpBranchConditional), and
+// not those in continue constructs: a loop goes back and ends as it did, and blocks stay structured (SPIR-V, section 2.11).
+#pragma once
+
+#include "host/gpu/spirv/constants.h"
+
+namespace hyalite::gpu {
+
+/// A label, instructions, and a terminator, which a merge instruction may precede.
+struct SpirvBlock {
+    std::size_t begin = 0; ///< its label, among the instructions
+    std::size_t end = 0;   ///< past its terminator
+    std::uint32_t label = 0;
+    std::uint32_t merge = 0;          ///< where the construct ends that it heads, or 0
+    std::uint32_t continueTarget = 0; ///< of the loop that it heads, or 0
+    std::uint32_t continuedLoop =
+        0; ///< the header of the innermost loop whose continue construct it is in, or 0
+    bool isReached = false;
+    std::uint32_t only =
+        0; ///< of the successors of a selection the one that is ever taken, where that is known; or 0
+    bool isPinned = false; ///< all its successors count, whatever is known
+};
+
+class SpirvBlocks {
+  public:
+    /// `known` are the constants, by id. All of them must outlive this.
+    SpirvBlocks(std::span<const SpirvInstruction> instructions, const std::vector<SpirvValue> &known);
+
+    [[nodiscard]] const SpirvBlock &at(std::uint32_t label) const { return blocks_[indexOf_[label]]; }
+
+    /// Whether control may go to `to` from the end of `from`, of which it is a successor in the module.
+    [[nodiscard]] bool isEdge(std::uint32_t from, std::uint32_t to) const;
+
+    /// Whether a module of what is reached has to have the block, if only as the target of a merge instruction.
+    [[nodiscard]] bool isNeeded(std::uint32_t label) const { return isNeeded_[label]; }
+
+  private:
+    SpirvBlock &blockAt(std::uint32_t label) { return blocks_[indexOf_[label]]; }
+    [[nodiscard]] const SpirvInstruction &terminatorOf(const SpirvBlock &block) const {
+        return instructions_[block.end - 1];
+    }
+    [[nodiscard]] std::vector<std::uint32_t> successors(const SpirvBlock &block) const;
+    [[nodiscard]] SpirvValue valueOfPhi(const SpirvBlock &block, std::span<const std::uint32_t> phi,
+                                        const std::vector<SpirvValue> &known) const;
+    void findBlocks();
+    void findContinueConstructs();
+    bool propagate();
+    bool pinSelectionsLeftOnConditions();
+    void unwrapSwitches();
+    void findNeededBlocks();
+
+    std::span<const SpirvInstruction> instructions_;
+    const std::vector<SpirvValue> &constants_;
+    std::vector<SpirvBlock> blocks_;
+    std::vector<std::size_t> indexOf_; // by label
+    std::vector<bool> isNeeded_;       // likewise
+};
+
+} // namespace hyalite::gpu

@@ -1,0 +1,33 @@
+// Our words in other tools: names of Vulkan objects and labels around commands, for RenderDoc, Nsight and the messages
+// of the validation layer.
+#pragma once
+
+#include "host/gpu/vk/instance.h"
+
+#include <cstdint>
+#include <string>
+
+namespace hyalite::gpu {
+
+/// Does nothing where VK_EXT_debug_utils is missing.
+class DebugUtils {
+  public:
+    DebugUtils() = default;
+    DebugUtils(const Instance &instance, VkDevice device);
+
+    template <class Object> void name(VkObjectType type, Object object, const std::string &text) const {
+        nameHandle(type, reinterpret_cast<std::uint64_t>(object), text);
+    }
+    void beginLabel(VkCommandBuffer commands, const std::string &text) const;
+    void endLabel(VkCommandBuffer commands) const;
+
+  private:
+    void nameHandle(VkObjectType type, std::uint64_t handle, const std::string &text) const;
+
+    VkDevice device_ = VK_NULL_HANDLE;
+    PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel_ = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT endLabel_ = nullptr;
+};
+
+} // namespace hyalite::gpu

@@ -1,0 +1,135 @@
+#include "host/gpu/vk/device.h"
+
+#include "host/base/error.h"
+#include "host/gpu/vk/check.h"
+#include "host/gpu/vk/physical_device.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace hyalite::gpu {
+
+Device::Device(const DeviceInfo &info, Transfers transfers)
+    : info_(info), isStagingPreferred_(transfers == Transfers::Staged || info.type == DeviceType::Discrete) {
+    const std::vector<VkPhysicalDevice> devices = instance_.physicalDevices();
+    if (info.index < 0 || static_cast<std::size_t>(info.index) >= devices.size())
+        throw Error(ExitCode::NoDevice, fmt::format("device {} is gone", info.name));
+    physical_ = devices[static_cast<std::size_t>(info.index)];
+
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+
+    const std::uint32_t family = findComputeQueueFamily(physical_);
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    create.queueCreateInfoCount = 1;
+    create.pQueueCreateInfos = &queue;
+    std::vector<const char *> extensions;
+    if (info.canRoundToNearestEven || info.canPreserveSignedZeroInfNan)
+        extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
+    if (info.hasCalibratedTimestamps)
+        extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+    create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    create.ppEnabledExtensionNames = extensions.data();
+    VkDevice device = VK_NULL_HANDLE;
+    check(vkCreateDevice(physical_, &create, nullptr, &device),
+          fmt::format("vkCreateDevice for {}", info.name));
+    device_ = DeviceHandle(NoParent{}, device);
+    vkGetDeviceQueue(device, family, 0, &queue_);
+
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = family;
+    VkCommandPool commandPool = VK_NULL_HANDLE;
+    check(vkCreateCommandPool(device, &pool, nullptr, &commandPool),
+          fmt::format("vkCreateCommandPool for {}", info.name));
+    commandPool_ = CommandPoolHandle(device, commandPool);
+
+    VkCommandBufferAllocateInfo allocate{};
+    allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocate.commandPool = commandPool;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    check(vkAllocateCommandBuffers(device, &allocate, &commandBuffer_),
+          fmt::format("vkAllocateCommandBuffers for {}", info.name));
+
+    VkFenceCreateInfo fenceInfo{};
+    fenceInfo.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkFence fence = VK_NULL_HANDLE;
+    check(vkCreateFence(device, &fenceInfo, nullptr, &fence), fmt::format("vkCreateFence for {}", info.name));
+    fence_ = FenceHandle(device, fence);
+
+    timestamps_ = Timestamps(instance_.get(), physical_, device, family, info.hasCalibratedTimestamps);
+    debugUtils_ = DebugUtils(instance_, device);
+    debugUtils_.name(VK_OBJECT_TYPE_DEVICE, device, "the device");
+    debugUtils_.name(VK_OBJECT_TYPE_QUEUE, queue_, "the queue");
+    debugUtils_.name(VK_OBJECT_TYPE_COMMAND_POOL, commandPool, "the command pool");
+    debugUtils_.name(VK_OBJECT_TYPE_COMMAND_BUFFER, commandBuffer_, "the command buffer");
+    debugUtils_.name(VK_OBJECT_TYPE_FENCE, fence, "the fence");
+}
+
+std::uint32_t Device::findMemoryType(std::uint32_t typeBits, VkMemoryPropertyFlags flags) const {
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+        if ((typeBits >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags)
+            return i;
+    return VK_MAX_MEMORY_TYPES;
+}
+
+bool Device::isMappable(std::uint32_t memoryType) const {
+    // What is not coherent would have to be flushed.
+    constexpr VkMemoryPropertyFlags wanted =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    return (memory_.memoryTypes[memoryType].propertyFlags & wanted) == wanted;
+}
+
+void Device::waitForFence(const std::string &action) {
+    // In slices that are counted, not by a clock: a program that is suspended for a while uses up one of them. No
+    // dispatch is meant to take a second, and a busy machine is given a hundred times that.
+    constexpr std::uint64_t sliceNanos = 1'000'000'000;
+    constexpr int mostSlices = 120;
+    const VkFence fence = fence_.get();
+    VkResult result = VK_TIMEOUT;
+    for (int slice = 0; slice < mostSlices && result == VK_TIMEOUT; ++slice)
+        result = vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, sliceNanos);
+    if (result == VK_SUCCESS)
+        return;
+    // A lost device has stopped. Otherwise what was submitted may still run, and use what would be destroyed next.
+    const bool isIdle = result == VK_ERROR_DEVICE_LOST ||
+                        (result != VK_TIMEOUT && vkDeviceWaitIdle(device_.get()) == VK_SUCCESS);
+    if (!isIdle) {
+        gpu::abandon(device_.get());
+        instance_.abandon();
+    }
+    check(result, fmt::format("vkWaitForFences for {}{}", action,
+                              result == VK_TIMEOUT ? fmt::format(", {} s", mostSlices) : ""));
+}
+
+void Device::submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record) {
+    VkCommandBufferBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commandBuffer_, &begin), "vkBeginCommandBuffer for " + action);
+    debugUtils_.beginLabel(commandBuffer_, action);
+    record(commandBuffer_);
+    debugUtils_.endLabel(commandBuffer_);
+    check(vkEndCommandBuffer(commandBuffer_), "vkEndCommandBuffer for " + action);
+
+    const VkFence fence = fence_.get();
+    check(vkResetFences(device_.get(), 1, &fence), "vkResetFences for " + action);
+    VkSubmitInfo submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commandBuffer_;
+    check(vkQueueSubmit(queue_, 1, &submit, fence), "vkQueueSubmit for " + action);
+    waitForFence(action);
+    instance_.throwOnValidationMessage();
+}
+
+} // namespace hyalite::gpu

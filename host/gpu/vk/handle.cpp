@@ -1,0 +1,26 @@
+#include "host/gpu/vk/handle.h"
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+namespace hyalite::gpu {
+
+namespace {
+
+std::mutex mutex;
+std::vector<VkDevice> abandoned; ///< as they are not destroyed, no other device gets the same handle
+
+} // namespace
+
+void abandon(VkDevice device) {
+    const std::lock_guard lock(mutex);
+    abandoned.push_back(device);
+}
+
+bool isAbandoned(VkDevice device) noexcept {
+    const std::lock_guard lock(mutex);
+    return std::find(abandoned.begin(), abandoned.end(), device) != abandoned.end();
+}
+
+} // namespace hyalite::gpu

@@ -1,0 +1,152 @@
+#include "host/gpu/vk/instance.h"
+
+#include "host/base/error.h"
+#include "host/gpu/vk/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace hyalite::gpu {
+
+namespace {
+
+constexpr const char *validationLayer = "VK_LAYER_KHRONOS_validation";
+
+bool isValidationWanted() {
+    const char *value = std::getenv("HYALITE_VALIDATION");
+    return value != nullptr && std::strcmp(value, "0") != 0 && std::strcmp(value, "") != 0;
+}
+
+bool isLayerPresent(const char *name) {
+    const std::string action = fmt::format("vkEnumerateInstanceLayerProperties for {}", name);
+    std::uint32_t count = 0;
+    check(vkEnumerateInstanceLayerProperties(&count, nullptr), action);
+    std::vector<VkLayerProperties> layers(count);
+    check(vkEnumerateInstanceLayerProperties(&count, layers.data()), action);
+    return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties &layer) {
+        return std::strcmp(layer.layerName, name) == 0;
+    });
+}
+
+/// Of the loader and the drivers together.
+bool isExtensionPresent(const char *name) {
+    const std::string action = fmt::format("vkEnumerateInstanceExtensionProperties for {}", name);
+    std::uint32_t count = 0;
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr), action);
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()), action);
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties &extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                           VkDebugUtilsMessageTypeFlagsEXT,
+                                           const VkDebugUtilsMessengerCallbackDataEXT *data, void *user) {
+    std::string &first = *static_cast<std::string *>(user);
+    if (first.empty())
+        first = data->pMessage != nullptr ? data->pMessage : "a message without text";
+    fmt::print(stderr, "validation: {}\n", data->pMessage != nullptr ? data->pMessage : "");
+    return VK_FALSE;
+}
+
+} // namespace
+
+Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
+    const bool isValidated = isValidationWanted();
+    if (isValidated && !isLayerPresent(validationLayer))
+        throw Error(ExitCode::NoDevice,
+                    fmt::format("HYALITE_VALIDATION is set, but {} is not installed: install "
+                                "the package vulkan-validationlayers",
+                                validationLayer));
+    VkApplicationInfo application{};
+    application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+    application.pApplicationName = "hyalite";
+    application.apiVersion = VK_API_VERSION_1_1;
+
+    VkDebugUtilsMessengerCreateInfoEXT messenger{};
+    messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    messenger.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+    messenger.pfnUserCallback = keepMessage;
+    messenger.pUserData = firstMessage_.get();
+
+    const VkValidationFeatureEnableEXT synchronisation =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    VkValidationFeaturesEXT features{};
+    features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+    features.pNext = &messenger;
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = &synchronisation;
+
+    const char *const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    VkInstanceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+    info.pApplicationInfo = &application;
+    if (isValidated) {
+        info.pNext = &features;
+        info.enabledLayerCount = 1;
+        info.ppEnabledLayerNames = &validationLayer;
+    }
+    hasDebugUtils_ = isValidated || isExtensionPresent(extension);
+    if (hasDebugUtils_) {
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &extension;
+    }
+    VkInstance instance = VK_NULL_HANDLE;
+    const VkResult result = vkCreateInstance(&info, nullptr, &instance);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+        throw Error(ExitCode::NoDevice,
+                    "no Vulkan driver is installed: install your GPU's driver, or the package "
+                    "mesa-vulkan-drivers, whose lavapipe renders on any CPU");
+    check(result, "vkCreateInstance for hyalite");
+    handle_ = InstanceHandle(NoParent{}, instance);
+    if (isValidated) {
+        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+        check(create(instance, &messenger, nullptr, &messenger_),
+              "vkCreateDebugUtilsMessengerEXT for messages of the validation layer");
+    }
+}
+
+Instance::~Instance() {
+    if (messenger_ == VK_NULL_HANDLE)
+        return;
+    const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(handle_.get(), "vkDestroyDebugUtilsMessengerEXT"));
+    destroy(handle_.get(), messenger_, nullptr);
+}
+
+void Instance::abandon() {
+    handle_.release();
+    messenger_ = VK_NULL_HANDLE;
+    // The layer may still write to it, until the very end: it is never freed, but not lost either.
+    static std::vector<std::unique_ptr<std::string>> &left = *new std::vector<std::unique_ptr<std::string>>;
+    static std::mutex leftMutex;
+    const std::lock_guard lock(leftMutex);
+    left.push_back(std::exchange(firstMessage_, std::make_unique<std::string>()));
+}
+
+std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
+    std::uint32_t count = 0;
+    const char *const action = "vkEnumeratePhysicalDevices for the list of devices";
+    check(vkEnumeratePhysicalDevices(handle_.get(), &count, nullptr), action);
+    std::vector<VkPhysicalDevice> devices(count);
+    check(vkEnumeratePhysicalDevices(handle_.get(), &count, devices.data()), action);
+    devices.resize(count);
+    return devices;
+}
+
+void Instance::throwOnValidationMessage() const {
+    if (!firstMessage_->empty())
+        throw Error(ExitCode::DeviceLost, "the validation layer objects: " + *firstMessage_);
+}
+
+} // namespace hyalite::gpu

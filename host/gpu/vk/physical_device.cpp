@@ -1,0 +1,158 @@
+#include "host/gpu/vk/physical_device.h"
+
+#include "host/gpu/arithmetic.h"
+#include "host/gpu/vk/check.h"
+#include "shaders/layout/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace hyalite::gpu {
+
+namespace {
+
+constexpr std::uint32_t storageBuffersNeeded = layout::bindingCount - layout::bindingMaterials;
+constexpr std::uint32_t workgroupInvocationsNeeded = 64;
+
+std::string versionText(std::uint32_t version) {
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
+}
+
+DeviceType deviceType(VkPhysicalDeviceType type) {
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return DeviceType::Discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return DeviceType::Integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return DeviceType::Virtual;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return DeviceType::Cpu;
+    default:
+        return DeviceType::Other;
+    }
+}
+
+/// A device of which this cannot be learnt is none that lacks the extension: that would change what is rendered.
+bool hasExtension(VkPhysicalDevice device, const char *name) {
+    const std::string action = fmt::format("vkEnumerateDeviceExtensionProperties for {}", name);
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), action);
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()), action);
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties &extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+std::string findRejection(VkPhysicalDevice device, const VkPhysicalDeviceProperties &properties) {
+    if (properties.apiVersion < VK_API_VERSION_1_1)
+        return fmt::format("offers Vulkan {}, 1.1 is needed", versionText(properties.apiVersion));
+    if (findComputeQueueFamily(device) == VK_QUEUE_FAMILY_IGNORED)
+        return "has no compute queue";
+    const VkPhysicalDeviceLimits &limits = properties.limits;
+    if (limits.maxPerStageDescriptorStorageBuffers < storageBuffersNeeded)
+        return fmt::format("allows {} storage buffers in a kernel, {} are needed",
+                           limits.maxPerStageDescriptorStorageBuffers, storageBuffersNeeded);
+    if (limits.maxComputeWorkGroupInvocations < workgroupInvocationsNeeded)
+        return fmt::format("allows {} invocations in a workgroup, {} are needed",
+                           limits.maxComputeWorkGroupInvocations, workgroupInvocationsNeeded);
+    return {};
+}
+
+} // namespace
+
+std::uint32_t findComputeQueueFamily(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    for (std::uint32_t i = 0; i < count; ++i)
+        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].queueCount > 0)
+            return i;
+    return VK_QUEUE_FAMILY_IGNORED;
+}
+
+DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device, &properties);
+    DeviceInfo info;
+    info.name = properties.deviceName;
+    info.type = deviceType(properties.deviceType);
+    info.apiVersion = versionText(properties.apiVersion);
+    info.driver = fmt::format("driver {:#x}", properties.driverVersion);
+    info.vendorId = properties.vendorID;
+    info.deviceId = properties.deviceID;
+    info.maxWorkgroupInvocations = properties.limits.maxComputeWorkGroupInvocations;
+    info.maxWorkgroupCount = properties.limits.maxComputeWorkGroupCount[0];
+    info.maxStorageBufferBytes = properties.limits.maxStorageBufferRange;
+    info.maxTexelBufferElements = properties.limits.maxTexelBufferElements;
+    info.maxStorageBuffersPerStage = properties.limits.maxPerStageDescriptorStorageBuffers;
+    info.rejection = findRejection(device, properties);
+
+    VkPhysicalDeviceMemoryProperties memory{};
+    vkGetPhysicalDeviceMemoryProperties(device, &memory);
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
+            info.deviceMemoryBytes =
+                std::max<std::uint64_t>(info.deviceMemoryBytes, memory.memoryHeaps[i].size);
+
+    const std::uint32_t family = findComputeQueueFamily(device);
+    if (family != VK_QUEUE_FAMILY_IGNORED) {
+        std::uint32_t count = 0;
+        vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+        std::vector<VkQueueFamilyProperties> families(count);
+        vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+        info.hasTimestamps = families[family].timestampValidBits > 0;
+    }
+    info.hasCalibratedTimestamps = hasExtension(device, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+    if (properties.apiVersion < VK_API_VERSION_1_1)
+        return info;
+
+    // Structures of extensions that a device lacks must stay out of the chain.
+    VkPhysicalDeviceSubgroupProperties subgroup{};
+    subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceFloatControlsProperties floats{};
+    floats.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES;
+    const bool is12 = properties.apiVersion >= VK_API_VERSION_1_2;
+    const bool hasDriver = is12 || hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
+    // We ask for Vulkan 1.1, where float controls are an extension, whatever the device knows beyond.
+    const bool hasFloats = hasExtension(device, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
+    void *next = nullptr;
+    if (hasFloats) {
+        floats.pNext = next;
+        next = &floats;
+    }
+    if (hasDriver) {
+        driver.pNext = next;
+        next = &driver;
+    }
+    subgroup.pNext = next;
+    VkPhysicalDeviceProperties2 all{};
+    all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    all.pNext = &subgroup;
+    vkGetPhysicalDeviceProperties2(device, &all);
+    info.subgroupSize = subgroup.subgroupSize;
+    constexpr VkSubgroupFeatureFlags operations =
+        VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+    if (info.isUsable() && ((subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0 ||
+                            (subgroup.supportedOperations & operations) != operations))
+        info.rejection = "offers no subgroup shuffles in compute kernels, which ours need";
+    if (hasDriver) {
+        info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+        info.driverId = static_cast<std::uint32_t>(driver.driverID);
+        info.hasExactDivisionListed = isExactDivisionListed(info.driverId);
+    }
+    if (hasFloats) {
+        info.canRoundToNearestEven = floats.shaderRoundingModeRTEFloat32 == VK_TRUE;
+        info.canPreserveSignedZeroInfNan = floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE;
+    }
+    return info;
+}
+
+} // namespace hyalite::gpu

@@ -1,0 +1,39 @@
+// A compute pipeline: embedded SPIR-V, specialised, and the kinds of its bindings.
+#pragma once
+
+#include "host/gpu/vk/buffer.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace hyalite::gpu {
+
+/// What Vulkan takes a buffer of this use for.
+[[nodiscard]] VkDescriptorType descriptorTypeOf(BufferUse use);
+
+class Pipeline {
+  public:
+    /// `constants` are the specialization constants 0, 1, ..., and `bindings` the uses of the buffers at bindings 0,
+    /// 1, ... of set 0. The float controls that the device offers are added to `spirv`. Throws as `check` does. The
+    /// device may be in use elsewhere meanwhile.
+    Pipeline(Device &device, std::string name, std::span<const std::uint32_t> spirv,
+             std::span<const std::uint32_t> constants, std::span<const BufferUse> bindings);
+
+    [[nodiscard]] const std::string &name() const { return name_; }
+    [[nodiscard]] VkPipeline get() const { return pipeline_.get(); }
+    [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
+    [[nodiscard]] VkDescriptorSetLayout setLayout() const { return setLayout_.get(); }
+
+  private:
+    void makeLayouts(Device &device, std::span<const BufferUse> bindings);
+    void makePipeline(Device &device, std::span<const std::uint32_t> spirv,
+                      std::span<const std::uint32_t> constants);
+
+    std::string name_;
+    SetLayoutHandle setLayout_;
+    PipelineLayoutHandle layout_;
+    PipelineHandle pipeline_;
+};
+
+} // namespace hyalite::gpu

@@ -1,0 +1,17 @@
+// Parts of an image.
+#pragma once
+
+namespace hyalite {
+
+/// A rectangle of pixels of the whole image, half open: x0 <= x < x1, y0 <= y < y1.
+struct Crop {
+    int x0 = 0;
+    int x1 = 0;
+    int y0 = 0;
+    int y1 = 0;
+
+    [[nodiscard]] int width() const { return x1 - x0; }
+    [[nodiscard]] int height() const { return y1 - y0; }
+};
+
+} // namespace hyalite

@@ -1,0 +1,77 @@
+#include "host/import/assets.h"
+
+#include "host/base/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <set>
+
+namespace hyalite {
+namespace {
+
+/// "; the shipped scenes are cat, spheres"
+std::string listOfScenes() {
+    const std::vector<std::string> names = availableScenes();
+    if (names.empty())
+        return "; no shipped scene was found: set HYALITE_ASSETS to the folder that holds scenes/";
+    return fmt::format("; the shipped scenes are {}", fmt::join(names, ", "));
+}
+
+} // namespace
+
+std::vector<std::filesystem::path> assetFolders() {
+    std::vector<std::filesystem::path> folders;
+    if (const char *folder = std::getenv("HYALITE_ASSETS"); folder != nullptr && *folder != '\0')
+        folders.emplace_back(folder);
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe", error);
+    if (!error)
+        folders.push_back(program.parent_path().parent_path() / "share" / "hyalite");
+    return folders;
+}
+
+std::vector<std::string> availableScenes() {
+    std::set<std::string> names;
+    for (const std::filesystem::path &folder : assetFolders()) {
+        std::error_code error; // a folder that is missing or may not be read holds no scenes
+        for (std::filesystem::directory_iterator entry(folder / "scenes", error), end; !error && entry != end;
+             entry.increment(error))
+            if (entry->path().extension() == ".json")
+                names.insert(entry->path().stem().string());
+    }
+    return {names.begin(), names.end()};
+}
+
+std::filesystem::path resolveScene(const std::string &argument) {
+    if (hasExtension(argument, ".json") || hasExtension(argument, ".obj"))
+        return argument;
+    if (argument.empty() || argument.find_first_of("./") != std::string::npos)
+        throw Error(
+            ExitCode::BadInput,
+            fmt::format("\"{}\" is no scene: give a file that ends in .json or .obj, or the name of a "
+                        "shipped scene{}",
+                        argument, listOfScenes()));
+    std::vector<std::string> lookedAt;
+    for (const std::filesystem::path &folder : assetFolders()) {
+        const std::filesystem::path file = folder / "scenes" / (argument + ".json");
+        std::error_code error;
+        if (std::filesystem::is_regular_file(file, error))
+            return file;
+        lookedAt.push_back(file.string());
+    }
+    throw Error(ExitCode::BadInput, fmt::format("no scene is named \"{}\": looked for {}{}", argument,
+                                                fmt::join(lookedAt, " and "), listOfScenes()));
+}
+
+bool hasExtension(const std::filesystem::path &file, std::string_view extension) {
+    std::string found = file.extension().string();
+    std::transform(found.begin(), found.end(), found.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return found == extension;
+}
+
+} // namespace hyalite

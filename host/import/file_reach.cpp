@@ -1,0 +1,62 @@
+#include "host/import/file_reach.h"
+
+#include "host/base/json_document.h"
+#include "host/import/assets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+namespace hyalite {
+namespace {
+
+constexpr std::size_t maxShownPathBytes = 1000;
+
+std::string shown(const std::filesystem::path &path) { return printable(path.string(), maxShownPathBytes); }
+
+/// Both canonical. A path lies within itself.
+bool isWithin(const std::filesystem::path &path, const std::filesystem::path &folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+} // namespace
+
+FileReach::FileReach(const std::filesystem::path &sceneFile,
+                     std::span<const std::filesystem::path> allowedPaths)
+    : folder_(sceneFile.parent_path()) {
+    const auto add = [&](const std::filesystem::path &path) {
+        std::error_code error; // what is not there has no files
+        const std::filesystem::path canonical = std::filesystem::canonical(path, error);
+        if (!error)
+            reachable_.push_back(canonical);
+    };
+    add(folder_.empty() ? "." : folder_);
+    std::ranges::for_each(assetFolders(), add);
+    std::ranges::for_each(allowedPaths, add);
+}
+
+std::filesystem::path FileReach::resolve(const JsonNode &node) const {
+    if (node.text().empty())
+        node.fail("found an empty name; allowed: that of a file");
+    const std::filesystem::path file = folder_ / node.text();
+    std::error_code error;
+    const std::filesystem::path absolute = std::filesystem::absolute(file, error);
+    if (error)
+        node.fail(fmt::format("{}: {}", shown(file), error.message()));
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(absolute, error);
+    if (error)
+        node.fail(fmt::format("{}: {}", shown(file), error.message()));
+    const bool isReachable =
+        std::ranges::any_of(reachable_, [&](const auto &folder) { return isWithin(canonical, folder); });
+    if (!isReachable)
+        node.fail(fmt::format(
+            "{} leads to {}; allowed: files in the scene's folder {}, in the shipped assets, and where "
+            "--allow-path FOLDER says",
+            shown(file), shown(canonical), shown(reachable_.front())));
+    if (!std::filesystem::exists(canonical, error))
+        node.fail(fmt::format("{}: there is no such file", shown(file)));
+    return file;
+}
+
+} // namespace hyalite

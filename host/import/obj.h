@@ -1,0 +1,67 @@
+// Reads Wavefront OBJ geometry: the only user of tinyobjloader.
+#pragma once
+
+#include "host/import/texture_library.h"
+#include "host/scene/scene.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// Object space to world space: scale, then rotate about x, y and z in that order, then translate.
+struct MeshTransform {
+    double scale = 1.0;            ///< not 0
+    glm::dvec3 rotateDegrees{0.0}; ///< right-handed, about the fixed axes x, y, z in that order
+    glm::dvec3 translate{0.0};
+};
+
+/// What reading a mesh met, for `hyalite inspect` and for warnings.
+struct MeshReport {
+    std::size_t faceCount = 0;    ///< `f` statements
+    std::size_t polygonCount = 0; ///< of those, with more than three corners
+
+    /// Triangles that were dropped: two equal corner positions, or exactly no area in double arithmetic.
+    std::size_t degenerateTriangleCount = 0;
+
+    /// Triangles that fell back to the geometric normal though a vn was given: one of the three is zero or not
+    /// finite, or the face has normals at some of its corners only.
+    std::size_t lostNormalCount = 0;
+
+    std::size_t unknownMaterialCount = 0;       ///< `usemtl` with a name that no library of the file has
+    std::vector<std::filesystem::path> files{}; ///< what was read: the mesh and its libraries
+    std::vector<std::string> lostLibraries{};   ///< `mtllib` that is not there, or not in the mesh's folder
+    std::size_t uvLessCount = 0;          ///< triangles without texture coordinates, where others have some
+    std::vector<std::string> warnings{};  ///< what of its materials was passed over, though it would be seen
+    std::size_t unusedStatementCount = 0; ///< `l`, `p`, unknown keywords: skipped
+};
+
+/// Told which share of a file is read, in [0, 1], ever so often: about every 4 MiB.
+using OnReading = std::function<void(double share)>;
+
+struct ObjMesh {
+    TriangleMesh mesh; ///< in world space; materialIndex is left 0
+    /// What its material libraries say, where they are read; mesh.triangleMaterials are indices from 1 on into these,
+    /// and 0 for triangles without a material. Both are empty where no triangle has one.
+    std::vector<Material> materials{};
+    MeshReport report;
+};
+
+/// Loads all faces of all groups of an OBJ file as one mesh. Faces may be v, v/vt, v//vn or v/vt/vn, with
+/// negative indices, and polygons of up to 65,536 corners, concave ones too (triangulate.h). Triangles have texture
+/// coordinates where all three corners have some that the file defines. Materials are read (mtl.h), where `textures`
+/// takes their textures, from libraries in the mesh's folder or below. Coordinates are transformed in double and
+/// rounded to float once. Normals are transformed with the mesh and normalised; a mesh turned inside out by a negative
+/// scale keeps its outward winding. Lines may end in LF, CR or CRLF, go on after a backslash, and hold 16 MiB; the file
+/// 4 GiB. Memory stays below 64 MiB + 64 times the file's size.
+///
+/// Throws Error{BadInput}, with file and line, for what is no regular file or cannot be read, indices out of
+/// range, numbers that are no finite floats, coordinates beyond 1e15 after the transform, and faces with fewer
+/// than three corners; Error{BadInput} when there is no triangle at all.
+[[nodiscard]] ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform = {},
+                              const OnReading &onReading = {}, TextureLibrary *textures = nullptr);
+
+} // namespace hyalite

@@ -1,0 +1,75 @@
+// Cuts a text file into logical lines, in bounded memory: any line ends, joined continuations, no byte order mark.
+#pragma once
+
+#include "host/base/input_file.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyalite {
+
+/// Throws Error{BadInput} "file:line: message".
+[[noreturn]] void failAtLine(const std::string &file, std::size_t line, std::string_view message);
+
+/// A piece of the input for a message: in quotes, cut to 40 characters, nothing unprintable.
+[[nodiscard]] std::string quoteInput(std::string_view text);
+
+class ObjLines {
+  public:
+    static constexpr std::size_t maxFileBytes = 0xFFFF'FFFF; ///< so that 32 bits count anything in the file
+    static constexpr std::size_t maxLineBytes = std::size_t{1} << 24;
+
+    /// Throws Error{BadInput} as InputFile does.
+    explicit ObjLines(const std::filesystem::path &path);
+
+    /// The next logical line without its line end, which is LF, CR or CRLF. Lines that end in a backslash are
+    /// joined with the next one, except in comments. The characters may be written to, and so may the one after
+    /// the last; they live until the next call. Empty at the end of the file. Throws Error{BadInput} for a line
+    /// or a file that is too long, or that cannot be read.
+    [[nodiscard]] std::optional<std::span<char>> next();
+
+    /// What follows, from the beginning of a logical line on, without being taken. A zero stands behind the last
+    /// character that is in memory, wherever that is.
+    [[nodiscard]] const char *peek() const { return buffer.data() + scan; }
+    [[nodiscard]] std::size_t peekedLineNumber() const { return nextLine; }
+
+    /// Takes one line of what peek() shows, with its line end, so that `nextBegin` follows.
+    void take(const char *nextBegin) {
+        scan = static_cast<std::size_t>(nextBegin - buffer.data());
+        ++nextLine;
+    }
+
+    /// Where the line that next() gave last begins, counted from 1.
+    [[nodiscard]] std::size_t lineNumber() const { return line; }
+
+    [[nodiscard]] const std::string &fileName() const { return name; }
+
+    [[nodiscard]] std::size_t bytesRead() const { return fileBytes; }
+
+    /// In [0, 1].
+    [[nodiscard]] double shareRead() const;
+
+    /// Throws an Error about the line that next() gave last.
+    [[noreturn]] void fail(std::string_view message) const { failAtLine(name, line, message); }
+
+  private:
+    bool refill();
+    void skipLineFeed();
+
+    InputFile file;
+    std::string name;
+    std::vector<char> buffer;
+    std::size_t lineBegin = 0; ///< in the buffer
+    std::size_t scan = 0;      ///< first character of the line that has not been looked at
+    std::size_t filled = 0;    ///< characters in the buffer, which has room for one more
+    std::size_t fileBytes = 0; ///< read so far
+    std::size_t line = 0;
+    std::size_t nextLine = 1;
+};
+
+} // namespace hyalite

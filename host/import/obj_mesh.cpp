@@ -1,0 +1,259 @@
+#include "host/import/obj_mesh.h"
+
+#include "host/base/error.h"
+#include "host/import/obj_lines.h"
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+constexpr double maxCoordinate = 1e15;
+constexpr glm::vec3 lostNormal(0.0f);
+
+struct SinCos {
+    double sine, cosine;
+};
+
+// Exact for quarter turns, so that they keep the bits of the coordinates.
+SinCos sinCosDegrees(double degrees) {
+    const double turn = std::remainder(degrees, 360.0);
+    if (turn == 0.0)
+        return {0.0, 1.0};
+    if (std::abs(turn) == 90.0)
+        return {turn / 90.0, 0.0};
+    if (std::abs(turn) == 180.0)
+        return {0.0, -1.0};
+    const double radians = turn * (std::numbers::pi / 180.0);
+    return {std::sin(radians), std::cos(radians)};
+}
+
+// Rz Ry Rx: x turns first.
+glm::dmat3 rotationMatrix(const glm::dvec3 &degrees) {
+    const auto [sx, cx] = sinCosDegrees(degrees.x);
+    const auto [sy, cy] = sinCosDegrees(degrees.y);
+    const auto [sz, cz] = sinCosDegrees(degrees.z);
+    const glm::dmat3 aboutX(1.0, 0.0, 0.0, 0.0, cx, sx, 0.0, -sx, cx); // column after column
+    const glm::dmat3 aboutY(cy, 0.0, -sy, 0.0, 1.0, 0.0, sy, 0.0, cy);
+    const glm::dmat3 aboutZ(cz, sz, 0.0, -sz, cz, 0.0, 0.0, 0.0, 1.0);
+    return aboutZ * aboutY * aboutX;
+}
+
+double largestMagnitude(const glm::dvec3 &v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+// Unlike std::to_string it is short, and does not ask the locale.
+std::string decimal(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9).ptr};
+}
+
+std::string describe(const glm::dvec3 &v) {
+    return "(" + decimal(v.x) + ", " + decimal(v.y) + ", " + decimal(v.z) + ")";
+}
+
+// Two equal corners, or corners on one line as far as double arithmetic can tell.
+bool isDegenerate(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c) {
+    const glm::dvec3 u = b - a;
+    const glm::dvec3 v = c - a;
+    return u.y * v.z == u.z * v.y && u.z * v.x == u.x * v.z && u.x * v.y == u.y * v.x;
+}
+
+} // namespace
+
+ObjMeshBuilder::ObjMeshBuilder(std::string file, const MeshTransform &transform)
+    : rotation(rotationMatrix(transform.rotateDegrees)), scale(transform.scale),
+      translate(transform.translate) {
+    assert(transform.scale != 0.0);
+    result.mesh.name = std::move(file);
+}
+
+void ObjMeshBuilder::addPosition(const glm::dvec3 &positionObject, std::size_t line) {
+    constexpr double maxFloat = std::numeric_limits<float>::max();
+    // written so that a NaN fails, too
+    const auto isWithin = [](const glm::dvec3 &v, double limit) {
+        return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+    };
+    if (!isWithin(positionObject, maxFloat))
+        failAtLine(result.mesh.name, line,
+                   "v " + describe(positionObject) + " is no finite float; allowed are magnitudes up to " +
+                       decimal(maxFloat));
+    const glm::dvec3 world = rotation * (scale * positionObject) + translate;
+    if (!isWithin(world, maxCoordinate))
+        failAtLine(result.mesh.name, line,
+                   "v is at " + describe(world) + " after the transform; allowed are magnitudes up to 1e15");
+    result.mesh.positions.emplace_back(world);
+}
+
+// A uniform scale leaves its sign alone in the inverse transpose of the transform: (s R)^-T = R / s.
+void ObjMeshBuilder::addNormal(const glm::dvec3 &normalObject) {
+    const double size = largestMagnitude(normalObject);
+    glm::vec3 normal = lostNormal;
+    if (size > 0.0 && std::isfinite(normalObject.x + normalObject.y + normalObject.z)) {
+        const glm::dvec3 turned = rotation * (normalObject / (scale < 0.0 ? -size : size));
+        const double length =
+            std::sqrt(turned.x * turned.x + turned.y * turned.y + turned.z * turned.z); // in [1, sqrt 3]
+        normal = glm::vec3(turned / length);
+    }
+    result.mesh.normals.push_back(normal);
+}
+
+void ObjMeshBuilder::addUv(const glm::dvec2 &uv) {
+    const auto finite = [](double x) {
+        return std::abs(x) <= double{std::numeric_limits<float>::max()} ? static_cast<float>(x) : 0.0f;
+    };
+    result.mesh.uvs.emplace_back(finite(uv.x), finite(uv.y));
+}
+
+void ObjMeshBuilder::setMaterial(std::uint32_t index) {
+    material = index;
+    if (!hasMaterials && index != 0) {
+        hasMaterials = true;
+        result.mesh.triangleMaterials.assign(result.mesh.triangles.size(), 0);
+    }
+}
+
+void ObjMeshBuilder::addFace(std::span<const ObjCorner> corners, std::size_t line) {
+    ++result.report.faceCount;
+    face.clear();
+    bool isCuttable = waitingFaces.empty();
+    for (const ObjCorner &corner : corners) {
+        Corner &added =
+            face.emplace_back(Corner{resolve(corner.position, result.mesh.positions.size(), "vertex", line),
+                                     MeshTriangle::noNormal, TriangleMesh::noUv});
+        if (corner.normal != 0)
+            added.normal = resolve(corner.normal, result.mesh.normals.size(), "normal", line);
+        if (corner.uv > 0)
+            added.uv = static_cast<std::uint32_t>(corner.uv) - 1;
+        else if (const auto back = static_cast<std::size_t>(-std::int64_t{corner.uv});
+                 back > 0 && back <= result.mesh.uvs.size())
+            added.uv = static_cast<std::uint32_t>(result.mesh.uvs.size() - back);
+        isCuttable = isCuttable && isDefined(added) &&
+                     (added.uv == TriangleMesh::noUv || added.uv < result.mesh.uvs.size());
+    }
+    if (isCuttable) {
+        cutFace(face);
+        return;
+    }
+    waitingFaces.push_back(
+        {static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(waitingCorners.size()), material});
+    waitingCorners.insert(waitingCorners.end(), face.begin(), face.end());
+}
+
+std::uint32_t ObjMeshBuilder::resolve(std::int32_t index, std::size_t count, const char *what,
+                                      std::size_t line) const {
+    if (index > 0)
+        return static_cast<std::uint32_t>(index) - 1;
+    const std::int64_t fromStart = static_cast<std::int64_t>(count) + index;
+    if (index == 0 || fromStart < 0)
+        failAtLine(result.mesh.name, line,
+                   std::string("the face has the ") + what + " index " + std::to_string(index) + "; " +
+                       std::to_string(count) + " are defined before it");
+    return static_cast<std::uint32_t>(fromStart);
+}
+
+bool ObjMeshBuilder::isDefined(const Corner &corner) const {
+    return corner.position < result.mesh.positions.size() &&
+           (corner.normal == MeshTriangle::noNormal || corner.normal < result.mesh.normals.size());
+}
+
+void ObjMeshBuilder::requireDefined(const Corner &corner, std::size_t line) const {
+    if (isDefined(corner))
+        return;
+    const bool isVertex = corner.position >= result.mesh.positions.size();
+    const std::uint32_t index = isVertex ? corner.position : corner.normal;
+    const std::size_t count = isVertex ? result.mesh.positions.size() : result.mesh.normals.size();
+    failAtLine(result.mesh.name, line,
+               std::string("the face has the ") + (isVertex ? "vertex" : "normal") + " index " +
+                   std::to_string(index + 1) + "; the file has " + std::to_string(count));
+}
+
+void ObjMeshBuilder::cutFace(std::span<const Corner> corners) {
+    FaceNormals normals{true, false};
+    for (const Corner &corner : corners) {
+        const bool hasNormal = corner.normal != MeshTriangle::noNormal;
+        normals.all = normals.all && hasNormal;
+        normals.any = normals.any || hasNormal;
+    }
+    if (corners.size() == 3) {
+        addTriangle(corners[0], corners[1], corners[2], normals);
+        return;
+    }
+    ++result.report.polygonCount;
+    polygon.clear();
+    for (const Corner &corner : corners)
+        polygon.push_back(result.mesh.positions[corner.position]);
+    for (const glm::uvec3 &part : triangulator.triangulate(polygon))
+        addTriangle(corners[part.x], corners[part.y], corners[part.z], normals);
+}
+
+void ObjMeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals) {
+    const std::vector<glm::vec3> &at = result.mesh.positions;
+    if (isDegenerate(at[a.position], at[b.position], at[c.position])) {
+        ++result.report.degenerateTriangleCount;
+        return;
+    }
+    MeshTriangle triangle{{a.position, b.position, c.position}, glm::uvec3(MeshTriangle::noNormal)};
+    if (normals.all)
+        triangle.normals = {a.normal, b.normal, c.normal};
+    bool isLost = normals.any && !normals.all;
+    for (int i = 0; i < 3 && normals.all; ++i)
+        isLost = isLost || result.mesh.normals[triangle.normals[i]] == lostNormal;
+    if (isLost) {
+        triangle.normals = glm::uvec3(MeshTriangle::noNormal);
+        ++result.report.lostNormalCount;
+    }
+    glm::uvec3 uvs(a.uv, b.uv, c.uv);
+    if (scale < 0.0) { // the mesh is turned inside out: turn the winding back
+        std::swap(triangle.positions.y, triangle.positions.z);
+        std::swap(triangle.normals.y, triangle.normals.z);
+        std::swap(uvs.y, uvs.z);
+    }
+    addTriangleUvs(uvs);
+    result.mesh.triangles.push_back(triangle);
+    if (hasMaterials)
+        result.mesh.triangleMaterials.push_back(material);
+}
+
+void ObjMeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
+    const bool hasAll =
+        uvs.x < result.mesh.uvs.size() && uvs.y < result.mesh.uvs.size() && uvs.z < result.mesh.uvs.size();
+    if (hasAll && result.mesh.triangleUvs.empty())
+        result.mesh.triangleUvs.assign(result.mesh.triangles.size(), glm::uvec3(TriangleMesh::noUv));
+    result.report.uvLessCount += hasAll ? 0 : 1;
+    if (hasAll || !result.mesh.triangleUvs.empty())
+        result.mesh.triangleUvs.push_back(hasAll ? uvs : glm::uvec3(TriangleMesh::noUv));
+}
+
+ObjMesh ObjMeshBuilder::finish() {
+    const MeshReport &report = result.report;
+    for (std::size_t i = 0; i < waitingFaces.size(); ++i) {
+        const std::size_t begin = waitingFaces[i].cornerBegin;
+        const std::size_t end =
+            i + 1 < waitingFaces.size() ? waitingFaces[i + 1].cornerBegin : waitingCorners.size();
+        const std::span<const Corner> corners(waitingCorners.data() + begin, end - begin);
+        for (const Corner &corner : corners)
+            requireDefined(corner, waitingFaces[i].line);
+        material = waitingFaces[i].material;
+        cutFace(corners);
+    }
+    if (result.mesh.triangles.empty())
+        throw Error(ExitCode::BadInput, result.mesh.name + ": no triangle in " +
+                                            std::to_string(report.faceCount) + " faces (" +
+                                            std::to_string(report.degenerateTriangleCount) +
+                                            " dropped for having no area); at least one is needed");
+    // Lost normals are used by no triangle; what is left in their place is a unit vector all the same.
+    std::replace(result.mesh.normals.begin(), result.mesh.normals.end(), lostNormal,
+                 glm::vec3(0.0f, 0.0f, 1.0f));
+    return std::move(result);
+}
+
+} // namespace hyalite

@@ -1,0 +1,162 @@
+#include "host/import/obj_plain.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+namespace hyalite {
+
+namespace {
+
+// Every scan stops at the zero behind the last character, as it stops at any other that it does not expect.
+bool isBlank(char c) { return c == ' ' || c == '\t'; }
+bool isDigit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
+bool endsToken(char c) { return isBlank(c) || c == '\n' || c == '\r'; }
+
+const char *skipBlanks(const char *at) {
+    while (isBlank(*at))
+        ++at;
+    return at;
+}
+
+// Past the LF or CRLF at `at`.
+const char *skipLineEnd(const char *at) {
+    if (*at == '\r')
+        ++at;
+    return *at == '\n' ? at + 1 : nullptr;
+}
+
+// Past the line end behind text that says nothing.
+const char *skipToNextLine(const char *at) {
+    while ((*at >= ' ' && *at != '\\') || *at == '\t')
+        ++at;
+    return skipLineEnd(at);
+}
+
+// What follows the e of a number, whose digits before it are `sum`.
+const char *readExponent(const char *at, double &sum) {
+    const bool isNegative = *at == '-';
+    if (isNegative || *at == '+')
+        ++at;
+    const char *const digits = at;
+    int exponent = 0;
+    for (; isDigit(*at) && at - digits < 4; ++at)
+        exponent = exponent * 10 + (*at - '0');
+    if (at == digits || at - digits > 3)
+        return nullptr;
+    if (isNegative)
+        exponent = -exponent;
+    if (exponent != 0)
+        sum = std::ldexp(sum * std::pow(5.0, exponent), exponent);
+    return at;
+}
+
+// One number, after blanks: [-] digits [. digits] [e [sign] 1 to 3 digits], of at most 128 characters. Returns where it
+// ends. Sums up the digits as tinyobjloader does, to the same bits.
+const char *readNumber(const char *at, double &value) {
+    constexpr std::ptrdiff_t maxCharacters = 128;
+    constexpr std::array<double, 8> powersOfTen{1.0, 0.1, 0.01, 0.001, 0.0001, 0.00001, 0.000001, 0.0000001};
+    at = skipBlanks(at);
+    const char *const begin = at;
+    if (*at == '-')
+        ++at;
+    const char *const digits = at;
+    double sum = 0.0;
+    for (; isDigit(*at); ++at)
+        sum = sum * 10.0 + (*at - '0');
+    std::ptrdiff_t digitCount = at - digits;
+    if (*at == '.') {
+        const char *const point = at++;
+        for (; isDigit(*at); ++at) {
+            const auto place = static_cast<std::size_t>(at - point);
+            sum += (*at - '0') * (place < powersOfTen.size() ? powersOfTen[place]
+                                                             : std::pow(10.0, -static_cast<double>(place)));
+        }
+        digitCount += at - point - 1;
+    }
+    if (*at == 'e' || *at == 'E') {
+        at = readExponent(at + 1, sum);
+        if (!at)
+            return nullptr;
+    }
+    value = *begin == '-' ? -sum : sum;
+    return digitCount > 0 && endsToken(*at) && at - begin <= maxCharacters ? at : nullptr;
+}
+
+// Past the end of the line behind the numbers.
+const char *readNumbers(const char *at, int count, glm::dvec3 &values) {
+    for (int i = 0; i < count && at; ++i)
+        at = readNumber(at, values[i]);
+    return at ? skipToNextLine(at) : nullptr;
+}
+
+// An index of up to nine digits, which fit any int, and perhaps a minus sign; not 0.
+const char *readIndex(const char *at, std::int32_t &index) {
+    const bool isNegative = *at == '-';
+    if (isNegative)
+        ++at;
+    const char *const digits = at;
+    std::uint32_t value = 0;
+    for (; isDigit(*at); ++at)
+        value = value * 10 + static_cast<std::uint32_t>(*at - '0');
+    if (at - digits > 9 || value == 0) // no digits are 0, too
+        return nullptr;
+    index = isNegative ? -static_cast<std::int32_t>(value) : static_cast<std::int32_t>(value);
+    return at;
+}
+
+// One of v, v/vt, v//vn and v/vt/vn.
+const char *readCorner(const char *at, ObjCorner &corner) {
+    corner.normal = 0;
+    corner.uv = 0;
+    at = readIndex(at, corner.position);
+    if (!at || *at != '/')
+        return at;
+    ++at;
+    if (*at != '/') {
+        at = readIndex(at, corner.uv);
+        if (!at || *at != '/')
+            return at;
+    }
+    return readIndex(at + 1, corner.normal);
+}
+
+const char *readFace(const char *at, std::size_t lineNumber, ObjMeshBuilder &builder) {
+    std::array<ObjCorner, 8> corners;
+    std::size_t count = 0;
+    for (at = skipBlanks(at); count < corners.size() && *at >= '-'; at = skipBlanks(at)) {
+        at = readCorner(at, corners[count++]);
+        if (!at || !endsToken(*at))
+            return nullptr;
+    }
+    at = skipLineEnd(at);
+    if (at && count >= 3)
+        builder.addFace(std::span(corners).first(count), lineNumber);
+    return count >= 3 ? at : nullptr;
+}
+
+} // namespace
+
+const char *readPlainStatement(const char *line, std::size_t lineNumber, ObjMeshBuilder &builder) {
+    if (line[0] == 'f' && isBlank(line[1]))
+        return readFace(line + 2, lineNumber, builder);
+    if (line[0] != 'v')
+        return nullptr;
+    const bool isNormal = line[1] == 'n';
+    const bool isUv = line[1] == 't';
+    const char *at = line + (isNormal || isUv ? 2 : 1);
+    glm::dvec3 values;
+    if (!isBlank(*at))
+        return nullptr;
+    at = readNumbers(at, isUv ? 2 : 3, values);
+    if (at && isNormal)
+        builder.addNormal(values);
+    else if (at && isUv)
+        builder.addUv(glm::dvec2(values));
+    else if (at)
+        builder.addPosition(values, lineNumber);
+    return at;
+}
+
+} // namespace hyalite

@@ -1,0 +1,354 @@
+#include "host/import/scene_json.h"
+
+#include "host/base/json_document.h"
+#include "host/base/json_reader.h"
+#include "host/image/image_file.h"
+#include "host/import/file_reach.h"
+#include "host/scene/framing.h"
+#include "host/scene/limits.h"
+#include "host/scene/names.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <utility>
+
+namespace hyalite {
+namespace {
+
+using namespace std::string_view_literals;
+
+glm::dvec3 readDirection(const JsonObject &object, std::string_view key, const glm::dvec3 &fallback) {
+    const glm::dvec3 direction = object.vector(key, limits::coordinate, fallback);
+    if (!limits::directionLength.contains(glm::length(direction)))
+        object.at(key).fail(fmt::format("found length {}; allowed: a length {}", glm::length(direction),
+                                        limits::directionLength.text()));
+    return direction;
+}
+
+Camera readCamera(const JsonObject &object) {
+    Camera camera;
+    camera.kind = object.choice("type", cameraNames, camera.kind);
+    camera.position = object.vector("position", limits::coordinate, camera.position);
+    camera.direction = readDirection(object, "direction", camera.direction);
+    camera.up = readDirection(object, "up", camera.up);
+    camera.horizontalFovDegrees =
+        object.number("horizontalFov", limits::horizontalFovDegrees, camera.horizontalFovDegrees);
+    camera.aperture = object.number("aperture", limits::aperture, camera.aperture);
+    camera.viewWidth = object.number("viewWidth", limits::viewWidth, camera.viewWidth);
+    camera.width = object.integer("width", limits::imageSize, camera.width);
+    camera.height = object.integer("height", limits::imageSize, camera.height);
+    if (const std::optional<JsonNode> target = object.find("target")) {
+        if (object.find("direction"))
+            target->fail("found beside \"direction\"; allowed: one of the two");
+        camera.direction = target->vector(limits::coordinate) - camera.position;
+        if (!limits::directionLength.contains(glm::length(camera.direction)))
+            target->fail("is the camera's own position; allowed: any other point");
+        camera.focusDistance = std::min(glm::length(camera.direction), limits::focusDistance.high);
+    }
+    camera.focusDistance = object.number("focusDistance", limits::focusDistance, camera.focusDistance);
+    return camera;
+}
+
+Light readLight(const JsonNode &node) {
+    const JsonObject object(node);
+    Light light;
+    light.kind = object.choice("type", lightNames);
+    switch (light.kind) {
+    case LightKind::Point:
+        object.allowOnly(scene_keys::pointLight);
+        light.position = object.vector("position", limits::coordinate);
+        light.power = object.colour("power", limits::power);
+        break;
+    case LightKind::Spot:
+        object.allowOnly(scene_keys::spotLight);
+        light.position = object.vector("position", limits::coordinate);
+        light.power = object.colour("power", limits::power);
+        light.direction = readDirection(object, "direction", light.direction);
+        light.angleDegrees = object.number("angle", limits::spotAngle, light.angleDegrees);
+        light.blend = object.number("blend", limits::fraction, light.blend);
+        break;
+    case LightKind::Directional:
+        object.allowOnly(scene_keys::directionalLight);
+        light.power = object.colour("irradiance", limits::power);
+        light.direction = readDirection(object, "direction", light.direction);
+        break;
+    }
+    return light;
+}
+
+/// Adds the file to `inputFiles`.
+Environment readEnvironment(const JsonObject &object, const FileReach &reach,
+                            std::vector<std::string> &inputFiles) {
+    Environment environment;
+    const JsonNode file = object.at("file");
+    const std::filesystem::path path = reach.resolve(file);
+    inputFiles.push_back(path.string());
+    LoadedImage loaded = readImage(path);
+    if (loaded.encoding != Encoding::Linear)
+        file.fail(
+            "found a PNG, whose numbers are not proportional to light; allowed: a .hdr, .exr or .pfm file");
+    environment.radiance = std::move(loaded.image);
+    const std::size_t count = environment.radiance.pixels().size();
+    if (count > limits::environmentTexelCount)
+        file.fail(fmt::format("found {} x {} pixels; allowed: at most {} in all: make the image smaller",
+                              environment.radiance.width(), environment.radiance.height(),
+                              limits::environmentTexelCount));
+    environment.scale =
+        static_cast<float>(object.number("scale", limits::environmentScale, environment.scale));
+    environment.rotateDegrees =
+        object.number("rotateDegrees", limits::rotateDegrees, environment.rotateDegrees);
+    return environment;
+}
+
+/// What is needed to read textures.
+struct TextureSource {
+    const FileReach &reach;
+    TextureLibrary &library;
+};
+
+/// The textures of a material whose kind allows `keys`. The numbers that they are factors on become 1.
+void readTextures(const JsonObject &object, std::span<const std::string_view> keys,
+                  const TextureSource &source, Material &material) {
+    constexpr std::array<Name<std::uint32_t>, layout::textureSlotCount> slots{
+        {{"baseColour", layout::slotBaseColour},
+         {"emission", layout::slotEmission},
+         {"roughness", layout::slotRoughness},
+         {"metallic", layout::slotMetallic},
+         {"normal", layout::slotNormal},
+         {"opacity", layout::slotOpacity}}};
+    const std::optional<JsonObject> textures = object.object("textures", keys);
+    if (!textures)
+        return;
+    for (const auto &[key, slot] : slots) {
+        const std::optional<JsonNode> node = textures->find(key);
+        if (!node)
+            continue;
+        const bool isNormal = slot == layout::slotNormal;
+        const JsonObject image(*node, isNormal ? std::span<const std::string_view>(scene_keys::normalMap)
+                                               : std::span<const std::string_view>(scene_keys::texture));
+        const JsonNode file = image.at("file");
+        TextureUse use;
+        use.scale = glm::vec2(image.pair("scale", limits::texturePlacement, glm::dvec2(use.scale)));
+        use.offset = glm::vec2(image.pair("offset", limits::texturePlacement, glm::dvec2(use.offset)));
+        if (isNormal)
+            material.normalStrength =
+                static_cast<float>(image.number("strength", limits::normalStrength, material.normalStrength));
+        use.textureIndex = source.library.load(source.reach.resolve(file));
+        const Texture &texture = source.library.at(use.textureIndex);
+        if (texture.isFloat() && slot != layout::slotEmission)
+            file.fail("found an image of floats; allowed: a PNG or a JPEG");
+        if (isNormal && isGrey(texture))
+            file.fail("found a grey image, as height maps are; allowed: a normal map, which is bluish");
+        material.textures[slot] = use;
+    }
+    const auto has = [&](std::uint32_t slot) { return material.textures[slot].has_value(); };
+    if (has(layout::slotBaseColour))
+        material.albedo = glm::vec3(1.0f);
+    if (has(layout::slotEmission))
+        material.emission = glm::vec3(1.0f);
+    if (has(layout::slotRoughness))
+        material.roughness = 1.0f;
+    if (has(layout::slotMetallic))
+        material.metallic = 1.0f;
+}
+
+Material readMaterial(const std::string &name, const JsonObject &object, const TextureSource &source) {
+    Material material;
+    material.name = name;
+    material.kind = object.choice("type", materialNames);
+    const auto fraction = [&](std::string_view key, float fallback) {
+        return static_cast<float>(object.number(key, limits::fraction, fallback));
+    };
+    switch (material.kind) {
+    case MaterialKind::Diffuse:
+        object.allowOnly(scene_keys::diffuse);
+        readTextures(object, scene_keys::diffuseTextures, source, material);
+        material.albedo = glm::vec3(object.colour("albedo", limits::fraction, glm::dvec3(material.albedo)));
+        material.twoSided = object.boolean("twoSided", material.twoSided);
+        material.emission =
+            glm::vec3(object.colour("emission", limits::radiance, glm::dvec3(material.emission)));
+        break;
+    case MaterialKind::Mirror:
+        object.allowOnly(scene_keys::mirror);
+        break;
+    case MaterialKind::Dielectric:
+        object.allowOnly(scene_keys::dielectric);
+        material.refractiveIndex =
+            static_cast<float>(object.number("index", limits::refractiveIndex, material.refractiveIndex));
+        material.segmentTint =
+            glm::vec3(object.colour("segmentTint", limits::fraction, glm::dvec3(material.segmentTint)));
+        material.absorption =
+            glm::vec3(object.colour("absorption", limits::absorption, glm::dvec3(material.absorption)));
+        material.priority = object.integer("priority", limits::priority, material.priority);
+        material.roughness = fraction("roughness", material.roughness);
+        break;
+    case MaterialKind::Conductor: {
+        object.allowOnly(scene_keys::conductor);
+        const Metal metal = object.choice("metal", metalNames, metalNames[0].second);
+        material.conductorIndex =
+            glm::vec3(object.colour("index", limits::conductorIndex, glm::dvec3(metal.index)));
+        material.conductorExtinction =
+            glm::vec3(object.colour("extinction", limits::conductorIndex, glm::dvec3(metal.extinction)));
+        material.roughness = fraction("roughness", material.roughness);
+        break;
+    }
+    case MaterialKind::Principled:
+        object.allowOnly(scene_keys::principled);
+        material.roughness = 0.5f;
+        readTextures(object, scene_keys::principledTextures, source, material);
+        material.albedo =
+            glm::vec3(object.colour("baseColour", limits::fraction, glm::dvec3(material.albedo)));
+        material.metallic = fraction("metallic", material.metallic);
+        material.roughness = fraction("roughness", material.roughness);
+        material.specular = fraction("specular", material.specular);
+        material.refractiveIndex =
+            static_cast<float>(object.number("index", limits::refractiveIndex, material.refractiveIndex));
+        material.transmission = fraction("transmission", material.transmission);
+        material.absorption =
+            glm::vec3(object.colour("absorption", limits::absorption, glm::dvec3(material.absorption)));
+        material.priority = object.integer("priority", limits::priority, material.priority);
+        material.clearcoat = fraction("clearcoat", material.clearcoat);
+        material.clearcoatRoughness = fraction("clearcoatRoughness", material.clearcoatRoughness);
+        material.twoSided = object.boolean("twoSided", material.twoSided);
+        material.emission =
+            glm::vec3(object.colour("emission", limits::radiance, glm::dvec3(material.emission)));
+        break;
+    }
+    return material;
+}
+
+/// The index of the material that the object's key "material" names.
+std::uint32_t readMaterialIndex(const JsonObject &object, const std::vector<Material> &materials) {
+    const JsonNode node = object.at("material");
+    const std::string name = node.text();
+    const auto found = std::find_if(materials.begin(), materials.end(),
+                                    [&](const Material &material) { return material.name == name; });
+    if (found == materials.end()) {
+        std::vector<std::string_view> names;
+        for (const Material &material : materials)
+            names.push_back(material.name);
+        node.refuse(names.empty() ? "a name in /materials, which defines none"
+                                  : "a name in /materials: " + quotedList(names) + suggestion(name, names));
+    }
+    return static_cast<std::uint32_t>(found - materials.begin());
+}
+
+Sphere readSphere(const JsonObject &object, const std::vector<Material> &materials) {
+    Sphere sphere;
+    sphere.centre = object.vector("centre", limits::coordinate);
+    sphere.radius = object.number("radius", limits::radius);
+    sphere.materialIndex = readMaterialIndex(object, materials);
+    sphere.inwardNormal = object.boolean("inwardNormal", sphere.inwardNormal);
+    return sphere;
+}
+
+/// `materials` are those of the scene file. A mesh that names none of them has its own.
+ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials,
+                 const TextureSource &source, const OnReading &onReading) {
+    MeshTransform transform;
+    transform.scale = object.number("scale", limits::meshScale, transform.scale);
+    if (transform.scale == 0.0)
+        object.at("scale").refuse("a number that is not 0");
+    transform.rotateDegrees = object.vector("rotateDegrees", limits::rotateDegrees, transform.rotateDegrees);
+    transform.translate = object.vector("translate", limits::coordinate, transform.translate);
+    const bool isNamed = object.find("material").has_value();
+    const std::uint32_t materialIndex = isNamed ? readMaterialIndex(object, materials) : 0;
+
+    ObjMesh mesh = loadObj(source.reach.resolve(object.at("file")), transform, onReading,
+                           isNamed ? nullptr : &source.library);
+    mesh.mesh.materialIndex = materialIndex;
+    return mesh;
+}
+
+/// Gives the scene the materials that a mesh has brought, behind a neutral one for triangles without any.
+void addMaterialsOf(ObjMesh &mesh, Scene &scene) {
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    mesh.mesh.materialIndex = first;
+    for (std::uint32_t &material : mesh.mesh.triangleMaterials)
+        material += first;
+    scene.materials.push_back(neutralMaterial());
+    std::ranges::move(mesh.materials, std::back_inserter(scene.materials));
+}
+
+RenderSettings readSettings(const JsonObject &object) {
+    RenderSettings settings;
+    settings.integrator = object.choice("integrator", integratorNames, settings.integrator);
+    settings.samplesPerPixel = object.integer("spp", limits::samplesPerPixel, settings.samplesPerPixel);
+    settings.maxDepth = object.integer("maxDepth", limits::maxDepth, settings.maxDepth);
+    settings.occlusionDistance =
+        object.number("occlusionDistance", limits::occlusionDistance, settings.occlusionDistance);
+    settings.tree = object.choice("bvh", treeNames, settings.tree);
+    settings.leafSize = object.integer("leafSize", limits::leafSize, settings.leafSize);
+    settings.sampler = object.choice("sampler", samplerNames, settings.sampler);
+    settings.filter = object.choice("filter", filterNames, settings.filter);
+    settings.seed = object.integer("seed", limits::seed, settings.seed);
+    settings.radianceLimit = object.number("clamp", limits::radianceLimit, settings.radianceLimit);
+    settings.exposureStops = object.number("exposure", limits::exposureStops, settings.exposureStops);
+    return settings;
+}
+
+} // namespace
+
+LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &events,
+                          std::span<const std::filesystem::path> allowedPaths) {
+    const nlohmann::json document = readJsonFile(file);
+    const std::string fileName = file.string();
+    const JsonObject top({&document, &fileName}, scene_keys::top);
+    for (const std::string_view ignored : {"$schema"sv, "description"sv})
+        static_cast<void>(top.text(ignored, ""));
+
+    LoadedScene loaded;
+    loaded.file = file;
+    Scene &scene = loaded.scene;
+    if (const std::optional<JsonObject> settings = top.object("settings", scene_keys::settings)) {
+        scene.settings = readSettings(*settings);
+        scene.shadowThroughGlass = static_cast<float>(
+            settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
+    }
+    const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
+    if (events.onOutline)
+        events.onOutline({!meshes.empty(), scene.settings});
+
+    scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
+    const FileReach reach(file, allowedPaths);
+    TextureLibrary textures;
+    if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
+        scene.environment = readEnvironment(*environment, reach, loaded.inputFiles);
+    if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera))
+        scene.camera = readCamera(*camera);
+    for (const JsonNode &light : top.elements("lights", limits::lightCount))
+        scene.lights.push_back(readLight(light));
+    if (const std::optional<JsonNode> materials = top.find("materials"))
+        for (const auto &[name, material] : JsonObject(*materials).members(limits::materialCount))
+            scene.materials.push_back(readMaterial(name, JsonObject(material), {reach, textures}));
+    for (const JsonNode &sphere : top.elements("spheres", limits::sphereCount))
+        scene.spheres.push_back(readSphere({sphere, scene_keys::sphere}, scene.materials));
+    const auto onReadingMesh = [&](double share) {
+        if (events.onReading)
+            events.onReading((static_cast<double>(scene.meshes.size()) + share) /
+                             static_cast<double>(meshes.size()));
+    };
+    const std::vector<Material> named = scene.materials;
+    std::size_t triangleTotal = 0;
+    for (const JsonNode &node : meshes) {
+        const JsonObject object(node, scene_keys::mesh);
+        ObjMesh mesh = readMesh(object, named, {reach, textures}, onReadingMesh);
+        if (!object.find("material"))
+            addMaterialsOf(mesh, scene);
+        scene.meshes.push_back(std::move(mesh.mesh));
+        loaded.meshReports.push_back(mesh.report);
+        triangleTotal += scene.meshes.back().triangles.size();
+        if (triangleTotal > limits::triangleCount) // before the next mesh takes memory
+            node.fail(fmt::format("found {} triangles up to this mesh; allowed: at most {}", triangleTotal,
+                                  limits::triangleCount));
+    }
+    scene.textures = textures.give();
+    return loaded;
+}
+
+} // namespace hyalite

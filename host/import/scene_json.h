@@ -1,0 +1,179 @@
+// The scene file: JSON in, Scene out. assets/hyalite-scene.schema.json says the same to editors.
+//
+//   {
+//     "$schema", "description"  texts, ignored
+//     "background"   colour, default black: radiance of rays that leave the scene
+//     "environment": {        in place of the background
+//       "file"           .hdr, .exr or .pfm, by longitude and latitude: the middle is -z, the top +y; of at most 2^22 pixels
+//       "scale"          factor, default 1
+//       "rotateDegrees"  about +y, default 0
+//     },
+//     "camera": {
+//       "type"           "perspective" (default), "orthographic" or "panorama"
+//       "position"       point, default [0, 0, 55]
+//       "target"         point to look at, or
+//       "direction"      vector of view, default [0, 0, -1]
+//       "up"             vector, default [0, 1, 0]; not parallel to the view
+//       "horizontalFov"  degrees in (0, 180), default 60; perspective only, and so
+//       "aperture"       diameter of a thin lens, default 0: a pinhole
+//       "focusDistance"  of the plane that is sharp, default: that of the target, or 10
+//       "viewWidth"      what the image's width shows, default 10; orthographic only
+//       "width", "height"  pixels from 1 to 32768, default 512
+//     },
+//     "lights": [             at most 16, each one of
+//       { "type": "point", "position": point,
+//                          "power": colour; the radiant intensity is power / (4 pi) }
+//       { "type": "spot", "position", "power": likewise, with the intensity on its axis;
+//                         "direction": vector, default [0, -1, 0];
+//                         "angle": degrees from the axis to the dark, in (0, 180], default 30;
+//                         "blend": share of the angle in which it fades, from 0 to 1, default 0.2 }
+//       { "type": "directional", "direction": vector, default [0, -1, 0]: in which the light travels;
+//                                "irradiance": colour, of a surface that faces it }
+//     ],
+//     "materials": { NAME: one of
+//       { "type": "diffuse", "albedo": colour in [0, 1], default 0.5;
+//                            "twoSided": true turns the normal to the viewer, default false;
+//                            "emission": colour, default 0: radiance on the side of the normal, on both where twoSided;
+//                            "textures": see below, without "roughness" and "metallic" }
+//       { "type": "mirror" }
+//       { "type": "dielectric", "index": from 1 to 10, default 1.5;
+//                               "segmentTint": colour in [0, 1], default 1: a factor on all that a segment
+//                                              inside returns, whatever its length; integrator "whitted" only;
+//                               "absorption": colour per unit of length, at least 0, default 0; "path" only;
+//                               "priority": from -1000 to 1000, default 0: where several dielectrics overlap,
+//                                           the one of the highest is there; "path" only;
+//                               "roughness": in [0, 1], default 0: of microfacets; "path" only }
+//       { "type": "conductor", "metal": "aluminium" (default), "copper", "gold" or "silver";
+//                              "index", "extinction": colours from 0 to 20, real and imaginary part of the refractive
+//                                                     index in place of the metal's;
+//                              "roughness": in [0, 1], default 0; "path" only }
+//       { "type": "principled", "baseColour": colour in [0, 1], default 0.5;
+//                               "metallic", "specular", "transmission", "clearcoat": in [0, 1], default 0, but
+//                                                     specular 0.5; one of the last two must be 0;
+//                               "roughness", "clearcoatRoughness": in [0, 1], default 0.5 and 0.1;
+//                               "index", "absorption", "priority": as of a dielectric;
+//                               "twoSided", "emission": as of a diffuse material;
+//                               "textures": each of them at most once, and none is needed:
+//          { "baseColour": IMAGE, a factor on the albedo or base colour, which then is 1 by default,
+//            "emission": IMAGE, likewise, and so "roughness" and "metallic": of their red channel;
+//            "normal": IMAGE in the space of the surface, with "strength", from 0 to 100, default 1;
+//            "opacity": IMAGE, of its alpha, or of its red channel where it has none: below a half nothing is there;
+//                       meshes only } }
+//       IMAGE: { "file": PNG or JPEG, or .hdr for an emission; relative to the scene file as meshes are,
+//                "scale": [u, v] or one number, default 1: how often it repeats, and "offset", default 0: it shows at (u, v)
+//                         what it has at scale * (u, v) + offset }
+//     },
+//     "spheres": [ {          at most 64
+//       "centre"         point
+//       "radius"         more than 0
+//       "material"       NAME
+//       "inwardNormal"   true: the normal points to the centre, default false
+//     } ],
+//     "meshes": [ {
+//       "file"           OBJ, relative to the scene file, and in its folder or below, or in the assets
+//       "material"       NAME; without it the mesh has those that its own libraries (MTL) give it
+//       "scale"          not 0, default 1; then
+//       "rotateDegrees"  about x, y and z in that order, default [0, 0, 0]; then
+//       "translate"      vector, default [0, 0, 0]
+//     } ],
+//     "settings": {
+//       "integrator"     "whitted" (default), "path", "ao" (ambient occlusion), or what is seen first: "normal",
+//                        "depth", "albedo", "id" or "uv", or "cost"
+//       "occlusionDistance"  more than 0, default 1e15: for "ao", what is further away hides no sky
+//       "spp"            samples a pixel, from 1 to 65536, default 16
+//       "maxDepth"       segments of a path, from 1 to 32, default 7
+//       "bvh"            "midpoint" (default), "sah" or "none"
+//       "leafSize"       triangles, from 1 to 64, default 8
+//       "sampler"        "sobol" (default) or "centre"
+//       "filter"         of pixels: "box" (default) or "blackman-harris", with "sobol" only
+//       "clamp"          most that a path adds, a channel, behind its first segment, default 0: no limit; "path" only
+//       "seed"           from 0 to 4294967295, default 0
+//       "exposure"       stops from -100 to 100, default 0
+//       "shadowThroughGlass"  factor on light that comes through glass alone, in [0, 1], default 1
+//     }
+//   }
+//
+// Points and vectors are [x, y, z]; a colour is linear [r, g, b], or one number for grey. A key without a
+// default is required where its object is given; every object of the top level may be left out.
+#pragma once
+
+#include "host/import/obj.h"
+#include "host/scene/scene.h"
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace hyalite {
+
+/// What is known of a scene before its large files are read.
+struct SceneOutline {
+    bool hasMeshes;
+    RenderSettings settings;
+};
+
+/// What is told while a scene is loaded.
+struct LoadEvents {
+    std::function<void(const SceneOutline &)> onOutline;
+    OnReading onReading; ///< the share of all meshes that is read, each counting the same
+};
+
+struct LoadedScene {
+    Scene scene;
+    std::filesystem::path file;
+    std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
+    std::vector<MeshReport> meshReports; ///< one for each of scene.meshes
+    bool autoFramed = false; ///< a bare mesh: where the image size is overridden, call frameCamera again
+};
+
+/// Reads a scene file and the meshes that it names. Values are in range and names are defined; what concerns
+/// several values at once (is up parallel to the view?) is left to validateScene. Files outside of the scene's
+/// folder, the assets and `allowedPaths` are not read (file_reach.h). Throws Error{BadInput}
+/// naming the file, the key as a JSON path such as /spheres/3/radius (a syntax error: line and column), what
+/// was found and what is allowed.
+[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &events = {},
+                                        std::span<const std::filesystem::path> allowedPaths = {});
+
+/// The keys of each object of a scene file.
+namespace scene_keys {
+
+inline constexpr auto top =
+    std::to_array<std::string_view>({"$schema", "description", "camera", "background", "environment",
+                                     "lights", "materials", "spheres", "meshes", "settings"});
+inline constexpr auto environment = std::to_array<std::string_view>({"file", "scale", "rotateDegrees"});
+inline constexpr auto camera =
+    std::to_array<std::string_view>({"type", "position", "target", "direction", "up", "horizontalFov",
+                                     "aperture", "focusDistance", "viewWidth", "width", "height"});
+inline constexpr auto pointLight = std::to_array<std::string_view>({"type", "position", "power"});
+inline constexpr auto spotLight =
+    std::to_array<std::string_view>({"type", "position", "power", "direction", "angle", "blend"});
+inline constexpr auto directionalLight = std::to_array<std::string_view>({"type", "direction", "irradiance"});
+inline constexpr auto diffuse =
+    std::to_array<std::string_view>({"type", "albedo", "twoSided", "emission", "textures"});
+inline constexpr auto mirror = std::to_array<std::string_view>({"type"});
+inline constexpr auto dielectric =
+    std::to_array<std::string_view>({"type", "index", "segmentTint", "absorption", "priority", "roughness"});
+inline constexpr auto conductor =
+    std::to_array<std::string_view>({"type", "metal", "index", "extinction", "roughness"});
+inline constexpr auto principled = std::to_array<std::string_view>(
+    {"type", "baseColour", "metallic", "roughness", "specular", "transmission", "index", "absorption",
+     "priority", "clearcoat", "clearcoatRoughness", "twoSided", "emission", "textures"});
+inline constexpr auto diffuseTextures =
+    std::to_array<std::string_view>({"baseColour", "emission", "normal", "opacity"});
+inline constexpr auto principledTextures =
+    std::to_array<std::string_view>({"baseColour", "emission", "roughness", "metallic", "normal", "opacity"});
+inline constexpr auto texture = std::to_array<std::string_view>({"file", "scale", "offset"});
+inline constexpr auto normalMap = std::to_array<std::string_view>({"file", "scale", "offset", "strength"});
+inline constexpr auto sphere =
+    std::to_array<std::string_view>({"centre", "radius", "material", "inwardNormal"});
+inline constexpr auto mesh =
+    std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material"});
+inline constexpr auto settings =
+    std::to_array<std::string_view>({"integrator", "occlusionDistance", "spp", "maxDepth", "bvh", "leafSize",
+                                     "sampler", "filter", "seed", "clamp", "exposure", "shadowThroughGlass"});
+
+} // namespace scene_keys
+} // namespace hyalite

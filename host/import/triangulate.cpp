@@ -1,0 +1,261 @@
+#include "host/import/triangulate.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::size_t leafCornerCount = 16;
+
+enum CornerState : std::uint8_t {
+    clipped = 1,  // no longer part of the polygon
+    deferred = 2, // next to an ear that was clipped in this round
+    queued = 4,   // waits in nextRound
+    reflex = 8,   // not strictly convex
+};
+
+// Twice the signed area of abc, > 0 where it turns counter-clockwise. The coordinates are floats: in double
+// the differences are exact as long as the exponents are less than 29 apart, and so is the sign, nearly always.
+double orient(const glm::dvec2 &a, const glm::dvec2 &b, const glm::dvec2 &c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+glm::dvec3 newellNormal(std::span<const glm::vec3> corners) {
+    const glm::dvec3 origin(corners[0]);
+    glm::dvec3 normal(0.0);
+    glm::dvec3 a(0.0);
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        const glm::dvec3 b = glm::dvec3(corners[i]) - origin;
+        normal += glm::dvec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+        a = b;
+    }
+    return normal;
+}
+
+} // namespace
+
+// Drops the axis along which the normal is longest. For a planar polygon this is an affine picture of its
+// plane, and unlike coordinates in a rotated frame it keeps the corners' bits: collinear stays collinear.
+void Triangulator::project(std::span<const glm::vec3> corners) {
+    const glm::dvec3 normal = newellNormal(corners);
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(normal[i]) > std::abs(normal[axis]))
+            axis = i;
+    int u = (axis + 1) % 3;
+    int v = (axis + 2) % 3;
+    if (normal[axis] < 0.0)
+        std::swap(u, v);
+    points.resize(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        points[i] = glm::dvec2(corners[i][u], corners[i][v]);
+}
+
+void Triangulator::linkCorners() {
+    const auto count = static_cast<std::uint32_t>(points.size());
+    remaining = count;
+    previous.resize(count);
+    next.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        previous[i] = (i == 0 ? count : i) - 1;
+        next[i] = i + 1 == count ? 0 : i + 1;
+    }
+    state.assign(count, 0);
+    buildTree();
+    for (std::uint32_t i = 0; i < count; ++i)
+        updateReflex(i);
+}
+
+double Triangulator::turn(std::uint32_t corner) const {
+    return orient(points[previous[corner]], points[corner], points[next[corner]]);
+}
+
+// Halves the corners along the longer side of their bounds until few are left: k-d tree, J. L. Bentley, "Multidimensional
+// Binary Search Trees Used for Associative Searching", Communications of the ACM 18 (1975).
+void Triangulator::buildTree() {
+    const auto count = static_cast<std::uint32_t>(points.size());
+    std::size_t leafCount = 1;
+    while (leafCount * leafCornerCount < count)
+        leafCount *= 2;
+    treeOrder.resize(count);
+    std::iota(treeOrder.begin(), treeOrder.end(), 0u);
+    leafOf.resize(count);
+    tree.resize(2 * leafCount);
+    tree[1].begin = 0;
+    tree[1].end = count;
+    for (std::uint32_t i = 1; i < tree.size(); ++i) {
+        TreeNode &node = tree[i];
+        node.reflexCount = 0;
+        node.low = node.high = points[treeOrder[node.begin]];
+        for (std::uint32_t k = node.begin; k < node.end; ++k) {
+            node.low = glm::min(node.low, points[treeOrder[k]]);
+            node.high = glm::max(node.high, points[treeOrder[k]]);
+        }
+        if (i >= leafCount) {
+            for (std::uint32_t k = node.begin; k < node.end; ++k)
+                leafOf[treeOrder[k]] = i;
+            continue;
+        }
+        const int axis = node.high.x - node.low.x >= node.high.y - node.low.y ? 0 : 1;
+        const std::uint32_t middle = node.begin + (node.end - node.begin) / 2;
+        const auto at = [&](std::uint32_t k) { return treeOrder.begin() + k; };
+        const auto key = [&](std::uint32_t corner) { // an order needs NaN to have a place in it
+            const double coordinate = points[corner][axis];
+            return std::isnan(coordinate) ? std::numeric_limits<double>::infinity() : coordinate;
+        };
+        std::nth_element(at(node.begin), at(middle), at(node.end),
+                         [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+        tree[2 * i].begin = node.begin;
+        tree[2 * i].end = tree[2 * i + 1].begin = middle;
+        tree[2 * i + 1].end = node.end;
+    }
+}
+
+void Triangulator::setReflex(std::uint32_t corner, bool isReflex) {
+    if (((state[corner] & reflex) != 0) == isReflex)
+        return;
+    state[corner] = static_cast<std::uint8_t>(state[corner] ^ reflex);
+    for (std::uint32_t node = leafOf[corner]; node > 0; node /= 2)
+        tree[node].reflexCount += isReflex ? 1u : ~0u;
+}
+
+void Triangulator::updateReflex(std::uint32_t corner) { setReflex(corner, !(turn(corner) > 0.0)); }
+
+bool Triangulator::isEar(std::uint32_t corner, Ear kind) const {
+    if (kind == Ear::Any)
+        return true;
+    if (state[corner] & reflex)
+        return false;
+    return kind == Ear::Convex || !isBlocked(corner, kind);
+}
+
+bool Triangulator::isBlocked(std::uint32_t corner, Ear kind) const {
+    const std::uint32_t before = previous[corner];
+    const std::uint32_t after = next[corner];
+    const glm::dvec2 a = points[before];
+    const glm::dvec2 b = points[corner];
+    const glm::dvec2 c = points[after];
+    const glm::dvec2 low = glm::min(glm::min(a, b), c);
+    const glm::dvec2 high = glm::max(glm::max(a, b), c);
+
+    const auto isInside = [&](double ab, double bc, double ca) {
+        return kind == Ear::Strict ? ab >= 0.0 && bc >= 0.0 && ca >= 0.0 : ab > 0.0 && bc > 0.0 && ca > 0.0;
+    };
+    // orient(), as it rounds, is monotone in both coordinates of its last point: for no point in the box is it more than
+    // at the box' corner farthest to the left of the line. So no point is passed over that would block.
+    const auto highest = [](const TreeNode &node, const glm::dvec2 &from, const glm::dvec2 &to) {
+        return orient(from, to,
+                      {to.y > from.y ? node.low.x : node.high.x, to.x > from.x ? node.high.y : node.low.y});
+    };
+    const auto mayBlock = [&](const TreeNode &node) {
+        if (node.reflexCount == 0 || node.low.x > high.x || node.high.x < low.x || node.low.y > high.y ||
+            node.high.y < low.y)
+            return false;
+        const bool holdsTip =
+            node.low.x <= b.x && b.x <= node.high.x && node.low.y <= b.y && b.y <= node.high.y;
+        return holdsTip || isInside(highest(node, a, b), highest(node, b, c), highest(node, c, a));
+    };
+    const auto blocks = [&](std::uint32_t candidate) {
+        if (!(state[candidate] & reflex) || candidate == before || candidate == after)
+            return false;
+        const glm::dvec2 p = points[candidate];
+        if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y)
+            return false;
+        return isInside(orient(a, b, p), orient(b, c, p), orient(c, a, p)) || p == b;
+    };
+
+    std::array<std::uint32_t, 2 * std::numeric_limits<std::uint32_t>::digits> pending; // two a level
+    std::size_t pendingCount = 0;
+    pending[pendingCount++] = 1;
+    while (pendingCount > 0) {
+        const std::uint32_t i = pending[--pendingCount];
+        const TreeNode &node = tree[i];
+        if (!mayBlock(node))
+            continue;
+        if (2 * i < tree.size()) {
+            pending[pendingCount++] = 2 * i;
+            pending[pendingCount++] = 2 * i + 1;
+            continue;
+        }
+        for (std::uint32_t k = node.begin; k < node.end; ++k)
+            if (blocks(treeOrder[k]))
+                return true;
+    }
+    return false;
+}
+
+void Triangulator::queueForNextRound(std::uint32_t corner) {
+    if (state[corner] & queued)
+        return;
+    state[corner] = static_cast<std::uint8_t>(state[corner] | queued);
+    nextRound.push_back(corner);
+}
+
+void Triangulator::clip(std::uint32_t corner) {
+    const std::uint32_t before = previous[corner];
+    const std::uint32_t after = next[corner];
+    triangles.emplace_back(before, corner, after);
+    next[before] = after;
+    previous[after] = before;
+    setReflex(corner, false);
+    state[corner] = clipped;
+    --remaining;
+    updateReflex(before);
+    updateReflex(after);
+    queueForNextRound(before);
+    queueForNextRound(after);
+    state[after] = static_cast<std::uint8_t>(state[after] | deferred);
+}
+
+// A corner is looked at once, and again after each clipping beside it: at most 3 n looks. The corner after an
+// ear waits for the next round, so that a convex polygon is cut down by halves instead of into a fan of slivers.
+void Triangulator::clipEars(Ear kind) {
+    nextRound.clear();
+    const auto count = static_cast<std::uint32_t>(points.size());
+    for (std::uint32_t i = 1; i <= count; ++i)
+        if (const std::uint32_t corner = i % count; !(state[corner] & clipped))
+            nextRound.push_back(corner);
+    while (!nextRound.empty() && remaining > 3) {
+        std::swap(thisRound, nextRound);
+        nextRound.clear();
+        for (const std::uint32_t corner : thisRound)
+            if (!(state[corner] & clipped))
+                state[corner] = static_cast<std::uint8_t>(state[corner] & reflex);
+        for (const std::uint32_t corner : thisRound) {
+            if (remaining == 3)
+                return;
+            if (!(state[corner] & (clipped | deferred)) && isEar(corner, kind))
+                clip(corner);
+        }
+    }
+}
+
+std::span<const glm::uvec3> Triangulator::triangulate(std::span<const glm::vec3> corners) {
+    assert(corners.size() >= 3 && corners.size() < std::numeric_limits<std::uint32_t>::max());
+    triangles.clear();
+    if (corners.size() == 3) {
+        triangles.emplace_back(0, 1, 2);
+        return triangles;
+    }
+    project(corners);
+    linkCorners();
+    for (const Ear kind : {Ear::Strict, Ear::Touching, Ear::Convex, Ear::Any})
+        if (remaining > 3)
+            clipEars(kind);
+    std::uint32_t first = 0;
+    while (state[first] & clipped)
+        ++first;
+    triangles.emplace_back(first, next[first], next[next[first]]);
+    return triangles;
+}
+
+} // namespace hyalite

@@ -1,0 +1,89 @@
+#include "host/packing/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+constexpr double all = 4294967296.0; // numbers of 32 bits
+
+/// What the interpolated image sends through each pixel's area of the sphere, up to a factor. Between the middles of
+/// pixels it is linear both ways, so that the mean over a pixel's area has 3/4 of itself and 1/8 of its neighbours in
+/// each.
+std::vector<double> pixelWeights(const Image &image) {
+    const int width = image.width();
+    const int height = image.height();
+    const auto at = [&](int x, int y) {
+        const glm::dvec3 colour(image.at((x + width) % width, std::clamp(y, 0, height - 1)));
+        return colour.x + colour.y + colour.z;
+    };
+    const auto acrossRow = [&](int x, int y) {
+        return 0.125 * at(x - 1, y) + 0.75 * at(x, y) + 0.125 * at(x + 1, y);
+    };
+    std::vector<double> weights(image.pixels().size());
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < height; ++y) {
+        const double sine = std::sin(std::numbers::pi * (y + 0.5) / height);
+        for (int x = 0; x < width; ++x)
+            weights[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(x)] =
+                sine * (0.125 * acrossRow(x, y - 1) + 0.75 * acrossRow(x, y) + 0.125 * acrossRow(x, y + 1));
+    }
+    return weights;
+}
+
+/// How many numbers of 32 bits are below the given share of all of them.
+std::uint32_t numbersBelow(double share) {
+    return static_cast<std::uint32_t>(std::min(std::floor(share * all), all - 1.0));
+}
+
+} // namespace
+
+bool packEnvironment(const Scene &scene, PackedScene &packed) {
+    const Image &image = scene.environment.radiance;
+    const std::size_t width = static_cast<std::size_t>(image.width());
+    const std::size_t height = static_cast<std::size_t>(image.height());
+    packed.lighting |= layout::lightsByEnvironment;
+    packed.frame.environmentTexels = static_cast<std::uint32_t>(packed.texels.size());
+    packed.frame.environmentWidth = static_cast<std::uint32_t>(width);
+    packed.frame.environmentHeight = static_cast<std::uint32_t>(height);
+    const double turns = scene.environment.rotateDegrees / 360.0;
+    packed.frame.environmentTurns = std::min(static_cast<float>(turns - std::floor(turns)), 0x1.fffffep-1f);
+
+    const std::vector<double> weights = pixelWeights(image);
+    std::vector<double> rowTotals(height, 0.0);
+    double total = 0.0;
+    for (std::size_t y = 0; y < height; ++y) {
+        for (std::size_t x = 0; x < width; ++x)
+            rowTotals[y] += weights[y * width + x];
+        total += rowTotals[y];
+    }
+    packed.texels.reserve(packed.texels.size() + width * height + height);
+    for (std::size_t y = 0; y < height; ++y) {
+        double before = 0.0;
+        for (std::size_t x = 0; x < width; ++x) {
+            before += weights[y * width + x];
+            const double share = rowTotals[y] > 0.0 ? before / rowTotals[y] : 0.0;
+            packed.texels.push_back({image.pixels()[y * width + x] * scene.environment.scale,
+                                     x + 1 == width ? numbersBelow(1.0) : numbersBelow(share)});
+        }
+    }
+    double before = 0.0;
+    std::uint32_t numbersBefore = 0;
+    for (std::size_t y = 0; y < height; ++y) {
+        before += rowTotals[y];
+        const std::uint32_t numbers =
+            y + 1 == height ? numbersBelow(1.0) : numbersBelow(total > 0.0 ? before / total : 0.0);
+        const double chance = static_cast<double>(numbers - numbersBefore) / all;
+        packed.texels.push_back({glm::vec3(static_cast<float>(chance), 0.0f, 0.0f), numbers});
+        numbersBefore = numbers;
+    }
+    return total > 0.0 && scene.environment.scale > 0.0f;
+}
+
+} // namespace hyalite

@@ -1,0 +1,12 @@
+// An image around the scene as the kernels read it.
+#pragma once
+
+#include "host/packing/packed_scene.h"
+
+namespace hyalite {
+
+/// Appends the environment of `scene`, which has one, to packed.texels, and describes it in packed.frame.
+/// Returns whether any of it shines, so that it can be aimed at.
+bool packEnvironment(const Scene &scene, PackedScene &packed);
+
+} // namespace hyalite

@@ -1,0 +1,401 @@
+#include "host/packing/packed_scene.h"
+
+#include "host/base/hash.h"
+#include "host/packing/emitters.h"
+#include "host/packing/environment.h"
+#include "host/packing/microfacet_energy.h"
+#include "host/packing/pixel_filter.h"
+#include "host/packing/texture_rows.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+namespace hyalite {
+
+namespace {
+
+layout::FrameRecord packFrame(const Scene &scene) {
+    const Camera &camera = scene.camera;
+    const glm::dvec3 forward = glm::normalize(camera.direction);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const glm::dvec3 up = glm::cross(right, forward);
+    // Pixels in what pixelRight and pixelUp are measured in. In units of the focal length directions stay near unit
+    // length at every resolution.
+    double scale = camera.width / (2.0 * std::tan(glm::radians(camera.horizontalFovDegrees) / 2.0));
+    if (camera.kind == CameraKind::Orthographic)
+        scale = camera.width / camera.viewWidth;
+    else if (camera.kind == CameraKind::Panorama)
+        scale = 1.0;
+    layout::FrameRecord frame{};
+    frame.eye = glm::vec3(camera.position);
+    frame.imageWidth = static_cast<std::uint32_t>(camera.width);
+    frame.imageHeight = static_cast<std::uint32_t>(camera.height);
+    frame.pixelRight = glm::vec3(right / scale);
+    frame.pixelUp = glm::vec3(up / scale);
+    frame.lensScale = static_cast<float>(0.5 * camera.aperture * scale);
+    frame.focusDistance = static_cast<float>(camera.focusDistance);
+    frame.radianceLimit = scene.settings.radianceLimit > 0.0
+                              ? static_cast<float>(scene.settings.radianceLimit)
+                              : std::numeric_limits<float>::infinity();
+    frame.imagePlane = glm::vec3(forward);
+    frame.seed = scene.settings.seed;
+    frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);
+    frame.occlusionDistance = static_cast<float>(scene.settings.occlusionDistance);
+    frame.lightCount = static_cast<std::uint32_t>(scene.lights.size());
+    frame.background = scene.background;
+    frame.shadowThroughGlass = scene.shadowThroughGlass;
+    return frame;
+}
+
+std::uint32_t cameraOf(const Camera &camera) {
+    switch (camera.kind) {
+    case CameraKind::Orthographic:
+        return layout::cameraOrthographic;
+    case CameraKind::Panorama:
+        return layout::cameraPanorama;
+    case CameraKind::Perspective:
+        break;
+    }
+    return camera.aperture > 0.0 ? layout::cameraLens : layout::cameraPinhole;
+}
+
+layout::LightRecord packLight(const Light &light) {
+    layout::LightRecord record{};
+    record.position = glm::vec3(light.position);
+    record.kind = static_cast<std::uint32_t>(light.kind);
+    record.intensity = glm::vec3(light.power / (4.0 * std::numbers::pi));
+    if (light.kind == LightKind::Point)
+        return record;
+    record.axis = glm::vec3(glm::normalize(light.direction));
+    if (light.kind == LightKind::Directional) {
+        record.intensity = glm::vec3(light.power);
+        return record;
+    }
+    const double outer = std::cos(glm::radians(light.angleDegrees));
+    const double inner = std::cos(glm::radians(light.angleDegrees * (1.0 - light.blend)));
+    constexpr double leastDifference = 1e-6; // of what fades at once
+    record.cosineOuter = static_cast<float>(outer);
+    record.falloffScale = static_cast<float>(1.0 / std::max(inner - outer, leastDifference));
+    return record;
+}
+
+/// GGX's alpha. Rougher than nothing is at least so rough that float32 resolves the peak of the reflection.
+float alphaOf(float roughness) {
+    constexpr float least = 0.04f;
+    const float used = std::max(roughness, least);
+    return used * used;
+}
+
+/// What a material needs of the path integrator.
+std::uint32_t scatteringOf(const Material &material) {
+    const bool isRough = material.roughness > 0.0f;
+    switch (material.kind) {
+    case MaterialKind::Dielectric:
+        return isRough ? layout::scattersAtRoughGlass : 0u;
+    case MaterialKind::Conductor:
+        return layout::scattersAtConductors | (isRough ? layout::scattersAtRoughConductors : 0u);
+    case MaterialKind::Principled:
+        return layout::scattersAtPrincipled | (isGlass(material) ? layout::scattersAtRoughGlass : 0u);
+    case MaterialKind::Diffuse:
+    case MaterialKind::Mirror:
+        break;
+    }
+    return 0;
+}
+
+layout::MaterialRecord packMaterial(const Material &material) {
+    layout::MaterialRecord record{};
+    record.albedo = material.albedo;
+    record.kindAndSides =
+        static_cast<std::uint32_t>(material.kind) | (material.twoSided ? layout::materialIsTwoSided : 0u);
+    record.segmentTint = material.segmentTint;
+    record.refractiveIndex = material.refractiveIndex;
+    record.emission = material.emission;
+    record.absorption = material.absorption;
+    const bool isPrincipled = material.kind == MaterialKind::Principled;
+    record.alpha = material.roughness > 0.0f || isPrincipled ? alphaOf(material.roughness) : 0.0f;
+    if (material.kind == MaterialKind::Conductor) {
+        record.albedo = normalReflectance(material.conductorIndex, material.conductorExtinction);
+        record.conductorIndex = material.conductorIndex;
+        record.conductorExtinction = material.conductorExtinction;
+        for (int i = 0; i < 3; ++i)
+            record.averageReflectance[i] = static_cast<float>(
+                averageConductorReflectance(material.conductorIndex[i], material.conductorExtinction[i]));
+    }
+    if (isPrincipled) {
+        const float ratio = (material.refractiveIndex - 1.0f) / (material.refractiveIndex + 1.0f);
+        record.normalReflectance = std::min(2.0f * material.specular * (ratio * ratio), 1.0f);
+        record.metallic = material.metallic;
+        record.transmission = material.transmission;
+        record.clearcoat = material.clearcoat;
+        record.clearcoatAlpha = alphaOf(material.clearcoatRoughness);
+    }
+    return record;
+}
+
+/// The input indices of all materials in the order in which they are packed.
+std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials) {
+    std::vector<std::uint32_t> order(materials.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto rank = [&](std::uint32_t i) {
+        return isGlass(materials[i]) ? -materials[i].priority : std::numeric_limits<int>::max();
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+    return order;
+}
+
+/// Whether a loop of so many rounds is worth waking other threads.
+bool isLong(std::int64_t count) { return count > 8192; }
+
+void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::uint32_t> &packedMaterial,
+                   PackedScene &packed) {
+    constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max(); // what the tree dropped
+    std::vector<std::uint32_t> positionInTree(triangleCount(scene), nowhere);
+    const auto total = static_cast<std::int64_t>(bvh.order.size());
+#pragma omp parallel for schedule(static) if (isLong(total))
+    for (std::int64_t i = 0; i < total; ++i)
+        positionInTree[bvh.order[static_cast<std::size_t>(i)]] = static_cast<std::uint32_t>(i);
+    packed.triangles.resize(bvh.order.size());
+    packed.normals.resize(bvh.order.size());
+    std::uint32_t firstIndex = 0; // of the mesh's triangles in the input
+    for (const TriangleMesh &mesh : scene.meshes) {
+        const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+#pragma omp parallel for schedule(static) if (isLong(count))
+        for (std::int64_t i = 0; i < count; ++i) {
+            const MeshTriangle &corner = mesh.triangles[static_cast<std::size_t>(i)];
+            const std::uint32_t inputIndex = firstIndex + static_cast<std::uint32_t>(i);
+            const std::uint32_t position = positionInTree[inputIndex];
+            if (position == nowhere)
+                continue;
+            layout::TriangleRecord &triangle = packed.triangles[position];
+            triangle.v0 = mesh.positions[corner.positions.x];
+            triangle.v1 = mesh.positions[corner.positions.y];
+            triangle.v2 = mesh.positions[corner.positions.z];
+            triangle.primitiveId = layout::firstTriangleId + inputIndex;
+            const std::uint32_t material = mesh.materialOf(static_cast<std::size_t>(i));
+            const bool isTransmissive = scene.materials[material].kind == MaterialKind::Dielectric;
+            triangle.materialIndex = packedMaterial[material];
+            const bool isCutOut = scene.materials[material].textures[layout::slotOpacity].has_value();
+            triangle.flags = (isTransmissive ? layout::triangleIsTransmissive : 0u) |
+                             (isCutOut ? layout::triangleIsCutOut : 0u);
+            layout::NormalRecord &normals = packed.normals[position];
+            const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
+            normals.n0 = hasNormals ? mesh.normals[corner.normals.x] : glm::vec3(0.0f);
+            normals.n1 = hasNormals ? mesh.normals[corner.normals.y] : glm::vec3(0.0f);
+            normals.n2 = hasNormals ? mesh.normals[corner.normals.z] : glm::vec3(0.0f);
+        }
+        firstIndex += static_cast<std::uint32_t>(count);
+    }
+    for (const BvhNode &node : bvh.nodes)
+        if (node.isLeaf())
+            packed.triangles[node.first + node.count - 1].flags |= layout::triangleEndsLeaf;
+}
+
+/// Inner nodes in the order of their creation, which is depth first: a node's left child follows it closely.
+void packNodes(const Bvh &bvh, PackedScene &packed) {
+    const auto emptyPair = [] {
+        layout::NodePair pair{};
+        pair.left = layout::noNode;
+        pair.right = layout::noNode;
+        return pair;
+    };
+    if (bvh.nodes.empty() || bvh.nodes.front().isLeaf()) {
+        layout::NodePair root = emptyPair();
+        if (!bvh.nodes.empty()) {
+            root.leftLower = bvh.nodes.front().box.lower;
+            root.leftUpper = bvh.nodes.front().box.upper;
+            root.left = layout::leafFlag | 0u;
+        }
+        packed.nodes.push_back(root);
+        return;
+    }
+    std::vector<std::uint32_t> reference(bvh.nodes.size());
+    std::uint32_t innerCount = 0;
+    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
+        reference[i] = bvh.nodes[i].isLeaf() ? layout::leafFlag | bvh.nodes[i].first : innerCount++;
+    packed.nodes.resize(innerCount);
+    const auto nodeCount = static_cast<std::int64_t>(bvh.nodes.size());
+#pragma omp parallel for schedule(static) if (isLong(nodeCount))
+    for (std::int64_t i = 0; i < nodeCount; ++i) {
+        const BvhNode &node = bvh.nodes[static_cast<std::size_t>(i)];
+        if (node.isLeaf())
+            continue;
+        layout::NodePair &pair = packed.nodes[reference[static_cast<std::size_t>(i)]];
+        const BvhNode &left = bvh.nodes[node.first];
+        const BvhNode &right = bvh.nodes[node.first + 1];
+        pair.leftLower = left.box.lower;
+        pair.leftUpper = left.box.upper;
+        pair.left = reference[node.first];
+        pair.rightLower = right.box.lower;
+        pair.rightUpper = right.box.upper;
+        pair.right = reference[node.first + 1];
+    }
+}
+
+} // namespace
+
+std::size_t PackedScene::sizeBytes() const {
+    return sizeof(frame) + spheres.size() * sizeof(spheres[0]) + lights.size() * sizeof(lights[0]) +
+           materials.size() * sizeof(materials[0]) + emitters.size() * sizeof(emitters[0]) +
+           texels.size() * sizeof(texels[0]) + textures.size() * sizeof(textures[0]) +
+           nodes.size() * sizeof(nodes[0]) + triangles.size() * sizeof(triangles[0]) +
+           normals.size() * sizeof(normals[0]);
+}
+
+std::uint64_t PackedScene::contentHash() const {
+    layout::FrameRecord seen = frame;
+    seen.seed = 0;
+    seen.maxDepth = 0;
+    seen.occlusionDistance = 0.0f;
+    seen.radianceLimit = 0.0f;
+    seen.environmentTexels = 0; // and what follows is for some integrators only
+    seen.environmentProbability = 0.0f;
+    seen.filterTexels = 0;
+    std::vector<layout::MaterialRecord> seenMaterials = materials;
+    for (layout::MaterialRecord &material : seenMaterials)
+        material.emitterDensity = 0.0f; // which only some integrators need
+    std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)));
+    hash = hashBytes(std::as_bytes(std::span(spheres)), hash);
+    hash = hashBytes(std::as_bytes(std::span(lights)), hash);
+    hash = hashBytes(std::as_bytes(std::span(seenMaterials)), hash);
+    hash = hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
+    if ((lighting & layout::lightsByEnvironment) != 0)
+        hash =
+            hashBytes(std::as_bytes(std::span(texels).subspan(
+                          frame.environmentTexels, (frame.environmentWidth + 1) * frame.environmentHeight)),
+                      hash);
+    const std::size_t texelBegin = layout::firstCoordinateRow + layout::rowsPerCoordinates * triangles.size();
+    if (texturing != 0)
+        hash = hashBytes(std::as_bytes(std::span(textures).subspan(texelBegin)), hash);
+    // Trees put the triangles into orders of their own, and each has its id: their sum is the same in any order.
+    std::uint64_t sum = 0;
+    const auto triangleTotal = static_cast<std::int64_t>(triangles.size());
+#pragma omp parallel for schedule(static) reduction(+ : sum) if (isLong(triangleTotal))
+    for (std::int64_t index = 0; index < triangleTotal; ++index) {
+        const auto i = static_cast<std::size_t>(index);
+        struct {
+            layout::TriangleRecord triangle;
+            layout::NormalRecord normals;
+        } seenTriangle{triangles[i], normals[i]};
+        seenTriangle.triangle.flags &= ~layout::triangleEndsLeaf;
+        std::uint64_t triangleHash = hashBytes(std::as_bytes(std::span(&seenTriangle, 1)));
+        if (texturing != 0)
+            triangleHash = hashBytes(
+                std::as_bytes(std::span(textures).subspan(
+                    layout::firstCoordinateRow + layout::rowsPerCoordinates * i, layout::rowsPerCoordinates)),
+                triangleHash);
+        sum += triangleHash;
+    }
+    return hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
+}
+
+std::uint32_t samplerOf(const RenderSettings &settings) {
+    if (settings.sampler == SamplerKind::Centre)
+        return layout::samplerCentre;
+    return settings.filter == FilterKind::Box ? layout::samplerSobol : layout::samplerFiltered;
+}
+
+std::uint32_t viewOf(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::AmbientOcclusion:
+        return layout::viewOcclusion;
+    case Integrator::Depth:
+        return layout::viewDepth;
+    case Integrator::Albedo:
+        return layout::viewAlbedo;
+    case Integrator::Id:
+        return layout::viewId;
+    case Integrator::Uv:
+        return layout::viewCoordinates;
+    case Integrator::Normal:
+    case Integrator::Whitted:
+    case Integrator::Path:
+    case Integrator::Cost:
+        break;
+    }
+    return layout::viewNormal;
+}
+
+PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t mostDecoded) {
+    assert(bvh.order.size() <= triangleCount(scene));
+    PackedScene packed;
+    packed.frame = packFrame(scene);
+    packed.camera = cameraOf(scene.camera);
+    packed.treeDepth = bvh.depth;
+    packed.hasTriangles = !bvh.order.empty();
+
+    const std::vector<std::uint32_t> order = materialOrder(scene.materials);
+    std::vector<std::uint32_t> packedMaterial(order.size()); // by the index in the input
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        packedMaterial[order[i]] = i;
+        packed.materials.push_back(packMaterial(scene.materials[order[i]]));
+    }
+    const auto useMaterial = [&](std::uint32_t index) {
+        const MaterialKind kind = scene.materials[index].kind;
+        packed.hasEmission = packed.hasEmission || scene.materials[index].emission != glm::vec3(0.0f);
+        const bool isOpaque = !isGlass(scene.materials[index]);
+        const bool isDiffuse =
+            kind == MaterialKind::Diffuse || (kind == MaterialKind::Principled && isOpaque);
+        packed.hasSpecular = packed.hasSpecular || !isDiffuse;
+        packed.hasDielectric = packed.hasDielectric || !isOpaque;
+        packed.scattering |= scatteringOf(scene.materials[index]);
+        for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
+            packed.texturing |= scene.materials[index].textures[slot] ? 1u << slot : 0u;
+    };
+    const auto useMaterials = [&](const TriangleMesh &mesh) {
+        if (mesh.triangleMaterials.empty())
+            useMaterial(mesh.materialIndex);
+        std::vector<bool> isUsed(scene.materials.size(), false);
+        for (const std::uint32_t index : mesh.triangleMaterials)
+            isUsed[index] = true;
+        for (std::size_t i = 0; i < isUsed.size(); ++i)
+            if (isUsed[i])
+                useMaterial(static_cast<std::uint32_t>(i));
+    };
+    for (const Sphere &sphere : scene.spheres) {
+        useMaterial(sphere.materialIndex);
+        layout::SphereRecord record{};
+        record.centre = glm::vec3(sphere.centre);
+        record.radius = static_cast<float>(sphere.radius);
+        record.materialAndSide =
+            packedMaterial[sphere.materialIndex] | (sphere.inwardNormal ? layout::sphereFacesInward : 0u);
+        record.isTransmissive =
+            scene.materials[sphere.materialIndex].kind == MaterialKind::Dielectric ? 1u : 0u;
+        packed.spheres.push_back(record);
+    }
+    for (const TriangleMesh &mesh : scene.meshes)
+        useMaterials(mesh);
+    for (const Light &light : scene.lights) {
+        packed.lights.push_back(packLight(light));
+        packed.lighting |= 1u << emitterKindOf(packed.lights.back());
+    }
+    packTriangles(scene, bvh, packedMaterial, packed);
+    packNodes(bvh, packed);
+    packTextures(scene, order, mostDecoded, packed);
+    const bool isPath = scene.settings.integrator == Integrator::Path;
+    if (isPath && (packed.scattering & layout::scattersAtRough) != 0)
+        packed.texels = makeEnergyTexels();
+    const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
+    if (scene.settings.filter != FilterKind::Box)
+        packFilter(packed);
+    if (isPath)
+        packEmitters(scene, isLitAround, packed);
+    if (packed.hasTriangles) {
+        packed.frame.boundsLower = bvh.nodes.front().box.lower;
+        packed.frame.boundsUpper = bvh.nodes.front().box.upper;
+    }
+    packed.frame.triangleCount = static_cast<std::uint32_t>(packed.triangles.size());
+    return packed;
+}
+
+} // namespace hyalite

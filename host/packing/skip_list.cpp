@@ -1,0 +1,188 @@
+#include "host/packing/skip_list.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+namespace hyalite {
+
+namespace {
+
+constexpr double lowestPlane = -32768.0;
+constexpr double highestPlane = 32767.0;
+constexpr std::uint32_t listCount = 2;
+
+/// A box in cells of the grid, an axis a word: the lower plane in the low half.
+struct GridBox {
+    std::array<std::uint32_t, 3> planes;
+};
+
+/// What both lists have in common for the children of a node pair.
+struct PairPlan {
+    std::array<GridBox, 2> boxes; ///< of the left and the right child, if there is one
+    std::uint32_t nodeCount;      ///< list nodes of both children, all below included
+    float areaAround;             ///< half area of the box that a ray has met when it comes to the children
+    std::array<bool, 2> isLeftOut;
+    /// Of the right child on the axis on which their centres lie farthest apart: 1: above; -1: below; 0: neither.
+    std::int8_t side;
+};
+
+/// The grid on which planes lie: coordinates are rounded outwards.
+class Grid {
+  public:
+    explicit Grid(const SkipList &list) : middle_(list.gridMiddle), scale_(list.gridScale) {}
+
+    [[nodiscard]] GridBox enclose(const glm::vec3 &lower, const glm::vec3 &upper) const {
+        GridBox box{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double low = std::floor((lower[axis] - middle_[axis]) / scale_[axis]);
+            const double high = std::ceil((upper[axis] - middle_[axis]) / scale_[axis]);
+            // The grid has room beyond all boxes; a cell more on each side makes up for the rounding of the division.
+            const auto first = static_cast<std::int32_t>(std::clamp(low - 1.0, lowestPlane, highestPlane));
+            const auto last = static_cast<std::int32_t>(std::clamp(high + 1.0, lowestPlane, highestPlane));
+            assert(middle_[axis] + scale_[axis] * first <= lower[axis] &&
+                   middle_[axis] + scale_[axis] * last >= upper[axis]);
+            box.planes[static_cast<std::size_t>(axis)] =
+                (static_cast<std::uint32_t>(first) & 0xFFFFu) | static_cast<std::uint32_t>(last) << 16;
+        }
+        return box;
+    }
+
+  private:
+    glm::dvec3 middle_;
+    glm::dvec3 scale_;
+};
+
+bool isInner(std::uint32_t reference) { return (reference & layout::leafFlag) == 0; } // and not noNode
+
+PairPlan planPair(const layout::NodePair &pair, const Grid &grid) {
+    PairPlan plan{};
+    if (pair.left != layout::noNode)
+        plan.boxes[0] = grid.enclose(pair.leftLower, pair.leftUpper);
+    if (pair.right != layout::noNode)
+        plan.boxes[1] = grid.enclose(pair.rightLower, pair.rightUpper);
+    const glm::vec3 apart =
+        (pair.rightLower / 2.0f + pair.rightUpper / 2.0f) - (pair.leftLower / 2.0f + pair.leftUpper / 2.0f);
+    int axis = std::abs(apart.x) > std::abs(apart.y) ? 0 : 1;
+    if (std::abs(apart.z) > std::abs(apart[axis]))
+        axis = 2;
+    plan.side = static_cast<std::int8_t>((apart[axis] > 0.0f) - (apart[axis] < 0.0f));
+    return plan;
+}
+
+/// Leaves out inner nodes that cull too little. Of the rays that meet a box of area A, a / A meet one of area a inside of
+/// it, and only they go on to its two children; without it all do: A + 2 a steps against 2 A.
+void leaveOutNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
+    plans[0].areaAround =
+        static_cast<float>(Box{scene.frame.boundsLower, scene.frame.boundsUpper}.halfArea());
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const layout::NodePair &pair = scene.nodes[i];
+        const auto decide = [&](std::size_t child, std::uint32_t reference, const Box &box) {
+            if (!isInner(reference))
+                return;
+            const auto area = static_cast<float>(box.halfArea());
+            plans[i].isLeftOut[child] = area > 0.5f * plans[i].areaAround;
+            plans[reference].areaAround = plans[i].isLeftOut[child] ? plans[i].areaAround : area;
+        };
+        decide(0, pair.left, {pair.leftLower, pair.leftUpper});
+        decide(1, pair.right, {pair.rightLower, pair.rightUpper});
+    }
+}
+
+/// Pairs come before those below them: their counts are known when they are met from the end.
+void countNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
+    for (std::size_t i = plans.size(); i-- > 0;) {
+        const std::array<std::uint32_t, 2> references{scene.nodes[i].left, scene.nodes[i].right};
+        for (std::size_t child = 0; child < 2; ++child) {
+            const std::uint32_t reference = references[child];
+            if (reference == layout::noNode)
+                continue;
+            assert(!isInner(reference) || reference > i);
+            plans[i].nodeCount +=
+                (plans[i].isLeftOut[child] ? 0 : 1) + (isInner(reference) ? plans[reference].nodeCount : 0);
+        }
+    }
+}
+
+/// Writes the list whose first siblings are on the `nearSide`, -1 or 1, of their axis; it begins at the index `begin`.
+/// Where a subtree begins is known before it is written, as all nodes above come first and its sibling's size is known:
+/// no stack is needed. `pairBegins` is room for an index a pair.
+void writeList(const PackedScene &scene, std::span<const PairPlan> plans, int nearSide, std::uint32_t begin,
+               std::span<std::uint32_t> pairBegins, std::span<layout::SkipNode> nodes) {
+    pairBegins[0] = begin;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const PairPlan &plan = plans[i];
+        const std::array<std::uint32_t, 2> references{scene.nodes[i].left, scene.nodes[i].right};
+        const std::size_t nearChild = plan.side == nearSide ? 1 : 0;
+        std::uint32_t index = pairBegins[i];
+        for (const std::size_t child : {nearChild, 1 - nearChild}) {
+            const std::uint32_t reference = references[child];
+            if (reference == layout::noNode)
+                continue;
+            const std::array<std::uint32_t, 3> &planes = plan.boxes[child].planes;
+            if (plan.isLeftOut[child]) {
+                pairBegins[reference] = index;
+                index += plans[reference].nodeCount;
+                continue;
+            }
+            layout::SkipNode &node = nodes[index++];
+            node.x = planes[0];
+            node.y = planes[1];
+            node.z = planes[2];
+            node.link = reference;
+            if (isInner(reference)) {
+                pairBegins[reference] = index;
+                index += plans[reference].nodeCount;
+                node.link = index;
+            }
+        }
+    }
+}
+
+} // namespace
+
+SkipList makeSkipList(const PackedScene &scene) {
+    SkipList list;
+    if (!scene.hasTriangles)
+        return list;
+    const glm::vec3 lower = scene.frame.boundsLower;
+    const glm::vec3 upper = scene.frame.boundsUpper;
+    for (int axis = 0; axis < 3; ++axis) {
+        list.gridMiddle[axis] = lower[axis] / 2.0f + upper[axis] / 2.0f;
+        const double middle = list.gridMiddle[axis];
+        // Flat boxes get a grid as fine as their coordinates; 16 cells stay free on each side.
+        const double reach =
+            std::max({upper[axis] - middle, middle - lower[axis], 1e-6 * std::max(std::abs(middle), 1e-20)});
+        list.gridScale[axis] = static_cast<float>(reach / (highestPlane - 16.0));
+    }
+    const auto pairCount = static_cast<std::int64_t>(scene.nodes.size());
+    std::vector<PairPlan> plans(scene.nodes.size());
+    const Grid grid(list);
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < pairCount; ++i)
+        plans[static_cast<std::size_t>(i)] = planPair(scene.nodes[static_cast<std::size_t>(i)], grid);
+    leaveOutNodes(scene, plans);
+    countNodes(scene, plans);
+
+    list.length = plans.front().nodeCount;
+    list.nodes.resize(std::size_t{listCount} * list.length + 1);
+    std::vector<std::uint32_t> pairBegins(plans.size() * listCount);
+#pragma omp parallel for schedule(static) num_threads(listCount)
+    for (std::uint32_t i = 0; i < listCount; ++i)
+        writeList(scene, plans, i == 0 ? -1 : 1, i * list.length,
+                  std::span(pairBegins).subspan(plans.size() * i, plans.size()), list.nodes);
+    return list;
+}
+
+std::uint64_t mostSkipListBytes(std::size_t pairCount) {
+    return (std::uint64_t{listCount} * 2 * pairCount + 1) * sizeof(layout::SkipNode);
+}
+
+std::uint64_t skipListWorkBytes(std::size_t pairCount) {
+    return pairCount * (sizeof(PairPlan) + listCount * sizeof(std::uint32_t));
+}
+
+} // namespace hyalite

@@ -1,0 +1,293 @@
+#include "host/packing/texture_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+using Rows = std::vector<layout::TextureRow>;
+
+layout::TextureRow rowOf(float x, float y, float z, float w) {
+    return {std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(y), std::bit_cast<std::uint32_t>(z),
+            std::bit_cast<std::uint32_t>(w)};
+}
+
+/// IEC 61966-2-1: from what a screen takes to what is proportional to light.
+double fromSrgb(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+template <class Decode> void addTable(Rows &rows, const Decode &decode) {
+    const auto entry = [&](std::uint32_t level) { return static_cast<float>(decode(level / 255.0)); };
+    for (std::uint32_t level = 0; level < 256; level += 4)
+        rows.push_back(rowOf(entry(level), entry(level + 1), entry(level + 2), entry(level + 3)));
+}
+
+/// Of all triangle records; 0 for triangles that have none.
+void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
+    std::vector<std::uint32_t> firstTriangles; // of each mesh
+    std::uint32_t count = 0;
+    for (const TriangleMesh &mesh : scene.meshes) {
+        firstTriangles.push_back(count);
+        count += static_cast<std::uint32_t>(mesh.triangles.size());
+    }
+    const std::size_t first = rows.size();
+    rows.resize(first + layout::rowsPerCoordinates * packed.triangles.size());
+    const auto total = static_cast<std::int64_t>(packed.triangles.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < total; ++i) {
+        const std::size_t record = static_cast<std::size_t>(i);
+        const std::uint32_t index = packed.triangles[record].primitiveId - layout::firstTriangleId;
+        // Of meshes without triangles, which begin where the next one does, the last is found.
+        const auto next = std::upper_bound(firstTriangles.begin(), firstTriangles.end(), index);
+        const TriangleMesh &mesh = scene.meshes[static_cast<std::size_t>(next - firstTriangles.begin() - 1)];
+        if (mesh.triangleUvs.empty())
+            continue;
+        const glm::uvec3 &corners = mesh.triangleUvs[index - *(next - 1)];
+        if (corners.x == TriangleMesh::noUv)
+            continue;
+        const glm::vec2 a = mesh.uvs[corners.x];
+        const glm::vec2 b = mesh.uvs[corners.y];
+        const glm::vec2 c = mesh.uvs[corners.z];
+        layout::TextureRow *const at = &rows[first + layout::rowsPerCoordinates * record];
+        at[0] = rowOf(a.x, a.y, b.x, b.y);
+        at[1] = rowOf(c.x, c.y, 0.0f, 0.0f);
+    }
+}
+
+/// How the texels of an image are read for a slot: bits of layout::textureIs...
+std::uint32_t formatOf(const Texture &texture, std::uint32_t slot) {
+    if (texture.isFloat())
+        return layout::textureIsFloat;
+    if (slot == layout::slotBaseColour || slot == layout::slotEmission)
+        return layout::textureIsSrgb;
+    return slot == layout::slotOpacity && texture.hasAlpha ? layout::textureIsAlpha : 0u;
+}
+
+/// An image as it is stored.
+struct StoredImage {
+    const Texture *texture;
+    std::uint32_t format; ///< as slots read it; of levels that stay levels 0, for all slots
+    std::size_t firstRow = 0;
+
+    bool operator==(const StoredImage &other) const {
+        return texture == other.texture && format == other.format;
+    }
+};
+
+/// The images of a scene, each stored once: the decoded ones for each way to read them.
+class ImageStore {
+  public:
+    /// Levels are decoded, for a texel is then read at once, where all images take no more than `mostDecoded` bytes so.
+    ImageStore(const Scene &scene, std::size_t mostDecoded) : scene_(scene) {
+        std::size_t pixelCount = 0;
+        forEachUse([&](const Texture &texture, std::uint32_t slot) {
+            pixelCount += add({&texture, formatOf(texture, slot)}) ? texture.pixelCount() : 0;
+        });
+        areDecoded_ = pixelCount <= mostDecoded / sizeof(layout::TextureRow);
+        if (areDecoded_)
+            return;
+        images_.clear();
+        forEachUse([&](const Texture &texture, std::uint32_t slot) {
+            add({&texture, storedFormat(texture, slot)});
+        });
+    }
+
+    [[nodiscard]] bool hasLevels() const {
+        return std::ranges::any_of(images_, [&](const auto &image) { return isOfLevels(image); });
+    }
+
+    /// Gives all images their rows, from `row` on, and returns the first row behind them.
+    std::size_t place(std::size_t row) {
+        for (StoredImage &image : images_) {
+            image.firstRow = row;
+            row += rowCount(image);
+        }
+        return row;
+    }
+
+    /// Where a slot finds the image's texels, and their format.
+    void describe(const Texture &texture, std::uint32_t slot, layout::TextureRecord &record) const {
+        const auto image = std::ranges::find(images_, StoredImage{&texture, storedFormat(texture, slot)});
+        record.firstRow = static_cast<std::uint32_t>(image->firstRow);
+        record.format = isOfLevels(*image) ? formatOf(texture, slot) : layout::textureIsFloat;
+    }
+
+    /// Appends all images in the order of their rows. The tables are there.
+    void append(Rows &rows) const {
+        for (const StoredImage &image : images_) {
+            if (isOfLevels(image))
+                appendLevels(image, rows);
+            else if (image.texture->isFloat())
+                for (const glm::vec3 &value : image.texture->values)
+                    rows.push_back(rowOf(value.x, value.y, value.z, 0.0f));
+            else
+                appendDecoded(image, rows);
+        }
+    }
+
+  private:
+    template <class Action> void forEachUse(const Action &action) const {
+        for (const Material &material : scene_.materials)
+            for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
+                if (const std::optional<TextureUse> &use = material.textures[slot])
+                    action(scene_.textures[use->textureIndex], slot);
+    }
+
+    [[nodiscard]] std::uint32_t storedFormat(const Texture &texture, std::uint32_t slot) const {
+        return areDecoded_ || texture.isFloat() ? formatOf(texture, slot) : 0;
+    }
+
+    [[nodiscard]] bool isOfLevels(const StoredImage &image) const {
+        return !areDecoded_ && !image.texture->isFloat();
+    }
+
+    [[nodiscard]] std::size_t rowCount(const StoredImage &image) const {
+        const std::size_t pixelCount = image.texture->pixelCount();
+        return isOfLevels(image) ? (pixelCount + 3) / 4 : pixelCount;
+    }
+
+    /// Whether it was not there.
+    bool add(const StoredImage &image) {
+        if (std::ranges::count(images_, image) > 0)
+            return false;
+        images_.push_back(image);
+        return true;
+    }
+
+    void appendLevels(const StoredImage &image, Rows &rows) const {
+        const std::vector<std::uint32_t> &levels = image.texture->levels;
+        const std::size_t first = rows.size();
+        rows.resize(first + rowCount(image), layout::TextureRow{});
+        std::memcpy(&rows[first], levels.data(), levels.size() * sizeof(levels[0]));
+    }
+
+    /// With the numbers of the tables, so that decoded or not a kernel reads the same bits.
+    static void appendDecoded(const StoredImage &image, Rows &rows) {
+        const std::size_t table =
+            (image.format & layout::textureIsSrgb) != 0 ? layout::srgbTableRow : layout::linearTableRow;
+        std::vector<std::uint32_t> words(256);
+        std::memcpy(words.data(), &rows[table], words.size() * sizeof(words[0]));
+        for (std::uint32_t levels : image.texture->levels) {
+            if ((image.format & layout::textureIsAlpha) != 0)
+                levels = (levels >> 24u) * 0x010101u;
+            rows.push_back(
+                {words[levels & 255u], words[levels >> 8u & 255u], words[levels >> 16u & 255u], 0u});
+        }
+    }
+
+    const Scene &scene_;
+    std::vector<StoredImage> images_;
+    bool areDecoded_ = true;
+};
+
+float factorOf(const Material &material, std::uint32_t slot) {
+    switch (slot) {
+    case layout::slotRoughness:
+        return material.roughness;
+    case layout::slotMetallic:
+        return material.metallic;
+    case layout::slotNormal:
+        return material.normalStrength;
+    default:
+        return 1.0f;
+    }
+}
+
+layout::TextureRecord recordOf(const ImageStore &images, const Texture &texture, const TextureUse &use,
+                               const Material &material, std::uint32_t slot) {
+    layout::TextureRecord record{};
+    images.describe(texture, slot, record);
+    record.size = static_cast<std::uint32_t>(texture.width) | static_cast<std::uint32_t>(texture.height)
+                                                                  << 16u;
+    record.factor = factorOf(material, slot);
+    record.scaleU = use.scale.x;
+    record.scaleV = use.scale.y;
+    record.offsetU = use.offset.x;
+    record.offsetV = use.offset.y;
+    return record;
+}
+
+bool hasTextures(const Material &material) {
+    return std::ranges::any_of(material.textures, [](const auto &use) { return use.has_value(); });
+}
+
+} // namespace
+
+void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std::size_t mostDecoded,
+                  PackedScene &packed) {
+    if (packed.texturing == 0 && scene.settings.integrator != Integrator::Uv)
+        return;
+    constexpr std::size_t rowsPerMaterial = layout::rowsPerTexture * layout::textureSlotCount;
+    std::size_t firstTexelRow =
+        layout::firstCoordinateRow + layout::rowsPerCoordinates * packed.triangles.size();
+    for (const Material &material : scene.materials)
+        firstTexelRow += hasTextures(material) ? rowsPerMaterial : 0;
+    ImageStore images(scene, mostDecoded);
+    const std::size_t rowCount = images.place(firstTexelRow);
+    packed.texturing |= images.hasLevels() ? layout::texturesLevels : 0u;
+
+    Rows &rows = packed.textures;
+    rows.reserve(rowCount);
+    addTable(rows, fromSrgb);
+    addTable(rows, [](double level) { return level; });
+    assert(rows.size() == layout::firstCoordinateRow);
+    addCoordinates(scene, packed, rows);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Material &material = scene.materials[order[i]];
+        if (!hasTextures(material))
+            continue;
+        packed.materials[i].textures = static_cast<std::uint32_t>(rows.size());
+        rows.resize(rows.size() + rowsPerMaterial, layout::TextureRow{});
+        for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
+            if (const std::optional<TextureUse> &use = material.textures[slot]) {
+                const layout::TextureRecord record =
+                    recordOf(images, scene.textures[use->textureIndex], *use, material, slot);
+                std::memcpy(&rows[packed.materials[i].textures + layout::rowsPerTexture * slot], &record,
+                            sizeof(record));
+            }
+    }
+    assert(rows.size() == firstTexelRow);
+    images.append(rows);
+    assert(rows.size() == rowCount);
+}
+
+glm::dvec3 meanEmissionFactor(const PackedScene &packed, const layout::MaterialRecord &material) {
+    if (material.textures == 0)
+        return glm::dvec3(1.0);
+    layout::TextureRecord record;
+    std::memcpy(&record, &packed.textures[material.textures + layout::rowsPerTexture * layout::slotEmission],
+                sizeof(record));
+    if (record.size == 0)
+        return glm::dvec3(1.0);
+    const std::size_t count = std::size_t{record.size & 0xFFFFu} * (record.size >> 16u);
+    const layout::TextureRow *const texels = &packed.textures[record.firstRow];
+    const auto number = [](std::uint32_t word) { return double{std::bit_cast<float>(word)}; };
+    glm::dvec3 sum(0.0);
+    if ((record.format & layout::textureIsFloat) != 0) {
+        for (std::size_t i = 0; i < count; ++i)
+            sum += glm::dvec3(number(texels[i].x), number(texels[i].y), number(texels[i].z));
+        return sum / static_cast<double>(count);
+    }
+    const auto wordAt = [](const layout::TextureRow *from, std::size_t index) {
+        const layout::TextureRow &row = from[index / 4];
+        const std::uint32_t words[] = {row.x, row.y, row.z, row.w};
+        return words[index % 4];
+    };
+    const layout::TextureRow *const table = &packed.textures[layout::srgbTableRow];
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t levels = wordAt(texels, i);
+        sum += glm::dvec3(number(wordAt(table, levels & 255u)), number(wordAt(table, levels >> 8u & 255u)),
+                          number(wordAt(table, levels >> 16u & 255u)));
+    }
+    return sum / static_cast<double>(count);
+}
+
+} // namespace hyalite

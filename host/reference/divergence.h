@@ -1,0 +1,32 @@
+// Where two renderers went apart first.
+#pragma once
+
+#include "shaders/layout/layout.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// The first step of a path at which two traces differ in any bit.
+struct Divergence {
+    std::uint32_t sampleIndex = 0;
+    std::uint32_t rayDepth = 0; ///< segment number of the ray: 1 for a primary ray
+    std::string quantity;       ///< "hit primitive", "surface normal", ...
+    std::string valueA;         ///< in decimal and, for floats, in hexadecimal
+    std::string valueB;
+    bool isDiscrete =
+        false; ///< a decision went the other way: another primitive, another visibility, total reflection
+    std::uint32_t eventIndex = 0; ///< in both traces
+};
+
+/// Compares two traces of the same sample, step by step.
+[[nodiscard]] std::optional<Divergence> findDivergence(const std::vector<layout::TraceEvent> &a,
+                                                       const std::vector<layout::TraceEvent> &b);
+
+/// The first step at which a decision differs, whatever the rounding of the numbers around it.
+[[nodiscard]] std::optional<Divergence> findDiscreteDivergence(const std::vector<layout::TraceEvent> &a,
+                                                               const std::vector<layout::TraceEvent> &b);
+
+} // namespace hyalite

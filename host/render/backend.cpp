@@ -1,0 +1,246 @@
+#include "host/render/backend.h"
+
+#include "host/base/error.h"
+#include "host/base/host_memory.h"
+#include "host/base/message.h"
+#include "host/base/quantities.h"
+#include "host/gpu/vk/instance.h"
+#include "host/reference/renderer.h"
+#include "host/render/tuning.h"
+#include "host/report/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <future>
+#include <new>
+#include <optional>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+/// "Mesa 22.3.6" of "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", where the device is called "llvmpipe (LLVM 15.0.6, 256 bits)".
+std::string driverBesideName(const std::string &driver, const std::string &name) {
+    std::string text = driver.substr(0, driver.find(" ("));
+    const std::size_t firstWordEnd = std::min(text.find(' '), text.size());
+    if (name.starts_with(text.substr(0, firstWordEnd)))
+        text.erase(0, firstWordEnd + 1);
+    return text;
+}
+
+class CpuBackend : public Backend {
+  public:
+    CpuBackend(reference::Precision precision, int threadCount)
+        : precision_(precision), threadCount_(threadCount) {}
+
+    [[nodiscard]] std::string name() const override {
+        return precision_ == reference::Precision::Float32 ? "cpu" : "cpu-double";
+    }
+    [[nodiscard]] RendererIdentity identity(const PackedScene &, Integrator) const override {
+        return {name(), "reference renderer", "native / and sqrt: IEEE 754", "", 0};
+    }
+    [[nodiscard]] std::string precision() const override {
+        // A film holds sums in single precision.
+        return precision_ == reference::Precision::Float32 ? Backend::precision() : std::string();
+    }
+    [[nodiscard]] std::string description() const override {
+        return precision_ == reference::Precision::Float32
+                   ? "cpu, the reference renderer"
+                   : "cpu-double, the reference renderer in double precision";
+    }
+    [[nodiscard]] BackendResult render(const PreparedScene &scene,
+                                       const std::function<void(double)> &onProgress, Timeline *timeline,
+                                       const std::function<bool()> &shouldStop,
+                                       Continuation continuation) override {
+        const RenderSettings &settings = scene.loaded.scene.settings;
+        Stopwatch watch;
+        reference::Result result = reference::render(
+            scene.packed, settings, scene.crop, {precision_, threadCount_, onProgress, false, shouldStop},
+            std::move(continuation));
+        const Span span = watch.lap();
+        if (timeline != nullptr) {
+            timeline->clock = "the host's clock, from call to return";
+            timeline->stages.push_back({"dispatches", span});
+            timeline->dispatches.push_back(describeCall(scene, result.rays, span));
+        }
+        RenderTiming timing;
+        timing.renderSeconds = span.seconds();
+        return {std::move(result.film), result.rays, timing, result.work, {}};
+    }
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+                                                        std::uint32_t sampleIndex) override {
+        return reference::trace(scene.packed, scene.loaded.scene.settings, pixel, sampleIndex, precision_);
+    }
+
+  private:
+    /// The whole render as one dispatch of one tile.
+    [[nodiscard]] DispatchRecord describeCall(const PreparedScene &scene, const RayCounts &rays,
+                                              const Span &span) const {
+        DispatchRecord record;
+        record.kernel = name();
+        record.tileX = scene.crop.x0;
+        record.tileY = scene.crop.y0;
+        record.tileWidth = scene.crop.width();
+        record.tileHeight = scene.crop.height();
+        record.sampleEnd = static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel);
+        record.rays = rays;
+        record.invocations =
+            static_cast<std::uint64_t>(record.tileWidth) * static_cast<std::uint64_t>(record.tileHeight);
+        record.times.host = span;
+        return record;
+    }
+
+    reference::Precision precision_;
+    int threadCount_;
+};
+
+class DeviceBackend : public Backend {
+  public:
+    DeviceBackend(const gpu::DeviceInfo &device, const gpu::Batching &batching)
+        : device_(device), renderer_(device, batching, readTuning(device).kernels) {}
+
+    [[nodiscard]] std::string name() const override { return device_.name; }
+    [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
+        const gpu::ArithmeticChoice &choice = renderer_.arithmetic();
+        return {device_.name, device_.driver,
+                fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason),
+                std::string(renderer_.kernelName(scene, integrator)),
+                renderer_.kernelHash(scene, integrator)};
+    }
+    [[nodiscard]] std::string unpromisedBits() const override { return gpu::explainUnpromisedBits(device_); }
+    [[nodiscard]] std::string precision() const override {
+        return unpromisedBits().empty() ? Backend::precision()
+                                        : fmt::format("float32 of {}, {}", device_.name, device_.driver);
+    }
+    [[nodiscard]] std::string description() const override {
+        const std::string driver = driverBesideName(device_.driver, device_.name);
+        return fmt::format("{}, {}{}{}{}", device_.index, device_.name, driver.empty() ? "" : ", ", driver,
+                           device_.isSoftware() ? ": software, computes on the CPU" : "");
+    }
+    [[nodiscard]] BackendResult render(const PreparedScene &scene,
+                                       const std::function<void(double)> &onProgress, Timeline *timeline,
+                                       const std::function<bool()> &shouldStop,
+                                       Continuation continuation) override {
+        gpu::Result result = renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop,
+                                              onProgress, timeline, shouldStop, std::move(continuation));
+        return {std::move(result.film), result.rays,   result.timing, result.work,
+                result.lanes,           result.memory, result.faults, result.failure};
+    }
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+                                                        std::uint32_t sampleIndex) override {
+        return renderer_.trace(scene.packed, scene.loaded.scene.settings, pixel, sampleIndex);
+    }
+
+  private:
+    gpu::DeviceInfo device_;
+    gpu::Renderer renderer_;
+};
+
+/// A film and the image made of it: tone mapping and packing come on top of that and take less.
+std::uint64_t filmBytes(const Crop &crop) {
+    return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height()) *
+           (sizeof(layout::FilmPixel) + sizeof(glm::vec3));
+}
+
+[[noreturn]] void refuseFilm(const Crop &crop, std::uint64_t neededBytes, const std::string &available) {
+    throw Error(ExitCode::LimitExceeded,
+                fmt::format("{}x{} pixels take {} of memory, and {}; render a smaller image, or parts of it "
+                            "with --crop",
+                            crop.width(), crop.height(), sizeText(neededBytes), available));
+}
+
+/// The loader unloads drivers with the last instance: this one keeps them until the device that is chosen has its own.
+struct DeviceList {
+    std::unique_ptr<gpu::Instance> instance;
+    std::vector<gpu::DeviceInfo> devices;
+};
+
+DeviceList listDevices() {
+    try {
+        auto instance = std::make_unique<gpu::Instance>();
+        auto devices = gpu::listDevices(*instance);
+        return {std::move(instance), std::move(devices)};
+    } catch (const Error &error) {
+        if (error.exitCode != ExitCode::NoDevice)
+            throw;
+        throw Error(error.exitCode,
+                    fmt::format("{}; --device cpu renders without Vulkan, to the same bits", error.what()));
+    }
+}
+
+std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::Batching &batching) {
+    if (isReference(name) && batching.traversal != gpu::Traversal::Automatic)
+        throw Error(ExitCode::Usage,
+                    fmt::format("--kernel is for Vulkan devices: --device {} has none to choose from", name));
+    if (name == "cpu")
+        return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
+    if (name == "cpu-double")
+        return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
+    const DeviceList list = listDevices();
+    return std::make_unique<DeviceBackend>(gpu::chooseDevice(list.devices, name), batching);
+}
+
+} // namespace
+
+void requireFilmMemory(const Crop &crop, unsigned filmCount) {
+    const std::uint64_t neededBytes = filmCount * filmBytes(crop);
+    const std::optional<std::uint64_t> available = availableHostBytes();
+    if (available && neededBytes > *available)
+        refuseFilm(crop, neededBytes, sizeText(*available) + " are available");
+}
+
+BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, const std::string &task,
+                                 bool isQuiet, Timeline *timeline, const std::function<bool()> &shouldStop,
+                                 Continuation continuation) {
+    ProgressLine progress(task, isQuiet);
+    try {
+        BackendResult result = backend.render(
+            scene, [&](double share) { progress.update(share); }, timeline, shouldStop,
+            std::move(continuation));
+        if (result.failure && !shouldStop)
+            throw Error(*result.failure);
+        const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);
+        for (std::size_t i = 0; i < survived; ++i)
+            printMessage("note: {}; opened the device anew, for half as much at a time\n", result.faults[i]);
+        return result;
+    } catch (const std::bad_alloc &) {
+        refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
+    }
+}
+
+bool isReference(const std::string &name) { return name == "cpu" || name == "cpu-double"; }
+
+gpu::Batching batchingFor(const DeviceOptions &options) {
+    gpu::Batching batching;
+    batching.dispatchSeconds = options.maxDispatchMillis * 1e-3;
+    if (options.kernel) {
+        batching.traversal = options.kernel->traversal;
+        batching.slotsPerInvocation = options.kernel->slotsPerInvocation;
+    }
+    return batching;
+}
+
+gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline) {
+    return {threadCount, outline.hasMeshes, outline.settings.integrator, outline.settings.maxDepth};
+}
+
+gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene) {
+    return processorsFor(threadCount, SceneOutline{scene.packed.hasTriangles, scene.loaded.scene.settings});
+}
+
+std::unique_ptr<Backend> openBackend(const std::string &name, const gpu::ProcessorUse &processors,
+                                     const gpu::Batching &batching) {
+    gpu::tellLavapipe(processors);
+    return open(name, processors.threadCount, batching);
+}
+
+std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name,
+                                                          const gpu::ProcessorUse &processors,
+                                                          const gpu::Batching &batching) {
+    gpu::tellLavapipe(processors); // here, as other threads may read the environment from now on
+    return std::async(std::launch::async, [=] { return open(name, processors.threadCount, batching); });
+}
+
+} // namespace hyalite

@@ -1,0 +1,28 @@
+#include "host/render/identity.h"
+
+#include "host/base/hash.h"
+#include "host/report/provenance.h"
+
+#include "shaders/embedded_kernels.h"
+
+#include <fmt/format.h>
+
+namespace hyalite {
+
+RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend) {
+    RenderIdentity identity;
+    const layout::FrameRecord &frame = scene.packed.frame;
+    const Crop &crop = scene.crop;
+    identity.emplace_back("image", fmt::format("{}x{}", frame.imageWidth, frame.imageHeight));
+    identity.emplace_back("crop", fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1));
+    const nlohmann::ordered_json settings = settingsToJson(scene.loaded.scene.settings);
+    for (const auto &[name, value] : settings.items())
+        if (name != "spp" && name != "bvh" && name != "leafSize" && name != "exposure")
+            identity.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+    identity.emplace_back("scene and camera", hashText(scene.packed.contentHash()));
+    identity.emplace_back("precision", backend.precision());
+    identity.emplace_back("kernels of this program", pixelSources());
+    return identity;
+}
+
+} // namespace hyalite

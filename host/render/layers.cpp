@@ -1,0 +1,69 @@
+#include "host/render/layers.h"
+
+#include "host/scene/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hyalite {
+
+namespace {
+
+/// From what the view shows of a normal back to the normal.
+glm::vec3 normalOf(const glm::vec3 &colour) {
+    return colour == glm::vec3(0.0f) ? colour : 2.0f * colour - 1.0f;
+}
+
+Layer layerOf(const ViewFilm &of) {
+    const Film &film = of.film;
+    const bool isNormal = of.view == Integrator::Normal;
+    const int channelCount = of.view == Integrator::Depth ? 1 : 3;
+    const auto fillRow = [&film, isNormal, channelCount](int y, std::span<float> row) {
+        float *next = row.data();
+        for (const layout::FilmPixel &pixel : rowOf(film, y)) {
+            const glm::vec3 mean = pixel.sum / static_cast<float>(std::max(pixel.sampleCount, 1u));
+            const glm::vec3 value = isNormal ? normalOf(mean) : mean;
+            for (int channel = 0; channel < channelCount; ++channel)
+                *next++ = value[channel];
+        }
+    };
+    return {std::string(nameOf(of.view)), channelCount == 1 ? "" : isNormal ? "XYZ" : "RGB", fillRow};
+}
+
+} // namespace
+
+std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
+                                  const std::vector<Integrator> &views, bool isQuiet,
+                                  const std::function<bool()> &shouldStop) {
+    RenderSettings &settings = scene.loaded.scene.settings;
+    const RenderSettings ofImage = settings;
+    std::vector<ViewFilm> films;
+    for (const Integrator view : views) {
+        settings.integrator = view;
+        if (view != Integrator::Albedo) {
+            settings.samplesPerPixel = 1;
+            settings.sampler = SamplerKind::Centre;
+        }
+        Film film(scene.crop);
+        if (!shouldStop()) {
+            BackendResult result =
+                renderWithProgress(backend, scene, std::string(nameOf(view)), isQuiet, nullptr, shouldStop);
+            if (result.failure)
+                throw Error(*result.failure);
+            film = std::move(result.film);
+        }
+        films.push_back({view, std::move(film)});
+        settings = ofImage;
+    }
+    return films;
+}
+
+std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films) {
+    std::vector<Layer> layers;
+    for (const ViewFilm &film : films)
+        layers.push_back(layerOf(film));
+    return layers;
+}
+
+} // namespace hyalite

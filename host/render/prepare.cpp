@@ -1,0 +1,186 @@
+#include "host/render/prepare.h"
+
+#include "host/base/error.h"
+#include "host/base/message.h"
+#include "host/bvh/bvh.h"
+#include "host/bvh/tree_statistics.h"
+#include "host/import/load.h"
+#include "host/report/progress.h"
+#include "host/scene/framing.h"
+#include "host/scene/limits.h"
+#include "host/scene/names.h"
+#include "host/scene/validate.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <chrono>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+glm::dvec3 toVector(const std::vector<double> &values) { return {values[0], values[1], values[2]}; }
+
+/// A bare mesh has no scene file that says where to look.
+std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const LoadedScene &loaded) {
+    if (!options.lookAt.empty())
+        return toVector(options.lookAt);
+    if (loaded.autoFramed && !options.cameraPosition.empty())
+        return triangleBounds(loaded.scene.meshes.front()).centre();
+    return std::nullopt;
+}
+
+/// A camera that is moved keeps its direction; one that is told where to look keeps its position.
+void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &camera) {
+    if (!options.cameraPosition.empty())
+        camera.position = toVector(options.cameraPosition);
+    if (!options.up.empty())
+        camera.up = toVector(options.up);
+    if (!limits::directionLength.contains(glm::length(camera.up)))
+        throw Error(ExitCode::Usage, "--up: found a vector without length; allowed: any other vector");
+    if (const std::optional<glm::dvec3> target = chooseTarget(options, loaded)) {
+        camera.direction = *target - camera.position;
+        if (!limits::directionLength.contains(glm::length(camera.direction)))
+            throw Error(ExitCode::Usage,
+                        "--look-at: found the camera's own position; allowed: any other point");
+    }
+}
+
+void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
+    settings.samplesPerPixel = options.samplesPerPixel.value_or(settings.samplesPerPixel);
+    settings.integrator = options.integrator.value_or(settings.integrator);
+    settings.occlusionDistance = options.occlusionDistance.value_or(settings.occlusionDistance);
+    settings.maxDepth = options.maxDepth.value_or(settings.maxDepth);
+    settings.tree = options.tree.value_or(settings.tree);
+    settings.leafSize = options.leafSize.value_or(settings.leafSize);
+    settings.sampler = options.sampler.value_or(settings.sampler);
+    settings.filter = options.filter.value_or(settings.filter);
+    settings.seed = options.seed.value_or(settings.seed);
+    settings.radianceLimit = options.radianceLimit.value_or(settings.radianceLimit);
+    settings.exposureStops = options.exposureStops.value_or(settings.exposureStops);
+}
+
+void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
+    Scene &scene = loaded.scene;
+    RenderSettings &settings = scene.settings;
+    overrideSettings(options, settings);
+    if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
+        throw Error(ExitCode::Usage,
+                    fmt::format("--filter {}: all samples are at the pixel's centre; add --sampler sobol, or "
+                                "--filter box",
+                                nameOf(settings.filter)));
+    if (!options.background.empty())
+        scene.background = glm::vec3(toVector(options.background));
+
+    Camera &camera = scene.camera;
+    camera.width = options.width.value_or(camera.width);
+    camera.height = options.height.value_or(camera.height);
+    if (options.fovDegrees && camera.kind != CameraKind::Perspective)
+        throw Error(ExitCode::Usage,
+                    fmt::format("--fov: found a camera of the type {}, which has no field of "
+                                "view; allowed: with a perspective one",
+                                nameIn(cameraNames, camera.kind)));
+    camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
+    if (loaded.autoFramed)
+        camera = frameCamera(triangleBounds(scene.meshes.front()), camera.width, camera.height,
+                             camera.horizontalFovDegrees);
+    moveCamera(options, loaded, camera);
+}
+
+Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
+    if (wanted.empty())
+        return {0, camera.width, 0, camera.height};
+    const Crop crop{wanted[0], wanted[1], wanted[2], wanted[3]};
+    const bool isInside = 0 <= crop.x0 && crop.x0 < crop.x1 && crop.x1 <= camera.width && 0 <= crop.y0 &&
+                          crop.y0 < crop.y1 && crop.y1 <= camera.height;
+    if (!isInside)
+        throw Error(
+            ExitCode::Usage,
+            fmt::format("--crop {},{},{},{} is empty or leaves the image of {}x{} pixels: give x0,x1,y0,y1 "
+                        "with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}",
+                        crop.x0, crop.x1, crop.y0, crop.y1, camera.width, camera.height, camera.width,
+                        camera.height));
+    return crop;
+}
+
+/// Meshes that a tree can separate are far from this: a sphere of eight million triangles has 14.
+constexpr double manyTrianglesTested = 1000.0;
+
+void warnOfOverlaps(const Bvh &bvh) {
+    const BvhStatistics statistics = measureBvh(bvh);
+    const bool hasTree = statistics.depth > 0; // or that is what was asked for
+    if (hasTree && statistics.trianglesTested > manyTrianglesTested)
+        printMessage("warning: the boxes of the scene's {} triangles overlap so much that a ray tests about "
+                     "{:.0f} of them: this takes its time\n",
+                     statistics.triangleCount, statistics.trianglesTested);
+}
+
+double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
+    return std::chrono::duration<double>(b - a).count();
+}
+
+} // namespace
+
+PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
+                           const std::function<void(const SceneOutline &)> &onOutline) {
+    using Clock = std::chrono::steady_clock;
+    PreparedScene prepared;
+    const Clock::time_point start = Clock::now();
+    {
+        ProgressLine progress("load", isQuiet);
+        const auto tellOutline = [&](SceneOutline outline) {
+            overrideSettings(options, outline.settings);
+            if (onOutline)
+                onOutline(outline);
+        };
+        prepared.loaded =
+            loadScene(options.scene, {tellOutline, [&](double share) { progress.update(share); }},
+                      options.allowedPaths);
+    }
+    for (const MeshReport &report : prepared.loaded.meshReports)
+        for (const std::string &warning : report.warnings)
+            printMessage("hyalite: warning: {}\n", warning);
+    applyOverrides(options, prepared.loaded);
+    Scene &scene = prepared.loaded.scene;
+    const bool isCameraMoved =
+        !options.cameraPosition.empty() || !options.lookAt.empty() || !options.up.empty();
+    try {
+        validateScene(scene,
+                      fmt::format("{} with {}", prepared.loaded.file.string(),
+                                  isCameraMoved ? "--camera-position, --look-at, --up" : "these options"));
+    } catch (const Error &error) {
+        // The scene was valid as loaded and each option is in range: they do not go together.
+        throw Error(ExitCode::Usage, error.what());
+    }
+    prepared.crop = chooseCrop(options.crop, scene.camera);
+    const Clock::time_point loaded = Clock::now();
+    prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);
+    warnOfOverlaps(prepared.bvh);
+    prepared.packed = packScene(scene, prepared.bvh);
+    if (source == Source::Dropped) {
+        scene.meshes = {};
+        scene.textures = {};
+        prepared.bvh = {};
+    }
+    prepared.loadSeconds = secondsBetween(start, loaded);
+    prepared.buildSeconds = secondsBetween(loaded, Clock::now());
+    return prepared;
+}
+
+Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine) {
+    Provenance origin;
+    origin.commandLine = commandLine;
+    origin.scene = scene.loaded.file.string();
+    origin.sceneHash = scene.packed.contentHash();
+    origin.triangleCount = scene.packed.triangles.size();
+    origin.width = scene.crop.width();
+    origin.height = scene.crop.height();
+    origin.settings = scene.loaded.scene.settings;
+    return origin;
+}
+
+} // namespace hyalite

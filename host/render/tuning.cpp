@@ -1,0 +1,126 @@
+#include "host/render/tuning.h"
+
+#include "host/base/atomic_file.h"
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/base/json_document.h"
+#include "host/base/json_text.h"
+#include "host/base/message.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+
+namespace hyalite {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::optional<fs::path> findFile() {
+    const auto valueOf = [](const char *name) {
+        const char *value = std::getenv(name);
+        return std::string(value != nullptr ? value : "");
+    };
+    if (const std::string folder = valueOf("HYALITE_CACHE"); !folder.empty())
+        return fs::path(folder) / "tuning.json";
+    if (const std::string folder = valueOf("XDG_CACHE_HOME"); !folder.empty())
+        return fs::path(folder) / "hyalite/tuning.json";
+    if (const std::string folder = valueOf("HOME"); !folder.empty())
+        return fs::path(folder) / ".cache/hyalite/tuning.json";
+    return std::nullopt;
+}
+
+/// What the choice depends on. The name of the device does not count: lavapipe's differs with the width of its vectors.
+Json keyOf(const gpu::DeviceInfo &device) {
+    return {{"vendorId", device.vendorId},
+            {"deviceId", device.deviceId},
+            {"driver", device.driver},
+            {"kernels", hashText(gpu::hashOfKernels())}};
+}
+
+/// The entries of a file, which are few. Throws Error{BadInput}.
+Json readEntries(const fs::path &file) {
+    const Json document = readJsonFile(file);
+    const auto devices = document.find("devices");
+    if (!document.is_object() || devices == document.end() || !devices->is_array())
+        throw Error(ExitCode::BadInput, fmt::format("{}: holds no list of devices", file.string()));
+    return *devices;
+}
+
+gpu::KernelChoice kernelNamed(const Json &name) {
+    for (const auto &[known, choice] : gpu::kernelNames)
+        if (name == known)
+            return choice;
+    throw Error(ExitCode::BadInput, "found the kernel " + printable(name.dump()));
+}
+
+} // namespace
+
+fs::path tuningFile() {
+    if (const std::optional<fs::path> file = findFile())
+        return *file;
+    throw Error(ExitCode::OutputNotWritten,
+                "there is no place for what is measured: set HYALITE_CACHE to a folder");
+}
+
+Tuning readTuning(const gpu::DeviceInfo &device) {
+    const std::optional<fs::path> file = findFile();
+    std::error_code error;
+    if (!file || !fs::exists(*file, error))
+        return {};
+    try {
+        const Json key = keyOf(device);
+        for (const Json &entry : readEntries(*file)) {
+            if (!entry.is_object() || entry.value("key", Json()) != key)
+                continue;
+            Tuning tuning;
+            for (const auto &[name, workload] : gpu::workloadNames)
+                tuning.kernels[static_cast<std::size_t>(workload)] = kernelNamed(entry.value(name, Json()));
+            tuning.date = printable(entry.value("date", std::string("long ago")));
+            return tuning;
+        }
+    } catch (const Error &fault) {
+        printMessage("note: {}; kernels are chosen as if nothing had been measured\n", fault.what());
+    } catch (const nlohmann::json::exception &fault) {
+        printMessage("note: {}: {}; kernels are chosen as if nothing had been measured\n", file->string(),
+                     fault.what());
+    }
+    return {};
+}
+
+void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning) {
+    const fs::path file = tuningFile();
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error); // whether it can be written is found out below
+    Json entries = Json::array();
+    const Json key = keyOf(device);
+    if (fs::exists(file, error)) {
+        try {
+            for (const Json &entry : readEntries(file))
+                if (entry.is_object() && entry.value("key", Json()) != key)
+                    entries.push_back(entry);
+        } catch (const Error &fault) {
+            printMessage("note: {}; it is written anew\n", fault.what());
+        }
+    }
+    Json entry;
+    entry["key"] = key;
+    entry["device"] = device.name;
+    entry["date"] = tuning.date;
+    for (const auto &[name, workload] : gpu::workloadNames) {
+        const gpu::KernelChoice &choice = tuning.kernels[static_cast<std::size_t>(workload)];
+        entry[std::string(name)] = gpu::kernelName(choice);
+    }
+    entries.push_back(entry);
+    AtomicFile output(file);
+    output.write(jsonText(Json{{"devices", entries}}));
+    output.commit();
+}
+
+} // namespace hyalite

@@ -1,0 +1,30 @@
+// Which kernels were measured to be fast on a device, kept between runs of the program.
+#pragma once
+
+#include "host/gpu/batching.h"
+#include "host/gpu/vk/device_list.h"
+
+#include <filesystem>
+#include <string>
+
+namespace hyalite {
+
+struct Tuning {
+    gpu::KernelChoices kernels{}; ///< by Workload
+    std::string date;             ///< YYYY-MM-DD, in UTC; empty: nothing was measured
+
+    [[nodiscard]] bool isMeasured() const { return !date.empty(); }
+};
+
+/// $HYALITE_CACHE/tuning.json, or hyalite/tuning.json in $XDG_CACHE_HOME, or in ~/.cache. Throws Error{OutputNotWritten}
+/// where none of these variables is set.
+[[nodiscard]] std::filesystem::path tuningFile();
+
+/// What was stored for this device, this version of its driver and these kernels. A file that cannot be read is told on
+/// standard error, and counts as none: it changes no bit of any image.
+[[nodiscard]] Tuning readTuning(const gpu::DeviceInfo &device);
+
+/// Stores it beside what is stored for other devices. Throws Error{OutputNotWritten}.
+void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning);
+
+} // namespace hyalite

@@ -1,0 +1,24 @@
+// The kernels of the program as SPIR-V, and a hash of all that decides what colour a pixel has.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace hyalite {
+
+struct EmbeddedKernel {
+    std::string_view name;
+    std::span<const std::uint32_t> words;
+};
+
+/// All kernels, in the order of shaders/CMakeLists.txt.
+[[nodiscard]] std::span<const EmbeddedKernel> embeddedKernels();
+
+/// The words of the kernel with this name. Throws std::logic_error where there is none.
+[[nodiscard]] std::span<const std::uint32_t> embeddedKernel(std::string_view name);
+
+/// A hash of the sources of kernels, CPU twin and packing, in hexadecimal digits.
+[[nodiscard]] const char *pixelSources();
+
+} // namespace hyalite

@@ -1,0 +1,56 @@
+// Entry kernel: the path integrator, RAYS path slots an invocation, over a stack or a skip list (SKIP_LIST=1).
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_basic : require
+#if SKIP_LIST
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
+
+#include "shaders/layout/layout.h"
+
+layout(local_size_x_id = 0) in;
+
+#include "shaders/memory/bindings.glsl"
+
+const bool lightPassesGlass = false;
+const bool raysHaveTargets = hasEmission;
+const bool hasBounces = true;
+
+#include "shaders/memory/scene_data.glsl"
+#include "shaders/math/arithmetic.glsl"
+#include "shaders/math/vector.glsl"
+#include "shaders/math/random.glsl"
+#include "shaders/math/functions.glsl"
+#include "shaders/camera/camera.glsl"
+#include "shaders/geometry/box.glsl"
+#include "shaders/geometry/triangle.glsl"
+#include "shaders/geometry/sphere.glsl"
+#include "shaders/bsdf/dielectric.glsl"
+#include "shaders/bsdf/media.glsl"
+#include "shaders/math/sampling.glsl"
+#include "shaders/geometry/surface.glsl"
+#include "shaders/textures/texture.glsl"
+#include "shaders/textures/normal_map.glsl"
+#include "shaders/lights/emitter_density.glsl"
+#include "shaders/lights/lights.glsl"
+#include "shaders/lights/environment.glsl"
+#include "shaders/lights/emitters.glsl"
+#include "shaders/bsdf/conductor.glsl"
+#include "shaders/bsdf/microfacet.glsl"
+#include "shaders/bsdf/energy.glsl"
+#include "shaders/bsdf/rough.glsl"
+#include "shaders/traversal/preloaded.glsl"
+#include "shaders/integrators/path_slots.glsl"
+#include "shaders/memory/film.glsl"
+#include "shaders/traversal/meet_triangle.glsl"
+#if SKIP_LIST
+#include "shaders/traversal/traverse_skip.glsl"
+#else
+#include "shaders/traversal/traverse_stack.glsl"
+#endif
+#include "shaders/traversal/rays.glsl"
+#include "shaders/integrators/integrate.glsl"
+#include "shaders/integrators/path.glsl"
+
+void main() { integrate(); }

@@ -1,0 +1,559 @@
+// The one contract of host and shaders: every byte that both sides read or write is described here.
+//
+// Compiled as C++ (with GLM) and as GLSL. All structs are made of 16-byte rows (vec3 + scalar, or four scalars), so
+// that C++, std140 and std430 agree without padding rules. No bool, no matrix.
+#ifndef HYALITE_LAYOUT_H
+#define HYALITE_LAYOUT_H
+
+#ifdef __cplusplus
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace hyalite::layout {
+using glm::vec3;
+using uint = std::uint32_t;
+#define HYALITE_INLINE inline
+#else
+#define HYALITE_INLINE
+#endif
+
+// ---- Limits
+
+const uint maxSphereCount = 64u; // spheres are tested one after the other, from a uniform buffer
+const uint maxLightCount = 16u;
+const uint maxPathDepth = 32u;
+const uint maxTreeDepth = 64u; // subtrees that can wait for one ray: the builders keep every tree below it
+
+// ---- Primitives
+// A primitive's id orders all primitives of a scene: spheres first, then triangles, each by their index in the
+// input. Where two hits have the same distance, the smaller id is the nearest one.
+
+const uint noPrimitive = 0xFFFFFFFFu;
+const uint firstTriangleId = maxSphereCount; // id of the triangle with input index 0
+
+// Most shading reads the first row alone: lavapipe takes as long for a row as for a test of a sphere.
+struct SphereRecord {
+    vec3 centre; // world space
+    uint materialAndSide; // see materialIndexOf, normalSignOf
+    float radius;
+    uint isTransmissive; // 1 for a dielectric: light passes, dimmed
+    uint pad0;
+    uint pad1;
+};
+
+const uint sphereFacesInward = 0x80000000u;
+
+HYALITE_INLINE uint materialIndexOf(SphereRecord sphere) { return sphere.materialAndSide & ~sphereFacesInward; }
+
+// +1: the normal points outward, -1: towards the centre.
+HYALITE_INLINE float normalSignOf(SphereRecord sphere) {
+    return (sphere.materialAndSide & sphereFacesInward) != 0u ? -1.0f : 1.0f;
+}
+
+struct TriangleRecord {
+    vec3 v0; // world space; counter-clockwise seen from outside
+    uint primitiveId;
+    vec3 v1;
+    uint materialIndex;
+    vec3 v2;
+    uint flags;
+};
+
+const uint triangleIsTransmissive = 1u; // of a dielectric: light passes, dimmed
+const uint triangleEndsLeaf = 2u;       // the last triangle of its leaf
+const uint triangleIsCutOut = 4u;       // its material has an opacity texture
+
+// Shading normals of the triangle with the same index; zero vectors stand for "use the geometric normal".
+struct NormalRecord {
+    vec3 n0;
+    float pad0;
+    vec3 n1;
+    float pad1;
+    vec3 n2;
+    float pad2;
+};
+
+// ---- The tree
+// An inner node holds the boxes of both of its children, so that one fetch decides about two subtrees. A child is
+// an inner node (its index in the node array), or a leaf (leafFlag | index of its first triangle; the triangle that
+// ends the leaf says so itself), or nothing (noNode). Node 0 is the root; every scene has one.
+
+const uint leafFlag = 0x80000000u;
+const uint noNode = 0xFFFFFFFFu;
+
+struct NodePair {
+    vec3 leftLower;
+    uint left;
+    vec3 leftUpper;
+    uint pad0;
+    vec3 rightLower;
+    uint right;
+    vec3 rightUpper;
+    uint pad1;
+};
+
+// The same tree as a list without a stack, for texel buffers: depth first, each node followed by its subtree, and the
+// index where a ray goes on that misses it. There are two such lists, one in which lower siblings come first and one in
+// which upper ones do. Boxes are rounded outward to a grid over all triangles, whose planes are signed integers of 16
+// bits: low half-words hold the lower plane, high ones the upper one. `link` of an inner node is the index to go on at,
+// of a leaf it is leafFlag | index of its first triangle, and the list goes on with the next node.
+
+struct SkipNode {
+    uint x;
+    uint y;
+    uint z;
+    uint link;
+};
+
+// ---- Materials and lights
+
+const uint materialDiffuse = 0u;
+const uint materialMirror = 1u;
+const uint materialDielectric = 2u;
+const uint materialConductor = 3u;
+const uint materialPrincipled = 4u;
+const uint noMaterial = 0xFFFFFFFFu;
+
+// Dielectrics come first among the materials, those of higher priority before others: what glass is where several overlap
+// (shaders/bsdf/media.glsl).
+const uint mostMedia = 8u; // dielectrics that the path integrator tells apart
+
+struct MaterialRecord {
+    vec3 albedo; // of a conductor its reflectance seen head on, of a principled material its colour
+    uint kindAndSides; // see kindOf, isTwoSided
+    vec3 segmentTint; // Whitted: factor on all that a segment inside this dielectric returns
+    float refractiveIndex;
+    vec3 emission; // radiance on the side of the normal, on both where it is two-sided
+    // path: with which density, per unit of area, a light sample lies at a point that emits
+    float emitterDensity;
+    vec3 absorption; // path: of this dielectric, per unit of length
+    uint pad0;
+    // What follows is read where constantScattering asks for it.
+    vec3 conductorIndex;      // real part of the refractive index
+    float alpha;              // of microfacets: roughness squared; 0: smooth
+    vec3 conductorExtinction; // imaginary part of the refractive index
+    float metallic;
+    // of a conductor's Fresnel reflectance, over cos^2: what light loses that is reflected twice
+    vec3 averageReflectance;
+    float transmission;
+    float normalReflectance; // of a principled material that is no metal, seen head on
+    float clearcoat;
+    float clearcoatAlpha;
+    uint textures; // row of the first of its textures, see below; 0: it has none
+};
+
+const uint materialIsTwoSided = 0x80000000u;
+
+HYALITE_INLINE uint kindOf(MaterialRecord material) { return material.kindAndSides & ~materialIsTwoSided; }
+
+HYALITE_INLINE bool isTwoSided(MaterialRecord material) { return (material.kindAndSides & materialIsTwoSided) != 0u; }
+
+// What the materials of a scene need of the path integrator: bits of constantScattering.
+const uint scattersAtConductors = 1u; // conductors, smooth or rough
+const uint scattersAtRoughConductors = 2u;
+const uint scattersAtRoughGlass = 4u; // dielectrics, and principled materials that transmit
+const uint scattersAtPrincipled = 8u;
+const uint scattersAtRough = 14u; // any of those that need microfacets
+
+// What is looked up by index: rows of four numbers. First the energy of microfacets, see shaders/bsdf/energy.glsl, where
+// constantScattering needs it; then the environment.
+struct TexelRecord {
+    vec3 value;
+    uint word; // another float, or an integer
+};
+
+// Textures, in rows of four words. First two tables of what the levels 0 to 255 of 8-bit images stand for, four floats a
+// row. From firstCoordinateRow on the coordinates of each triangle record: u and v of v0 and v1, then of v2. Then for
+// each material with textures one TextureRecord a slot, and then the images' texels: one a row, as floats, or four a row,
+// 8 bits each for red, green, blue and alpha from the lowest bits up; rows of the image from the top.
+struct TextureRow {
+    uint x;
+    uint y;
+    uint z;
+    uint w;
+};
+
+const uint rowsPerTable = 64u;
+const uint srgbTableRow = 0u;
+const uint linearTableRow = 64u;
+const uint firstCoordinateRow = 128u;
+const uint rowsPerCoordinates = 2u;
+
+struct TextureRecord {
+    uint firstRow; // of its texels
+    uint size;     // of the image in pixels: width, and height * 2^16; 0: the slot has no texture
+    uint format;   // bits of textureIs...
+    float factor;  // on roughness, metallic, and on how far a normal map turns normals
+    float scaleU;  // coordinates are multiplied by scale, then moved by offset
+    float scaleV;
+    float offsetU;
+    float offsetV;
+};
+
+const uint rowsPerTexture = 2u;
+const uint textureIsFloat = 1u;
+const uint textureIsSrgb = 2u;
+const uint textureIsAlpha = 4u; // its alpha is meant, not its colours
+
+const uint slotBaseColour = 0u;
+const uint slotEmission = 1u;
+const uint slotRoughness = 2u;
+const uint slotMetallic = 3u;
+const uint slotNormal = 4u;
+const uint slotOpacity = 5u;
+const uint textureSlotCount = 6u;
+
+// Which slots the materials of a scene have textures in, and whether any texels have 8 bits: bits of constantTexturing.
+const uint texturesBaseColour = 1u;
+const uint texturesEmission = 2u;
+const uint texturesRoughness = 4u;
+const uint texturesMetallic = 8u;
+const uint texturesNormal = 16u;
+const uint texturesOpacity = 32u;
+const uint texturesLevels = 64u;
+const uint texturesMaterials = 15u; // any of those that change what a material is
+
+const uint energyCosines = 32u; // nodes of the table over the cosine, and over the roughness
+const uint energyRoughnesses = 32u;
+const uint energyCellCount = (energyCosines - 1u) * (energyRoughnesses - 1u);
+const uint energyTexelCount = 2u * energyCellCount + energyRoughnesses - 1u;
+
+// Lights of no size, which both the Whitted integrator and the path integrator know.
+
+const uint lightPoint = 0u;
+const uint lightSpot = 1u;
+const uint lightDirectional = 2u;
+
+struct LightRecord {
+    vec3 position;
+    uint kind;
+    // radiant intensity, power / (4 pi), of a spot on its axis; irradiance of a directional light
+    vec3 intensity;
+    float cosineOuter;  // of a spot: beyond this angle to its axis it is dark
+    vec3 axis;          // unit direction in which light leaves
+    float falloffScale; // of a spot: 1 / (cosine where it begins to fade - cosineOuter)
+};
+
+// What the path integrator can aim at: one of them is chosen for each shadow ray, with a probability that goes with its
+// power. Emitters are in the order of the input: lights, spheres, triangles.
+
+const uint emitterPoint = 0u;
+const uint emitterSphere = 1u;
+const uint emitterTriangle = 2u;
+const uint emitterSpot = 3u;
+const uint emitterDirectional = 4u;
+const uint emitterEnvironment = 5u;
+
+struct EmitterRecord {
+    vec3 position; // of a point light or a spot
+    uint kind;
+    vec3 emission; // radiance of a surface; of lights their intensity, as above
+    float probability;
+    uint cumulative; // of 2^32 numbers, so many choose this emitter or one before it
+    uint record;     // index among the sphere or the triangle records
+    float density;   // probability per unit of area of a triangle or a sphere; falloffScale of a spot
+    uint isTwoSided;
+    vec3 axis;         // of a spot or a directional light
+    float cosineOuter; // of a spot
+};
+
+// What lights a scene: bits of constantLighting, 1 << kind of emitter. Surfaces are only told where the path integrator
+// aims at them.
+const uint lightsByPoints = 1u << emitterPoint;
+const uint lightsBySpheres = 1u << emitterSphere;
+const uint lightsByTriangles = 1u << emitterTriangle;
+const uint lightsBySpots = 1u << emitterSpot;
+const uint lightsByDirections = 1u << emitterDirectional;
+const uint lightsByEnvironment = 1u << emitterEnvironment; // an image around the scene
+
+// ---- Cameras
+
+const uint cameraPinhole = 0u;
+const uint cameraLens = 1u;         // a thin lens
+const uint cameraOrthographic = 2u; // parallel rays
+const uint cameraPanorama = 3u;     // all directions, by longitude and latitude
+
+// What a view shows of the first hit.
+
+const uint viewNormal = 0u; // for shading, from [-1, 1] to [0, 1]
+const uint viewDepth = 1u;  // distance from the eye
+const uint viewAlbedo = 2u; // or base colour, or reflectance of a metal; 1 for glass and mirrors
+const uint viewId = 3u;     // a colour for each primitive
+const uint viewOcclusion = 4u;
+const uint viewCoordinates = 5u; // u and v of textures, less their whole parts
+
+// ---- What is the same for a whole render
+
+const uint samplerCentre = 0u;
+const uint samplerSobol = 1u;
+const uint samplerFiltered = 2u; // Sobol points, as dense as the filter of pixels is high
+
+// The filter's quantiles, which samplerFiltered needs: a texel for each of these parts of [0, 1), with where in the pixel
+// the part begins and how far it reaches.
+const uint filterCellCount = 256u;
+
+struct FrameRecord {
+    vec3 eye;
+    uint imageWidth; // of the whole image, in pixels
+    // The primary ray through the image position (x, y), in pixels with y down, has the direction
+    //     pixelRight * (x - imageWidth/2) + pixelUp * (imageHeight/2 - y) + imagePlane
+    // where rays are parallel the first two terms are added to the eye, and for a panorama all three vectors are of unit
+    // length.
+    vec3 pixelRight;
+    uint imageHeight;
+    vec3 pixelUp;
+    uint seed;
+    vec3 imagePlane;
+    uint lightCount;
+    vec3 background; // radiance
+    float shadowThroughGlass;
+    vec3 boundsLower; // of all triangles
+    uint triangleCount;
+    vec3 boundsUpper;
+    uint maxDepth;       // segments of a path, the primary ray included
+    vec3 gridMiddle;     // of the skip lists' boxes: plane q is at gridMiddle + gridScale * q
+    uint skipListLength; // nodes of one list
+    vec3 gridScale;
+    float occlusionDistance; // what is further away hides no sky
+    // The environment: rows of texels from the top, the number of 2^32 that choose a texel of the row or one left of it
+    // in `word`; then for each row, in `word`, how many choose it or one above it, and in value.x with which
+    // probability.
+    uint environmentTexels; // the first one
+    uint environmentWidth;
+    uint environmentHeight;
+    float environmentTurns;       // about +y
+    float environmentProbability; // that it is chosen among all emitters
+    float lensScale;              // the lens' radius in units of pixelRight and pixelUp
+    float focusDistance;          // along the view direction
+    float radianceLimit;          // path: most that a path may add behind its first segment, or infinity
+    uint filterTexels;            // the first one
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+
+// ---- What changes with each dispatch
+// A dispatch works on one tile of the film, `samplesAbreast` path slots a pixel. `stepBudget` bounds the loop iterations
+// of a slot, and `workBudget` the work of all: slots that begin when it is done make one pass only. What is not finished
+// by then waits in the path buffer for a dispatch with `isResumed` set.
+
+struct DispatchConstants {
+    uint cropX; // pixel of the whole image where the film begins
+    uint cropY;
+    uint filmWidth; // pixels
+    uint filmHeight;
+    uint tileX; // pixel of the film where the tile begins
+    uint tileY;
+    uint tileWidth; // pixels, a multiple of 8; the film may end inside the tile
+    uint tileHeight;
+    uint sampleBegin; // samples [sampleBegin, sampleEnd) are added to the film
+    uint sampleEnd;
+    uint stepBudget;
+    uint isResumed; // 0: start the tile's samples, 1: go on with what waits
+    // Workgroup g works on block g % (count/interleave) * interleave + g / (count/interleave) of the tile: a driver
+    // that gives each thread one range of workgroups then spreads every part of the image over all threads.
+    uint interleave;
+    uint traceCapacity; // events in the trace buffer
+    uint workBudget;    // of DispatchProgress::workDone
+    uint pad0;
+};
+
+// ---- Results
+
+struct FilmPixel {
+    vec3 sum; // of the samples' radiance
+    uint sampleCount;
+    vec3 sumOfSquares;
+    float pad0;
+};
+
+// Counters of one dispatch, added up over all of its slots.
+struct DispatchProgress {
+    uint unfinishedSlots;
+    uint stackOverflows; // subtrees that found no room to wait: 0 in any valid tree
+    uint finishedSamples;
+    uint traceEvents; // wanted: more than the trace buffer holds are not kept
+    uint primaryRays; // rays are those of samples that came into the film
+    uint shadowRays;
+    uint reflectionRays;
+    uint refractionRays;
+    uint bounceRays; // scattered by diffuse surfaces
+    // in steps of a traversal, roughly: of each subgroup that of the busiest lane, or of each lane
+    uint workDone;
+    // The rest only where constantIsCounting is set.
+    uint traversalPasses; // of subgroups through the loops of the traversal
+    uint busySlots;       // that had a node or a triangle to look at, in all passes
+    uint nodesVisited;
+    uint boxesTested;
+    uint trianglesTested;
+    uint deepestStack; // the most of any slot, not a sum
+};
+
+// ---- What a path did, step by step: written only where a difference is searched
+
+const uint traceRayOrigin = 0u;
+const uint traceRayDirection = 1u;
+const uint traceHit = 2u; // integer: the primitive's id; value: distance, u, v
+const uint traceSurfacePosition = 3u;
+const uint traceSurfaceNormal = 4u;
+const uint traceThroughput = 5u;  // of the segment at its hit, tint included
+const uint traceReflectance = 6u; // at glass; integer: 1 where reflection is total; value: reflectance
+const uint traceVisibility = 7u;  // integer: 0 unlit, 1 blocked, 2 dimmed by glass, 3 clear
+const uint traceRadiance = 8u;    // of the sample so far, after light was added to it
+const uint traceScatter = 9u;     // integer: bits of the density; value: direction of the scattered ray
+const uint traceQuantityCount = 10u;
+
+const uint visibilityUnlit = 0u;
+const uint visibilityBlocked = 1u;
+const uint visibilityDimmed = 2u;
+const uint visibilityClear = 3u;
+
+struct TraceEvent {
+    uint quantity;
+    uint sampleIndex;
+    uint rayDepth; // segment number of the ray
+    uint integer;
+    vec3 value;
+    uint pad0;
+};
+
+// ---- A path slot, as it waits between two dispatches
+
+const uint stageNextSample = 0u; // begin the next sample
+const uint stageNextRay = 1u;    // take the next pending ray, or end the sample
+const uint stageNewRay = 2u;     // a ray is ready to be traced
+const uint stageClosest = 3u;    // looking for its nearest hit
+const uint stageNextLight = 4u;  // on a diffuse surface: aim at the next light
+const uint stageShadow = 5u;     // looking for anything between the surface and the light
+const uint stageSampleDone = 6u; // the sample waits for those of the pixel's other slots
+const uint stageDone = 7u;       // all samples of the pixel are in the film
+
+const uint seenFromBehind = 0x80000000u; // against the normal of the input
+
+struct PathRecord {
+    vec3 rayOrigin;
+    uint stage;
+    vec3 rayDirection;
+    float rayLength; // nearest hit so far, or the distance to the light
+    vec3 throughput;
+    uint rayExcluded; // the primitive that the ray starts on
+    float hitU;       // weights of v0 and v1 at the nearest hit so far
+    float hitV;
+    uint hitPrimitive; // its id
+    uint hitRecord;    // its index among the sphere or the triangle records
+    vec3 surfacePosition;
+    uint surfacePrimitive;
+    vec3 surfaceNormal;
+    uint lightIndex;
+    vec3 surfaceGeometricNormal;
+    uint rayDepth;      // segment number of the current ray: 1 for a primary ray
+    vec3 surfaceWeight; // throughput * albedo / pi
+    uint rayMedium;     // material of the glass around the ray, or noMaterial
+    vec3 surfaceError;  // bound on the rounding error of surfacePosition
+    uint sampleIndex;
+    vec3 sampleRadiance;
+    uint pendingCount;   // rays that wait in the pending buffer
+    uint cursorNode;     // the inner node to visit next, or noNode
+    uint cursorTriangle; // the leaf's triangle to test next, or noNode
+    uint stackSize;      // subtrees that wait in the stack buffer
+    uint isLightDimmed;  // 1: the shadow ray has passed glass
+    // Of the path integrator:
+    vec3 scatterDirection; // of the ray that goes on from the surface
+    float scatterDensity;  // of the direction of the current ray, per solid angle; 0: it had no choice
+    uint rayTarget;        // the primitive that the shadow ray is aimed at
+    uint mediaInside;      // the glass around the current ray, see media.glsl
+    // Rays of the samples that are not in the film:
+    uint primaryRays;
+    uint shadowRays;
+    uint reflectionRays;
+    uint refractionRays;
+    uint bounceRays;
+    uint surfaceMaterial; // where constantScattering needs it; with seenFromBehind
+};
+
+// A ray that a dielectric has split off, to be traced later: at most one for each level of depth.
+struct PendingRay {
+    vec3 origin;
+    uint excluded;
+    vec3 direction;
+    uint depth;
+    vec3 throughput;
+    uint medium;
+};
+
+const uint mostPendingInRegisters = 8u;
+
+// ---- Bindings, all in set 0. The first three are uniform buffers, the others storage buffers.
+
+const uint bindingFrame = 0u;
+const uint bindingSpheres = 1u; // maxSphereCount records
+const uint bindingLights = 2u;  // maxLightCount records
+const uint bindingMaterials = 3u;
+const uint bindingNodes = 4u;
+const uint bindingTriangles = 5u;
+const uint bindingNormals = 6u;
+const uint bindingFilm = 7u;
+const uint bindingProgress = 8u;
+const uint bindingPaths = 9u;
+const uint bindingPending = 10u; // maxDepth rays a slot
+const uint bindingStacks = 11u;  // stackSize references a slot
+const uint bindingTrace = 12u;
+const uint bindingSphereArray = 13u; // the spheres again, as texels
+const uint bindingEmitters = 14u;
+const uint bindingTexels = 15u;
+const uint bindingTextures = 16u;
+const uint bindingCount = 17u;
+
+// ---- Specialization constants: what a scene does not use costs nothing
+
+const uint constantWorkgroupSize = 0u;
+const uint constantSphereCount = 1u;
+const uint constantHasTriangles = 2u;
+const uint constantHasSpecular = 3u; // mirrors or dielectrics
+const uint constantHasDielectric = 4u;
+const uint constantSampler = 5u;
+const uint constantStackSize = 6u;
+const uint constantIsTracing = 7u;      // write what path slot 0 does into the trace buffer
+const uint constantExactDivision = 8u;  // the device's own / and sqrt are correctly rounded
+const uint constantSamplesAbreast = 9u; // slots of one pixel: a power of two, at most the subgroup's size
+const uint constantIsResumable = 10u;   // unfinished slots wait in the path buffer
+const uint constantLightCount = 11u;
+const uint constantPendingInRegisters = 12u; // how many; 0: they are in the buffer
+const uint constantIsCounting = 13u;         // count the work of the traversal
+const uint constantEmitterCount = 14u;
+const uint constantHasEmission = 15u; // materials of primitives that emit
+const uint constantView = 16u;        // which view
+const uint constantShowsCost = 17u;   // samples are the work that they take: nodes, boxes, triangles
+const uint constantScattering = 18u;  // path: what the materials need
+const uint constantLighting = 19u;
+const uint constantCamera = 20u;
+const uint constantTexturing = 21u;
+const uint constantCount = 22u;
+
+#ifdef __cplusplus
+static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, radius) == 16);
+static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) == 44);
+static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
+static_assert(sizeof(SkipNode) == 16);
+static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
+static_assert(sizeof(MaterialRecord) == 128 && offsetof(MaterialRecord, normalReflectance) == 112);
+static_assert(sizeof(TexelRecord) == 16);
+static_assert(sizeof(TextureRow) == 16);
+static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));
+static_assert(firstCoordinateRow == linearTableRow + rowsPerTable &&
+              linearTableRow == srgbTableRow + rowsPerTable);
+static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, isTwoSided) == 44);
+static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
+static_assert(sizeof(FrameRecord) == 192 && offsetof(FrameRecord, boundsUpper) == 96);
+static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
+static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
+static_assert(sizeof(DispatchProgress) == 64);
+static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
+static_assert(sizeof(PathRecord) == 224 && offsetof(PathRecord, rayTarget) == 192);
+static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
+} // namespace hyalite::layout
+#endif
+#undef HYALITE_INLINE
+#endif

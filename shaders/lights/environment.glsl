@@ -1,0 +1,110 @@
+// An image around the scene, and how it is aimed at. Twin: host/reference/environment.h.
+//
+// The image is a map of directions by longitude and latitude: its middle is -z, its top row is around +y. Between the
+// middles of its pixels radiance is interpolated. A pixel is chosen by integers, the row first; the weights are what
+// the interpolated image sends through the pixel's area (host/packing/environment.cpp), so that nothing that shines is left
+// out.
+
+const float piSquaredTwice = 19.739208802178716;
+
+struct EnvironmentLight {
+    vec3 direction;
+    vec3 radiance;
+    float density; // of the direction, per solid angle; 0: it cannot be chosen
+};
+
+// Place in the image of a direction: x and y from the left and the top, in [0, 1].
+vec2 environmentPlace(vec3 direction) {
+    precise float squared = direction.x * direction.x + direction.z * direction.z;
+    float longitude = squared > 0.0 ? turnsOf(-direction.x, direction.z) : 0.0;
+    precise float turned = longitude + frame.environmentTurns;
+    precise float back = turned - 1.0;
+    precise float latitude = 2.0 * turnsOf(squareRoot(squared), direction.y);
+    return vec2(turned >= 1.0 ? back : turned, lesser(latitude, 1.0));
+}
+
+TexelRecord environmentTexel(uint x, uint y) {
+    return fetchTexel(frame.environmentTexels + y * frame.environmentWidth + x);
+}
+
+TexelRecord environmentRow(uint y) {
+    return fetchTexel(frame.environmentTexels + frame.environmentHeight * frame.environmentWidth + y);
+}
+
+vec3 environmentRadianceAt(vec2 place) {
+    precise float x = place.x * float(frame.environmentWidth) + 0.5;
+    precise float y = place.y * float(frame.environmentHeight) + 0.5;
+    uint right = uint(x);
+    uint lower = uint(y);
+    precise float across = x - float(right);
+    precise float down = y - float(lower);
+    uint left = right == 0u ? frame.environmentWidth - 1u : right - 1u;
+    right = right >= frame.environmentWidth ? right - frame.environmentWidth : right;
+    uint upper = lower == 0u ? 0u : lower - 1u;
+    lower = min(lower, frame.environmentHeight - 1u);
+    return mixtureOf(mixtureOf(environmentTexel(left, upper).value, environmentTexel(right, upper).value, across),
+                     mixtureOf(environmentTexel(left, lower).value, environmentTexel(right, lower).value, across), down);
+}
+
+// The density, per solid angle, with which a direction is chosen that lies `sine` off the vertical, in the given pixel.
+float environmentDensity(uvec2 pixel, float sine) {
+    if (sine <= 0.0)
+        return 0.0;
+    uint before = pixel.x == 0u ? 0u : environmentTexel(pixel.x - 1u, pixel.y).word;
+    uint numbers = environmentTexel(pixel.x, pixel.y).word - before;
+    precise float inRow = float(numbers) * (1.0 / 4294967296.0);
+    precise float chance = inRow * environmentRow(pixel.y).value.x;
+    precise float scaled = chance * (float(frame.environmentWidth) * float(frame.environmentHeight));
+    precise float area = piSquaredTwice * sine;
+    return divide(scaled, area);
+}
+
+float sineToVertical(vec3 direction) {
+    precise float squared = direction.x * direction.x + direction.z * direction.z;
+    return squareRoot(squared);
+}
+
+// What comes from a direction, and how densely that is chosen.
+EnvironmentLight environmentFrom(vec3 direction) {
+    vec2 place = environmentPlace(direction);
+    precise vec2 position = place * vec2(float(frame.environmentWidth), float(frame.environmentHeight));
+    uvec2 pixel = min(uvec2(position), uvec2(frame.environmentWidth - 1u, frame.environmentHeight - 1u));
+    return EnvironmentLight(direction, environmentRadianceAt(place), environmentDensity(pixel, sineToVertical(direction)));
+}
+
+// The first of `count` texels, from `first` on, whose `word` is more than `bits`; the last one if none is. Takes no more
+// than findMSB(count) + 1 steps.
+uint searchTexels(uint first, uint count, uint bits) {
+    uint found = 0u; // all before it end at or below `bits`
+    uint last = count - 1u;
+    do {
+        uint middle = (found + last) >> 1u;
+        bool isBefore = fetchTexel(first + middle).word <= bits;
+        found = isBefore ? min(middle + 1u, last) : found;
+        last = isBefore ? last : middle;
+    } while (found < last);
+    return found;
+}
+
+// Where in a pixel a number lies that chose it, in [0, 1].
+float shareOf(uint bits, uint before, uint end) { return divide(float(bits - before), float(end - before)); }
+
+// A direction chosen by two numbers of 32 bits.
+EnvironmentLight sampleEnvironment(uvec2 random) {
+    uvec2 bits = min(random, uvec2(0xFFFFFFFEu)); // the last number counts for what ends the row or the column
+    uint texelCount = frame.environmentWidth * frame.environmentHeight;
+    uint y = searchTexels(frame.environmentTexels + texelCount, frame.environmentHeight, bits.y);
+    uint x = searchTexels(frame.environmentTexels + y * frame.environmentWidth, frame.environmentWidth, bits.x);
+    float down = shareOf(bits.y, y == 0u ? 0u : environmentRow(y - 1u).word, environmentRow(y).word);
+    float across = shareOf(bits.x, x == 0u ? 0u : environmentTexel(x - 1u, y).word, environmentTexel(x, y).word);
+    precise float u = float(x) + across;
+    precise float v = float(y) + down;
+    vec2 place = vec2(divide(u, float(frame.environmentWidth)), divide(v, float(frame.environmentHeight)));
+    precise float turned = place.x - frame.environmentTurns;
+    precise float forward = turned + 1.0;
+    SineCosine longitude = sineCosine(turned < 0.0 ? forward : turned);
+    precise float halfLatitude = 0.5 * place.y;
+    SineCosine latitude = sineCosine(halfLatitude);
+    precise vec3 direction = vec3(-longitude.sine * latitude.sine, latitude.cosine, longitude.cosine * latitude.sine);
+    return EnvironmentLight(direction, environmentRadianceAt(place), environmentDensity(uvec2(x, y), latitude.sine));
+}

@@ -1,0 +1,178 @@
+// What a render will take of a device's memory.
+#include "host/gpu/memory_plan.h"
+
+#include "host/base/error.h"
+#include "host/packing/skip_list.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace hyalite::gpu {
+namespace {
+
+DeviceInfo device() {
+    DeviceInfo info;
+    info.name = "a device";
+    info.type = DeviceType::Discrete;
+    info.subgroupSize = 8;
+    info.maxStorageBufferBytes = 128u << 20;
+    info.maxTexelBufferElements = 1u << 24;
+    info.deviceMemoryBytes = 1u << 30;
+    return info;
+}
+
+/// A scene of so many triangles, with glass.
+PackedScene sceneOf(std::size_t triangleCount) {
+    PackedScene scene;
+    scene.hasTriangles = triangleCount > 0;
+    scene.hasDielectric = true;
+    scene.frame.maxDepth = 5;
+    scene.treeDepth = 20;
+    scene.triangles.resize(triangleCount);
+    scene.normals.resize(triangleCount);
+    scene.nodes.resize(triangleCount / 4 + 1);
+    scene.materials.resize(1);
+    return scene;
+}
+
+Job jobOf(const PackedScene &scene, int side) {
+    return {scene, {0, side, 0, side}, Integrator::Whitted, layout::samplerSobol, 0, 16, false};
+}
+
+std::string refusal(const ScenePlan &scene, const JobPlan &job, const DeviceInfo &device) {
+    try {
+        (void)requireMemory(scene, job, false, device);
+    } catch (const Error &error) {
+        EXPECT_EQ(error.exitCode, ExitCode::LimitExceeded);
+        return error.what();
+    }
+    return {};
+}
+
+TEST(MemoryPlan, HasAllThatASceneTakes) {
+    const PackedScene scene = sceneOf(1000);
+    const ScenePlan plan = planScene(scene, false);
+    EXPECT_EQ(plan.triangles.sizeBytes, 48'000u);
+    EXPECT_EQ(plan.normals.sizeBytes, 48'000u);
+    EXPECT_EQ(plan.nodes.sizeBytes, 251u * 64u);
+    EXPECT_EQ(plan.nodes.use, BufferUse::Storage);
+    EXPECT_EQ(plan.emitters.sizeBytes, 16u) << "a binding needs some memory";
+    EXPECT_EQ(plan.hostBytes, 0u);
+    const ScenePlan listed = planScene(scene, true);
+    EXPECT_EQ(listed.nodes.sizeBytes, (251u * 2u * 2u + 1u) * 16u)
+        << "two lists with both children of each pair, and what rays at their end read";
+    EXPECT_EQ(listed.triangles.use, BufferUse::Texels);
+    EXPECT_GT(listed.hostBytes, listed.nodes.sizeBytes) << "they are made on the host";
+}
+
+TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
+    const PackedScene scene = sceneOf(1000);
+    const Batching stack = completed({.traversal = Traversal::Stack}, device());
+    const JobPlan plan = planJob(jobOf(scene, 100), stack, device());
+    EXPECT_FALSE(plan.isDirect);
+    EXPECT_EQ(plan.largestTile, (Tile{0, 0, 104, 104}));
+    const std::uint64_t slots = 104 * 104;
+    EXPECT_EQ(plan.waiting.paths.sizeBytes, slots * sizeof(layout::PathRecord));
+    EXPECT_EQ(plan.waiting.pending.sizeBytes, slots * 4 * sizeof(layout::PendingRay));
+    EXPECT_EQ(plan.stacks.sizeBytes, slots * 32 * 4);
+    EXPECT_EQ(plan.film.sizeBytes, 100u * 100u * sizeof(layout::FilmPixel));
+    EXPECT_EQ(plan.helperWaiting.paths.sizeBytes, 0u);
+}
+
+TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
+    const PackedScene scene = sceneOf(1000);
+    const Batching skip =
+        completed({.tileWidth = 256, .tileHeight = 256, .traversal = Traversal::SkipList}, device());
+    const JobPlan plan = planJob(jobOf(scene, 300), skip, device());
+    EXPECT_TRUE(plan.isDirect);
+    EXPECT_EQ(plan.samplesAbreast, 8u);
+    EXPECT_EQ(plan.largestTile, (Tile{0, 0, 256, 256}));
+    EXPECT_EQ(plan.waiting.paths.sizeBytes, 16u);
+    EXPECT_EQ(plan.waiting.pendingInRegisters, 4u);
+    EXPECT_EQ(plan.stacks.sizeBytes, 16u);
+    EXPECT_EQ(plan.mostHelperPixels, 4096u);
+    EXPECT_EQ(plan.helperWaiting.paths.sizeBytes, 4096 * 8 * sizeof(layout::PathRecord));
+    EXPECT_EQ(plan.helperWaiting.pending.use, BufferUse::Texels);
+}
+
+TEST(MemoryPlan, TilesAreSmallerWhereSlotsWouldTakeTooMuch) {
+    PackedScene scene = sceneOf(1000);
+    scene.frame.maxDepth = 32;
+    const Batching stack =
+        completed({.tileWidth = 512, .tileHeight = 512, .traversal = Traversal::Stack}, device());
+    DeviceInfo small = device();
+    small.deviceMemoryBytes = 256u << 20;
+    small.maxStorageBufferBytes = 1u << 20;
+    for (const DeviceInfo &info : {device(), small}) {
+        const JobPlan plan = planJob(jobOf(scene, 512), stack, info);
+        EXPECT_LT(plan.largestTile.pixelCount(), 512u * 512u);
+        EXPECT_LE(plan.waiting.pending.sizeBytes, info.maxStorageBufferBytes);
+        EXPECT_LE(plan.stacks.sizeBytes + plan.waiting.paths.sizeBytes + plan.waiting.pending.sizeBytes,
+                  info.deviceMemoryBytes / 4);
+        EXPECT_GE(4 * plan.waiting.pending.sizeBytes, info.maxStorageBufferBytes)
+            << "not smaller than need be";
+    }
+}
+
+TEST(MemoryPlan, TheHelperIsSmallerWhereItsSlotsWouldTakeTooMuch) {
+    const PackedScene scene = sceneOf(1000);
+    DeviceInfo small = device();
+    small.maxTexelBufferElements = 1u << 16;
+    const JobPlan plan =
+        planJob(jobOf(scene, 512), completed({.traversal = Traversal::SkipList}, small), small);
+    EXPECT_EQ(plan.mostHelperPixels, 512u);
+    EXPECT_EQ(plan.helperWaiting.pending.sizeBytes, 512u * 8 * 4 * sizeof(layout::PendingRay));
+    small.deviceMemoryBytes = 1;
+    EXPECT_EQ(planJob(jobOf(scene, 512), completed({.traversal = Traversal::SkipList}, small), small)
+                  .mostHelperPixels,
+              64u);
+}
+
+TEST(MemoryPlan, IsTheSumOfAllBuffers) {
+    const PackedScene scene = sceneOf(1000);
+    const Batching stack = completed({.traversal = Traversal::Stack}, device());
+    const ScenePlan scenePlan = planScene(scene, false);
+    const JobPlan job = planJob(jobOf(scene, 100), stack, device());
+    const MemoryPlan memory = requireMemory(scenePlan, job, false, device());
+    EXPECT_GT(memory.deviceBytes, scenePlan.triangles.sizeBytes + scenePlan.normals.sizeBytes +
+                                      scenePlan.nodes.sizeBytes + job.film.sizeBytes + job.stacks.sizeBytes +
+                                      job.waiting.paths.sizeBytes + job.waiting.pending.sizeBytes);
+    EXPECT_EQ(memory.hostBytes, 0u);
+    EXPECT_EQ(requireMemory(scenePlan, job, true, device()).hostBytes, job.waiting.paths.sizeBytes)
+        << "staging: the largest buffer";
+}
+
+TEST(MemoryPlan, WhatDoesNotFitIsRefusedWithItsParts) {
+    const PackedScene scene = sceneOf(100'000);
+    DeviceInfo info = device();
+    const ScenePlan scenePlan = planScene(scene, false);
+    const JobPlan job = planJob(jobOf(scene, 64), completed({.traversal = Traversal::Stack}, info), info);
+    EXPECT_EQ(refusal(scenePlan, job, info), "");
+    info.deviceMemoryBytes = 8u << 20;
+    for (const char *part :
+         {"a device, which has 8.0 MiB", "the triangles: 4.6 MiB", "--crop", "--device cpu"})
+        EXPECT_NE(refusal(scenePlan, job, info).find(part), std::string::npos)
+            << refusal(scenePlan, job, info);
+    info = device();
+    info.maxStorageBufferBytes = 1u << 20;
+    EXPECT_NE(
+        refusal(scenePlan, job, info).find("the nodes, 1600064 bytes, is too large: a device allows 1048576"),
+        std::string::npos)
+        << refusal(scenePlan, job, info);
+}
+
+TEST(MemoryPlan, ADeviceOfSoftwareTakesTheHostsMemory) {
+    PackedScene scene = sceneOf(1);
+    DeviceInfo info = device();
+    info.maxStorageBufferBytes = info.deviceMemoryBytes = std::uint64_t{1} << 60;
+    ScenePlan scenePlan = planScene(scene, false);
+    const JobPlan job = planJob(jobOf(scene, 8), completed({.traversal = Traversal::Stack}, info), info);
+    scenePlan.triangles.sizeBytes = std::uint64_t{1} << 50;
+    EXPECT_EQ(refusal(scenePlan, job, info), "");
+    info.type = DeviceType::Cpu;
+    EXPECT_NE(refusal(scenePlan, job, info).find("are available"), std::string::npos);
+}
+
+} // namespace
+} // namespace hyalite::gpu

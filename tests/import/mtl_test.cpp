@@ -1,0 +1,275 @@
+// Material libraries of OBJ files.
+#include "host/import/mtl.h"
+
+#include "host/image/png.h"
+#include "host/import/load.h"
+#include "host/packing/packed_scene.h"
+#include "tests/fixtures/scene_json_fixture.h"
+
+#include <chrono>
+
+namespace hyalite {
+namespace {
+
+class Mtl : public SceneFolder {
+  protected:
+    [[nodiscard]] std::vector<Material> loadLibrary(const std::string &name, const std::string &text) {
+        warnings.clear();
+        return loadMtl(write(name, text), {std::filesystem::canonical(folder), library, warnings});
+    }
+
+    /// An image of one pixel.
+    void writePixel(const std::string &name, std::uint8_t red, std::uint8_t green, std::uint8_t blue) const {
+        const std::uint8_t rgb[] = {red, green, blue};
+        const std::vector<std::byte> bytes = encodePng(1, 1, rgb);
+        static_cast<void>(
+            write(name, std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size())));
+    }
+
+    TextureLibrary library;
+    std::vector<std::string> warnings;
+};
+
+TEST_F(Mtl, SaysWhatMaterialsAreMadeOf) {
+    const std::vector<Material> materials = loadLibrary("all.mtl", R"(# a comment
+newmtl chalk
+Kd 0.5 0.25 1.5   # more than 1 is 1
+newmtl lamp
+Kd 0
+Ke 3 2 1
+newmtl varnish
+Kd 0.1 0.2 0.3
+Ks 0.5 0.5 0.5
+Ns 30
+newmtl brass plate
+illum 3
+Ks 0.9 0.7 0.4
+Ns 126
+newmtl window
+illum 7
+Ni 1.33
+newmtl modern
+Kd 0.4 0.4 0.4
+Pr 0.3
+Pm 0.6
+map_Kd wood.png
+newmtl veil
+d 0.25
+newmtl chalk
+Kd 0 0 0
+)");
+    ASSERT_EQ(materials.size(), 7u) << "the second chalk is left out";
+    EXPECT_EQ(materials[0].kind, MaterialKind::Diffuse);
+    EXPECT_EQ(materials[0].albedo, glm::vec3(0.5f, 0.25f, 1.0f));
+    EXPECT_TRUE(materials[0].twoSided);
+    EXPECT_EQ(materials[1].emission, glm::vec3(3, 2, 1));
+    EXPECT_EQ(materials[2].kind, MaterialKind::Principled);
+    EXPECT_EQ(materials[2].specular, 0.5f);
+    EXPECT_NEAR(materials[2].roughness, 0.5, 1e-6) << "(2 / 32)^(1/4)";
+    EXPECT_EQ(materials[3].name, "brass plate");
+    EXPECT_EQ(materials[3].metallic, 1.0f);
+    EXPECT_EQ(materials[3].albedo, glm::vec3(0.9f, 0.7f, 0.4f));
+    EXPECT_EQ(materials[4].kind, MaterialKind::Dielectric);
+    EXPECT_EQ(materials[4].refractiveIndex, 1.33f);
+    EXPECT_EQ(materials[5].roughness, 0.3f);
+    EXPECT_EQ(materials[5].metallic, 0.6f);
+    EXPECT_EQ(materials[6].transmission, 0.75f);
+}
+
+TEST_F(Mtl, RefusesWhatIsNoNumber) {
+    const auto refusalOfMtl = [&](const std::string &text) -> std::string {
+        try {
+            static_cast<void>(loadLibrary("bad.mtl", text));
+        } catch (const Error &error) {
+            EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_NE(refusalOfMtl("newmtl a\nKd 1 x 1\n").find("bad.mtl:2: Kd has \"x\"; allowed are"),
+              std::string::npos)
+        << refusalOfMtl("newmtl a\nKd 1 x 1\n");
+    EXPECT_NE(refusalOfMtl("newmtl a\nKd 1 1\n").find("fewer numbers"), std::string::npos);
+    EXPECT_NE(refusalOfMtl("newmtl a\nNs nan\n").find("bad.mtl:2: Ns"), std::string::npos);
+    EXPECT_NE(refusalOfMtl("\nKd 1 1 1\n").find("bad.mtl:2: Kd stands before the first newmtl"),
+              std::string::npos);
+}
+
+TEST_F(Mtl, TexturesAreReadForWhatTheyAreFor) {
+    std::filesystem::create_directories(folder / "images of wood");
+    writePixel("images of wood/oak.png", 1, 2, 3);
+    writePixel("blue.png", 128, 128, 255);
+    const std::vector<Material> materials = loadLibrary("textured.mtl", R"(newmtl wood
+map_Kd -s 2 3 1 -o 0.25 -0.5 images of wood/oak.png
+norm -bm 0.5 blue.png
+map_d blue.png
+newmtl lamp
+Kd 0.25 0.5 1
+Ke 0 0 0
+map_Ke images of wood\\oak.png
+map_Kd -s 4 blue.png
+newmtl modern
+Pr 0.3
+map_Pr blue.png
+map_Pm blue.png
+)");
+    EXPECT_TRUE(warnings.empty()) << warnings.front();
+    ASSERT_EQ(materials.size(), 3u);
+    const Material &wood = materials[0];
+    EXPECT_EQ(wood.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(wood.albedo, glm::vec3(1.0f)) << "without Kd the texture alone decides";
+    ASSERT_TRUE(wood.textures[layout::slotBaseColour]);
+    EXPECT_EQ(wood.textures[layout::slotBaseColour]->scale, glm::vec2(2, 3));
+    EXPECT_EQ(wood.textures[layout::slotBaseColour]->offset, glm::vec2(0.25f, -0.5f));
+    EXPECT_TRUE(wood.textures[layout::slotOpacity]);
+    EXPECT_TRUE(wood.textures[layout::slotNormal]);
+    EXPECT_EQ(wood.normalStrength, 0.5f);
+    EXPECT_EQ(materials[1].albedo, glm::vec3(0.25f, 0.5f, 1.0f));
+    EXPECT_EQ(materials[1].emission, glm::vec3(1.0f));
+    ASSERT_TRUE(materials[1].textures[layout::slotEmission]);
+    EXPECT_EQ(materials[1].textures[layout::slotEmission]->textureIndex,
+              wood.textures[layout::slotBaseColour]->textureIndex)
+        << "one file is one texture, and names may be written as on Windows";
+    EXPECT_EQ(materials[1].textures[layout::slotBaseColour]->scale, glm::vec2(4, 1));
+    EXPECT_EQ(materials[2].kind, MaterialKind::Principled);
+    EXPECT_EQ(materials[2].roughness, 1.0f) << "the texture stands in place of Pr";
+    EXPECT_EQ(materials[2].metallic, 1.0f);
+    EXPECT_EQ(materials[2].specular, 0.5f);
+}
+
+TEST_F(Mtl, WhatIsPassedOverOfTexturesIsTold) {
+    std::filesystem::create_directories(folder / "mesh");
+    writePixel("outside.png", 1, 2, 3);
+    writePixel("mesh/grey.png", 9, 9, 9);
+    static_cast<void>(write("mesh/photo.tga", "something else"));
+    warnings.clear();
+    const std::vector<Material> materials =
+        loadMtl(write("mesh/bad.mtl", "newmtl a\nmap_Kd none.png\nmap_Kd ../outside.png\nmap_Ks grey.png\n"
+                                      "bump grey.png\nmap_Ke photo.tga\nmap_d -clamp on -t 1 2 grey.png\n"),
+                {std::filesystem::canonical(folder / "mesh"), library, warnings});
+    ASSERT_EQ(materials.size(), 1u);
+    for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
+        EXPECT_EQ(materials[0].textures[slot].has_value(), slot == layout::slotOpacity) << slot;
+    const char *const parts[] = {"bad.mtl:2: map_Kd \"none.png\": there is no such file",
+                                 "bad.mtl:3: map_Kd \"../outside.png\": there is no such file",
+                                 "bad.mtl:4: map_Ks \"grey.png\" is passed over",
+                                 "bad.mtl:5: bump \"grey.png\" is passed over: it is grey",
+                                 "bad.mtl:6: map_Ke \"photo.tga\" is passed over: it is no PNG",
+                                 "bad.mtl:7: the option -clamp on is passed over",
+                                 "bad.mtl:7: the option -t is passed over"};
+    ASSERT_EQ(warnings.size(), std::size(parts));
+    for (std::size_t i = 0; i < warnings.size(); ++i)
+        EXPECT_NE(warnings[i].find(parts[i]), std::string::npos) << warnings[i];
+}
+
+TEST_F(Mtl, DamagedTexturesAreRefused) {
+    const auto refusalOfMtl = [&](const std::string &text) -> std::string {
+        try {
+            static_cast<void>(loadLibrary("bad.mtl", "newmtl a\n" + text));
+        } catch (const Error &error) {
+            return error.what();
+        }
+        return {};
+    };
+    static_cast<void>(write("cut.jpg", "\xFF\xD8\xFF\xE0"));
+    EXPECT_NE(refusalOfMtl("map_Kd cut.jpg\n").find("cut.jpg: it is damaged"), std::string::npos);
+    EXPECT_NE(refusalOfMtl("map_Kd\n").find("bad.mtl:2: map_Kd names no file"), std::string::npos);
+    EXPECT_NE(refusalOfMtl("map_Kd -s x.png\n").find("-s has fewer numbers"), std::string::npos);
+    EXPECT_NE(refusalOfMtl("map_Kd -s 1e9 x.png\n").find("out of range"), std::string::npos);
+}
+
+TEST_F(Mtl, ABareMeshWearsItsTextures) {
+    writePixel("red.png", 255, 0, 0);
+    static_cast<void>(write("red.mtl", "newmtl red\nmap_Kd red.png\n"));
+    const std::string vertices = "mtllib red.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    const LoadedScene worn =
+        loadScene(write("a.obj", vertices + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n").string());
+    EXPECT_EQ(worn.scene.textures.size(), 1u);
+    EXPECT_TRUE(worn.scene.materials.at(1).textures[layout::slotBaseColour]);
+    EXPECT_TRUE(worn.meshReports.at(0).warnings.empty());
+    const LoadedScene partly =
+        loadScene(write("b.obj", vertices + "vt 0 0\nf 1/1 2/1 3/1\nf 1 2 4\n").string());
+    ASSERT_EQ(partly.meshReports.at(0).warnings.size(), 1u);
+    EXPECT_NE(partly.meshReports.at(0).warnings[0].find("1 triangles have no texture coordinates"),
+              std::string::npos);
+    const LoadedScene bare = loadScene(write("c.obj", vertices + "f 1 2 3\n").string());
+    EXPECT_FALSE(bare.scene.materials.at(1).textures[layout::slotBaseColour]);
+    ASSERT_EQ(bare.meshReports.at(0).warnings.size(), 1u);
+}
+
+TEST_F(Mtl, ABareMeshHasItsMaterials) {
+    static_cast<void>(write("two.mtl", "newmtl red\nKd 1 0 0\nnewmtl glass\nillum 4\n"));
+    const std::string faces =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+        "f 1 2 3\nusemtl glass\nf 1 2 4\nf 1 3 9\nusemtl red\nf 2 3 4\nusemtl lost\nf 1 3 4\n"
+        "v 5 5 5\nv 6 6 7\nv 7 8 9\nv 5 5 6\nv 1 2 8\n";
+    const LoadedScene loaded = loadScene(write("mesh.obj", "mtllib two.mtl\n" + faces).string());
+    const TriangleMesh &mesh = loaded.scene.meshes.at(0);
+    ASSERT_EQ(loaded.scene.materials.size(), 3u);
+    EXPECT_EQ(loaded.scene.materials[1].name, "red");
+    EXPECT_EQ(loaded.scene.materials[2].name, "glass");
+    ASSERT_EQ(mesh.triangles.size(), 5u);
+    // Faces wait for a vertex that comes later, and all behind them; each keeps its own material.
+    EXPECT_EQ(mesh.triangleMaterials, (std::vector<std::uint32_t>{0, 2, 2, 1, 0}));
+    EXPECT_EQ(loaded.meshReports.at(0).unknownMaterialCount, 1u);
+    // As packed for the renderers.
+    const PackedScene packed =
+        packScene(loaded.scene, buildBvh(TreeKind::Sah, buildTriangles(loaded.scene), 1));
+    EXPECT_TRUE(packed.hasDielectric);
+    for (const layout::TriangleRecord &triangle : packed.triangles) {
+        const std::uint32_t input = triangle.primitiveId - layout::firstTriangleId;
+        const bool isGlass = input == 1 || input == 2;
+        EXPECT_EQ(kindOf(packed.materials.at(triangle.materialIndex)) == layout::materialDielectric, isGlass);
+        EXPECT_EQ((triangle.flags & layout::triangleIsTransmissive) != 0, isGlass);
+    }
+}
+
+TEST_F(Mtl, NamesInMessagesAreFitForTerminals) {
+    static_cast<void>(write("bright.mtl", "newmtl a\x1b[31m\nKe 1e38\n"));
+    const std::filesystem::path mesh =
+        write("mesh.obj", "mtllib bright.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\x1b[31m\n"
+                          "f 1 2 3\n");
+    try {
+        static_cast<void>(loadScene(mesh.string()));
+        FAIL() << "so much light is too much";
+    } catch (const Error &error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("[31m): emission: found"), std::string::npos) << message;
+        EXPECT_EQ(message.find('\x1b'), std::string::npos);
+    }
+}
+
+TEST_F(Mtl, LibrariesAreReadOnceAndMaterialsFoundAtOnce) {
+    // Without that these are a million readings of one file, and a billion comparisons of names.
+    std::string manyMaterials;
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 20'000; ++i) {
+        manyMaterials += "newmtl material number " + std::to_string(i) + "\nKd 1 0 0\n";
+        text += "mtllib many.mtl\nmtllib ./many.mtl\nmtllib none.mtl\nusemtl material number " +
+                std::to_string(19'999 - i) + "\nf 1 2 3\n";
+    }
+    static_cast<void>(write("many.mtl", manyMaterials));
+    const auto start = std::chrono::steady_clock::now();
+    const LoadedScene loaded = loadScene(write("mesh.obj", text).string());
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    EXPECT_EQ(loaded.meshReports.at(0).unknownMaterialCount, 0u);
+    EXPECT_EQ(loaded.meshReports.at(0).lostLibraries, (std::vector<std::string>{"none.mtl"}));
+    EXPECT_EQ(loaded.scene.meshes.at(0).triangleMaterials.at(0), 20'000u);
+    EXPECT_EQ(loaded.scene.meshes.at(0).triangleMaterials.at(19'999), 1u);
+}
+
+TEST_F(Mtl, LibrariesThatAreNotThereOrOutOfReachAreTold) {
+    std::filesystem::create_directories(folder / "below");
+    static_cast<void>(write("outside.mtl", "newmtl red\nKd 1 0 0\n"));
+    const LoadedScene loaded =
+        loadScene(write("below/mesh.obj", "mtllib ../outside.mtl\nmtllib none.mtl\nusemtl red\n"
+                                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+                      .string());
+    EXPECT_EQ(loaded.meshReports.at(0).lostLibraries,
+              (std::vector<std::string>{"../outside.mtl", "none.mtl"}));
+    EXPECT_TRUE(loaded.scene.meshes.at(0).triangleMaterials.empty());
+    EXPECT_EQ(loaded.scene.materials.size(), 1u) << "the neutral one";
+}
+
+} // namespace
+} // namespace hyalite

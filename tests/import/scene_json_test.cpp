@@ -1,0 +1,375 @@
+// The scene file: what it says is what is loaded, and what it may not say is refused with its place.
+#include "host/scene/validate.h"
+#include "tests/fixtures/scene_json_fixture.h"
+
+#include <sys/stat.h>
+
+#include <ostream>
+#include <vector>
+
+namespace hyalite {
+namespace {
+
+using nlohmann::json;
+
+using SceneJson = SceneFolder;
+
+// ---- What a file says is what is loaded
+
+TEST_F(SceneJson, EveryValueReachesTheScene) {
+    Scene scene = load(completeScene().dump());
+    EXPECT_EQ(scene.camera.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.camera.direction, glm::dvec3(0, 0, -7));
+    EXPECT_EQ(scene.camera.up, glm::dvec3(0, 2, 0));
+    EXPECT_EQ(scene.camera.horizontalFovDegrees, 45.5);
+    EXPECT_EQ(scene.camera.width, 333);
+    EXPECT_EQ(scene.camera.height, 217);
+    EXPECT_EQ(scene.background, glm::vec3(0.1f, 0.2f, 0.3f));
+
+    EXPECT_EQ(scene.camera.kind, CameraKind::Perspective);
+    EXPECT_EQ(scene.camera.aperture, 0.25);
+    EXPECT_EQ(scene.camera.focusDistance, 8.5);
+    EXPECT_EQ(scene.camera.viewWidth, 12.0);
+    EXPECT_EQ(scene.environment.radiance.width(), 2);
+    EXPECT_EQ(scene.environment.scale, 0.5f);
+    EXPECT_EQ(scene.environment.rotateDegrees, 30.0);
+
+    ASSERT_EQ(scene.lights.size(), 3u);
+    EXPECT_EQ(scene.lights[1].kind, LightKind::Spot);
+    EXPECT_EQ(scene.lights[1].direction, glm::dvec3(0, 0, 2));
+    EXPECT_EQ(scene.lights[1].angleDegrees, 40.0);
+    EXPECT_EQ(scene.lights[1].blend, 0.5);
+    EXPECT_EQ(scene.lights[2].kind, LightKind::Directional);
+    EXPECT_EQ(scene.lights[2].direction, glm::dvec3(1, -1, 0));
+    EXPECT_EQ(scene.lights[2].power, glm::dvec3(3, 2, 1));
+    EXPECT_EQ(scene.lights[0].position, glm::dvec3(-10, 20, 40));
+    EXPECT_EQ(scene.lights[0].power, glm::dvec3(1, 2, 3));
+
+    ASSERT_EQ(scene.materials.size(), 5u);
+    const Material &brass = scene.materials[0]; // in the order of the alphabet
+    EXPECT_EQ(brass.kind, MaterialKind::Conductor);
+    EXPECT_EQ(brass.conductorIndex, glm::vec3(0.4f, 0.5f, 0.6f));
+    EXPECT_EQ(brass.conductorExtinction, glm::vec3(2.0f));
+    EXPECT_EQ(brass.roughness, 0.25f);
+    const Material &varnish = scene.materials[4];
+    EXPECT_EQ(varnish.kind, MaterialKind::Principled);
+    EXPECT_EQ(varnish.albedo, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(varnish.metallic, 0.125f);
+    EXPECT_EQ(varnish.roughness, 0.375f);
+    EXPECT_EQ(varnish.specular, 0.625f);
+    EXPECT_EQ(varnish.refractiveIndex, 1.25f);
+    EXPECT_EQ(varnish.absorption, glm::vec3(0.75f));
+    EXPECT_EQ(varnish.priority, 4);
+    EXPECT_EQ(varnish.clearcoat, 0.875f);
+    EXPECT_EQ(varnish.clearcoatRoughness, 0.0625f);
+    EXPECT_TRUE(varnish.twoSided);
+    EXPECT_EQ(varnish.emission, glm::vec3(5.0f));
+    ASSERT_EQ(scene.spheres.size(), 1u);
+    EXPECT_EQ(scene.spheres[0].centre, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(scene.spheres[0].radius, 7.0);
+    EXPECT_TRUE(scene.spheres[0].inwardNormal);
+    const Material &ice = scene.materials.at(scene.spheres[0].materialIndex);
+    EXPECT_EQ(ice.name, "ice");
+    EXPECT_EQ(ice.kind, MaterialKind::Dielectric);
+    EXPECT_EQ(ice.refractiveIndex, 1.31f);
+    EXPECT_EQ(ice.segmentTint, glm::vec3(0.75f));
+    EXPECT_EQ(ice.absorption, glm::vec3(0.5f, 0.25f, 0.0f));
+    EXPECT_EQ(ice.priority, -2);
+    EXPECT_EQ(ice.roughness, 0.3f);
+
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.meshes[0].triangles.size(), 1u);
+    const Material &paper = scene.materials.at(scene.meshes[0].materialIndex);
+    EXPECT_EQ(paper.name, "paper");
+    EXPECT_EQ(paper.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(paper.albedo, glm::vec3(0.25f, 0.5f, 1.0f));
+    EXPECT_TRUE(paper.twoSided);
+    EXPECT_EQ(paper.emission, glm::vec3(1.0f, 2.0f, 3.0f));
+    // The corner (1, 0, 0): scaled to (2, 0, 0), turned about z to (0, 2, 0), moved to (0, 2, -5).
+    const glm::vec3 corner = scene.meshes[0].positions.at(scene.meshes[0].triangles[0].positions[1]);
+    EXPECT_NEAR(corner.x, 0.0, 1e-6);
+    EXPECT_NEAR(corner.y, 2.0, 1e-6);
+    EXPECT_NEAR(corner.z, -5.0, 1e-6);
+
+    EXPECT_EQ(scene.settings.samplesPerPixel, 32);
+    EXPECT_EQ(scene.settings.maxDepth, 12);
+    EXPECT_EQ(scene.settings.occlusionDistance, 7.5);
+    EXPECT_EQ(scene.settings.tree, TreeKind::Sah);
+    EXPECT_EQ(scene.settings.leafSize, 4);
+    EXPECT_EQ(scene.settings.sampler, SamplerKind::Centre);
+    EXPECT_EQ(scene.settings.filter, FilterKind::BlackmanHarris);
+    EXPECT_EQ(scene.settings.seed, 4294967295u);
+    EXPECT_EQ(scene.settings.radianceLimit, 9.0);
+    EXPECT_EQ(scene.settings.exposureStops, -1.5);
+    EXPECT_EQ(scene.shadowThroughGlass, 0.5f);
+    EXPECT_THROW(validateScene(scene, "complete"), Error) << "a filter is for samples beside the centre";
+    scene.settings.sampler = SamplerKind::Sobol;
+    EXPECT_NO_THROW(validateScene(scene, "complete"));
+}
+
+TEST_F(SceneJson, AnEmptyObjectIsAnEmptyBlackScene) {
+    const LoadedScene loaded = loadSceneFile(write("scene.json", "{}"));
+    EXPECT_TRUE(loaded.scene.spheres.empty() && loaded.scene.meshes.empty() && loaded.scene.lights.empty());
+    EXPECT_EQ(loaded.scene.background, glm::vec3(0.0f));
+    EXPECT_TRUE(loaded.meshReports.empty());
+    EXPECT_FALSE(loaded.autoFramed);
+    EXPECT_EQ(loaded.file, folder / "scene.json");
+    EXPECT_NO_THROW(validateScene(loaded.scene, "empty"));
+}
+
+TEST_F(SceneJson, ANumberForAColourIsGrey) {
+    EXPECT_EQ(load(R"({"background": 0.5})").background, glm::vec3(0.5f));
+    const Scene scene = load(R"({"lights": [{"type": "point", "position": [0, 0, 0], "power": 1e5}]})");
+    EXPECT_EQ(scene.lights.at(0).power, glm::dvec3(1e5));
+}
+
+TEST_F(SceneJson, AMetalHasItsIndexByName) {
+    const Scene scene =
+        load(R"({"materials": {"ring": {"type": "conductor", "metal": "gold", "extinction": 9}}})");
+    EXPECT_EQ(scene.materials.at(0).conductorIndex, metalNames[2].second.index);
+    EXPECT_EQ(scene.materials.at(0).conductorExtinction, glm::vec3(9.0f)) << "what is given beside it wins";
+    // Gold is yellow, and they all reflect most of red light.
+    const glm::vec3 gold = normalReflectance(metalNames[2].second.index, metalNames[2].second.extinction);
+    EXPECT_GT(gold.x, gold.y + 0.1f);
+    EXPECT_GT(gold.y, gold.z + 0.2f);
+    for (const auto &[name, metal] : metalNames)
+        EXPECT_GT(normalReflectance(metal.index, metal.extinction).x, 0.85f) << name;
+}
+
+TEST_F(SceneJson, ACameraIsFocusedOnItsTarget) {
+    const Scene scene = load(R"({"camera": {"position": [0, 3, 4], "target": [0, 0, 0], "aperture": 1}})");
+    EXPECT_EQ(scene.camera.focusDistance, 5.0);
+}
+
+TEST_F(SceneJson, AnEnvironmentIsLinear) {
+    EXPECT_TRUE(refusal(R"({"environment": {"file": "missing.hdr"}})").starts_with(" /environment/file: "));
+    static_cast<void>(write("sky.txt", "no image"));
+    EXPECT_NE(refusalOf(write("scene.json", R"({"environment": {"file": "sky.pfm", "scale": -1}})"))
+                  .find("allowed"),
+              std::string::npos);
+    EXPECT_THROW(static_cast<void>(load(R"({"environment": {"file": "sky.txt"}})")), Error);
+}
+
+TEST_F(SceneJson, AWholeNumberMayBeWrittenAsAFloat) {
+    EXPECT_EQ(load(R"({"camera": {"width": 6.4e1}})").camera.width, 64);
+}
+
+TEST_F(SceneJson, MeshesAreFoundFromTheFolderOfTheSceneFile) {
+    std::filesystem::create_directories(folder / "below");
+    const std::filesystem::path file = write(
+        "below/scene.json",
+        R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "../triangle.obj", "material": "m"}]})");
+    EXPECT_TRUE(refusalOf(file).starts_with(" /meshes/0/file: ")) << "what is out of reach is not read";
+    const LoadedScene loaded = loadSceneFile(file, {}, std::array{folder});
+    EXPECT_EQ(triangleCount(loaded.scene), 1u);
+    EXPECT_EQ(loaded.meshReports.size(), 1u);
+}
+
+// ---- What a file may not say is refused, with its place
+
+struct Refusal {
+    const char *text;
+    const char *place; ///< right after the file's name
+    const char *reason;
+};
+
+void PrintTo(const Refusal &refusal, std::ostream *stream) { *stream << refusal.text; }
+
+class SceneJsonRefusal : public SceneFolder, public testing::WithParamInterface<Refusal> {};
+
+TEST_P(SceneJsonRefusal, NamesPlaceAndReason) {
+    const std::string message = refusal(GetParam().text);
+    EXPECT_TRUE(message.starts_with(GetParam().place)) << message;
+    EXPECT_NE(message.find(GetParam().reason), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, SceneJsonRefusal,
+    testing::Values(
+        // syntax: line and column
+        Refusal{"", "1:1: ", "unexpected end of input"}, //
+        Refusal{"{\n  \"spheres\": [,]\n}", "2:15: ", "unexpected ','"},
+        Refusal{"{\"background\": NaN}", "1:16: ", "invalid literal"},
+        Refusal{"{\"background\": 1e999}", "1:20: ", "number overflow"},
+        Refusal{"{} {}", "1:4: ", "unexpected '{'"}, //
+        Refusal{"{\"\xFF\": 1}", "1:3: ", "ill-formed UTF-8"},
+        // keys
+        Refusal{"[]", " the top level: ", "found an array of 0; allowed: an object"},
+        Refusal{R"({"sphere": []})", " /sphere: ", "did you mean \"spheres\"?"},
+        Refusal{R"({"camera": {"positon": 1}})", " /camera/positon: ", "did you mean \"position\"?"},
+        Refusal{R"({"spheres": [{"center": 1}]})", " /spheres/0/center: ", "did you mean \"centre\"?"},
+        Refusal{R"({"settings": {"SPP": 1}})", " /settings/SPP: ", "did you mean \"spp\"?"},
+        Refusal{R"({"materials": {"m": {"type": "mirror", "albedo": 1}}})",
+                " /materials/m/albedo: ", "unknown key; allowed: \"type\""},
+        Refusal{R"({"materials": {"a/b": {"type": "mirror", "x": 1}}})", " /materials/a~1b/x: ", "unknown"},
+        Refusal{R"({"materials": {"\u001b[31m": {"type": 1}}})", " /materials/?[31m/type: ", "found 1"},
+        Refusal{R"({"camera": {"width": 1, "width": 2}})", " /camera/width: ", "given twice"},
+        Refusal{R"({"lights": [{}, [{"a": 1, "b": {}, "a": 2}]]})", " /lights/1/0/a: ", "given twice"},
+        Refusal{R"({"spheres": [{"centre": [0, 0, 0], "material": "m"}]})",
+                " /spheres/0/radius: ", "missing"},
+        Refusal{R"({"materials": {"m": {}}})", " /materials/m/type: ", "missing"},
+        // types
+        Refusal{R"({"$schema": 1})", " /$schema: ", "allowed: a text"},
+        Refusal{R"({"camera": []})", " /camera: ", "allowed: an object"},
+        Refusal{R"({"camera": {"position": [1, 2]}})", " /camera/position: ", "found an array of 2"},
+        Refusal{R"({"camera": {"position": [1, "2", 3]}})", " /camera/position/1: ", "found \"2\""},
+        Refusal{R"({"camera": {"width": 1.5}})", " /camera/width: ", "a whole number from 1 to 32768"},
+        Refusal{R"({"camera": {"width": true}})", " /camera/width: ", "found true"},
+        Refusal{R"({"background": "black"})", " /background: ", "[red, green, blue] or one number"},
+        Refusal{R"({"background": null})", " /background: ", "found null"},
+        Refusal{R"({"spheres": {}})", " /spheres: ", "found an object; allowed: an array"},
+        Refusal{R"({"spheres": [7]})", " /spheres/0: ", "allowed: an object"},
+        Refusal{R"({"materials": {"m": {"type": "diffuse", "twoSided": 1}}})",
+                " /materials/m/twoSided: ", "true or false"},
+        Refusal{R"({"materials": {"m": {"type": "miror"}}})",
+                " /materials/m/type: ", "did you mean \"mirror\"?"},
+        Refusal{R"({"settings": {"bvh": "kd"}})", " /settings/bvh: ", "\"midpoint\", \"sah\", \"none\""},
+        // ranges
+        Refusal{R"({"camera": {"horizontalFov": 180}})",
+                " /camera/horizontalFov: ", "found 180; allowed: a number more than 0 and less than 180"},
+        Refusal{R"({"camera": {"height": 0}})", " /camera/height: ", "found 0"},
+        Refusal{R"({"camera": {"position": [0, 2e15, 0]}})", " /camera/position/1: ", "1e+15"},
+        Refusal{R"({"camera": {"direction": [0, 0, 0]}})", " /camera/direction: ", "length"},
+        Refusal{R"({"camera": {"up": [0, 0, 1e-300]}})", " /camera/up: ", "length"},
+        Refusal{R"({"camera": {"target": [0, 0, 55]}})", " /camera/target: ", "own position"},
+        Refusal{R"({"camera": {"target": [0, 0, 0], "direction": [0, 0, -1]}})",
+                " /camera/target: ", "one of the two"},
+        Refusal{R"({"background": [0, 0, -1]})", " /background/2: ", "found -1"},
+        Refusal{R"({"materials": {"m": {"type": "diffuse", "albedo": 1.5}}})",
+                " /materials/m/albedo: ", "from 0 to 1"},
+        Refusal{R"({"materials": {"m": {"type": "dielectric", "index": 0.5}}})",
+                " /materials/m/index: ", "from 1 to 10"},
+        Refusal{R"({"spheres": [{"centre": [0, 0, 0], "radius": 0, "material": "m"}]})",
+                " /spheres/0/radius: ", "found 0; allowed: a number more than 0"},
+        Refusal{R"({"settings": {"seed": 4294967296}})", " /settings/seed: ", "from 0 to 4294967295"},
+        Refusal{R"({"settings": {"shadowThroughGlass": 2}})", " /settings/shadowThroughGlass: ", "found 2"},
+        Refusal{R"({"meshes": [{"file": "triangle.obj", "scale": 0, "material": "m"}]})",
+                " /meshes/0/scale: ", "not 0"},
+        // names
+        Refusal{R"({"spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "m"}]})",
+                " /spheres/0/material: ", "defines none"},
+        Refusal{R"({"materials": {"glass": {"type": "mirror"}},
+                    "spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "glas"}]})",
+                " /spheres/0/material: ", "did you mean \"glass\"?"},
+        Refusal{R"({"materials": {"\u001b[31m": {"type": "mirror"}},
+                    "spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "[31m"}]})",
+                " /spheres/0/material: ", "in /materials: \"?[31m\"; did you mean \"?[31m\"?"},
+        Refusal{
+            R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "no.obj", "material": "m"}]})",
+            " /meshes/0/file: ", "no.obj"},
+        Refusal{
+            R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "\u001b[31m", "material": "m"}]})",
+            " /meshes/0/file: ", "/?[31m: there is no such file"},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "meshes": [{"file": "triangle.obj\u0000x", "material": "m"}]})",
+                " /meshes/0/file: ", "NUL"}));
+
+TEST_F(SceneJson, MoreThan64SpheresAreRefusedWithTheNumber) {
+    json scene = completeScene();
+    scene["spheres"] = json(std::vector<json>(64, scene["spheres"][0]));
+    EXPECT_EQ(refusal(scene.dump()), "");
+    scene["spheres"].push_back(scene["spheres"][0]);
+    EXPECT_EQ(refusal(scene.dump()),
+              " /spheres: found an array of 65; allowed: an array of at most 64 objects");
+}
+
+TEST_F(SceneJson, NestingIsBounded) {
+    const auto nested = [](std::size_t arrayCount) {
+        return "{\"a\": " + std::string(arrayCount, '[') + std::string(arrayCount, ']') + "}";
+    };
+    EXPECT_NE(refusal(nested(31)).find("unknown key"), std::string::npos);
+    EXPECT_NE(refusal(nested(32)).find("nested deeper than 32 levels"), std::string::npos);
+    EXPECT_NE(refusal(std::string(10'000'000, '[')).find("nested deeper"), std::string::npos);
+}
+
+TEST_F(SceneJson, ALongListOfMaterialsIsCutInTheMessage) {
+    json scene = completeScene();
+    for (int i = 0; i < 1000; ++i)
+        scene["materials"]["m" + std::to_string(i)] = {{"type", "mirror"}};
+    scene["spheres"][0]["material"] = "nothing like it";
+    const std::string message = refusal(scene.dump());
+    EXPECT_LT(message.size(), 500u);
+    EXPECT_TRUE(message.ends_with(", ...")) << message;
+}
+
+TEST_F(SceneJson, ALongValueIsCutInTheMessage) {
+    const std::string message = refusal("{\"background\": \"" + std::string(100'000, 'x') + "\"}");
+    EXPECT_LT(message.size(), 300u);
+    EXPECT_LT(refusal("{\"" + std::string(100'000, 'x') + "\": 1}").size(), 500u);
+    EXPECT_LT(refusal("{\"" + std::string(100'000, 'x')).size(), 500u);
+}
+
+TEST_F(SceneJson, OnlyRegularFilesOfAModestSizeAreRead) {
+    EXPECT_EQ(refusalOf(folder / "missing.json"), " No such file or directory");
+    EXPECT_EQ(refusalOf(folder), " is a folder, not a regular file; name a file");
+
+    const std::filesystem::path pipe = folder / "pipe.json";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_EQ(refusalOf(pipe), " is a pipe, not a regular file; name a file");
+
+    const std::filesystem::path large = write("large.json", "{}");
+    std::filesystem::resize_file(large, (64u << 20) + 1); // sparse
+    EXPECT_NE(refusalOf(large).find("64 MiB"), std::string::npos);
+}
+
+TEST_F(SceneJson, TexturesAreFactors) {
+    const Scene scene = load(R"({"materials": {
+        "a": {"type": "diffuse", "textures": {"baseColour": {"file": "image.png", "scale": [2, 3], "offset": 0.25},
+                                              "emission": {"file": "image.png"}}},
+        "b": {"type": "principled", "roughness": 0.25, "baseColour": 0.75,
+              "textures": {"roughness": {"file": "image.png"}, "metallic": {"file": "image.png"},
+                           "normal": {"file": "image.png", "strength": 0.5}}}}})");
+    EXPECT_EQ(scene.textures.size(), 1u) << "one file is one texture";
+    const Material &a = scene.materials.at(0);
+    ASSERT_TRUE(a.textures[layout::slotBaseColour]);
+    EXPECT_EQ(a.textures[layout::slotBaseColour]->scale, glm::vec2(2, 3));
+    EXPECT_EQ(a.textures[layout::slotBaseColour]->offset, glm::vec2(0.25f));
+    EXPECT_EQ(a.albedo, glm::vec3(1.0f));
+    EXPECT_EQ(a.emission, glm::vec3(1.0f));
+    const Material &b = scene.materials.at(1);
+    EXPECT_EQ(b.albedo, glm::vec3(0.75f));
+    EXPECT_EQ(b.roughness, 0.25f);
+    EXPECT_EQ(b.metallic, 1.0f);
+    EXPECT_EQ(b.normalStrength, 0.5f);
+}
+
+TEST_F(SceneJson, TexturesComeFromWhereTheSceneMayRead) {
+    const auto refusalOfTexture = [&](const std::string &slot, const std::string &file) {
+        return refusal(R"({"materials": {"m": {"type": "diffuse", "textures": {")" + slot +
+                       R"(": {"file": ")" + file + R"("}}}}})");
+    };
+    EXPECT_EQ(refusalOfTexture("baseColour", "image.png"), "");
+    EXPECT_NE(refusalOfTexture("baseColour", "/etc/passwd").find("leads to /etc/passwd"), std::string::npos);
+    EXPECT_NE(refusalOfTexture("baseColour", "none.png").find("there is no such file"), std::string::npos);
+    EXPECT_NE(refusalOfTexture("roughness", "image.png").find("unknown key"), std::string::npos);
+    static_cast<void>(write("glow.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" +
+                                            std::string("\x80\x40\x00\x88", 4)));
+    EXPECT_EQ(refusalOfTexture("emission", "glow.hdr"), "");
+    EXPECT_NE(refusalOfTexture("baseColour", "glow.hdr").find("found an image of floats"), std::string::npos);
+    const std::uint8_t grey[] = {9, 9, 9};
+    const std::vector<std::byte> image = encodePng(1, 1, grey);
+    static_cast<void>(
+        write("grey.png", std::string(reinterpret_cast<const char *>(image.data()), image.size())));
+    EXPECT_NE(refusalOfTexture("normal", "grey.png").find("found a grey image"), std::string::npos);
+}
+
+TEST_F(SceneJson, AMeshWithoutAMaterialHasItsOwn) {
+    static_cast<void>(write("own.mtl", "newmtl red\nKd 1 0 0\nmap_Ke image.png\n"));
+    static_cast<void>(write("own.obj", "mtllib own.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                       "f 1/1 2/1 3/1\nusemtl red\nf 1/1 3/1 2/1\n"));
+    const Scene scene = load(R"({"materials": {"m": {"type": "mirror"}},
+        "meshes": [{"file": "triangle.obj", "material": "m"}, {"file": "own.obj"}]})");
+    ASSERT_EQ(scene.materials.size(), 3u);
+    EXPECT_EQ(scene.materials[1].name, "neutral");
+    EXPECT_EQ(scene.materials[2].albedo, glm::vec3(1, 0, 0));
+    EXPECT_EQ(scene.meshes.at(0).materialIndex, 0u);
+    EXPECT_EQ(scene.meshes.at(1).triangleMaterials, (std::vector<std::uint32_t>{1, 2}));
+    EXPECT_EQ(scene.textures.size(), 1u);
+    EXPECT_NE(refusal(R"({"meshes": [{"file": "own.obj"}, {"file": "triangle.obj", "material": "red"}]})")
+                  .find("/meshes/1/material"),
+              std::string::npos)
+        << "names are those of the scene file";
+}
+
+} // namespace
+} // namespace hyalite

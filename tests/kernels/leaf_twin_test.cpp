@@ -1,0 +1,882 @@
+// Each function of shaders/*.glsl against its twin in host/reference: the same bits for the same input.
+#include "host/packing/microfacet_energy.h"
+#include "host/packing/pixel_filter.h"
+#include "host/reference/box.h"
+#include "host/reference/camera.h"
+#include "host/reference/dielectric.h"
+#include "host/reference/emitters.h"
+#include "host/reference/media.h"
+#include "host/reference/normal_map.h"
+#include "host/reference/random.h"
+#include "host/reference/rough.h"
+#include "host/reference/sphere.h"
+#include "host/reference/surface.h"
+#include "host/reference/triangle.h"
+#include "tests/kernels/probe_device.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+namespace hyalite::testing {
+namespace {
+
+using glm::uvec2;
+using glm::uvec3;
+using glm::vec2;
+using glm::vec3;
+
+// ---- Vectors
+
+TEST(VectorTwin, DotProduct) {
+    expectTwin(probeDotProduct, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 a = draw.point();
+        const vec3 b = draw.point();
+        input << a << b;
+        expected << reference::dotProduct(a, b);
+    });
+}
+
+TEST(VectorTwin, CrossProduct) {
+    expectTwin(probeCrossProduct, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 a = draw.point();
+        const vec3 b = draw.chance(16) ? a * 3.0f : draw.point();
+        input << a << b;
+        expected << reference::crossProduct(a, b);
+    });
+}
+
+TEST(VectorTwin, VectorLength) {
+    expectTwin(probeVectorLength, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 v = draw.point();
+        input << v;
+        expected << reference::vectorLength(v);
+    });
+}
+
+TEST(VectorTwin, UnitVector) {
+    expectTwin(probeUnitVector, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 v = draw.point();
+        input << v;
+        expected << reference::unitVector(v);
+    });
+}
+
+TEST(VectorTwin, MirrorDirection) {
+    expectTwin(probeMirrorDirection, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 direction = draw.direction();
+        const vec3 normal = draw.chance(16) ? -direction : draw.direction();
+        input << direction << normal;
+        expected << reference::mirrorDirection(direction, normal);
+    });
+}
+
+// Of equal components of different sign, as 0 and -0, either may be the largest.
+vec3 pointWithoutNegativeZero(Draw &draw) { return draw.point() + vec3(0.0f); }
+
+TEST(VectorTwin, LargestComponent) {
+    expectTwin(probeLargestComponent, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 v = pointWithoutNegativeZero(draw);
+        input << v;
+        expected << reference::largestComponent(v);
+    });
+}
+
+TEST(VectorTwin, SmallestComponent) {
+    expectTwin(probeSmallestComponent, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 v = pointWithoutNegativeZero(draw);
+        input << v;
+        expected << reference::smallestComponent(v);
+    });
+}
+
+// ---- Random numbers
+
+TEST(RandomTwin, HashKeys) {
+    expectTwin(probeHashKeys, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        const std::uint32_t y = draw.word();
+        const uvec3 keys(x, y, draw.word());
+        input << keys;
+        expected << reference::hashKeys(keys);
+    });
+}
+
+TEST(RandomTwin, OwenScramble) {
+    expectTwin(probeOwenScramble, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        const std::uint32_t key = draw.word();
+        input << x << key;
+        expected << reference::owenScramble(x, key);
+    });
+}
+
+TEST(RandomTwin, SecondSobolCoordinate) {
+    expectTwin(probeSecondSobolCoordinate, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        input << x;
+        expected << reference::secondSobolCoordinate(x);
+    });
+}
+
+TEST(RandomTwin, UnitReal) {
+    expectTwin(probeUnitReal, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        input << x;
+        expected << reference::unitReal<float>(x);
+    });
+}
+
+TEST(RandomTwin, SamplePixel) {
+    for (const std::uint32_t samplerKind : {layout::samplerCentre, layout::samplerSobol}) {
+        const auto call = [&](Draw &draw, Words &input, Words &expected) {
+            const std::uint32_t x = draw.index(5000);
+            const uvec2 pixel(x, draw.index(5000));
+            const std::uint32_t sampleIndex = draw.chance(2) ? draw.index(64) : draw.word();
+            const std::uint32_t seed = draw.word();
+            input << pixel << sampleIndex << seed;
+            expected << reference::samplePixel<float>(samplerKind, pixel, sampleIndex, seed);
+        };
+        expectTwin(probeSamplePixel, call, {{}, samplerKind});
+    }
+}
+
+// ---- Camera
+
+TEST(CameraTwin, PrimaryDirection) {
+    Draw views;
+    for (int view = 0; view < 4; ++view) {
+        ProbeScene scene;
+        scene.frame.imageWidth = 1 + views.index(4000);
+        scene.frame.imageHeight = 1 + views.index(4000);
+        scene.frame.imagePlane = views.direction();
+        scene.frame.pixelRight = 1e-3f * views.direction();
+        scene.frame.pixelUp = 1e-3f * views.direction();
+        const auto call = [&](Draw &draw, Words &input, Words &expected) {
+            const std::uint32_t x = draw.index(scene.frame.imageWidth);
+            const uvec2 pixel(x, draw.index(scene.frame.imageHeight));
+            const float offsetX = draw.chance(8) ? 0.0f : draw.unit();
+            const vec2 offset(offsetX, draw.chance(8) ? 0.5f : draw.unit());
+            input << pixel << offset;
+            expected << reference::primaryDirection(scene.frame, pixel, offset);
+        };
+        expectTwin(probePrimaryDirection, call, scene);
+    }
+}
+
+// ---- Boxes
+
+struct Box {
+    vec3 lower;
+    vec3 upper;
+};
+
+/// Often flat in some axis.
+Box drawBox(Draw &draw) {
+    const vec3 a = draw.point();
+    vec3 b = draw.point();
+    for (int axis = 0; axis < 3; ++axis)
+        if (draw.chance(6))
+            b[axis] = a[axis];
+    return {glm::min(a, b), glm::max(a, b)};
+}
+
+/// Often on a face, an edge or a corner of the box.
+vec3 drawOrigin(Draw &draw, const Box &box) {
+    vec3 origin = draw.point();
+    for (int axis = 0; axis < 3; ++axis)
+        if (draw.chance(6))
+            origin[axis] = draw.chance(2) ? box.lower[axis] : box.upper[axis];
+    return origin;
+}
+
+TEST(BoxTwin, MakeBoxRay) {
+    expectTwin(probeMakeBoxRay, [](Draw &draw, Words &input, Words &expected) {
+        const Box bounds = drawBox(draw);
+        const vec3 origin = drawOrigin(draw, bounds);
+        const vec3 direction = draw.direction();
+        input << origin << direction << bounds.lower << bounds.upper;
+        const reference::BoxRay<float> ray =
+            reference::makeBoxRay(origin, direction, bounds.lower, bounds.upper);
+        expected << ray.inverse << ray.origin << ray.pad;
+    });
+}
+
+TEST(BoxTwin, BoxInterval) {
+    expectTwin(probeBoxInterval, [](Draw &draw, Words &input, Words &expected) {
+        const Box box = drawBox(draw);
+        const vec3 origin = drawOrigin(draw, box);
+        const vec3 direction = draw.direction();
+        const vec3 lower = box.lower - vec3(1.0f);
+        const vec3 upper = box.upper + vec3(1.0f);
+        input << origin << direction << lower << upper << box.lower << box.upper;
+        const reference::Interval<float> interval =
+            boxInterval(reference::makeBoxRay(origin, direction, lower, upper), box.lower, box.upper);
+        expected << interval.enter << interval.leave;
+    });
+}
+
+// ---- Triangles
+
+struct Triangle {
+    vec3 v0;
+    vec3 v1;
+    vec3 v2;
+};
+
+/// Sometimes a needle, or without area.
+Triangle drawTriangle(Draw &draw) {
+    Triangle triangle{draw.point(), {}, {}};
+    triangle.v1 = draw.point();
+    triangle.v2 = draw.point();
+    switch (draw.index(16)) {
+    case 0:
+        triangle.v2 = triangle.v1;
+        break;
+    case 1:
+        triangle.v2 = 0.5f * (triangle.v0 + triangle.v1);
+        break;
+    default:
+        break;
+    }
+    return triangle;
+}
+
+/// A point of the triangle's plane, often on an edge or a vertex.
+vec3 drawTarget(Draw &draw, const Triangle &triangle) {
+    switch (draw.index(4)) {
+    case 0:
+        return triangle.v1;
+    case 1:
+        return 0.5f * (triangle.v0 + triangle.v2);
+    default:
+        const float u = draw.unit();
+        return reference::trianglePoint(triangle.v0, triangle.v1, triangle.v2, u, draw.unit());
+    }
+}
+
+TEST(TriangleTwin, MakeTriangleRay) {
+    expectTwin(probeMakeTriangleRay, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 origin = draw.point();
+        const vec3 direction = draw.direction();
+        input << origin << direction;
+        const reference::TriangleRay<float> ray = reference::makeTriangleRay(origin, direction);
+        expected << ray.origin << static_cast<std::uint32_t>(ray.axis) << ray.shear;
+    });
+}
+
+TEST(TriangleTwin, IntersectTriangle) {
+    std::size_t hitCount = 0;
+    expectTwin(probeIntersectTriangle, [&](Draw &draw, Words &input, Words &expected) {
+        const Triangle triangle = drawTriangle(draw);
+        vec3 origin = draw.point();
+        const vec3 target = drawTarget(draw, triangle);
+        vec3 direction = draw.chance(8) ? draw.direction() : draw.towards(origin, target);
+        if (draw.chance(8)) { // along an axis, so that edge functions are exactly 0
+            const int axis = static_cast<int>(draw.index(3));
+            direction = vec3(draw.chance(2) ? -0.0f : 0.0f);
+            direction[axis] = draw.chance(2) ? -1.0f : 1.0f;
+            origin = target - direction * draw.coordinate();
+        }
+        const vec3 lower = glm::min(glm::min(triangle.v0, triangle.v1), triangle.v2);
+        const vec3 upper = glm::max(glm::max(triangle.v0, triangle.v1), triangle.v2);
+        input << origin << direction << lower << upper << triangle.v0 << triangle.v1 << triangle.v2;
+        const reference::TriangleHit<float> hit = intersectTriangle(
+            reference::makeTriangleRay(origin, direction),
+            reference::makeBoxRay(origin, direction, lower, upper), triangle.v0, triangle.v1, triangle.v2);
+        hitCount += hit.distance > 0.0f ? 1u : 0u;
+        expected << (hit.distance == 0.0f ? 0.0f : hit.distance) << hit.u << hit.v;
+    });
+    EXPECT_GT(hitCount, probeInputCount / 8);
+    EXPECT_LT(hitCount, probeInputCount / 8 * 7);
+}
+
+TEST(TriangleTwin, TrianglePoint) {
+    expectTwin(probeTrianglePoint, [](Draw &draw, Words &input, Words &expected) {
+        const Triangle triangle = drawTriangle(draw);
+        const vec2 uv(draw.unit(), draw.unit());
+        input << triangle.v0 << triangle.v1 << triangle.v2 << uv;
+        expected << reference::trianglePoint(triangle.v0, triangle.v1, triangle.v2, uv.x, uv.y);
+    });
+}
+
+TEST(TriangleTwin, TrianglePointError) {
+    expectTwin(probeTrianglePointError, [](Draw &draw, Words &input, Words &expected) {
+        const Triangle triangle = drawTriangle(draw);
+        const vec2 uv(draw.unit(), draw.unit());
+        input << triangle.v0 << triangle.v1 << triangle.v2 << uv;
+        expected << reference::trianglePointError(triangle.v0, triangle.v1, triangle.v2, uv.x, uv.y);
+    });
+}
+
+// ---- Spheres
+
+TEST(SphereTwin, IntersectSphere) {
+    std::size_t hitCount = 0;
+    expectTwin(probeIntersectSphere, [&](Draw &draw, Words &input, Words &expected) {
+        const vec3 centre = draw.point();
+        const float radius = draw.chance(8) ? 940.0f : 0.01f + 10.0f * draw.unit();
+        vec3 origin = draw.point();
+        vec3 direction = draw.chance(4) ? draw.direction() : draw.towards(origin, centre);
+        if (draw.chance(8)) // grazing
+            origin = centre + radius * draw.direction();
+        if (draw.chance(8))
+            direction = draw.direction();
+        const bool startsOnSphere = draw.chance(2);
+        input << origin << direction << centre << radius << std::uint32_t{startsOnSphere};
+        const float distance = reference::intersectSphere(origin, direction, centre, radius, startsOnSphere);
+        hitCount += distance > 0.0f ? 1u : 0u;
+        expected << distance;
+    });
+    EXPECT_GT(hitCount, probeInputCount / 8);
+    EXPECT_LT(hitCount, probeInputCount / 8 * 7);
+}
+
+// ---- Glass
+
+TEST(DielectricTwin, RefractRay) {
+    std::size_t totalCount = 0;
+    expectTwin(probeRefractRay, [&](Draw &draw, Words &input, Words &expected) {
+        const vec3 facing = draw.direction();
+        vec3 direction = draw.chance(16) ? -facing : draw.direction();
+        if (reference::dotProduct(direction, facing) > 0.0f)
+            direction = -direction;
+        const float index = draw.chance(8) ? 1.0f : 1.0f + 1.5f * draw.unit();
+        const bool isEntering = draw.chance(2);
+        input << direction << facing << index << std::uint32_t{isEntering};
+        const reference::Refraction<float> refraction =
+            reference::refractRay(direction, facing, index, isEntering);
+        totalCount += refraction.isTotal ? 1u : 0u;
+        expected << refraction.direction << refraction.reflectance << refraction.transmittance
+                 << std::uint32_t{refraction.isTotal};
+    });
+    EXPECT_GT(totalCount, probeInputCount / 16);
+}
+
+// ---- Surfaces
+
+Words &operator<<(Words &words, const reference::Surface<float> &surface) {
+    return words << surface.position << surface.error << surface.normal << surface.geometricNormal;
+}
+
+TEST(SurfaceTwin, SphereSurface) {
+    expectTwin(probeSphereSurface, [](Draw &draw, Words &input, Words &expected) {
+        layout::SphereRecord sphere{};
+        sphere.centre = draw.point();
+        sphere.materialAndSide = draw.chance(2) ? layout::sphereFacesInward : 0u;
+        const vec3 origin = draw.point();
+        const vec3 direction = draw.direction();
+        const float distance = std::abs(draw.coordinate());
+        input << origin << direction << distance << sphere.centre << sphere.materialAndSide;
+        expected << reference::sphereSurface(origin, direction, distance, sphere);
+    });
+}
+
+TEST(SurfaceTwin, TriangleSurface) {
+    expectTwin(probeTriangleSurface, [](Draw &draw, Words &input, Words &expected) {
+        const Triangle drawn = drawTriangle(draw);
+        layout::TriangleRecord triangle{};
+        triangle.v0 = drawn.v0;
+        triangle.v1 = drawn.v1;
+        triangle.v2 = drawn.v2;
+        layout::NormalRecord normals{};
+        if (!draw.chance(4)) {
+            normals.n0 = draw.direction();
+            normals.n1 = draw.chance(8) ? normals.n0 : draw.direction();
+            normals.n2 = draw.chance(8) ? -normals.n0 : draw.direction();
+        }
+        const vec2 uv(draw.unit(), draw.unit());
+        input << triangle.v0 << triangle.v1 << triangle.v2 << normals.n0 << normals.n1 << normals.n2 << uv;
+        expected << reference::triangleSurface(triangle, normals, uv.x, uv.y);
+    });
+}
+
+TEST(SurfaceTwin, SpawnPoint) {
+    expectTwin(probeSpawnPoint, [](Draw &draw, Words &input, Words &expected) {
+        reference::Surface<float> surface{};
+        surface.position = draw.point();
+        surface.error = draw.chance(4) ? vec3(0.0f) : glm::abs(surface.position) * 0x1p-21f;
+        surface.geometricNormal = draw.direction();
+        const vec3 direction = draw.chance(8) ? -surface.geometricNormal : draw.direction();
+        input << surface.position << surface.error << surface.geometricNormal << direction;
+        expected << reference::spawnPoint(surface, direction);
+    });
+}
+
+// ---- Sampling
+
+vec2 unitPair(Draw &draw) {
+    const float x = draw.chance(64) ? 0.0f : draw.unit();
+    return {x, draw.chance(64) ? 1.0f - 0x1p-24f : draw.unit()};
+}
+
+TEST(RandomTwin, SampleBits) {
+    expectTwin(probeSampleBits, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.index(32768);
+        const uvec2 pixel(x, draw.index(32768));
+        const std::uint32_t seed = draw.word();
+        const std::uint32_t pair = draw.index(100);
+        const std::uint32_t sample = draw.index(65536);
+        input << pixel << seed << pair << sample;
+        expected << reference::sampleBits(reference::pairKeys(pixel, seed, pair), sample);
+    });
+}
+
+TEST(FunctionTwin, SineCosine) {
+    expectTwin(probeSineCosine, [](Draw &draw, Words &input, Words &expected) {
+        const float turns = draw.chance(8) ? static_cast<float>(draw.index(17)) / 16.0f : draw.unit();
+        const auto angle = reference::sineCosine(turns);
+        input << turns;
+        expected << angle.sine << angle.cosine;
+    });
+}
+
+TEST(FunctionTwin, Decay) {
+    expectTwin(probeDecay, [](Draw &draw, Words &input, Words &expected) {
+        const float x = draw.chance(4) ? std::abs(draw.coordinate()) : draw.unit() * 90.0f;
+        input << x;
+        expected << reference::decay(x);
+    });
+}
+
+TEST(SamplingTwin, SampleCosine) {
+    expectTwin(probeSampleCosine, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 normal = draw.direction();
+        const vec2 u = unitPair(draw);
+        const vec3 direction = reference::sampleCosine(normal, u);
+        input << normal << u;
+        expected << direction << reference::pdfCosine(direction.z);
+    });
+}
+
+TEST(SamplingTwin, SampleTriangle) {
+    expectTwin(probeSampleTriangle, [](Draw &draw, Words &input, Words &expected) {
+        const vec2 u = unitPair(draw);
+        input << u;
+        expected << reference::sampleTriangle(u);
+    });
+}
+
+TEST(SamplingTwin, SampleCone) {
+    expectTwin(probeSampleCone, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 axis = draw.direction();
+        const float squaredDistance = 0.001f + draw.unit() * 1000.0f;
+        const float squaredRadius = squaredDistance * draw.unit();
+        const vec2 u = unitPair(draw);
+        const float height = reference::coneHeight(squaredRadius, squaredDistance);
+        input << axis << squaredRadius << squaredDistance << u;
+        expected << height << reference::sampleCone(axis, height, u) << reference::pdfCone(height);
+    });
+}
+
+TEST(SamplingTwin, SampleSphere) {
+    expectTwin(probeSampleSphere, [](Draw &draw, Words &input, Words &expected) {
+        const vec2 u = unitPair(draw);
+        input << u;
+        expected << reference::sampleSphere(u);
+    });
+}
+
+TEST(SamplingTwin, PowerHeuristic) {
+    expectTwin(probePowerHeuristic, [](Draw &draw, Words &input, Words &expected) {
+        const float a = std::abs(draw.coordinate()) + 1e-6f;
+        const float b = draw.chance(8) ? 0.0f : std::abs(draw.coordinate());
+        input << a << b;
+        expected << reference::powerHeuristic(a, b);
+    });
+}
+
+TEST(DielectricTwin, MeetInterface) {
+    expectTwin(probeMeetInterface, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 normal = draw.direction();
+        vec3 direction = draw.direction();
+        if (glm::dot(direction, normal) > 0.0f)
+            direction = -direction;
+        const float eta = draw.chance(2) ? 0.1f + draw.unit() : 1.0f + draw.unit() * 2.0f;
+        const auto glass = reference::meetInterface(direction, normal, eta);
+        input << direction << normal << eta;
+        expected << glass.refracted << glass.reflectance;
+    });
+}
+
+TEST(MediaTwin, CountsAndPriorities) {
+    expectTwin(probeMedia, [](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t inside = draw.word();
+        const std::uint32_t material = draw.index(layout::mostMedia);
+        input << inside << material;
+        expected << reference::mediumAround(inside) << reference::mediumCount(inside, material)
+                 << reference::enterMedium(inside, material) << reference::leaveMedium(inside, material);
+    });
+}
+
+TEST(FunctionTwin, TurnsOf) {
+    expectTwin(probeTurnsOf, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 direction = draw.direction();
+        const float y = draw.chance(2) ? direction.y : draw.coordinate();
+        const float x = direction.x == 0.0f && y == 0.0f ? 1.0f : direction.x;
+        input << y << x;
+        expected << reference::turnsOf(y, x);
+    });
+}
+
+TEST(LightTwin, SpotFalloff) {
+    expectTwin(probeSpotFalloff, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 axis = draw.direction();
+        const vec3 toSpot = draw.chance(4) ? -axis : draw.direction();
+        const float cosineOuter = draw.unit() * 2.0f - 1.0f;
+        const float scale = 1.0f / (draw.unit() + 1e-6f);
+        input << toSpot << axis << cosineOuter << scale;
+        expected << reference::spotFalloff(toSpot, axis, cosineOuter, scale);
+    });
+}
+
+/// An environment of random texels, packed as the host does.
+PackedScene sceneUnderSky() {
+    Draw draw;
+    Scene scene;
+    scene.environment.radiance = Image(37, 19);
+    for (vec3 &pixel : scene.environment.radiance.pixels())
+        pixel = draw.chance(3) ? vec3(0.0f) : vec3(draw.unit(), draw.unit() * 9.0f, draw.unit());
+    scene.environment.rotateDegrees = 123.0;
+    return packScene(scene, buildBvh(TreeKind::None, std::vector<BuildTriangle>{}, 1));
+}
+
+TEST(EnvironmentTwin, FromADirection) {
+    const PackedScene packed = sceneUnderSky();
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        const vec3 direction = draw.direction();
+        const auto light = reference::EnvironmentMap<float>(packed).from(direction);
+        input << direction;
+        expected << light.radiance << light.density;
+    };
+    expectTwin(probeEnvironmentFrom, call, {.frame = packed.frame, .texels = packed.texels});
+}
+
+TEST(EnvironmentTwin, Sampled) {
+    const PackedScene packed = sceneUnderSky();
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t x = draw.word();
+        const uvec2 bits(x, draw.word());
+        const auto light = reference::EnvironmentMap<float>(packed).sample(bits);
+        input << bits;
+        expected << light.direction << light.radiance << light.density;
+    };
+    expectTwin(probeSampleEnvironment, call, {.frame = packed.frame, .texels = packed.texels});
+}
+
+// ---- Textures
+
+/// A material with a texture of 8-bit colours, one of floats, one of numbers, a normal map, and one's alpha, in this
+/// order of rows.
+PackedScene texturedScene() {
+    Draw draw;
+    Scene scene;
+    for (const uvec2 size : {uvec2(13, 7), uvec2(5, 9), uvec2(1, 1), uvec2(64, 32)}) {
+        Texture &texture = scene.textures.emplace_back();
+        texture.width = static_cast<int>(size.x);
+        texture.height = static_cast<int>(size.y);
+        texture.hasAlpha = true;
+        for (std::uint32_t i = 0; i < size.x * size.y; ++i)
+            texture.levels.push_back(draw.word());
+    }
+    scene.textures[1].levels.clear();
+    for (std::uint32_t i = 0; i < 45; ++i)
+        scene.textures[1].values.push_back(
+            vec3(draw.unit(), draw.unit() * 1e6f, draw.chance(2) ? 0.0f : 1e-6f));
+    Material &material = scene.materials.emplace_back();
+    material.kind = MaterialKind::Principled;
+    material.textures[layout::slotBaseColour] = TextureUse{0, {2.5f, -3.0f}, {0.125f, 0.3f}};
+    material.textures[layout::slotEmission] = TextureUse{1, {1.0f, 1.0f}, {0.0f, 0.0f}};
+    material.textures[layout::slotRoughness] = TextureUse{2, {1.0f, 1.0f}, {0.0f, 0.0f}};
+    material.textures[layout::slotNormal] = TextureUse{3, {1.0f, 0.5f}, {0.0f, 0.0f}};
+    material.textures[layout::slotOpacity] = TextureUse{3, {1.0f, 1.0f}, {0.5f, 0.0f}};
+    material.normalStrength = 1.5f;
+    scene.spheres.push_back({});
+    return packScene(scene, buildBvh(TreeKind::None, std::vector<BuildTriangle>{}, 1));
+}
+
+float drawUv(Draw &draw) {
+    constexpr float odd[] = {0.0f,
+                             1.0f,
+                             -1.0f,
+                             0.5f,
+                             3e38f,
+                             -3e38f,
+                             -1e-8f,
+                             0.99999994f,
+                             std::numeric_limits<float>::infinity(),
+                             std::numeric_limits<float>::quiet_NaN()};
+    return draw.chance(8) ? odd[draw.index(10)] : draw.chance(4) ? draw.coordinate() * 1000.0f : draw.unit();
+}
+
+vec2 drawUvs(Draw &draw) {
+    const float u = drawUv(draw);
+    return {u, drawUv(draw)};
+}
+
+TEST(TextureTwin, LookUpTexture) {
+    const PackedScene packed = texturedScene();
+    constexpr std::uint32_t slots[] = {layout::slotBaseColour, layout::slotEmission, layout::slotRoughness,
+                                       layout::slotNormal, layout::slotOpacity};
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        const std::uint32_t row = reference::textureRow(packed.materials[0].textures, slots[draw.index(5)]);
+        const vec2 uv = drawUvs(draw);
+        input << row << uv;
+        expected << reference::lookUpTexture(packed.textures, row, uv);
+    };
+    expectTwin(probeLookUpTexture, call, {.textures = packed.textures});
+}
+
+TEST(TextureTwin, TriangleUv) {
+    expectTwin(probeTriangleUv, [](Draw &draw, Words &input, Words &expected) {
+        const reference::Coordinates<float> at{vec2(draw.point()), vec2(draw.point()), vec2(draw.point())};
+        const float u = draw.unit();
+        const float v = draw.unit();
+        input << at.uv0 << at.uv1 << at.uv2 << u << v;
+        expected << reference::triangleUv(at, u, v);
+    });
+}
+
+TEST(TextureTwin, SphereUv) {
+    expectTwin(probeSphereUv, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 outward = draw.direction() * (draw.chance(2) ? 1.0f : 700.0f);
+        input << outward;
+        expected << reference::sphereUv(outward);
+    });
+}
+
+TEST(NormalMapTwin, MappedNormal) {
+    const PackedScene packed = texturedScene();
+    const std::uint32_t row = reference::textureRow(packed.materials[0].textures, layout::slotNormal);
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        layout::TriangleRecord triangle{};
+        triangle.v0 = draw.point();
+        triangle.v1 = draw.point();
+        triangle.v2 = draw.chance(16) ? triangle.v1 : draw.point();
+        reference::Coordinates<float> at{drawUvs(draw), drawUvs(draw), drawUvs(draw)};
+        if (draw.chance(16))
+            at.uv2 = at.uv1;
+        const vec3 normal = draw.direction();
+        input << triangle.v0 << triangle.v1 << triangle.v2 << at.uv0 << at.uv1 << at.uv2 << normal << row
+              << row;
+        const auto tangent = reference::triangleTangent(triangle, at);
+        expected << tangent.alongU << tangent.alongV
+                 << reference::mappedNormal(packed.textures, normal, tangent, row, at.uv0)
+                 << reference::mappedNormal(packed.textures, normal, reference::sphereTangent(normal), row,
+                                            at.uv1);
+    };
+    expectTwin(probeMappedNormal, call, {.textures = packed.textures});
+}
+
+TEST(NormalMapTwin, VisibleNormal) {
+    expectTwin(probeVisibleNormal, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 direction = draw.direction();
+        const vec3 normal = draw.chance(16) ? direction : draw.direction();
+        const vec3 up = draw.chance(4) ? normal : draw.direction();
+        input << direction << normal << up;
+        expected << reference::visibleNormal(direction, normal, up);
+    });
+}
+
+TEST(CameraTwin, PrimaryRay) {
+    for (const std::uint32_t camera :
+         {layout::cameraPinhole, layout::cameraLens, layout::cameraOrthographic, layout::cameraPanorama}) {
+        Draw views;
+        PackedScene packed;
+        packed.camera = camera;
+        packed.frame.eye = views.point();
+        packed.frame.imageWidth = 1 + views.index(4000);
+        packed.frame.imageHeight = 1 + views.index(4000);
+        packed.frame.imagePlane = views.direction();
+        packed.frame.pixelRight = 1e-3f * views.direction();
+        packed.frame.pixelUp = 1e-3f * views.direction();
+        packed.frame.lensScale = 5.0f;
+        packed.frame.focusDistance = 7.0f;
+        const auto call = [&](Draw &draw, Words &input, Words &expected) {
+            const std::uint32_t x = draw.index(packed.frame.imageWidth);
+            const uvec2 pixel(x, draw.index(packed.frame.imageHeight));
+            const std::uint32_t sample = draw.index(65536);
+            const auto ray = reference::primaryRay<float>(packed, layout::samplerSobol, pixel, sample);
+            input << pixel << sample;
+            expected << ray.origin << ray.direction;
+        };
+        expectTwin(probePrimaryRay, call, {.frame = packed.frame, .camera = camera});
+    }
+}
+
+TEST(CameraTwin, PrimaryRayThroughTheFilterOfPixels) {
+    for (const std::uint32_t camera : {layout::cameraPinhole, layout::cameraPanorama}) {
+        Draw views;
+        PackedScene packed;
+        packed.camera = camera;
+        packed.frame.imageWidth = 1 + views.index(9); // rays go around the panorama
+        packed.frame.imageHeight = 1 + views.index(9);
+        packed.frame.imagePlane = views.direction();
+        packed.frame.pixelRight = views.direction();
+        packed.frame.pixelUp = views.direction();
+        packed.texels.resize(3);
+        packFilter(packed);
+        const auto call = [&](Draw &draw, Words &input, Words &expected) {
+            const std::uint32_t x = draw.index(packed.frame.imageWidth);
+            const uvec2 pixel(x, draw.index(packed.frame.imageHeight));
+            const std::uint32_t sample = draw.index(65536);
+            const auto ray = reference::primaryRay<float>(packed, layout::samplerFiltered, pixel, sample);
+            EXPECT_NEAR(glm::length(ray.direction), 1.0f, 1e-6f);
+            input << pixel << sample;
+            expected << ray.origin << ray.direction;
+        };
+        expectTwin(probePrimaryRay, call,
+                   {.frame = packed.frame,
+                    .samplerKind = layout::samplerFiltered,
+                    .texels = packed.texels,
+                    .camera = camera});
+    }
+}
+
+// ---- Rough surfaces
+
+/// Above the plane, and not so low that float32 has nothing to say.
+vec3 drawAbove(Draw &draw) {
+    vec3 v = draw.direction();
+    v.z = std::abs(v.z) + 0.001f;
+    return reference::unitVector(v);
+}
+
+float drawAlpha(Draw &draw) { return draw.chance(8) ? 0.0016f : 0.002f + 0.998f * draw.unit(); }
+
+vec3 drawColour(Draw &draw) {
+    const float red = draw.unit();
+    const float green = draw.unit();
+    return {red, green, draw.chance(8) ? 0.0f : draw.unit()};
+}
+
+TEST(ConductorTwin, Reflectance) {
+    expectTwin(probeConductorReflectance, [](Draw &draw, Words &input, Words &expected) {
+        const float cosine = draw.chance(16) ? 1.0f : draw.unit();
+        const vec3 index = drawColour(draw) * 5.0f;
+        const vec3 extinction = drawColour(draw) * 9.0f + vec3(0.01f);
+        input << cosine << index << extinction;
+        expected << reference::conductorReflectance(cosine, index, extinction)
+                 << reference::schlickReflectance(cosine, index);
+    });
+}
+
+TEST(MicrofacetTwin, Reflecting) {
+    expectTwin(probeFacets, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 view = drawAbove(draw);
+        const float alpha = drawAlpha(draw);
+        const vec2 u = unitPair(draw);
+        const vec3 light = drawAbove(draw);
+        const float stretchView = reference::stretchOf(view, alpha);
+        const vec3 facet = reference::sampleVisibleFacet(view, alpha, u);
+        const float density = reference::facetDensity(facet, alpha);
+        input << view << alpha << u << light;
+        expected << stretchView << facet << density
+                 << reference::reflectionDensity(density, view, stretchView)
+                 << reference::litShare(view.z, stretchView, light.z, reference::stretchOf(light, alpha))
+                 << reference::facetBetween(view, light);
+    });
+}
+
+TEST(MicrofacetTwin, Refracting) {
+    expectTwin(probeFacetsAcross, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 view = drawAbove(draw);
+        const vec3 light = -drawAbove(draw);
+        const float alpha = drawAlpha(draw);
+        const float eta = draw.chance(2) ? 0.4f + 0.5f * draw.unit() : 1.1f + draw.unit();
+        const vec3 facet = reference::facetAcross(view, light, eta);
+        input << view << light << alpha << eta;
+        expected << facet
+                 << reference::refractionDensity(
+                        reference::facetDensity(facet, alpha), view, reference::stretchOf(view, alpha),
+                        reference::dotProduct(view, facet), reference::dotProduct(light, facet), eta);
+    });
+}
+
+TEST(EnergyTwin, OfTheTable) {
+    const std::vector<layout::TexelRecord> texels = makeEnergyTexels();
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        const float cosine = draw.chance(16) ? 1.0f : draw.unit();
+        const float roughness = draw.chance(16) ? 1.0f : draw.unit();
+        const vec3 colour = drawColour(draw);
+        const auto energy = reference::energyOf(texels, cosine, roughness);
+        const auto average = reference::averageEnergy(texels, roughness);
+        input << cosine << roughness << colour;
+        expected << energy.white << energy.grazing << average.white << average.grazing
+                 << reference::energyAt(energy, colour.x)
+                 << reference::lateReflectance(colour, average.white);
+    };
+    expectTwin(probeEnergy, call, {.texels = texels});
+}
+
+TEST(RoughTwin, DrawnAndEvaluated) {
+    const std::vector<layout::TexelRecord> texels = makeEnergyTexels();
+    const auto call = [&](Draw &draw, Words &input, Words &expected) {
+        layout::MaterialRecord material{};
+        constexpr std::array<std::uint32_t, 4> kinds{layout::materialDiffuse, layout::materialDielectric,
+                                                     layout::materialConductor, layout::materialPrincipled};
+        material.kindAndSides = kinds[draw.index(4)];
+        material.albedo = drawColour(draw);
+        material.conductorIndex = drawColour(draw) * 2.0f;
+        material.conductorExtinction = drawColour(draw) * 5.0f + vec3(0.01f);
+        material.averageReflectance = drawColour(draw);
+        material.alpha = drawAlpha(draw);
+        material.metallic = draw.chance(3) ? 0.0f : draw.unit();
+        material.transmission = draw.chance(2) ? 0.0f : draw.unit();
+        material.normalReflectance = 0.08f * draw.unit();
+        material.clearcoat = material.transmission > 0.0f || draw.chance(2) ? 0.0f : draw.unit();
+        material.clearcoatAlpha = drawAlpha(draw);
+        const vec3 geometricNormal = draw.direction();
+        const vec3 normal = draw.chance(2) ? geometricNormal : draw.direction();
+        vec3 direction = draw.direction();
+        if (reference::dotProduct(direction, geometricNormal) > 0.0f)
+            direction = -direction;
+        const bool isBehind = draw.chance(4);
+        const float eta = draw.chance(2) ? 0.4f + 0.5f * draw.unit() : 1.1f + draw.unit();
+        const vec2 choice = unitPair(draw);
+        const vec2 u = unitPair(draw);
+        const vec3 light = draw.chance(4) ? -drawAbove(draw) : drawAbove(draw);
+        input << material.kindAndSides << material.albedo << material.conductorIndex
+              << material.conductorExtinction << material.averageReflectance << material.alpha
+              << material.metallic << material.transmission << material.normalReflectance
+              << material.clearcoat << material.clearcoatAlpha << direction << normal << geometricNormal
+              << static_cast<std::uint32_t>(isBehind) << eta << choice << u << light;
+        const auto rough =
+            reference::roughOf(texels, material, direction, normal, geometricNormal, isBehind, eta, choice.x);
+        const vec3 drawn = reference::drawRough(rough, u, choice.y);
+        const auto scattered = reference::evaluateRough(rough, drawn);
+        const auto lit = reference::evaluateRough(rough, light);
+        expected << drawn << scattered.value << scattered.density << lit.value << lit.density;
+    };
+    expectTwin(probeRough, call, {.texels = texels, .scattering = 15u});
+}
+
+TEST(EmitterTwin, SolidAngleDensity) {
+    expectTwin(probeSolidAngleDensity, [](Draw &draw, Words &input, Words &expected) {
+        const float areaDensity = draw.unit();
+        const float distance = std::abs(draw.coordinate());
+        const float cosine = draw.unit() + 0x1p-24f;
+        input << areaDensity << distance << cosine;
+        expected << reference::solidAngleDensity(areaDensity, distance, cosine);
+    });
+}
+
+TEST(EmitterTwin, SphereLightDensity) {
+    expectTwin(probeSphereLightDensity, [](Draw &draw, Words &input, Words &expected) {
+        const vec3 position = draw.point();
+        const vec3 direction = draw.direction();
+        const float distance = std::abs(draw.coordinate());
+        const vec3 centre = draw.point();
+        const float radius = draw.unit() * 10.0f + 0.001f;
+        const vec3 outward = draw.direction();
+        const float areaDensity = draw.unit();
+        input << position << direction << distance << centre << radius << outward << areaDensity;
+        expected << reference::sphereLightDensity(position, direction, distance, centre, radius, outward,
+                                                  areaDensity);
+    });
+}
+
+} // namespace
+} // namespace hyalite::testing

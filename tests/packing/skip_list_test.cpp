@@ -1,0 +1,173 @@
+// The skip lists hold the same tree: every leaf, in boxes that enclose the real ones.
+#include "host/packing/skip_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace hyalite {
+namespace {
+
+/// `count` small triangles in a cube of the given size around `centre`.
+Scene randomScene(std::size_t count, float size, const glm::vec3 &centre) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> uniform(-0.5f, 0.5f);
+    const auto point = [&](float scale) {
+        return glm::vec3(uniform(random), uniform(random), uniform(random)) * scale;
+    };
+    Scene scene;
+    scene.materials.push_back({});
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 corner = centre + point(size);
+        mesh.positions.insert(mesh.positions.end(),
+                              {corner, corner + point(size * 0.02f), corner + point(size * 0.02f)});
+        mesh.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}});
+    }
+    scene.meshes.push_back(mesh);
+    return scene;
+}
+
+PackedScene pack(const Scene &scene, TreeKind kind, int leafSize) {
+    return packScene(scene, buildBvh(kind, buildTriangles(scene), leafSize));
+}
+
+/// The box that a node stands for, in double as the grid is exact there.
+std::pair<glm::dvec3, glm::dvec3> boxOf(const SkipList &list, const layout::SkipNode &node) {
+    const std::uint32_t words[3] = {node.x, node.y, node.z};
+    glm::dvec3 lower;
+    glm::dvec3 upper;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto low = static_cast<std::int16_t>(words[axis] & 0xFFFFu);
+        const auto high = static_cast<std::int16_t>(words[axis] >> 16);
+        lower[axis] = list.gridMiddle[axis] + static_cast<double>(list.gridScale[axis]) * low;
+        upper[axis] = list.gridMiddle[axis] + static_cast<double>(list.gridScale[axis]) * high;
+    }
+    return {lower, upper};
+}
+
+void expectSound(const PackedScene &scene) {
+    const SkipList list = makeSkipList(scene);
+    ASSERT_EQ(list.nodes.size(), std::size_t{2} * list.length + 1);
+    for (const std::uint32_t first : {0u, list.length}) {
+        const std::uint32_t end = first + list.length;
+        std::vector<bool> isSeen(scene.triangles.size(), false);
+        std::vector<std::uint32_t> ends; // of the subtrees around the node
+        for (std::uint32_t index = first; index < end; ++index) {
+            const layout::SkipNode &node = list.nodes[index];
+            while (!ends.empty() && ends.back() == index)
+                ends.pop_back();
+            if ((node.link & layout::leafFlag) == 0) {
+                ASSERT_GT(node.link, index);
+                ASSERT_LE(node.link, ends.empty() ? end : ends.back());
+                ends.push_back(node.link);
+                continue;
+            }
+            const auto [lower, upper] = boxOf(list, node);
+            for (std::uint32_t record = node.link & ~layout::leafFlag;; ++record) {
+                const layout::TriangleRecord &triangle = scene.triangles[record];
+                ASSERT_FALSE(isSeen[record]);
+                isSeen[record] = true;
+                for (const glm::vec3 &vertex : {triangle.v0, triangle.v1, triangle.v2})
+                    for (int axis = 0; axis < 3; ++axis) {
+                        ASSERT_GE(vertex[axis], lower[axis]);
+                        ASSERT_LE(vertex[axis], upper[axis]);
+                    }
+                if ((triangle.flags & layout::triangleEndsLeaf) != 0)
+                    break;
+            }
+        }
+        EXPECT_TRUE(std::all_of(isSeen.begin(), isSeen.end(), [](bool seen) { return seen; })) << first;
+    }
+}
+
+TEST(SkipList, HoldsEveryTriangleOnceInEnclosingBoxes) {
+    for (const int leafSize : {1, 4, 8}) {
+        expectSound(pack(randomScene(3000, 1.0f, glm::vec3(0.0f)), TreeKind::Midpoint, leafSize));
+        expectSound(pack(randomScene(3000, 1.0f, glm::vec3(0.0f)), TreeKind::Sah, leafSize));
+    }
+    expectSound(pack(randomScene(500, 1.0f, glm::vec3(0.0f)), TreeKind::None, 8));
+}
+
+TEST(SkipList, EnclosesFarSmallAndFlatMeshes) {
+    expectSound(pack(randomScene(1000, 1.0f, glm::vec3(1e6f, -1e6f, 3e5f)), TreeKind::Midpoint, 2));
+    expectSound(pack(randomScene(1000, 1e-6f, glm::vec3(0.0f)), TreeKind::Midpoint, 2));
+    expectSound(pack(randomScene(1000, 1e9f, glm::vec3(-1e9f)), TreeKind::Midpoint, 2));
+    Scene flat = randomScene(1000, 1.0f, glm::vec3(0.0f));
+    for (glm::vec3 &position : flat.meshes.front().positions)
+        position.y = 5.0f;
+    expectSound(pack(flat, TreeKind::Midpoint, 2));
+    for (glm::vec3 &position : flat.meshes.front().positions)
+        position.y = 0.0f;
+    expectSound(pack(flat, TreeKind::Midpoint, 2));
+}
+
+TEST(SkipList, EnclosesFlatMeshesFarAwayWhoseGridIsCoarserThanTheirCoordinates) {
+    for (const float height : {1.0000001f, -3e7f, 7e-12f}) {
+        Scene flat = randomScene(1000, 1e-3f, glm::vec3(0.0f));
+        for (glm::vec3 &position : flat.meshes.front().positions)
+            position.y = position.x > 0.0f ? height : std::nextafter(height, 0.0f);
+        expectSound(pack(flat, TreeKind::Sah, 2));
+    }
+}
+
+TEST(SkipList, LeavesOutInnerNodesThatHardlyCull) {
+    const auto halfArea = [](const std::pair<glm::dvec3, glm::dvec3> &box) {
+        const glm::dvec3 size = box.second - box.first;
+        return size.x * size.y + size.y * size.z + size.z * size.x;
+    };
+    const PackedScene scene = pack(randomScene(3000, 1.0f, glm::vec3(0.0f)), TreeKind::Sah, 4);
+    const SkipList list = makeSkipList(scene);
+    std::size_t childCount = 0;
+    for (const layout::NodePair &pair : scene.nodes)
+        childCount += (pair.left != layout::noNode ? 1u : 0u) + (pair.right != layout::noNode ? 1u : 0u);
+    EXPECT_LT(list.length, childCount);
+    std::vector<std::pair<std::uint32_t, double>> around; // ends and areas of the inner nodes around a node
+    for (std::uint32_t index = 0; index < list.length; ++index) {
+        const layout::SkipNode &node = list.nodes[index];
+        while (!around.empty() && around.back().first == index)
+            around.pop_back();
+        if ((node.link & layout::leafFlag) != 0)
+            continue;
+        const double area = halfArea(boxOf(list, node));
+        if (!around.empty()) {
+            EXPECT_LT(area, 0.51 * around.back().second) << index; // rounded to the grid
+        }
+        around.emplace_back(node.link, area);
+    }
+}
+
+TEST(SkipList, NearerSiblingsComeFirst) {
+    // Sixteen triangles in a row on each axis, a leaf each: the lists hold them as rays along the axis and against it
+    // meet them.
+    for (int axis = 0; axis < 3; ++axis) {
+        Scene scene = randomScene(16, 0.0f, glm::vec3(0.0f));
+        for (std::uint32_t i = 0; i < scene.meshes[0].positions.size(); ++i) {
+            glm::vec3 &position = scene.meshes[0].positions[i];
+            position = glm::vec3(0.1f * static_cast<float>(i % 3));
+            position[axis] += static_cast<float>(i / 3);
+        }
+        const PackedScene packed = pack(scene, TreeKind::Midpoint, 1);
+        const SkipList list = makeSkipList(packed);
+        for (const bool isBackwards : {false, true}) {
+            std::vector<std::uint32_t> met;
+            for (std::uint32_t i = 0; i < list.length; ++i)
+                if (const std::uint32_t link = list.nodes[isBackwards ? list.length + i : i].link;
+                    link & layout::leafFlag)
+                    met.push_back(packed.triangles[link & ~layout::leafFlag].primitiveId);
+            ASSERT_EQ(met.size(), 16u);
+            EXPECT_TRUE(isBackwards ? std::is_sorted(met.rbegin(), met.rend())
+                                    : std::is_sorted(met.begin(), met.end()))
+                << "axis " << axis << (isBackwards ? ", backwards" : "");
+        }
+    }
+}
+
+TEST(SkipList, IsEmptyWithoutTriangles) {
+    EXPECT_TRUE(makeSkipList(packScene(Scene{}, Bvh{})).nodes.empty());
+}
+
+} // namespace
+} // namespace hyalite

@@ -1,0 +1,299 @@
+// Rough surfaces: energy, reciprocity, and directions with the density that they say they have.
+#include "host/reference/rough.h"
+
+#include "host/packing/microfacet_energy.h"
+#include "tests/fixtures/geometry_fixture.h"
+
+#include <functional>
+
+namespace hyalite::reference {
+namespace {
+
+using hyalite::testing::Random;
+
+constexpr double pi = std::numbers::pi;
+using Direction = Vec3<double>;
+
+const std::vector<layout::TexelRecord> &energyTexels() {
+    static const std::vector<layout::TexelRecord> texels = makeEnergyTexels();
+    return texels;
+}
+
+/// A direction above the plane z = 0, with the given cosine to +z.
+Direction viewAt(double cosine) { return {std::sqrt(1.0 - cosine * cosine), 0.0, cosine}; }
+
+Rough<double> seenFrom(const layout::MaterialRecord &material, const Direction &view, double choice = 0.999,
+                       double eta = 1.0 / 1.5, bool isBehind = false) {
+    const Direction normal(0, 0, 1);
+    return roughOf<double>(energyTexels(), material, -view, normal, normal, isBehind, eta, choice);
+}
+
+layout::MaterialRecord conductor(double alpha, float index, float extinction) {
+    layout::MaterialRecord material{};
+    material.kindAndSides = layout::materialConductor;
+    material.alpha = static_cast<float>(alpha);
+    material.conductorIndex = glm::vec3(index);
+    material.conductorExtinction = glm::vec3(extinction);
+    material.averageReflectance =
+        glm::vec3(static_cast<float>(averageConductorReflectance(double{index}, double{extinction})));
+    return material;
+}
+
+/// A metal that reflects everything.
+layout::MaterialRecord whiteMetal(double alpha) { return conductor(alpha, 0.0f, 1.0f); }
+
+layout::MaterialRecord principled(double alpha, float metallic, float colour, float clearcoat = 0.0f) {
+    layout::MaterialRecord material{};
+    material.kindAndSides = layout::materialPrincipled;
+    material.alpha = static_cast<float>(alpha);
+    material.albedo = glm::vec3(colour);
+    material.metallic = metallic;
+    material.normalReflectance = 0.04f;
+    material.clearcoat = clearcoat;
+    material.clearcoatAlpha = 0.01f;
+    return material;
+}
+
+layout::MaterialRecord roughGlass(double alpha) {
+    layout::MaterialRecord material{};
+    material.kindAndSides = layout::materialDielectric;
+    material.alpha = static_cast<float>(alpha);
+    return material;
+}
+
+/// What is reflected and transmitted of even light, with the directions that the surface draws itself; `choices` of its
+/// components are averaged. With its standard deviation.
+struct Albedo {
+    double mean;
+    double error;
+};
+
+Albedo albedoOf(const layout::MaterialRecord &material, const Direction &view, std::uint64_t seed,
+                double eta = 1.0 / 1.5, bool isBehind = false) {
+    constexpr int count = 400000;
+    Random random(seed);
+    double sum = 0.0;
+    double squares = 0.0;
+    for (int i = 0; i < count; ++i) {
+        const Rough<double> rough = seenFrom(material, view, random.uniform(0.0, 1.0), eta, isBehind);
+        const double x = random.uniform(0.0, 1.0);
+        const Direction light =
+            drawRough(rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
+        const Scattered<double> scattered = evaluateRough(rough, light);
+        double value = scattered.density > 0.0 ? scattered.value.x / scattered.density : 0.0;
+        if (light.z < 0.0)
+            value /= eta * eta; // radiance is larger in glass by the square of the index
+        sum += value;
+        squares += value * value;
+    }
+    const double mean = sum / count;
+    return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
+}
+
+TEST(MicrofacetEnergy, TheTableIsWhatFacetsReflectAtOnce) {
+    // At nodes and between them, by the reference's own facets, drawn at random.
+    Random random(601);
+    for (int i = 0; i < 12; ++i) {
+        const double roughness = random.uniform(0.05, 1.0);
+        const double cosine = random.uniform(0.02, 1.0);
+        const double alpha = roughness * roughness;
+        const Direction view = viewAt(cosine);
+        const double stretch = stretchOf(view, alpha);
+        constexpr int count = 400000;
+        double white = 0.0;
+        double grazing = 0.0;
+        for (int k = 0; k < count; ++k) {
+            const double x = random.uniform(0.0, 1.0);
+            const Direction facet =
+                sampleVisibleFacet(view, alpha, Vec2<double>(x, random.uniform(0.0, 1.0)));
+            const Direction light = mirrorDirection<double>(-view, facet);
+            if (light.z <= 0.0)
+                continue;
+            const double lit = litShare(view.z, stretch, light.z, stretchOf(light, alpha));
+            white += lit;
+            grazing += lit * std::pow(1.0 - dotProduct(view, facet), 5.0);
+        }
+        const Energy<double> found = energyOf(energyTexels(), cosine, roughness);
+        EXPECT_NEAR(found.white, white / count, 2.5e-3) << roughness << ", " << cosine;
+        EXPECT_NEAR(found.grazing, grazing / count, 2.5e-3) << roughness << ", " << cosine;
+    }
+}
+
+TEST(MicrofacetEnergy, AveragesAreThoseOfTheTable) {
+    for (const double roughness : {0.1, 0.37, 0.8, 1.0}) {
+        constexpr int steps = 20000;
+        double white = 0.0;
+        double grazing = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            const double cosine = (i + 0.5) / steps;
+            const Energy<double> energy = energyOf(energyTexels(), cosine, roughness);
+            white += 2.0 * energy.white * cosine / steps;
+            grazing += 2.0 * energy.grazing * cosine / steps;
+        }
+        const Energy<double> average = averageEnergy(energyTexels(), roughness);
+        EXPECT_NEAR(average.white, white, 1e-6);
+        EXPECT_NEAR(average.grazing, grazing, 1e-6);
+    }
+}
+
+TEST(Conductors, ReflectAsTheirComplexIndexSays) {
+    // Head on: ((n-1)^2 + k^2) / ((n+1)^2 + k^2); along the surface everything.
+    EXPECT_NEAR(conductorReflectance(1.0, 0.2, 3.4), (0.64 + 11.56) / (1.44 + 11.56), 1e-12);
+    EXPECT_NEAR(conductorReflectance(0.0, 0.2, 3.4), 1.0, 1e-12);
+    // Without extinction it is glass.
+    const Direction normal(0, 0, 1);
+    for (const double cosine : {0.1, 0.5, 0.9})
+        EXPECT_NEAR(conductorReflectance(cosine, 1.5, 0.0),
+                    meetInterface<double>(-viewAt(cosine), normal, 1.0 / 1.5).reflectance, 1e-12);
+    double average = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+        const double cosine = (i + 0.5) / 4000.0;
+        average += 2.0 * conductorReflectance(cosine, 1.2, 2.3) * cosine / 4000.0;
+    }
+    EXPECT_NEAR(averageConductorReflectance(1.2, 2.3), average, 1e-5);
+}
+
+TEST(RoughFurnace, AWhiteMetalReflectsEverything) {
+    for (const double roughness : {0.05, 0.2, 0.5, 0.8, 1.0})
+        for (const double cosine : {0.05, 0.3, 0.7, 1.0}) {
+            const Albedo found = albedoOf(whiteMetal(roughness * roughness), viewAt(cosine), 602);
+            EXPECT_NEAR(found.mean, 1.0, 2.5e-3 + 4.0 * found.error) << roughness << ", " << cosine;
+        }
+}
+
+TEST(RoughFurnace, NoMaterialReflectsMoreThanThereIs) {
+    for (const double roughness : {0.05, 0.4, 1.0})
+        for (const double cosine : {0.02, 0.4, 1.0})
+            for (const float metallic : {0.0f, 0.5f, 1.0f})
+                for (const float clearcoat : {0.0f, 1.0f}) {
+                    const Albedo found = albedoOf(
+                        principled(roughness * roughness, metallic, 1.0f, clearcoat), viewAt(cosine), 603);
+                    EXPECT_LT(found.mean, 1.0 + (cosine < 0.1 ? 1e-2 : 2.5e-3) + 4.0 * found.error)
+                        << roughness << ", " << cosine << ", " << metallic << ", " << clearcoat;
+                    EXPECT_GT(found.mean, clearcoat > 0.0f ? 0.80 : 0.99) << roughness << ", " << cosine;
+                }
+}
+
+TEST(RoughFurnace, GlassLosesWhatFacetsSendToEachOther) {
+    // Nothing gives that back: smooth glass keeps all, and the roughest not half.
+    for (const double eta : {1.0 / 1.5, 1.5})
+        for (const double cosine : {0.2, 0.6, 1.0}) {
+            EXPECT_NEAR(albedoOf(roughGlass(0.0016), viewAt(cosine), 604, eta).mean, 1.0, 3e-3) << eta;
+            const Albedo rough = albedoOf(roughGlass(1.0), viewAt(cosine), 605, eta);
+            EXPECT_LT(rough.mean, 1.0);
+            EXPECT_GT(rough.mean, 0.4);
+        }
+}
+
+TEST(RoughReciprocity, LightGoesBothWaysAlike) {
+    Random random(606);
+    const auto direction = [&] {
+        Direction d(random.direction());
+        d.z = std::abs(d.z) + 0.01;
+        return unitVector(d);
+    };
+    for (int i = 0; i < 2000; ++i) {
+        const double alpha = random.uniform(0.01, 1.0);
+        const Direction a = direction();
+        const Direction b = direction();
+        const float metallic = static_cast<float>(random.uniform(0.0, 1.0));
+        for (const layout::MaterialRecord &material :
+             {conductor(alpha, 0.3f, 2.5f), principled(alpha, metallic, 0.6f)}) {
+            const double forth =
+                evaluateRough(seenFrom(material, a), toLocal(seenFrom(material, a).frame, b)).value.x / b.z;
+            const double back =
+                evaluateRough(seenFrom(material, b), toLocal(seenFrom(material, b).frame, a)).value.x / a.z;
+            ASSERT_NEAR(forth / back, 1.0, 1e-6) << "alpha " << alpha;
+        }
+        // Through an interface radiance grows by the square of the index, and that alone is what differs.
+        const Direction below(b.x, b.y, -b.z);
+        const Rough<double> fromAbove = seenFrom(roughGlass(alpha), a, 0.5, 1.0 / 1.5);
+        const double through = evaluateRough(fromAbove, below).value.x / b.z;
+        const Rough<double> fromBelow = seenFrom(roughGlass(alpha), b, 0.5, 1.5);
+        const double back = evaluateRough(fromBelow, Direction(a.x, a.y, -a.z)).value.x / a.z;
+        if (through > 1e-12) {
+            ASSERT_NEAR(through * 2.25 / back, 1.0, 1e-5) << "alpha " << alpha;
+        }
+    }
+}
+
+/// Chi-square of the directions that a surface draws against the density that it says they have, in boxes of the sphere
+/// (longitude and cosine), as a number of standard deviations.
+double chiSquareOf(const Rough<double> &rough, std::uint64_t seed) {
+    constexpr int across = 16;
+    constexpr int up = 32;
+    constexpr int count = 400000;
+    constexpr int fineAcross = 12; // quadrature points along the sides of a box
+    constexpr int fineUp = 240;
+    std::vector<double> counts(across * up, 0.0);
+    Random random(seed);
+    for (int i = 0; i < count; ++i) {
+        const double x = random.uniform(0.0, 1.0);
+        const Direction drawn =
+            drawRough(rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
+        if (evaluateRough(rough, drawn).density <= 0.0)
+            continue;
+        const int column = std::min(
+            static_cast<int>((std::atan2(drawn.y, drawn.x) / (2.0 * pi) + 0.5) * across), across - 1);
+        const int row = std::min(static_cast<int>((drawn.z * 0.5 + 0.5) * up), up - 1);
+        counts[static_cast<std::size_t>(row * across + column)] += 1.0;
+    }
+    double chiSquare = 0.0;
+    double freedom = 0.0;
+    double pooledCount = 0.0;
+    double pooledExpected = 0.0;
+    for (int row = 0; row < up; ++row)
+        for (int column = 0; column < across; ++column) {
+            double expected = 0.0;
+            for (int k = 0; k < fineAcross * fineUp; ++k) {
+                const double z = -1.0 + 2.0 * (row + (k / fineAcross + 0.5) / fineUp) / up;
+                const double angle =
+                    2.0 * pi * ((column + (k % fineAcross + 0.5) / fineAcross) / across - 0.5);
+                const double sine = std::sqrt(1.0 - z * z);
+                expected += evaluateRough(rough, Direction(sine * std::cos(angle), sine * std::sin(angle), z))
+                                .density;
+            }
+            expected *= count * 4.0 * pi / (across * up) / (fineAcross * fineUp);
+            const double found = counts[static_cast<std::size_t>(row * across + column)];
+            if (expected < 20.0) {
+                pooledCount += found;
+                pooledExpected += expected;
+                continue;
+            }
+            chiSquare += (found - expected) * (found - expected) / expected;
+            freedom += 1.0;
+        }
+    if (pooledExpected > 20.0) {
+        chiSquare += (pooledCount - pooledExpected) * (pooledCount - pooledExpected) / pooledExpected;
+        freedom += 1.0;
+    }
+    const double spread = 2.0 / (9.0 * freedom);
+    return (std::cbrt(chiSquare / freedom) - (1.0 - spread)) / std::sqrt(spread);
+}
+
+TEST(RoughDensity, IsThatOfTheDirectionsDrawn) {
+    for (const double cosine : {0.15, 0.7, 1.0})
+        for (const double alpha : {0.25, 1.0}) {
+            const Direction view = viewAt(cosine);
+            EXPECT_LT(chiSquareOf(seenFrom(conductor(alpha, 0.3f, 2.5f), view), 607), 4.5)
+                << alpha << ", " << cosine;
+            EXPECT_LT(chiSquareOf(seenFrom(principled(alpha, 0.0f, 0.5f), view), 608), 4.5)
+                << alpha << ", " << cosine;
+            EXPECT_LT(chiSquareOf(seenFrom(roughGlass(alpha), view), 609), 4.5) << alpha << ", " << cosine;
+            EXPECT_LT(chiSquareOf(seenFrom(roughGlass(alpha), view, 0.5, 1.5), 610), 4.5)
+                << alpha << ", " << cosine;
+        }
+}
+
+TEST(PrincipledMaterial, ItsComponentsAreChosenByTheirShares) {
+    layout::MaterialRecord material = principled(0.25, 0.25f, 0.5f);
+    material.transmission = 0.5f;
+    int glassCount = 0;
+    for (int i = 0; i < 1000; ++i)
+        glassCount += seenFrom(material, viewAt(0.8), (i + 0.5) / 1000.0).kind == RoughKind::Glass;
+    EXPECT_EQ(glassCount, 375); // of what is no metal, the half
+    EXPECT_EQ(seenFrom(material, viewAt(0.8), 0.99, 1.5, true).kind, RoughKind::Glass) << "from inside";
+}
+
+} // namespace
+} // namespace hyalite::reference
