@@ -1,42 +1,65 @@
-# hyalite_kernel(TARGET KERNEL VARIABLE DEFINITIONS...)
+# From shaders/kernels/*.comp to arrays of SPIR-V in the program:
 #
-# Compiles shaders/kernels/KERNEL.comp to SPIR-V 1.3 at build time and embeds it into TARGET: a header VARIABLE.h with the
-# array `VARIABLE`. It is optimised (-Os), as drivers otherwise take up to twice as long to build a pipeline. KERNEL may
-# also be a path ending in .comp, from the source folder. Dependency files follow every include, so an edited shader is
-# always built anew. The target property HYALITE_KERNELS lists all variables. With UNOPTIMISED among the DEFINITIONS
-# functions stay as they are written, for tests that look at them.
+#   glslangValidator -> kernel_tool decorate -> spirv-opt -> kernel_tool embed
+#
+# Every float operation is marked NoContraction before anything optimises. The passes of spirv-opt inline all functions,
+# keep variables in registers and drop what is dead: without them drivers take up to twice as long to build a pipeline.
 find_program(GLSLANG_VALIDATOR glslangValidator)
 if(NOT GLSLANG_VALIDATOR)
     message(FATAL_ERROR "glslangValidator is missing: install the package glslang-tools")
 endif()
+find_program(SPIRV_OPT spirv-opt)
+if(NOT SPIRV_OPT)
+    message(FATAL_ERROR "spirv-opt is missing: install the package spirv-tools")
+endif()
 
-# glslang 12 may follow `precise` round and round until memory is full (see shaders/math/vector.glsl): better an error.
-set(GLSLANG_BOUNDED sh -c "ulimit -v 2000000 && exec \"$0\" \"$@\"" ${GLSLANG_VALIDATOR})
+set(HYALITE_KERNEL_PASSES
+    --wrap-opkill --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
+    --scalar-replacement --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
+    --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
+    --eliminate-dead-code-aggressive --eliminate-dead-branches --merge-blocks --ssa-rewrite --if-conversion
+    --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
+    --redundancy-elimination --eliminate-dead-code-aggressive --cfg-cleanup)
 
-function(hyalite_kernel target kernel variable)
-    if(NOT kernel MATCHES "\\.comp$")
-        set(kernel shaders/kernels/${kernel}.comp)
-    endif()
-    set(source ${PROJECT_SOURCE_DIR}/${kernel})
+add_executable(kernel_tool ${PROJECT_SOURCE_DIR}/cmake/kernel_tool.cpp ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp)
+target_include_directories(kernel_tool PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers)
+hyalite_warnings(kernel_tool)
+
+# hyalite_kernel(TARGET VARIABLE SOURCE [UNOPTIMISED] [INCLUDES FOLDER] [DEFINITIONS NAME=VALUE...])
+#
+# Embeds SOURCE, a path, into TARGET as the array VARIABLE of SPIR-V 1.3, in a header VARIABLE.h. An edited shader is always
+# built anew. With UNOPTIMISED functions stay as they are written, for tests that look at them. Includes are looked for in
+# FOLDER first. The target property HYALITE_KERNELS lists all variables.
+function(hyalite_kernel target variable source)
+    cmake_parse_arguments(PARSE_ARGV 3 kernel UNOPTIMISED INCLUDES DEFINITIONS)
     set(folder ${PROJECT_BINARY_DIR}/kernels)
-    set(header ${folder}/${variable}.h)
     file(MAKE_DIRECTORY ${folder})
-    set(definitions ${ARGN})
-    set(optimise -Os)
-    if("UNOPTIMISED" IN_LIST definitions)
-        list(REMOVE_ITEM definitions UNOPTIMISED)
-        set(optimise)
+    set(passes ${HYALITE_KERNEL_PASSES})
+    if(kernel_UNOPTIMISED)
+        set(passes)
     endif()
-    list(TRANSFORM definitions PREPEND -D)
+    set(includes ${kernel_INCLUDES} ${PROJECT_SOURCE_DIR} ${folder})
+    list(TRANSFORM includes PREPEND -I)
+    list(TRANSFORM kernel_DEFINITIONS PREPEND -D)
+    set(base ${folder}/${variable})
     add_custom_command(
-        OUTPUT ${header}
-        COMMAND ${GLSLANG_BOUNDED} --quiet ${optimise} -V --target-env vulkan1.1 ${definitions} -I${PROJECT_SOURCE_DIR} -I${folder}
-                --depfile ${header}.d --vn ${variable} -o ${header} ${source}
+        OUTPUT ${base}.glslang.spv
+        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.1 ${kernel_DEFINITIONS} ${includes}
+                --depfile ${base}.d -o ${base}.glslang.spv ${source}
         DEPENDS ${source}
-        DEPFILE ${header}.d
-        COMMENT "Compiling ${kernel} to ${variable}"
+        DEPFILE ${base}.d
+        COMMENT "Compiling ${variable}"
         VERBATIM)
-    target_sources(${target} PRIVATE ${header})
+    add_custom_command(
+        OUTPUT ${base}.h
+        COMMAND kernel_tool decorate ${base}.glslang.spv ${base}.exact.spv
+        COMMAND ${SPIRV_OPT} --target-env=vulkan1.1 ${passes} ${base}.exact.spv -o ${base}.spv
+        COMMAND kernel_tool embed ${base}.spv ${variable} ${base}.h
+        DEPENDS ${base}.glslang.spv kernel_tool
+        COMMENT "Optimising ${variable}"
+        VERBATIM)
+    target_sources(${target} PRIVATE ${base}.h)
     target_include_directories(${target} PRIVATE ${folder})
     set_property(TARGET ${target} APPEND PROPERTY HYALITE_KERNELS ${variable})
 endfunction()

@@ -13,20 +13,20 @@ struct Refraction {
 // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, with the cosine on the optically thinner
 // side, so that the reflectance rises to 1 at the critical angle.
 Refraction refractRay(vec3 direction, vec3 facing, float index, bool isEntering) {
-    precise float eta = isEntering ? divide(1.0, index) : index;
-    precise float cosIncident = -dotProduct(direction, facing);
-    precise float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
-    precise float cosTransmitted = squareRoot(greater(radicand, 0.0));
-    precise float along = eta * cosIncident - cosTransmitted;
-    precise vec3 transmitted = direction * eta + facing * along;
-    precise float below = 1.0 - index;
-    precise float above = 1.0 + index;
+    float eta = isEntering ? divide(1.0, index) : index;
+    float cosIncident = -dotProduct(direction, facing);
+    float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
+    float cosTransmitted = squareRoot(greater(radicand, 0.0));
+    float along = eta * cosIncident - cosTransmitted;
+    vec3 transmitted = direction * eta + facing * along;
+    float below = 1.0 - index;
+    float above = 1.0 + index;
     float ratio = divide(below, above);
-    precise float normalReflectance = ratio * ratio;
-    precise float k = 1.0 - lesser(isEntering ? cosIncident : cosTransmitted, 1.0);
-    precise float k2 = k * k;
-    precise float reflectance = normalReflectance + (1.0 - normalReflectance) * (k2 * k2 * k);
-    precise float transmittance = 1.0 - reflectance;
+    float normalReflectance = ratio * ratio;
+    float k = 1.0 - lesser(isEntering ? cosIncident : cosTransmitted, 1.0);
+    float k2 = k * k;
+    float reflectance = normalReflectance + (1.0 - normalReflectance) * (k2 * k2 * k);
+    float transmittance = 1.0 - reflectance;
     return Refraction(unitVector(transmitted), reflectance, transmittance, radicand < 0.0);
 }
 
@@ -38,19 +38,19 @@ struct Interface {
 // What a smooth interface does with unpolarised light: Fresnel's equations. `direction` meets it from the side of its
 // unit normal `facing`; `eta` is the refractive index on that side divided by the one beyond.
 Interface meetInterface(vec3 direction, vec3 facing, float eta) {
-    precise float cosIncident = -dotProduct(direction, facing);
-    precise float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
-    precise float cosTransmitted = squareRoot(greater(radicand, 0.0));
-    precise float along = eta * cosIncident - cosTransmitted;
-    precise vec3 refracted = direction * eta + facing * along;
-    precise float acrossBefore = eta * cosIncident;
-    precise float alongBeyond = eta * cosTransmitted;
-    precise float acrossDifference = acrossBefore - cosTransmitted;
-    precise float acrossSum = acrossBefore + cosTransmitted;
-    precise float alongDifference = cosIncident - alongBeyond;
-    precise float alongSum = cosIncident + alongBeyond;
+    float cosIncident = -dotProduct(direction, facing);
+    float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
+    float cosTransmitted = squareRoot(greater(radicand, 0.0));
+    float along = eta * cosIncident - cosTransmitted;
+    vec3 refracted = direction * eta + facing * along;
+    float acrossBefore = eta * cosIncident;
+    float alongBeyond = eta * cosTransmitted;
+    float acrossDifference = acrossBefore - cosTransmitted;
+    float acrossSum = acrossBefore + cosTransmitted;
+    float alongDifference = cosIncident - alongBeyond;
+    float alongSum = cosIncident + alongBeyond;
     float across = divide(acrossDifference, acrossSum);
     float parallel = divide(alongDifference, alongSum);
-    precise float reflectance = 0.5 * (across * across + parallel * parallel);
+    float reflectance = 0.5 * (across * across + parallel * parallel);
     return Interface(unitVector(refracted), radicand > 0.0 ? lesser(reflectance, 1.0) : 1.0);
 }

@@ -16,16 +16,15 @@ struct EnergyPlace {
 };
 
 EnergyPlace energyPlace(float position, uint nodeCount) {
-    precise float scaled = position * float(nodeCount - 1u);
+    float scaled = position * float(nodeCount - 1u);
     float inside = greater(lesser(scaled, float(nodeCount - 1u)), 0.0);
     uint cell = min(uint(inside), nodeCount - 2u);
-    precise float share = inside - float(cell);
+    float share = inside - float(cell);
     return EnergyPlace(cell, share);
 }
 
 float mixture(float a, float b, float share) {
-    precise float mixed = a + (b - a) * share;
-    return mixed;
+    return a + (b - a) * share;
 }
 
 // Of a direction with the cosine `cosine` > 0 to the normal, at the roughness sqrt(alpha). Nodes are even in the square
@@ -56,7 +55,7 @@ float energyAt(Energy energy, float normal) { return mixture(energy.grazing, ene
 // What is reflected twice and more often by facets whose reflectance is `average`, of what is not reflected at once;
 // `white` is the average energy. Hill, "A Multi-Faceted Exploration", 2018, part 3.
 vec3 lateReflectance(vec3 average, float white) {
-    precise vec3 above = average * average * white;
-    precise vec3 below = 1.0 - average * (1.0 - white);
+    vec3 above = average * average * white;
+    vec3 below = 1.0 - average * (1.0 - white);
     return above * divide(1.0, below);
 }

@@ -7,19 +7,19 @@
 
 // How long `w` is seen from the stretched surface.
 float stretchOf(vec3 w, float alpha) {
-    precise float squaredAlpha = alpha * alpha;
-    precise float squaredSine = w.x * w.x + w.y * w.y;
-    precise float squared = squaredAlpha * squaredSine + w.z * w.z;
+    float squaredAlpha = alpha * alpha;
+    float squaredSine = w.x * w.x + w.y * w.y;
+    float squared = squaredAlpha * squaredSine + w.z * w.z;
     return squareRoot(squared);
 }
 
 // Microfacets with the normal `m`, per solid angle and unit of area.
 float facetDensity(vec3 m, float alpha) {
-    precise float squaredAlpha = alpha * alpha;
-    precise float squaredSine = m.x * m.x + m.y * m.y;
-    precise float spread = squaredSine + squaredAlpha * (m.z * m.z);
-    precise float squared = spread * spread;
-    precise float scaled = squaredAlpha * inversePi;
+    float squaredAlpha = alpha * alpha;
+    float squaredSine = m.x * m.x + m.y * m.y;
+    float spread = squaredSine + squaredAlpha * (m.z * m.z);
+    float squared = spread * spread;
+    float scaled = squaredAlpha * inversePi;
     return divide(scaled, squared);
 }
 
@@ -27,36 +27,36 @@ float facetDensity(vec3 m, float alpha) {
 // "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
 vec3 sampleVisibleFacet(vec3 view, float alpha, vec2 u) {
     vec3 stretched = unitVector(vec3(view.xy * alpha, view.z));
-    precise float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
-    precise float squaredSine = 1.0 - z * z;
+    float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+    float squaredSine = 1.0 - z * z;
     float sine = squareRoot(greater(squaredSine, 0.0));
     SineCosine angle = sineCosine(u.x);
-    vec3 cap = add(vec3(sine * angle.cosine, sine * angle.sine, z), stretched);
+    vec3 cap = vec3(sine * angle.cosine, sine * angle.sine, z) + stretched;
     return unitVector(vec3(cap.xy * alpha, cap.z));
 }
 
 // The density, per solid angle, of the direction that a visible facet reflects `view` to; `density` is that of the
 // facets.
 float reflectionDensity(float density, vec3 view, float stretchView) {
-    precise float below = 2.0 * (view.z + stretchView);
+    float below = 2.0 * (view.z + stretchView);
     return divide(density, below);
 }
 
 // How many of the facets that are seen are also lit: G / G1(view). `light` may be on the other side.
 float litShare(float viewHeight, float stretchView, float lightHeight, float stretchLight) {
     float height = abs(lightHeight);
-    precise float above = height * (viewHeight + stretchView);
-    precise float below = viewHeight * stretchLight + height * stretchView;
+    float above = height * (viewHeight + stretchView);
+    float below = viewHeight * stretchLight + height * stretchView;
     return divide(above, below);
 }
 
 // The facet that reflects `view` to `light`.
-vec3 facetBetween(vec3 view, vec3 light) { return unitVector(add(view, light)); }
+vec3 facetBetween(vec3 view, vec3 light) { return unitVector(view + light); }
 
 // The facet that refracts `view` to `light`, on the other side, with z > 0 where there is one; `eta` is the refractive
 // index on the side of `view` divided by the other.
 vec3 facetAcross(vec3 view, vec3 light, float eta) {
-    precise vec3 across = view * eta + light;
+    vec3 across = view * eta + light;
     vec3 m = unitVector(across);
     return m.z < 0.0 ? -m : m;
 }
@@ -64,8 +64,8 @@ vec3 facetAcross(vec3 view, vec3 light, float eta) {
 // The density, per solid angle, of the direction to which visible facets refract: that of the facets that are seen, by
 // Walter's Jacobian (equation 17). `viewCosine` > 0 and `lightCosine` < 0 are those to the facet.
 float refractionDensity(float density, vec3 view, float stretchView, float viewCosine, float lightCosine, float eta) {
-    precise float seen = density * 2.0 * viewCosine * -lightCosine;
-    precise float sum = eta * viewCosine + lightCosine;
-    precise float below = (view.z + stretchView) * (sum * sum);
+    float seen = density * 2.0 * viewCosine * -lightCosine;
+    float sum = eta * viewCosine + lightCosine;
+    float below = (view.z + stretchView) * (sum * sum);
     return divide(seen, below);
 }

@@ -42,7 +42,7 @@ struct Scattered {
 };
 
 float mean(vec3 colour) {
-    precise float sum = colour.x + colour.y + colour.z;
+    float sum = colour.x + colour.y + colour.z;
     return sum * (1.0 / 3.0);
 }
 
@@ -50,8 +50,8 @@ vec3 toLocal(Frame f, vec3 v) { return vec3(dotProduct(f.x, v), dotProduct(f.y, 
 
 // (1 - E(o)) / (pi (1 - average E)), the part of a lobe of what is not reflected at once that depends on the viewer.
 float lossShare(float energy, float average) {
-    precise float loss = 1.0 - energy;
-    precise float averageLoss = greater(1.0 - average, leastLoss);
+    float loss = 1.0 - energy;
+    float averageLoss = greater(1.0 - average, leastLoss);
     return inversePi * divide(loss, averageLoss);
 }
 
@@ -70,9 +70,9 @@ Rough withLobes(Rough rough, float metal, float plastic, vec3 colour, vec3 metal
     float plasticEnergy = energyAt(energy, rough.plasticReflectance);
     vec3 bodyColour = colour * plastic;
     rough.body = bodyColour * lossShare(plasticEnergy, energyAt(average, rough.plasticReflectance));
-    precise float facets = mean(facetReflectance(rough, rough.view.z)) * energy.white;
-    precise float others = mean(lateColour) * (1.0 - energy.white) + mean(bodyColour) * (1.0 - plasticEnergy);
-    precise float sum = greater(facets + others, 1e-20);
+    float facets = mean(facetReflectance(rough, rough.view.z)) * energy.white;
+    float others = mean(lateColour) * (1.0 - energy.white) + mean(bodyColour) * (1.0 - plasticEnergy);
+    float sum = greater(facets + others, 1e-20);
     rough.facetChance = divide(facets, sum);
     return rough;
 }
@@ -83,7 +83,7 @@ Rough principledOf(Rough rough, MaterialRecord material, bool isBehind, float ch
         rough.coat = material.clearcoat;
         rough.coatRoughness = squareRoot(material.clearcoatAlpha);
         rough.coatEnergy = energyAt(energyOf(rough.view.z, rough.coatRoughness), coatReflectance);
-        precise float coatShare = rough.coat * rough.coatEnergy;
+        float coatShare = rough.coat * rough.coatEnergy;
         if (left < coatShare) {
             rough.weight = divide(rough.coat, coatShare);
             rough.alpha = material.clearcoatAlpha;
@@ -94,25 +94,25 @@ Rough principledOf(Rough rough, MaterialRecord material, bool isBehind, float ch
             rough.facetChance = 1.0;
             return rough;
         }
-        precise float rest = 1.0 - coatShare;
-        precise float above = left - coatShare;
+        float rest = 1.0 - coatShare;
+        float above = left - coatShare;
         left = divide(above, rest);
         rough.weight = divide(1.0, rest);
     }
-    precise float dielectric = 1.0 - material.metallic;
+    float dielectric = 1.0 - material.metallic;
     float glass = isBehind && material.transmission > 0.0 ? 1.0 : dielectric * material.transmission;
     if ((scattering & scattersAtRoughGlass) != 0u && left < glass) {
         rough.kind = roughGlass;
         rough.tint = vec3(squareRoot(material.albedo.x), squareRoot(material.albedo.y), squareRoot(material.albedo.z));
         return rough;
     }
-    precise float opaque = 1.0 - glass;
+    float opaque = 1.0 - glass;
     float metal = divide(material.metallic, opaque);
-    precise float plastic = 1.0 - metal;
+    float plastic = 1.0 - metal;
     rough.plasticReflectance = material.normalReflectance;
-    precise vec3 reflectance = material.albedo * metal + material.normalReflectance * plastic;
+    vec3 reflectance = material.albedo * metal + material.normalReflectance * plastic;
     rough.reflectance = reflectance;
-    precise vec3 average = material.albedo + (1.0 - material.albedo) * (1.0 / 21.0);
+    vec3 average = material.albedo + (1.0 - material.albedo) * (1.0 / 21.0);
     return withLobes(rough, metal, plastic, material.albedo, average);
 }
 
@@ -161,7 +161,7 @@ vec3 drawRough(Rough rough, vec2 u, float choice) {
     if (rough.kind == roughDiffuse || rough.kind == roughOpaque && choice >= rough.facetChance) {
         float radius = squareRoot(u.x);
         SineCosine angle = sineCosine(u.y);
-        precise float below = 1.0 - u.x;
+        float below = 1.0 - u.x;
         return vec3(radius * angle.cosine, radius * angle.sine, squareRoot(below));
     }
     vec3 facet = sampleVisibleFacet(rough.view, rough.alpha, u);
@@ -183,10 +183,10 @@ Scattered passGlass(Rough rough, vec3 light) {
         return Scattered(vec3(0.0), 0.0);
     Interface glass = meetInterface(-rough.view, facet, rough.eta);
     float facets = facetDensity(facet, rough.alpha);
-    precise float passing = (1.0 - glass.reflectance) *
+    float passing = (1.0 - glass.reflectance) *
                             refractionDensity(facets, rough.view, rough.stretchView, viewCosine, lightCosine, rough.eta);
     float lit = litShare(rough.view.z, rough.stretchView, light.z, stretchOf(light, rough.alpha));
-    precise float value = passing * lit * (rough.eta * rough.eta) * rough.weight;
+    float value = passing * lit * (rough.eta * rough.eta) * rough.weight;
     return Scattered(rough.tint * value, passing);
 }
 
@@ -204,24 +204,24 @@ Scattered evaluateRough(Rough rough, vec3 light) {
     float reflected = reflectionDensity(facetDensity(facet, rough.alpha), rough.view, rough.stretchView);
     float lit = litShare(rough.view.z, rough.stretchView, light.z, stretchOf(light, rough.alpha));
     if ((scattering & scattersAtRoughGlass) != 0u && rough.kind == roughGlass) {
-        precise float share = reflected * meetInterface(-rough.view, facet, rough.eta).reflectance;
-        precise float value = share * lit * rough.weight;
+        float share = reflected * meetInterface(-rough.view, facet, rough.eta).reflectance;
+        float value = share * lit * rough.weight;
         return Scattered(vec3(value), share);
     }
-    precise float atOnce = reflected * lit;
+    float atOnce = reflected * lit;
     vec3 value = facetReflectance(rough, cosine) * atOnce;
-    precise float density = rough.facetChance * reflected + (1.0 - rough.facetChance) * cosineDensity;
+    float density = rough.facetChance * reflected + (1.0 - rough.facetChance) * cosineDensity;
     if (rough.facetChance < 1.0) {
         Energy energy = energyOf(light.z, rough.roughness);
-        precise float lateShare = (1.0 - energy.white) * light.z;
-        precise float bodyShare = (1.0 - energyAt(energy, rough.plasticReflectance)) * light.z;
-        value = addProduct(addProduct(value, rough.late, vec3(lateShare)), rough.body, vec3(bodyShare));
+        float lateShare = (1.0 - energy.white) * light.z;
+        float bodyShare = (1.0 - energyAt(energy, rough.plasticReflectance)) * light.z;
+        value = value + rough.late * lateShare + rough.body * bodyShare;
     }
     if ((scattering & scattersAtPrincipled) != 0u) {
         float below = rough.weight;
         if (rough.coat > 0.0) {
             float energy = energyAt(energyOf(light.z, rough.coatRoughness), coatReflectance);
-            precise float coated = 1.0 - rough.coat * greater(energy, rough.coatEnergy);
+            float coated = 1.0 - rough.coat * greater(energy, rough.coatEnergy);
             below = below * coated;
         }
         value = value * below;

@@ -2,14 +2,13 @@
 
 // Where `offset` from the top left of `pixel` lies, in pixels from the middle of an image of this size, y up.
 vec2 fromMiddle(uvec2 pixel, vec2 offset, uvec2 size) {
-    precise float x = float(pixel.x) + offset.x - 0.5 * float(size.x);
-    precise float y = 0.5 * float(size.y) - (float(pixel.y) + offset.y);
+    float x = float(pixel.x) + offset.x - 0.5 * float(size.x);
+    float y = 0.5 * float(size.y) - (float(pixel.y) + offset.y);
     return vec2(x, y);
 }
 
 vec3 onImagePlane(vec2 position, vec3 right, vec3 up, vec3 middle) {
-    precise vec3 point = right * position.x + up * position.y + middle;
-    return point;
+    return right * position.x + up * position.y + middle;
 }
 
 // The unit direction of the primary ray of a pinhole through `offset` in [0,1)^2 inside of `pixel`; see FrameRecord.
@@ -28,12 +27,12 @@ struct PrimaryRay {
 PrimaryRay throughLens(uvec2 pixel, vec2 offset, vec2 u) {
     vec2 position = fromMiddle(pixel, offset, uvec2(frame.imageWidth, frame.imageHeight));
     vec3 straight = onImagePlane(position, frame.pixelRight, frame.pixelUp, frame.imagePlane);
-    precise float radius = squareRoot(u.x) * frame.lensScale;
+    float radius = squareRoot(u.x) * frame.lensScale;
     SineCosine angle = sineCosine(u.y);
-    precise vec2 onLens = vec2(radius * angle.cosine, radius * angle.sine);
-    precise vec3 aside = frame.pixelRight * onLens.x + frame.pixelUp * onLens.y;
-    precise vec3 direction = straight * frame.focusDistance - aside;
-    return PrimaryRay(add(frame.eye, aside), unitVector(direction));
+    vec2 onLens = vec2(radius * angle.cosine, radius * angle.sine);
+    vec3 aside = frame.pixelRight * onLens.x + frame.pixelUp * onLens.y;
+    vec3 direction = straight * frame.focusDistance - aside;
+    return PrimaryRay(frame.eye + aside, unitVector(direction));
 }
 
 // Parallel to the view direction.
@@ -44,14 +43,14 @@ PrimaryRay alongView(uvec2 pixel, vec2 offset) {
 
 // By longitude and latitude: the image's middle is the view direction, its top row is up.
 PrimaryRay allAround(uvec2 pixel, vec2 offset) {
-    precise float x = float(pixel.x) + offset.x;
-    precise float y = float(pixel.y) + offset.y;
+    float x = float(pixel.x) + offset.x;
+    float y = float(pixel.y) + offset.y;
     SineCosine longitude = sineCosine(divide(x, float(frame.imageWidth)));
-    precise float latitudeTurns = 0.5 * divide(y, float(frame.imageHeight));
+    float latitudeTurns = 0.5 * divide(y, float(frame.imageHeight));
     SineCosine latitude = sineCosine(latitudeTurns);
-    precise float right = -longitude.sine * latitude.sine;
-    precise float forward = -longitude.cosine * latitude.sine;
-    precise vec3 direction = frame.pixelRight * right + frame.pixelUp * latitude.cosine + frame.imagePlane * forward;
+    float right = -longitude.sine * latitude.sine;
+    float forward = -longitude.cosine * latitude.sine;
+    vec3 direction = frame.pixelRight * right + frame.pixelUp * latitude.cosine + frame.imagePlane * forward;
     return PrimaryRay(frame.eye, unitVector(direction));
 }
 
@@ -59,11 +58,10 @@ PrimaryRay allAround(uvec2 pixel, vec2 offset) {
 // Importance Sampling", 2006: samples that are as dense as the filter is high weigh alike, and each serves one pixel
 // only.
 float filterQuantile(float u) {
-    precise float x = u * float(filterCellCount);
+    float x = u * float(filterCellCount);
     uint cell = uint(x);
     TexelRecord texel = fetchTexel(frame.filterTexels + cell);
-    precise float quantile = texel.value.x + texel.value.y * (x - float(cell));
-    return quantile;
+    return texel.value.x + texel.value.y * (x - float(cell));
 }
 
 const uint lensPair = 1024u; // of random numbers: beyond those of paths

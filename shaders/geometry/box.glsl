@@ -15,8 +15,8 @@ struct BoxRay {
 
 // `lower` and `upper` enclose all boxes that will be tested.
 BoxRay makeBoxRay(vec3 origin, vec3 direction, vec3 lower, vec3 upper) {
-    precise vec3 toLower = abs(lower - origin);
-    precise vec3 toUpper = abs(upper - origin);
+    vec3 toLower = abs(lower - origin);
+    vec3 toUpper = abs(upper - origin);
     float reach = largestComponent(greater(toLower, toUpper));
     // A direction of nearly 0 would give infinities and, on a face of the box, NaN. Bounded, it moves the ray by
     // less than the pad over any distance that occurs.
@@ -28,13 +28,13 @@ BoxRay makeBoxRay(vec3 origin, vec3 direction, vec3 lower, vec3 upper) {
 // The distances (x to y) at which the ray is inside of the box, from 0 on; x > y where it misses. The corners of this
 // box are given relative to the ray's origin.
 vec2 relativeBoxInterval(BoxRay ray, vec3 lower, vec3 upper) {
-    precise vec3 toLower = (lower - ray.pad) * ray.inverse;
-    precise vec3 toUpper = (upper + ray.pad) * ray.inverse;
+    vec3 toLower = (lower - ray.pad) * ray.inverse;
+    vec3 toUpper = (upper + ray.pad) * ray.inverse;
     float enter = greater(largestComponent(lesser(toLower, toUpper)), 0.0);
     float leave = smallestComponent(greater(toLower, toUpper));
     return vec2(enter, leave);
 }
 
 vec2 boxInterval(BoxRay ray, vec3 lower, vec3 upper) {
-    return relativeBoxInterval(ray, subtract(lower, ray.origin), subtract(upper, ray.origin));
+    return relativeBoxInterval(ray, lower - ray.origin, upper - ray.origin);
 }

@@ -7,8 +7,8 @@ struct SphereShape {
 };
 
 SphereShape makeSphereShape(vec3 centre, float radius) {
-    precise float squaredRadius = radius * radius;
-    precise float leastChord = radius * (8.0 / 16777216.0);
+    float squaredRadius = radius * radius;
+    float leastChord = radius * (8.0 / 16777216.0);
     return SphereShape(centre, squaredRadius, leastChord);
 }
 
@@ -21,15 +21,15 @@ SphereShape makeSphereShape(vec3 centre, float radius) {
 // A ray that starts on the sphere has one root that is 0 by definition, and the other is -2 f.d: it cannot find its
 // own starting point again, whatever the rounding, and no offset is needed.
 float intersectSphere(vec3 origin, vec3 direction, SphereShape sphere, bool startsOnSphere) {
-    precise vec3 f = origin - sphere.centre;
-    precise float b = dotProduct(f, direction);
-    precise vec3 nearest = f - direction * b;
-    precise float discriminant = sphere.squaredRadius - dotProduct(nearest, nearest);
-    precise float c = dotProduct(f, f) - sphere.squaredRadius;
-    precise float root = squareRoot(greater(discriminant, 0.0));
-    precise float q = b >= 0.0 ? -b - root : root - b;
+    vec3 f = origin - sphere.centre;
+    float b = dotProduct(f, direction);
+    vec3 nearest = f - direction * b;
+    float discriminant = sphere.squaredRadius - dotProduct(nearest, nearest);
+    float c = dotProduct(f, f) - sphere.squaredRadius;
+    float root = squareRoot(greater(discriminant, 0.0));
+    float q = b >= 0.0 ? -b - root : root - b;
     float r = divide(c, q);
-    precise float chord = -2.0 * b;
+    float chord = -2.0 * b;
     float first = r < q ? r : q;
     float second = r < q ? q : r;
     float across = chord > sphere.leastChord ? chord : -1.0;

@@ -8,15 +8,15 @@ struct Surface {
 };
 
 Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord sphere) {
-    precise vec3 position = origin + direction * distance;
-    precise vec3 outward = position - sphere.centre;
-    precise vec3 normal = unitVector(outward) * normalSignOf(sphere);
+    vec3 position = origin + direction * distance;
+    vec3 outward = position - sphere.centre;
+    vec3 normal = unitVector(outward) * normalSignOf(sphere);
     return Surface(position, vec3(0.0), normal, normal);
 }
 
 Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, float v) {
-    precise vec3 edge1 = triangle.v1 - triangle.v0;
-    precise vec3 edge2 = triangle.v2 - triangle.v0;
+    vec3 edge1 = triangle.v1 - triangle.v0;
+    vec3 edge2 = triangle.v2 - triangle.v0;
     vec3 area = crossProduct(edge1, edge2);
     // Scaled first, as the square of a small or of a giant area leaves the range of floats.
     float largest = largestComponent(abs(area));
@@ -37,8 +37,7 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
 vec3 spawnPoint(Surface surface, vec3 direction) {
     if (!hasTriangles)
         return surface.position; // the same, unless the normal is NaN
-    precise float distance = 2.0 * dotProduct(abs(surface.geometricNormal), surface.error);
-    precise float side = dotProduct(direction, surface.geometricNormal) < 0.0 ? -distance : distance;
-    precise vec3 origin = surface.position + surface.geometricNormal * side;
-    return origin;
+    float distance = 2.0 * dotProduct(abs(surface.geometricNormal), surface.error);
+    float side = dotProduct(direction, surface.geometricNormal) < 0.0 ? -distance : distance;
+    return surface.position + surface.geometricNormal * side;
 }

@@ -30,33 +30,33 @@ TriangleRay makeTriangleRay(vec3 origin, vec3 direction) {
     ray.axis = size.z >= size.x && size.z >= size.y ? 2u : (size.y >= size.x ? 1u : 0u);
     vec3 along = axisToZ(direction, ray.axis);
     float inverse = divide(1.0, along.z);
-    precise vec2 shear = along.xy * inverse;
+    vec2 shear = along.xy * inverse;
     ray.shear = vec3(shear, inverse);
     return ray;
 }
 
 TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, vec3 v2) {
-    vec3 to0 = subtract(v0, ray.origin);
-    vec3 to1 = subtract(v1, ray.origin);
-    vec3 to2 = subtract(v2, ray.origin);
+    vec3 to0 = v0 - ray.origin;
+    vec3 to1 = v1 - ray.origin;
+    vec3 to2 = v2 - ray.origin;
     vec3 a = axisToZ(to0, ray.axis);
     vec3 b = axisToZ(to1, ray.axis);
     vec3 c = axisToZ(to2, ray.axis);
-    precise vec2 p = a.xy - ray.shear.xy * a.z;
-    precise vec2 q = b.xy - ray.shear.xy * b.z;
-    precise vec2 r = c.xy - ray.shear.xy * c.z;
-    precise float e0 = r.x * q.y - r.y * q.x;
-    precise float e1 = p.x * r.y - p.y * r.x;
-    precise float e2 = q.x * p.y - q.y * p.x;
+    vec2 p = a.xy - ray.shear.xy * a.z;
+    vec2 q = b.xy - ray.shear.xy * b.z;
+    vec2 r = c.xy - ray.shear.xy * c.z;
+    float e0 = r.x * q.y - r.y * q.x;
+    float e1 = p.x * r.y - p.y * r.x;
+    float e2 = q.x * p.y - q.y * p.x;
     float least = lesser(lesser(e0, e1), e2);
     float greatest = greater(greater(e0, e1), e2);
     bool isInside = lesser(greatest, -least) <= 0.0; // least >= 0 or greatest <= 0
-    precise float determinant = e0 + e1 + e2;
+    float determinant = e0 + e1 + e2;
     float inverse = divide(1.0, determinant);
-    precise float u = e0 * inverse;
-    precise float v = e1 * inverse;
-    precise float w = e2 * inverse;
-    precise float depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
+    float u = e0 * inverse;
+    float v = e1 * inverse;
+    float w = e2 * inverse;
+    float depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
     vec2 interval =
         relativeBoxInterval(boxRay, lesser(lesser(to0, to1), to2), greater(greater(to0, to1), to2));
     float distance = lesser(greater(depth, interval.x), interval.y);
@@ -66,9 +66,8 @@ TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, 
 
 // The point with weights u, v, 1-u-v on a triangle.
 vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
-    precise float w = 1.0 - u - v;
-    precise vec3 point = v0 * u + v1 * v + v2 * w;
-    return point;
+    float w = 1.0 - u - v;
+    return v0 * u + v1 * v + v2 * w;
 }
 
 // How far trianglePoint may lie off the plane, as a bound for each coordinate: Pharr, Jakob and Humphreys, "Physically
@@ -76,9 +75,8 @@ vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
 // plane may seem to lie off it: its depth is uncertain by units of its size, for which this triangle's stands. Without
 // that, the triangles of a floor at y = 0 would shadow each other.
 vec3 trianglePointError(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
-    precise float w = 1.0 - u - v;
-    precise float extent = largestComponent(greater(abs(v1 - v0), abs(v2 - v0)));
-    precise vec3 size = abs(v0 * u) + abs(v1 * v) + abs(v2 * w) + extent;
-    precise vec3 bound = size * (8.0 / 16777216.0);
-    return bound;
+    float w = 1.0 - u - v;
+    float extent = largestComponent(greater(abs(v1 - v0), abs(v2 - v0)));
+    vec3 size = abs(v0 * u) + abs(v1 * v) + abs(v2 * w) + extent;
+    return size * (8.0 / 16777216.0);
 }

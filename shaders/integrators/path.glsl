@@ -36,14 +36,14 @@ void addRadiance(uint slot, vec3 weight, vec3 radiance) {
     vec3 added = weight * radiance;
     if (path[slot].rayDepth > 1u)
         added = lesser(added, vec3(frame.radianceLimit));
-    path[slot].sampleRadiance = add(path[slot].sampleRadiance, added);
+    path[slot].sampleRadiance = path[slot].sampleRadiance + added;
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
 }
 
 // What a surface that the ray has met emits towards it, weighted against aiming at the same point.
 void addEmission(uint slot, Surface surface, MaterialRecord material) {
     vec3 direction = path[slot].rayDirection;
-    precise float facing = -dotProduct(direction, surface.geometricNormal);
+    float facing = -dotProduct(direction, surface.geometricNormal);
     float cosine = isTwoSided(material) ? abs(facing) : facing;
     if (material.emitterDensity <= 0.0 || cosine <= 0.0)
         return;
@@ -89,7 +89,7 @@ bool survivesRoulette(uint slot) {
         return true;
     float index = hasDielectric ? mediumIndex(mediumAround(path[slot].mediaInside)) : 1.0;
     // Radiance in glass is larger by the square of the index, which it loses on its way out.
-    precise float survival = lesser(largestComponent(path[slot].throughput) * (index * index), 1.0);
+    float survival = lesser(largestComponent(path[slot].throughput) * (index * index), 1.0);
     if (unitFloat(vertexBits(slot, pairChoice).y) >= survival)
         return false;
     path[slot].throughput *= divide(1.0, survival);
@@ -150,7 +150,7 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
         return;
     }
     path[slot].mediaInside = crossing.beyond;
-    precise float squaredEta = eta * eta;
+    float squaredEta = eta * eta;
     path[slot].throughput *= squaredEta;
     path[slot].scatterDensity = 0.0;
     rayCounts[slot].w += 1u;

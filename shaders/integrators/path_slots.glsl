@@ -176,7 +176,7 @@ void countWork(uint slot, uvec3 work) {
         return;
     workCounts.xyz += work;
     if (showsCost)
-        path[slot].sampleRadiance = add(path[slot].sampleRadiance, vec3(work));
+        path[slot].sampleRadiance = path[slot].sampleRadiance + vec3(work);
 }
 
 // Counts a pass of the subgroup through a loop of the traversal: one of those lanes does that had something to do in it.

@@ -15,14 +15,12 @@ void show(uint slot, vec3 value) {
 // A colour for each number, in [0.2, 1).
 vec3 idColour(uint id) {
     uvec3 bits = hashKeys(uvec3(id, 1u, 2u));
-    precise vec3 colour = 0.2 + 0.8 * vec3(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z));
-    return colour;
+    return 0.2 + 0.8 * vec3(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z));
 }
 
 // From [-1, 1] to [0, 1], as normal maps do.
 vec3 normalColour(vec3 normal) {
-    precise vec3 colour = 0.5 + 0.5 * normal;
-    return colour;
+    return 0.5 + 0.5 * normal;
 }
 
 // Stage: the nearest hit is known.

@@ -80,8 +80,7 @@ vec3 radianceAround(vec3 direction) {
 
 void leaveScene(uint slot, vec3 tint) {
     if (!showsCost)
-        path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, path[slot].throughput * tint,
-                                               radianceAround(path[slot].rayDirection));
+        path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * tint * radianceAround(path[slot].rayDirection);
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     endPath(slot);
 }
@@ -110,7 +109,7 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
     bool isSeenFromFront = dotProduct(direction, surface.geometricNormal) < 0.0;
     if (hasEmission && !showsCost && (isSeenFromFront || isTwoSided(material))) {
-        path[slot].sampleRadiance = addProduct(path[slot].sampleRadiance, path[slot].throughput, material.emission);
+        path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * material.emission;
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
     endPath(slot);
@@ -142,7 +141,7 @@ void aimAtLight(uint slot) {
         return;
     }
     LightRecord light = lightAt(path[slot].lightIndex);
-    vec3 toLight = subtract(light.position, path[slot].surfacePosition);
+    vec3 toLight = light.position - path[slot].surfacePosition;
     float distance = vectorLength(toLight);
     vec3 direction = toLight * divide(1.0, distance);
     if ((lighting & lightsByDirections) != 0u && light.kind == lightDirectional) {
@@ -178,7 +177,7 @@ void addLight(uint slot) {
         vec3 reflected = path[slot].surfaceWeight * irradiance;
         if (isDimmed)
             reflected *= frame.shadowThroughGlass;
-        path[slot].sampleRadiance = add(path[slot].sampleRadiance, reflected);
+        path[slot].sampleRadiance = path[slot].sampleRadiance + reflected;
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
     path[slot].lightIndex += 1u;

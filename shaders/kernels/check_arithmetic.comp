@@ -16,7 +16,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= inputs.length())
         return;
-    precise float quotient = inputs[i].numerator / inputs[i].denominator;
-    precise float root = sqrt(inputs[i].square);
+    float quotient = inputs[i].numerator / inputs[i].denominator;
+    float root = sqrt(inputs[i].square);
     results[i] = vec2(quotient, root);
 }

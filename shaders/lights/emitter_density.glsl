@@ -4,7 +4,7 @@ const float fourPi = 12.566370614359173;
 
 // Per solid angle, of a point chosen with `areaDensity` per unit of area; `cosine` > 0 is that at the light.
 float solidAngleDensity(float areaDensity, float distance, float cosine) {
-    precise float scaled = areaDensity * (distance * distance);
+    float scaled = areaDensity * (distance * distance);
     return divide(scaled, cosine);
 }
 
@@ -12,7 +12,7 @@ float solidAngleDensity(float areaDensity, float distance, float cosine) {
 const float leastConeDistance = 1.0001;
 
 float squaredDistanceTo(vec3 centre, vec3 position) {
-    vec3 toCentre = subtract(centre, position);
+    vec3 toCentre = centre - position;
     return dotProduct(toCentre, toCentre);
 }
 
@@ -20,7 +20,7 @@ float squaredDistanceTo(vec3 centre, vec3 position) {
 // point is never chosen. `outward` is the sphere's outward normal there.
 float sphereLightDensity(vec3 position, vec3 direction, float distance, vec3 centre, float radius, vec3 outward,
                          float areaDensity) {
-    precise float squaredRadius = radius * radius;
+    float squaredRadius = radius * radius;
     float squaredDistance = squaredDistanceTo(centre, position);
     if (squaredDistance > squaredRadius * leastConeDistance)
         return areaDensity * (fourPi * squaredRadius) * pdfCone(coneHeight(squaredRadius, squaredDistance));

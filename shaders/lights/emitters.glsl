@@ -14,10 +14,10 @@ const float unboundedDistance = 3.4028234e38; // to what is at no place
 const LightSample noLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, noPrimitive);
 
 LightSample samplePoint(EmitterRecord emitter, vec3 position) {
-    vec3 toLight = subtract(emitter.position, position);
+    vec3 toLight = emitter.position - position;
     float distance = vectorLength(toLight);
-    precise float squaredDistance = distance * distance;
-    precise float share = squaredDistance * emitter.probability;
+    float squaredDistance = distance * distance;
+    float share = squaredDistance * emitter.probability;
     return LightSample(toLight * divide(1.0, distance), distance, emitter.emission * divide(1.0, share), 0.0, noPrimitive);
 }
 
@@ -65,10 +65,10 @@ LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
     TriangleRecord triangle = fetchTriangle(emitter.record);
     vec2 weights = sampleTriangle(u);
     Surface surface = triangleSurface(triangle, fetchNormals(emitter.record), weights.x, weights.y);
-    vec3 toLight = subtract(surface.position, position);
+    vec3 toLight = surface.position - position;
     float distance = vectorLength(toLight);
     vec3 direction = toLight * divide(1.0, distance);
-    precise float facing = -dotProduct(direction, surface.geometricNormal);
+    float facing = -dotProduct(direction, surface.geometricNormal);
     float cosine = emitter.isTwoSided != 0u ? abs(facing) : facing;
     float density = solidAngleDensity(emitter.density, distance, cosine);
     bool isSeen = cosine > 0.0 && distance > 0.0;
@@ -82,7 +82,7 @@ LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
 LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
     SphereRecord sphere = fetchSphere(emitter.record);
     SphereShape shape = makeSphereShape(sphere.centre, sphere.radius);
-    vec3 toCentre = subtract(sphere.centre, position);
+    vec3 toCentre = sphere.centre - position;
     float squaredDistance = dotProduct(toCentre, toCentre);
     bool isOutside = squaredDistance > shape.squaredRadius * leastConeDistance;
     vec3 direction;
@@ -99,7 +99,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
         isSeen = normalSignOf(sphere) > 0.0 || emitter.isTwoSided != 0u;
     } else {
         vec3 outward = sampleSphere(u);
-        vec3 toLight = addProduct(toCentre, outward, vec3(sphere.radius));
+        vec3 toLight = toCentre + outward * sphere.radius;
         distance = vectorLength(toLight);
         direction = toLight * divide(1.0, distance);
         float cosine = dotProduct(direction, outward);
@@ -108,7 +108,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
     }
     vec3 emission = emitter.emission;
     if ((texturing & texturesEmission) != 0u)
-        emission = sphereEmission(emission, sphere, subtract(addProduct(position, direction, vec3(distance)), sphere.centre));
+        emission = sphereEmission(emission, sphere, position + direction * distance - sphere.centre);
     return LightSample(direction, distance, isSeen ? emission * divide(1.0, density) : vec3(0.0), density,
                        emitter.record);
 }

@@ -15,11 +15,11 @@ struct EnvironmentLight {
 
 // Place in the image of a direction: x and y from the left and the top, in [0, 1].
 vec2 environmentPlace(vec3 direction) {
-    precise float squared = direction.x * direction.x + direction.z * direction.z;
+    float squared = direction.x * direction.x + direction.z * direction.z;
     float longitude = squared > 0.0 ? turnsOf(-direction.x, direction.z) : 0.0;
-    precise float turned = longitude + frame.environmentTurns;
-    precise float back = turned - 1.0;
-    precise float latitude = 2.0 * turnsOf(squareRoot(squared), direction.y);
+    float turned = longitude + frame.environmentTurns;
+    float back = turned - 1.0;
+    float latitude = 2.0 * turnsOf(squareRoot(squared), direction.y);
     return vec2(turned >= 1.0 ? back : turned, lesser(latitude, 1.0));
 }
 
@@ -32,12 +32,12 @@ TexelRecord environmentRow(uint y) {
 }
 
 vec3 environmentRadianceAt(vec2 place) {
-    precise float x = place.x * float(frame.environmentWidth) + 0.5;
-    precise float y = place.y * float(frame.environmentHeight) + 0.5;
+    float x = place.x * float(frame.environmentWidth) + 0.5;
+    float y = place.y * float(frame.environmentHeight) + 0.5;
     uint right = uint(x);
     uint lower = uint(y);
-    precise float across = x - float(right);
-    precise float down = y - float(lower);
+    float across = x - float(right);
+    float down = y - float(lower);
     uint left = right == 0u ? frame.environmentWidth - 1u : right - 1u;
     right = right >= frame.environmentWidth ? right - frame.environmentWidth : right;
     uint upper = lower == 0u ? 0u : lower - 1u;
@@ -52,22 +52,22 @@ float environmentDensity(uvec2 pixel, float sine) {
         return 0.0;
     uint before = pixel.x == 0u ? 0u : environmentTexel(pixel.x - 1u, pixel.y).word;
     uint numbers = environmentTexel(pixel.x, pixel.y).word - before;
-    precise float inRow = float(numbers) * (1.0 / 4294967296.0);
-    precise float chance = inRow * environmentRow(pixel.y).value.x;
-    precise float scaled = chance * (float(frame.environmentWidth) * float(frame.environmentHeight));
-    precise float area = piSquaredTwice * sine;
+    float inRow = float(numbers) * (1.0 / 4294967296.0);
+    float chance = inRow * environmentRow(pixel.y).value.x;
+    float scaled = chance * (float(frame.environmentWidth) * float(frame.environmentHeight));
+    float area = piSquaredTwice * sine;
     return divide(scaled, area);
 }
 
 float sineToVertical(vec3 direction) {
-    precise float squared = direction.x * direction.x + direction.z * direction.z;
+    float squared = direction.x * direction.x + direction.z * direction.z;
     return squareRoot(squared);
 }
 
 // What comes from a direction, and how densely that is chosen.
 EnvironmentLight environmentFrom(vec3 direction) {
     vec2 place = environmentPlace(direction);
-    precise vec2 position = place * vec2(float(frame.environmentWidth), float(frame.environmentHeight));
+    vec2 position = place * vec2(float(frame.environmentWidth), float(frame.environmentHeight));
     uvec2 pixel = min(uvec2(position), uvec2(frame.environmentWidth - 1u, frame.environmentHeight - 1u));
     return EnvironmentLight(direction, environmentRadianceAt(place), environmentDensity(pixel, sineToVertical(direction)));
 }
@@ -97,14 +97,14 @@ EnvironmentLight sampleEnvironment(uvec2 random) {
     uint x = searchTexels(frame.environmentTexels + y * frame.environmentWidth, frame.environmentWidth, bits.x);
     float down = shareOf(bits.y, y == 0u ? 0u : environmentRow(y - 1u).word, environmentRow(y).word);
     float across = shareOf(bits.x, x == 0u ? 0u : environmentTexel(x - 1u, y).word, environmentTexel(x, y).word);
-    precise float u = float(x) + across;
-    precise float v = float(y) + down;
+    float u = float(x) + across;
+    float v = float(y) + down;
     vec2 place = vec2(divide(u, float(frame.environmentWidth)), divide(v, float(frame.environmentHeight)));
-    precise float turned = place.x - frame.environmentTurns;
-    precise float forward = turned + 1.0;
+    float turned = place.x - frame.environmentTurns;
+    float forward = turned + 1.0;
     SineCosine longitude = sineCosine(turned < 0.0 ? forward : turned);
-    precise float halfLatitude = 0.5 * place.y;
+    float halfLatitude = 0.5 * place.y;
     SineCosine latitude = sineCosine(halfLatitude);
-    precise vec3 direction = vec3(-longitude.sine * latitude.sine, latitude.cosine, longitude.cosine * latitude.sine);
+    vec3 direction = vec3(-longitude.sine * latitude.sine, latitude.cosine, longitude.cosine * latitude.sine);
     return EnvironmentLight(direction, environmentRadianceAt(place), environmentDensity(uvec2(x, y), latitude.sine));
 }

@@ -3,9 +3,8 @@
 // How much of a spot's intensity there is in the direction from which it is seen: `toSpot` leads to it. It fades between
 // two angles as the cubic that is even at both ends.
 float spotFalloff(vec3 toSpot, vec3 axis, float cosineOuter, float falloffScale) {
-    precise float inside = -dotProduct(toSpot, axis) - cosineOuter;
-    precise float scaled = inside * falloffScale;
+    float inside = -dotProduct(toSpot, axis) - cosineOuter;
+    float scaled = inside * falloffScale;
     float t = greater(lesser(scaled, 1.0), 0.0);
-    precise float smoothed = t * t * (3.0 - 2.0 * t);
-    return smoothed;
+    return t * t * (3.0 - 2.0 * t);
 }

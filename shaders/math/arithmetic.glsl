@@ -28,19 +28,17 @@ float unitSignificand(int bits) { return intBitsToFloat((bits & significandMask)
 // 1/d within 11 u, for d in [1, 2). The seed is the minimax quadratic, with relative error T3(2d - 3) / 99, so
 // |e| <= 1/99, and one step of third order leaves e^3 = 8.7 u; rounding adds 2.1 u.
 float estimateInverse(float d) {
-    precise float seed = (d * (32.0 / 99.0) - 16.0 / 11.0) * d + 70.0 / 33.0;
-    precise float e = 1.0 - d * seed;
-    precise float inverse = seed + seed * (e + e * e);
-    return inverse;
+    float seed = (d * (32.0 / 99.0) - 16.0 / 11.0) * d + 70.0 / 33.0;
+    float e = 1.0 - d * seed;
+    return seed + seed * (e + e * e);
 }
 
 // 1/sqrt(d) within 3 u, for d in [1, 2). The seed is the minimax quadratic, with relative error 1/313, so
 // |e| <= 1/156, and one step of third order leaves 5/16 e^3 = 0.7 u; rounding adds 2.1 u.
 float estimateInverseRoot(float d) {
-    precise float seed = (d * 0.14768758 - 0.73051435) * d + 1.5796391;
-    precise float e = 1.0 - d * (seed * seed);
-    precise float inverse = seed + seed * (e * (e * 0.375 + 0.5));
-    return inverse;
+    float seed = (d * 0.14768758 - 0.73051435) * d + 1.5796391;
+    float e = 1.0 - d * (seed * seed);
+    return seed + seed * (e * (e * 0.375 + 0.5));
 }
 
 int exponentOrFar(int magnitude) {
@@ -66,10 +64,10 @@ float divideBySignificands(float a, float b) {
     int numerator = isBelowOne ? aSignificand << 1 : aSignificand;
 
     float inverse = estimateInverse(unitSignificand(bBits));
-    precise float estimate = float(numerator) * inverse;
+    float estimate = float(numerator) * inverse;
     int low = int(estimate) - 26;
     int remainder = (numerator << 23) - low * bSignificand;
-    precise float distance = float(remainder) * (inverse * (1.0 / 8388608.0)) + justBelowHalf;
+    float distance = float(remainder) * (inverse * (1.0 / 8388608.0)) + justBelowHalf;
     int step = int(distance);
     int rest = remainder - step * bSignificand;
     int significand = low + step + (2 * rest > bSignificand ? 1 : 0);
@@ -101,11 +99,11 @@ float rootBySignificand(float x) {
 
     float unit = unitSignificand(bits);
     float inverse = estimateInverseRoot(unit);
-    precise float estimate = unit * (inverse * (isDoubled ? 11863283.0 : 8388608.0)); // 2^23, times sqrt(2)
+    float estimate = unit * (inverse * (isDoubled ? 11863283.0 : 8388608.0)); // 2^23, times sqrt(2)
     int low = int(estimate) - 12;
     int remainder = square - low * low;
-    precise float halfInverse = inverse * (isDoubled ? 4.2146848e-8 : 5.9604645e-8); // 1/2t
-    precise float distance = float(remainder) * halfInverse + justBelowHalf;
+    float halfInverse = inverse * (isDoubled ? 4.2146848e-8 : 5.9604645e-8); // 1/2t
+    float distance = float(remainder) * halfInverse + justBelowHalf;
     int step = int(distance);
     int significand = low + step;
     int rest = remainder - step * (low + significand);
@@ -120,8 +118,7 @@ float rootBySignificand(float x) {
 float divide(float a, float b) {
     if (!hasExactDivision)
         return divideBySignificands(a, b);
-    precise float quotient = a / b;
-    return quotient;
+    return a / b;
 }
 
 vec3 divide(float a, vec3 b) { return vec3(divide(a, b.x), divide(a, b.y), divide(a, b.z)); }

@@ -10,10 +10,10 @@ struct SineCosine {
 // quarter, where they are within 3e-8.
 SineCosine sineCosine(float turns) {
     int quarter = int(floor(turns * 4.0 + 0.5));
-    precise float x = (turns - float(quarter) * 0.25) * 6.2831853071795865;
-    precise float xx = x * x;
-    precise float s = x + x * xx * (-1.0 / 6.0 + xx * (1.0 / 120.0 + xx * (-1.0 / 5040.0 + xx * (1.0 / 362880.0))));
-    precise float c = 1.0 + xx * (-0.5 + xx * (1.0 / 24.0 + xx * (-1.0 / 720.0 + xx * (1.0 / 40320.0))));
+    float x = (turns - float(quarter) * 0.25) * 6.2831853071795865;
+    float xx = x * x;
+    float s = x + x * xx * (-1.0 / 6.0 + xx * (1.0 / 120.0 + xx * (-1.0 / 5040.0 + xx * (1.0 / 362880.0))));
+    float c = 1.0 + xx * (-0.5 + xx * (1.0 / 24.0 + xx * (-1.0 / 720.0 + xx * (1.0 / 40320.0))));
     bool isSwapped = (quarter & 1) != 0;
     float sine = isSwapped ? c : s;
     float cosine = isSwapped ? s : c;
@@ -25,36 +25,36 @@ SineCosine sineCosine(float turns) {
 float turnsOf(float y, float x) {
     float low = lesser(abs(x), abs(y));
     float high = greater(abs(x), abs(y));
-    precise float limit = high * 0.41421356237309505;
+    float limit = high * 0.41421356237309505;
     bool isFar = low > limit;
-    precise float difference = low - high;
-    precise float sum = low + high;
+    float difference = low - high;
+    float sum = low + high;
     float t = divide(isFar ? difference : low, isFar ? sum : high);
-    precise float tt = t * t;
-    precise float series =
+    float tt = t * t;
+    float series =
         -1.0 / 3.0 +
         tt * (1.0 / 5.0 +
               tt * (-1.0 / 7.0 + tt * (1.0 / 9.0 + tt * (-1.0 / 11.0 + tt * (1.0 / 13.0 + tt * (-1.0 / 15.0))))));
-    precise float angle = (t + t * tt * series) * 0.15915494309189535;
-    precise float eighth = angle + 0.125;
+    float angle = (t + t * tt * series) * 0.15915494309189535;
+    float eighth = angle + 0.125;
     float turns = isFar ? eighth : angle;
-    precise float quarter = 0.25 - turns;
+    float quarter = 0.25 - turns;
     turns = abs(y) > abs(x) ? quarter : turns;
-    precise float mirrored = 0.5 - turns;
+    float mirrored = 0.5 - turns;
     turns = x < 0.0 ? mirrored : turns;
-    precise float whole = 1.0 - turns;
+    float whole = 1.0 - turns;
     return y < 0.0 ? whole : turns;
 }
 
 // e^-x for x >= 0: a power of 2 as an exponent, and the Taylor polynomial around the middle of what remains.
 // Within 2e-7 (1 + x) of the result, exactly 1 at 0, and 0 from 86 on.
 float decay(float x) {
-    precise float t = lesser(x, 86.0) * 1.4426950408889634;
+    float t = lesser(x, 86.0) * 1.4426950408889634;
     int k = int(t);
-    precise float y = (float(k) + 0.5 - t) * 0.69314718055994531;
-    precise float power =
+    float y = (float(k) + 0.5 - t) * 0.69314718055994531;
+    float power =
         1.0 + y * (1.0 + y * (0.5 + y * (1.0 / 6.0 + y * (1.0 / 24.0 + y * (1.0 / 120.0 + y * (1.0 / 720.0))))));
-    precise float scaled = power * (intBitsToFloat((127 - k) << 23) * 0.70710678118654752);
+    float scaled = power * (intBitsToFloat((127 - k) << 23) * 0.70710678118654752);
     return x < 86.0 ? (x > 0.0 ? scaled : 1.0) : 0.0;
 }
 

@@ -13,24 +13,23 @@ struct Frame {
 
 Frame frameAround(vec3 n) {
     float side = n.z < 0.0 ? -1.0 : 1.0;
-    precise float height = side + n.z;
+    float height = side + n.z;
     float a = divide(-1.0, height);
-    precise float b = n.x * n.y * a;
-    precise float xx = 1.0 + side * (n.x * n.x * a);
-    precise float yy = side + n.y * n.y * a;
+    float b = n.x * n.y * a;
+    float xx = 1.0 + side * (n.x * n.x * a);
+    float yy = side + n.y * n.y * a;
     return Frame(vec3(xx, side * b, -side * n.x), vec3(b, yy, -n.y), n);
 }
 
 vec3 toWorld(Frame f, vec3 v) {
-    precise vec3 world = f.x * v.x + f.y * v.y + f.z * v.z;
-    return world;
+    return f.x * v.x + f.y * v.y + f.z * v.z;
 }
 
 // Around `normal` with the density cos / pi per solid angle: a point of the unit disc, projected up (Malley).
 vec3 sampleCosine(vec3 normal, vec2 u) {
     float radius = squareRoot(u.x);
     SineCosine angle = sineCosine(u.y);
-    precise float below = 1.0 - u.x;
+    float below = 1.0 - u.x;
     return unitVector(toWorld(frameAround(normal), vec3(radius * angle.cosine, radius * angle.sine, squareRoot(below))));
 }
 
@@ -40,8 +39,8 @@ float pdfCosine(float cosine) { return cosine * inversePi; }
 // with less distortion.
 vec2 sampleTriangle(vec2 u) {
     float root = squareRoot(u.x);
-    precise float first = 1.0 - root;
-    precise float second = u.y * root;
+    float first = 1.0 - root;
+    float second = u.y * root;
     return vec2(first, second);
 }
 
@@ -49,16 +48,16 @@ vec2 sampleTriangle(vec2 u) {
 // squared radius: 1 - cos of the half angle, written so that it does not cancel for small cones.
 float coneHeight(float squaredRadius, float squaredDistance) {
     float squaredSine = divide(squaredRadius, squaredDistance);
-    precise float squaredCosine = 1.0 - squaredSine;
-    precise float above = 1.0 + squareRoot(greater(squaredCosine, 0.0));
+    float squaredCosine = 1.0 - squaredSine;
+    float above = 1.0 + squareRoot(greater(squaredCosine, 0.0));
     return divide(squaredSine, above);
 }
 
 // Uniform over the solid angle of the cone around `axis` with this height.
 vec3 sampleCone(vec3 axis, float height, vec2 u) {
-    precise float below = u.x * height;
-    precise float cosine = 1.0 - below;
-    precise float squaredSine = below * (1.0 + cosine);
+    float below = u.x * height;
+    float cosine = 1.0 - below;
+    float squaredSine = below * (1.0 + cosine);
     float sine = squareRoot(squaredSine);
     SineCosine angle = sineCosine(u.y);
     return unitVector(toWorld(frameAround(axis), vec3(sine * angle.cosine, sine * angle.sine, cosine)));
@@ -68,8 +67,8 @@ float pdfCone(float height) { return divide(0.5 * inversePi, height); }
 
 // On the unit sphere, uniform over its area.
 vec3 sampleSphere(vec2 u) {
-    precise float z = 1.0 - 2.0 * u.x;
-    precise float squaredRadius = 1.0 - z * z;
+    float z = 1.0 - 2.0 * u.x;
+    float squaredRadius = 1.0 - z * z;
     float radius = squareRoot(greater(squaredRadius, 0.0));
     SineCosine angle = sineCosine(u.y);
     return unitVector(vec3(radius * angle.cosine, radius * angle.sine, z));
@@ -80,8 +79,8 @@ vec3 sampleSphere(vec2 u) {
 // of the smaller to the larger, as squares may leave the range of floats.
 float powerHeuristic(float a, float b) {
     float quotient = divide(lesser(a, b), greater(a, b));
-    precise float squared = quotient * quotient;
-    precise float sum = 1.0 + squared;
+    float squared = quotient * quotient;
+    float sum = 1.0 + squared;
     float larger = divide(1.0, sum);
     return a < b ? squared * larger : larger;
 }

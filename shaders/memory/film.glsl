@@ -77,8 +77,8 @@ void addRoundToFilm(uint slot) {
     // Slots that had no sample left add 0, which changes no bit of a sum that is not -0.
     [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
         vec3 radiance = radianceOfSample(slot, lane);
-        film[slot].sum = add(film[slot].sum, radiance);
-        film[slot].sumOfSquares = addProduct(film[slot].sumOfSquares, radiance, radiance);
+        film[slot].sum = film[slot].sum + radiance;
+        film[slot].sumOfSquares = film[slot].sumOfSquares + radiance * radiance;
     }
     film[slot].sampleCount += min(samplesAbreast, dispatch.sampleEnd - first);
     if (path[slot].sampleIndex < dispatch.sampleEnd)

@@ -13,23 +13,23 @@ const float leastHeight = 0.01;       // of a mapped normal above the surface, a
 
 // Coordinates and edges are scaled first, as their products leave the range of floats.
 Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
-    precise vec3 edge1 = triangle.v1 - triangle.v0;
-    precise vec3 edge2 = triangle.v2 - triangle.v0;
-    precise vec2 step1 = at.uv1 - at.uv0;
-    precise vec2 step2 = at.uv2 - at.uv0;
+    vec3 edge1 = triangle.v1 - triangle.v0;
+    vec3 edge2 = triangle.v2 - triangle.v0;
+    vec2 step1 = at.uv1 - at.uv0;
+    vec2 step2 = at.uv2 - at.uv0;
     float size = largestComponent(greater(abs(edge1), abs(edge2)));
     float span = greater(greater(abs(step1.x), abs(step1.y)), greater(abs(step2.x), abs(step2.y)));
     if (!(size > leastSpan && span > leastSpan && span < mostSpan))
         return Tangent(vec3(0.0), vec3(0.0));
-    precise vec3 a = edge1 * divide(1.0, size);
-    precise vec3 b = edge2 * divide(1.0, size);
-    precise vec2 s = step1 * divide(1.0, span);
-    precise vec2 t = step2 * divide(1.0, span);
-    precise float determinant = s.x * t.y - t.x * s.y;
+    vec3 a = edge1 * divide(1.0, size);
+    vec3 b = edge2 * divide(1.0, size);
+    vec2 s = step1 * divide(1.0, span);
+    vec2 t = step2 * divide(1.0, span);
+    float determinant = s.x * t.y - t.x * s.y;
     if (!(abs(determinant) > leastDeterminant))
         return Tangent(vec3(0.0), vec3(0.0));
-    precise vec3 alongU = a * t.y - b * s.y;
-    precise vec3 alongV = b * s.x - a * t.x;
+    vec3 alongU = a * t.y - b * s.y;
+    vec3 alongV = b * s.x - a * t.x;
     return determinant > 0.0 ? Tangent(alongU, alongV) : Tangent(-alongU, -alongV);
 }
 
@@ -42,7 +42,7 @@ Tangent sphereTangent(vec3 outward) {
 // The unit normal that the normal map in a TextureRecord's row makes of `normal`, which it stays where no tangent is
 // known.
 vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
-    precise vec3 flatU = tangent.alongU - normal * dotProduct(normal, tangent.alongU);
+    vec3 flatU = tangent.alongU - normal * dotProduct(normal, tangent.alongU);
     if (!(dotProduct(flatU, flatU) > leastSpan))
         return normal;
     vec3 x = unitVector(flatU);
@@ -50,9 +50,9 @@ vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     vec3 y = dotProduct(left, tangent.alongV) < 0.0 ? -left : left;
     float strength = uintBitsToFloat(fetchTextureRow(row).w);
     vec3 texel = lookUpTexture(row, uv);
-    precise vec3 turned = 2.0 * texel - 1.0;
-    precise vec2 sideways = turned.xy * strength;
-    precise vec3 mapped = x * sideways.x + y * sideways.y + normal * greater(turned.z, leastHeight);
+    vec3 turned = 2.0 * texel - 1.0;
+    vec2 sideways = turned.xy * strength;
+    vec3 mapped = x * sideways.x + y * sideways.y + normal * greater(turned.z, leastHeight);
     return unitVector(mapped);
 }
 
@@ -63,15 +63,15 @@ vec3 visibleNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
     bool isBehind = dotProduct(direction, geometricNormal) > 0.0;
     vec3 facing = isBehind ? -normal : normal;
     vec3 up = isBehind ? -geometricNormal : geometricNormal;
-    precise float lack = leastHeight + dotProduct(direction, facing);
-    precise vec3 raised = facing - direction * lack;
+    float lack = leastHeight + dotProduct(direction, facing);
+    vec3 raised = facing - direction * lack;
     if (lack > 0.0)
         facing = unitVector(raised);
     vec3 mirrored = mirrorDirection(direction, facing);
-    precise float depth = leastHeight - dotProduct(mirrored, up);
+    float depth = leastHeight - dotProduct(mirrored, up);
     if (depth > 0.0) {
-        vec3 grazing = unitVector(addProduct(mirrored, up, vec3(depth)));
-        facing = unitVector(subtract(grazing, direction));
+        vec3 grazing = unitVector(mirrored + up * depth);
+        facing = unitVector(grazing - direction);
     }
     return isBehind ? -facing : facing;
 }

@@ -17,24 +17,23 @@ Coordinates fetchCoordinates(uint triangleRecord) {
 
 // As trianglePoint.
 vec2 triangleUv(Coordinates at, float u, float v) {
-    precise float w = 1.0 - u - v;
-    precise vec2 uv = at.uv0 * u + at.uv1 * v + at.uv2 * w;
-    return uv;
+    float w = 1.0 - u - v;
+    return at.uv0 * u + at.uv1 * v + at.uv2 * w;
 }
 
 // Of the point of a sphere that lies `outward`, a vector of any length, from its centre: as the environment's image, seen
 // from outside. Its middle is at +z.
 vec2 sphereUv(vec3 outward) {
-    precise float squared = outward.x * outward.x + outward.z * outward.z;
+    float squared = outward.x * outward.x + outward.z * outward.z;
     float longitude = squared > 0.0 ? turnsOf(-outward.x, -outward.z) : 0.0;
-    precise float latitude = 2.0 * turnsOf(squareRoot(squared), -outward.y);
+    float latitude = 2.0 * turnsOf(squareRoot(squared), -outward.y);
     return vec2(longitude, latitude);
 }
 
 // How far a number lies above the whole one below it, in [0, 1); 0 for what is no finite number, and for what is so
 // little below a whole one that it would be 1.
 float fractionOf(float x) {
-    precise float fraction = x - floor(x);
+    float fraction = x - floor(x);
     return fraction >= 0.0 && fraction < 1.0 ? fraction : 0.0;
 }
 
@@ -66,13 +65,13 @@ vec3 lookUpTexture(uint row, vec2 uv) {
     vec4 placement = uintBitsToFloat(fetchTextureRow(row + 1u));
     uint width = description.y & 0xFFFFu;
     uint height = description.y >> 16u;
-    precise vec2 placed = uv * placement.xy + placement.zw;
-    precise float x = fractionOf(placed.x) * float(width) + 0.5;
-    precise float y = (1.0 - fractionOf(placed.y)) * float(height) + 0.5;
+    vec2 placed = uv * placement.xy + placement.zw;
+    float x = fractionOf(placed.x) * float(width) + 0.5;
+    float y = (1.0 - fractionOf(placed.y)) * float(height) + 0.5;
     uint right = uint(x);
     uint lower = uint(y);
-    precise float across = x - float(right);
-    precise float down = y - float(lower);
+    float across = x - float(right);
+    float down = y - float(lower);
     uint left = right == 0u ? width - 1u : right - 1u;
     uint upper = lower == 0u ? height - 1u : lower - 1u;
     right = right >= width ? right - width : right;
@@ -89,15 +88,13 @@ bool hasTexture(uint textures, uint slot) { return fetchTextureRow(textureRow(te
 
 // What a texture says where one number is wanted, times its factor.
 float lookUpNumber(uint row, vec2 uv) {
-    precise float number = lookUpTexture(row, uv).x * uintBitsToFloat(fetchTextureRow(row).w);
-    return number;
+    return lookUpTexture(row, uv).x * uintBitsToFloat(fetchTextureRow(row).w);
 }
 
 // GGX's alpha: what is rougher than nothing is at least so rough that float32 resolves the peak of the reflection.
 float alphaOf(float roughness) {
     float used = greater(roughness, 0.04);
-    precise float alpha = used * used;
-    return alpha;
+    return used * used;
 }
 
 // Whether what a triangle's material is cut out of its image leaves nothing at the point with these weights.

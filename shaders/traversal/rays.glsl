@@ -104,7 +104,7 @@ vec2 hitUv(uint slot, vec3 position) {
     uint record = path[slot].hitRecord;
     if (isTriangle(path[slot].hitPrimitive))
         return triangleUv(fetchCoordinates(record), path[slot].hitU, path[slot].hitV);
-    return sphereUv(subtract(position, fetchSphere(record).centre));
+    return sphereUv(position - fetchSphere(record).centre);
 }
 
 // What the surface that the ray has met at `position` is made of.

@@ -20,9 +20,9 @@ struct GridRay {
 
 GridRay makeGridRay(vec3 origin, BoxRay ray) {
     vec3 outward = 3.0 * ray.pad * ray.inverse;
-    vec3 base = subtract(frame.gridMiddle, origin) * ray.inverse;
+    vec3 base = (frame.gridMiddle - origin) * ray.inverse;
     vec3 scale = frame.gridScale * ray.inverse * (1.0 / 65536.0);
-    return GridRay(scale, subtract(base, outward), add(base, outward));
+    return GridRay(scale, base - outward, base + outward);
 }
 
 // The list in which nearer siblings come first for most of these directions: the second one where the longest
@@ -56,8 +56,8 @@ void visitNode(inout Cursor cursor, GridRay ray, float rayLength) {
     SkipNode node = fetchSkipNode(uint(cursor.node));
     ivec3 planes = ivec3(node.x, node.y, node.z);
     int link = int(node.link);
-    vec3 toLower = addProduct(ray.lower, vec3(planes << 16u), ray.scale);
-    vec3 toUpper = addProduct(ray.upper, vec3(planes), ray.scale);
+    vec3 toLower = ray.lower + vec3(planes << 16u) * ray.scale;
+    vec3 toUpper = ray.upper + vec3(planes) * ray.scale;
     float enter = greater(largestComponent(lesser(toLower, toUpper)), 0.0);
     float leave = lesser(smallestComponent(greater(toLower, toUpper)), rayLength);
     bool isHit = enter <= leave;

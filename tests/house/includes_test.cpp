@@ -62,9 +62,10 @@ TEST(Includes, RunDownwards) {
 TEST(Includes, NoFolderIsLeftOut) {
     const std::vector<std::string> order = floors();
     for (const auto &entry : std::filesystem::directory_iterator(source / "host"))
-        if (entry.is_directory())
+        if (entry.is_directory()) {
             EXPECT_EQ(std::count(order.begin(), order.end(), entry.path().filename().string()), 1)
                 << entry.path() << " is not in host/CMakeLists.txt";
+        }
 }
 
 TEST(Includes, TheProgramKnowsNothingOfTests) {

@@ -29,18 +29,6 @@ TEST(EmbeddedKernels, AreAllListed) {
         EXPECT_EQ(std::ranges::count(allKernels(), name, &EmbeddedKernel::name), 1) << name;
 }
 
-TEST(EmbeddedKernels, FuseNoSum) {
-    for (const EmbeddedKernel &kernel : allKernels()) {
-        const SpirvModule module(kernel.words);
-        for (const Instruction &instruction : module.instructions) {
-            if (instruction.opcode != spv::Op::OpFAdd && instruction.opcode != spv::Op::OpFSub)
-                continue;
-            EXPECT_TRUE(module.uncontracted.contains(instruction.operands[1]))
-                << kernel.name << ": a sum that is not precise, in " << instruction.function;
-        }
-    }
-}
-
 TEST(EmbeddedKernels, UseExactOperationsOnly) {
     // GLSL.std.450 instructions whose results are exact: FAbs, SAbs, Floor, FMin, UMin, SMin, FMax, UMax, SMax, FClamp,
     // UClamp, SClamp, FindILsb, FindSMsb, FindUMsb.
