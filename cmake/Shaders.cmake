@@ -26,6 +26,9 @@ target_include_directories(kernel_tool PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers)
 hyalite_warnings(kernel_tool)
 
+add_executable(glsl_to_cpp ${PROJECT_SOURCE_DIR}/cmake/glsl_to_cpp.cpp)
+hyalite_warnings(glsl_to_cpp)
+
 # hyalite_kernel(TARGET VARIABLE SOURCE [UNOPTIMISED] [INCLUDES FOLDER] [DEFINITIONS NAME=VALUE...])
 #
 # Embeds SOURCE, a path, into TARGET as the array VARIABLE of SPIR-V 1.3, in a header VARIABLE.h. An edited shader is always
@@ -93,4 +96,22 @@ function(hyalite_pixel_sources target header)
         DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/PixelSources.cmake
         VERBATIM)
     target_sources(${target} PRIVATE ${output})
+endfunction()
+
+# hyalite_leaves(TARGET HEADER LEAVES...)
+#
+# Compiles leaf functions of the shaders to C++ for TARGET, in the order in which they include each other
+# (cmake/glsl_to_cpp.cpp).
+function(hyalite_leaves target header)
+    set(output ${PROJECT_BINARY_DIR}/kernels/${header})
+    set(layout ${PROJECT_SOURCE_DIR}/shaders/layout/layout.h)
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND glsl_to_cpp ${layout} ${ARGN} ${output}
+        DEPENDS glsl_to_cpp ${layout} ${ARGN}
+        COMMENT "Compiling leaf functions to C++"
+        VERBATIM)
+    add_custom_target(${target}_leaves DEPENDS ${output})
+    add_dependencies(${target} ${target}_leaves)
+    target_include_directories(${target} SYSTEM PUBLIC ${PROJECT_BINARY_DIR}/kernels)
 endfunction()

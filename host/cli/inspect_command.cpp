@@ -6,7 +6,6 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/cli/scene_options.h"
-#include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
 #include "host/scene/names.h"
 
@@ -89,6 +88,7 @@ void printCosts(const PreparedScene &prepared) {
 /// Traces primary rays spread over the image, and returns the hits and the seconds it took.
 std::vector<reference::Hit<float>> traceRays(const PackedScene &scene, int count, double &seconds) {
     std::vector<reference::Hit<float>> hits;
+    const reference::SceneView<float> view(scene, layout::samplerCentre);
     hits.reserve(static_cast<std::size_t>(count));
     const Clock::time_point start = Clock::now();
     for (int i = 0; i < count; ++i) {
@@ -98,7 +98,7 @@ std::vector<reference::Hit<float>> traceRays(const PackedScene &scene, int count
         const std::uint64_t position = (std::uint64_t{index * 2654435769u} * pixelCount) >> 32;
         const glm::uvec2 pixel(static_cast<std::uint32_t>(position % scene.frame.imageWidth),
                                static_cast<std::uint32_t>(position / scene.frame.imageWidth));
-        const auto primary = reference::primaryRay<float>(scene, layout::samplerCentre, pixel, 0);
+        const auto primary = reference::primaryRay(view, pixel, 0);
         hits.push_back(
             reference::closestHit(scene, reference::Ray<float>{primary.origin, primary.direction}));
     }

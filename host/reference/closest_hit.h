@@ -5,9 +5,7 @@
 
 #include "host/packing/packed_scene.h"
 #include "host/reference/counting.h"
-#include "host/reference/sphere.h"
-#include "host/reference/texture.h"
-#include "host/reference/triangle.h"
+#include "host/reference/scene_view.h"
 
 #include <array>
 #include <cassert>
@@ -28,15 +26,27 @@ template <class Real> struct Hit {
     Real v = 0;
 };
 
+template <class Real> [[nodiscard]] SphereShape<Real> shapeOf(const SphereRecord<Real> &sphere) {
+    return makeSphereShape<Real>(sphere.centre, sphere.radius);
+}
+
+/// Whether the triangle's material leaves nothing at the hit.
+template <class Real>
+[[nodiscard]] bool isCutOut(const SceneView<Real> &scene, const layout::TriangleRecord &triangle,
+                            std::uint32_t record, const TriangleHit<Real> &hit) {
+    return (triangle.flags & layout::triangleIsCutOut) != 0 &&
+           isCutAway<Real>(scene, triangle.materialIndex, record, hit.u, hit.v);
+}
+
 /// Calls visit(record, hit) for every triangle that the ray meets, but where it is cut out, in a subtree whose box it
 /// enters at or before `reach` (read anew at each node). `visit` returns false to stop. `counter` is told what is done.
 template <class Real, class Counter, class Visitor>
-void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
+void visitTriangles(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
                     Visitor &&visit) {
     if (!scene.hasTriangles)
         return;
-    const BoxRay<Real> boxRay = makeBoxRay(ray.origin, ray.direction, Vec3<Real>(scene.frame.boundsLower),
-                                           Vec3<Real>(scene.frame.boundsUpper));
+    const BoxRay<Real> boxRay =
+        makeBoxRay(ray.origin, ray.direction, scene.frame.boundsLower, scene.frame.boundsUpper);
     const TriangleRay<Real> triangleRay = makeTriangleRay(ray.origin, ray.direction);
     std::array<std::uint32_t, layout::maxTreeDepth + 1> waiting;
     std::size_t waitingCount = 0;
@@ -44,15 +54,15 @@ void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &
     while (waitingCount > 0) {
         const std::uint32_t subtree = waiting[--waitingCount];
         if ((subtree & layout::leafFlag) == 0) {
-            const layout::NodePair &node = scene.nodes[subtree];
+            const layout::NodePair &node = scene.packed.nodes[subtree];
             counter.visitNode(node);
-            const Interval<Real> left =
+            const Vec2<Real> left =
                 boxInterval(boxRay, Vec3<Real>(node.leftLower), Vec3<Real>(node.leftUpper));
-            const Interval<Real> right =
+            const Vec2<Real> right =
                 boxInterval(boxRay, Vec3<Real>(node.rightLower), Vec3<Real>(node.rightUpper));
-            const bool isLeftHit = node.left != layout::noNode && left.enter <= lesser(left.leave, reach);
-            const bool isRightHit = node.right != layout::noNode && right.enter <= lesser(right.leave, reach);
-            const bool isRightNearer = right.enter < left.enter;
+            const bool isLeftHit = node.left != layout::noNode && left.x <= lesser(left.y, reach);
+            const bool isRightHit = node.right != layout::noNode && right.x <= lesser(right.y, reach);
+            const bool isRightNearer = right.x < left.x;
             assert(waitingCount + 2 <= waiting.size());
             if (isRightHit && !isRightNearer)
                 waiting[waitingCount++] = node.right;
@@ -65,12 +75,12 @@ void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &
             continue;
         }
         for (std::uint32_t record = subtree & ~layout::leafFlag;; ++record) {
-            const layout::TriangleRecord &triangle = scene.triangles[record];
+            const layout::TriangleRecord &triangle = scene.packed.triangles[record];
             counter.testTriangle();
             const TriangleHit<Real> hit = intersectTriangle(triangleRay, boxRay, Vec3<Real>(triangle.v0),
                                                             Vec3<Real>(triangle.v1), Vec3<Real>(triangle.v2));
             if (hit.distance > 0 && triangle.primitiveId != ray.excluded &&
-                !isCutAway(scene, triangle, record, hit.u, hit.v) && !visit(record, hit))
+                !isCutOut(scene, triangle, record, hit) && !visit(record, hit))
                 return;
             if ((triangle.flags & layout::triangleEndsLeaf) != 0)
                 break;
@@ -79,18 +89,18 @@ void visitTriangles(const PackedScene &scene, const Ray<Real> &ray, const Real &
 }
 
 template <class Real, class Counter>
-[[nodiscard]] Hit<Real> closestHit(const PackedScene &scene, const Ray<Real> &ray, Counter &counter) {
+[[nodiscard]] Hit<Real> closestHit(const SceneView<Real> &scene, const Ray<Real> &ray, Counter &counter) {
     Hit<Real> nearest;
-    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
-        const layout::SphereRecord &sphere = scene.spheres[i];
-        const Real distance = intersectSphere(ray.origin, ray.direction, Vec3<Real>(sphere.centre),
-                                              static_cast<Real>(sphere.radius), ray.excluded == i);
+    for (std::uint32_t i = 0; i < scene.packed.spheres.size(); ++i) {
+        const layout::SphereRecord &sphere = scene.packed.spheres[i];
+        const Real distance =
+            intersectSphere(ray.origin, ray.direction, shapeOf<Real>(sphere), ray.excluded == i);
         if (distance > 0 && distance < nearest.distance)
             nearest = {distance, i, i};
     }
     visitTriangles(scene, ray, nearest.distance, counter,
                    [&](std::uint32_t record, const TriangleHit<Real> &hit) {
-                       const std::uint32_t id = scene.triangles[record].primitiveId;
+                       const std::uint32_t id = scene.packed.triangles[record].primitiveId;
                        if (hit.distance < nearest.distance ||
                            (hit.distance == nearest.distance && id < nearest.primitive))
                            nearest = {hit.distance, id, record, hit.u, hit.v};
@@ -101,7 +111,7 @@ template <class Real, class Counter>
 
 template <class Real> [[nodiscard]] Hit<Real> closestHit(const PackedScene &scene, const Ray<Real> &ray) {
     NoCounter counter;
-    return closestHit(scene, ray, counter);
+    return closestHit(SceneView<Real>(scene), ray, counter);
 }
 
 /// What light meets on its way.
@@ -112,13 +122,13 @@ struct Shadow {
 
 /// What lies between the ray's origin and `length` along it.
 template <class Real, class Counter>
-[[nodiscard]] Shadow castShadowRay(const PackedScene &scene, const Ray<Real> &ray, const Real &length,
+[[nodiscard]] Shadow castShadowRay(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &length,
                                    Counter &counter) {
     Shadow shadow;
-    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
-        const layout::SphereRecord &sphere = scene.spheres[i];
-        const Real distance = intersectSphere(ray.origin, ray.direction, Vec3<Real>(sphere.centre),
-                                              static_cast<Real>(sphere.radius), ray.excluded == i);
+    for (std::uint32_t i = 0; i < scene.packed.spheres.size(); ++i) {
+        const layout::SphereRecord &sphere = scene.packed.spheres[i];
+        const Real distance =
+            intersectSphere(ray.origin, ray.direction, shapeOf<Real>(sphere), ray.excluded == i);
         if (!(distance > 0 && distance < length))
             continue;
         if (sphere.isTransmissive != 0)
@@ -131,7 +141,7 @@ template <class Real, class Counter>
     visitTriangles(scene, ray, length, counter, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
         if (!(hit.distance < length))
             return true;
-        if ((scene.triangles[record].flags & layout::triangleIsTransmissive) != 0)
+        if ((scene.packed.triangles[record].flags & layout::triangleIsTransmissive) != 0)
             shadow.isDimmed = true;
         else
             shadow.isBlocked = true;
@@ -143,24 +153,24 @@ template <class Real, class Counter>
 template <class Real>
 [[nodiscard]] Shadow castShadowRay(const PackedScene &scene, const Ray<Real> &ray, const Real &length) {
     NoCounter counter;
-    return castShadowRay(scene, ray, length, counter);
+    return castShadowRay(SceneView<Real>(scene), ray, length, counter);
 }
 
 /// Whether anything, glass included, lies between the ray's origin and `length` along it, the primitive `target` aside.
 template <class Real, class Counter>
-[[nodiscard]] bool isAnythingBefore(const PackedScene &scene, const Ray<Real> &ray, const Real &length,
+[[nodiscard]] bool isAnythingBefore(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &length,
                                     std::uint32_t target, Counter &counter) {
     bool isBlocked = false;
-    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
-        const layout::SphereRecord &sphere = scene.spheres[i];
-        const Real distance = intersectSphere(ray.origin, ray.direction, Vec3<Real>(sphere.centre),
-                                              static_cast<Real>(sphere.radius), ray.excluded == i);
+    for (std::uint32_t i = 0; i < scene.packed.spheres.size(); ++i) {
+        const layout::SphereRecord &sphere = scene.packed.spheres[i];
+        const Real distance =
+            intersectSphere(ray.origin, ray.direction, shapeOf<Real>(sphere), ray.excluded == i);
         isBlocked = isBlocked || (distance > 0 && distance < length && i != target);
     }
     if (isBlocked)
         return true;
     visitTriangles(scene, ray, length, counter, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
-        isBlocked = hit.distance < length && scene.triangles[record].primitiveId != target;
+        isBlocked = hit.distance < length && scene.packed.triangles[record].primitiveId != target;
         return !isBlocked;
     });
     return isBlocked;

@@ -2,58 +2,56 @@
 #pragma once
 
 #include "host/reference/closest_hit.h"
-#include "host/reference/normal_map.h"
-#include "host/reference/surface.h"
 
 namespace hyalite::reference {
 
 /// Texture coordinates where a ray has met a surface, at `position`.
 template <class Real>
-[[nodiscard]] Vec2<Real> hitUv(const PackedScene &scene, const Hit<Real> &hit, const Vec3<Real> &position) {
+[[nodiscard]] Vec2<Real> hitUv(const SceneView<Real> &scene, const Hit<Real> &hit,
+                               const Vec3<Real> &position) {
     if (hit.primitive >= layout::firstTriangleId)
-        return triangleUv(fetchCoordinates<Real>(scene.textures, hit.record), hit.u, hit.v);
-    return sphereUv<Real>(position - Vec3<Real>(scene.spheres[hit.record].centre));
+        return triangleUv(fetchCoordinates(scene, hit.record), hit.u, hit.v);
+    return sphereUv<Real>(position - scene.fetchSphere(hit.record).centre);
 }
 
 /// What the surface that a ray has met at `position` is made of.
 template <class Real>
-[[nodiscard]] layout::MaterialRecord hitMaterial(const PackedScene &scene, const Hit<Real> &hit,
-                                                 std::uint32_t materialIndex, const Vec3<Real> &position) {
-    const layout::MaterialRecord &material = scene.materials[materialIndex];
+[[nodiscard]] MaterialRecord<Real> hitMaterial(const SceneView<Real> &scene, const Hit<Real> &hit,
+                                               std::uint32_t materialIndex, const Vec3<Real> &position) {
+    const MaterialRecord<Real> material = scene.fetchMaterial(materialIndex);
     return material.textures == 0 ? material : texturedMaterial(scene, material, hitUv(scene, hit, position));
 }
 
 /// Turns the surface's normal by the normal map of its material, if it has one; tangent() is asked only then.
 template <class Real, class TangentOf>
-void mapNormal(const PackedScene &scene, const Ray<Real> &ray, const Hit<Real> &hit, Surface<Real> &surface,
-               std::uint32_t materialIndex, const TangentOf &tangentOf) {
-    const std::uint32_t textures = scene.materials[materialIndex].textures;
-    if (textures == 0 || !hasTexture(scene.textures, textures, layout::slotNormal))
+void mapNormal(const SceneView<Real> &scene, const Ray<Real> &ray, const Hit<Real> &hit,
+               Surface<Real> &surface, std::uint32_t materialIndex, const TangentOf &tangentOf) {
+    const std::uint32_t textures = scene.packed.materials[materialIndex].textures;
+    if (textures == 0 || !hasTexture(scene, textures, layout::slotNormal))
         return;
     const Vec3<Real> mapped =
-        mappedNormal(scene.textures, surface.normal, tangentOf(), textureRow(textures, layout::slotNormal),
+        mappedNormal(scene, surface.normal, tangentOf(), textureRow(textures, layout::slotNormal),
                      hitUv(scene, hit, surface.position));
     surface.normal = visibleNormal(ray.direction, mapped, surface.geometricNormal);
 }
 
 /// `hit` is one of `ray` with a primitive of the scene.
 template <class Real>
-[[nodiscard]] Surface<Real> hitSurface(const PackedScene &scene, const Ray<Real> &ray, const Hit<Real> &hit,
-                                       std::uint32_t &materialIndex) {
+[[nodiscard]] Surface<Real> hitSurface(const SceneView<Real> &scene, const Ray<Real> &ray,
+                                       const Hit<Real> &hit, std::uint32_t &materialIndex) {
     if (hit.primitive >= layout::firstTriangleId) {
-        const layout::TriangleRecord &triangle = scene.triangles[hit.record];
+        const TriangleRecord<Real> triangle = scene.fetchTriangle(hit.record);
         materialIndex = triangle.materialIndex;
-        Surface<Real> surface = triangleSurface(triangle, scene.normals[hit.record], hit.u, hit.v);
-        mapNormal(scene, ray, hit, surface, materialIndex, [&] {
-            return triangleTangent(triangle, fetchCoordinates<Real>(scene.textures, hit.record));
-        });
+        Surface<Real> surface = triangleSurface(triangle, scene.fetchNormals(hit.record), hit.u, hit.v);
+        mapNormal(scene, ray, hit, surface, materialIndex,
+                  [&] { return triangleTangent(triangle, fetchCoordinates(scene, hit.record)); });
         return surface;
     }
-    const layout::SphereRecord &sphere = scene.spheres[hit.record];
+    const SphereRecord<Real> sphere = scene.fetchSphere(hit.record);
     materialIndex = materialIndexOf(sphere);
     Surface<Real> surface = sphereSurface(ray.origin, ray.direction, hit.distance, sphere);
     mapNormal(scene, ray, hit, surface, materialIndex,
-              [&] { return sphereTangent<Real>(surface.normal * static_cast<Real>(normalSignOf(sphere))); });
+              [&] { return sphereTangent<Real>(surface.normal * normalSignOf(sphere)); });
     return surface;
 }
 

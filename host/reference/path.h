@@ -8,14 +8,8 @@
 #pragma once
 
 #include "host/film/ray_counts.h"
-#include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
-#include "host/reference/dielectric.h"
-#include "host/reference/emitters.h"
 #include "host/reference/hit_surface.h"
-#include "host/reference/media.h"
-#include "host/reference/random.h"
-#include "host/reference/rough.h"
 
 #include <bit>
 #include <optional>
@@ -26,14 +20,14 @@ namespace hyalite::reference {
 /// Follows camera samples through the scene. One instance a thread: it keeps the counts.
 template <class Real, class Counter = NoCounter> class PathIntegrator {
   public:
-    PathIntegrator(const PackedScene &scene, std::uint32_t samplerKind)
-        : scene_(scene), samplerKind_(samplerKind) {}
+    PathIntegrator(const PackedScene &scene, std::uint32_t samplerKind) : scene_(scene, samplerKind) {}
 
     /// Radiance of one sample of a pixel of the whole image. `shift` moves it by so many pixels, to learn how the
     /// picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
-        const PrimaryRay<Real> primary = primaryRay(scene_, samplerKind_, pixel, sampleIndex, shift);
+        const PrimaryRay<Real> primary = primaryRayThrough<Real>(
+            scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
         ++counts_.primary;
         pixel_ = pixel;
         sampleIndex_ = sampleIndex;
@@ -79,7 +73,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
 
     [[nodiscard]] Vec2<Real> lobeChoice() const {
         const std::uint32_t number = firstPairOfLobes + depth_ - 1;
-        return unitReals<Real>(sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_));
+        return unitFloats<Real>(sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_));
     }
 
     void addRadiance(const Vec3<Real> &weight, const Vec3<Real> &radiance) {
@@ -92,9 +86,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
 
     /// What a surface that the ray has met emits towards it, weighted against aiming at the same point.
     void addEmission(const Ray<Real> &ray, const Hit<Real> &hit, const Surface<Real> &surface,
-                     const layout::MaterialRecord &material) {
+                     const MaterialRecord<Real> &material) {
         const Real facing = -dotProduct(ray.direction, surface.geometricNormal);
-        const Real cosine = isTwoSided(material) ? std::abs(facing) : facing;
+        const Real cosine = isTwoSided(material) ? abs(facing) : facing;
         const Real areaDensity = static_cast<Real>(material.emitterDensity);
         if (areaDensity <= 0 || cosine <= 0)
             return;
@@ -104,7 +98,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             if (hit.primitive >= layout::firstTriangleId) {
                 density = solidAngleDensity(areaDensity, hit.distance, cosine);
             } else {
-                const layout::SphereRecord &sphere = scene_.spheres[hit.record];
+                const layout::SphereRecord &sphere = scene_.packed.spheres[hit.record];
                 density =
                     sphereLightDensity(ray.origin, ray.direction, hit.distance, Vec3<Real>(sphere.centre),
                                        static_cast<Real>(sphere.radius),
@@ -121,7 +115,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             addRadiance(throughput_, Vec3<Real>(scene_.frame.background));
             return;
         }
-        const EnvironmentLight<Real> found = EnvironmentMap<Real>(scene_).from(ray.direction);
+        const EnvironmentLight<Real> found = environmentFrom(scene_, ray.direction);
         const Real density = found.density * static_cast<Real>(scene_.frame.environmentProbability);
         const Real weight = scatterDensity_ > 0 ? powerHeuristic(scatterDensity_, density) : Real(1);
         addRadiance(throughput_ * weight, found.radiance);
@@ -131,13 +125,14 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     [[nodiscard]] Vec3<Real> transmittance(Real distance) const {
         const std::uint32_t medium = mediumAround(mediaInside_);
         return medium != layout::noMaterial
-                   ? decay<Real>(Vec3<Real>(scene_.materials[medium].absorption) * distance)
+                   ? decay<Real>(Vec3<Real>(scene_.packed.materials[medium].absorption) * distance)
                    : Vec3<Real>(Real(1));
     }
 
     [[nodiscard]] Real mediumIndex(std::uint32_t medium) const {
-        return medium != layout::noMaterial ? static_cast<Real>(scene_.materials[medium].refractiveIndex)
-                                            : Real(1);
+        return medium != layout::noMaterial
+                   ? static_cast<Real>(scene_.packed.materials[medium].refractiveIndex)
+                   : Real(1);
     }
 
     /// Lets long paths of little weight end by chance, and gives the others their weight.
@@ -147,7 +142,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const Real index = mediumIndex(mediumAround(mediaInside_));
         // Radiance in glass is larger by the square of the index, which it loses on its way out.
         const Real survival = lesser(largestComponent(throughput_) * (index * index), Real(1));
-        if (unitReal<Real>(vertexBits(pairChoice).y) >= survival)
+        if (unitFloat<Real>(vertexBits(pairChoice).y) >= survival)
             return false;
         throughput_ *= Real(1) / survival;
         return true;
@@ -158,7 +153,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const Vec3<Real> direction = mirrorDirection(ray.direction, normal);
         scatterDensity_ = 0;
         ++counts_.reflection;
-        return {spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive};
+        return {spawnPoint(scene_, surface, direction), direction, primitive};
     }
 
     /// The glass on both sides of a surface of glass.
@@ -190,7 +185,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         if (crossing.isNothing) {
             mediaInside_ = crossing.beyond;
             scatterDensity_ = 0; // no light is aimed at through glass
-            return {spawnPoint(surface, ray.direction, scene_.hasTriangles), ray.direction, primitive};
+            return {spawnPoint(scene_, surface, ray.direction), ray.direction, primitive};
         }
         const Vec3<Real> geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
         const Vec3<Real> shadingFacing = isEntering ? surface.normal : -surface.normal;
@@ -199,7 +194,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const Real eta = crossing.eta;
         const Interface<Real> glass = meetInterface(ray.direction, facing, eta);
         traceEvent(layout::traceReflectance, glass.reflectance == 1 ? 1 : 0, Vec3<Real>(glass.reflectance));
-        if (unitReal<Real>(vertexBits(pairChoice).x) < glass.reflectance) {
+        if (unitFloat<Real>(vertexBits(pairChoice).x) < glass.reflectance) {
             mediaInside_ = crossing.before;
             return reflect(ray, surface, facing, primitive);
         }
@@ -207,16 +202,16 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         throughput_ *= eta * eta;
         scatterDensity_ = 0;
         ++counts_.refraction;
-        return {spawnPoint(surface, glass.refracted, scene_.hasTriangles), glass.refracted, primitive};
+        return {spawnPoint(scene_, surface, glass.refracted), glass.refracted, primitive};
     }
 
-    [[nodiscard]] static bool isGlass(const layout::MaterialRecord &material) {
+    [[nodiscard]] static bool isGlass(const MaterialRecord<Real> &material) {
         return kindOf(material) == layout::materialDielectric ||
                (kindOf(material) == layout::materialPrincipled && material.transmission > 0.0f);
     }
 
     /// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
-    [[nodiscard]] bool isSmooth(const layout::MaterialRecord &material, std::uint32_t materialIndex,
+    [[nodiscard]] bool isSmooth(const MaterialRecord<Real> &material, std::uint32_t materialIndex,
                                 bool isEntering) const {
         if (kindOf(material) == layout::materialDiffuse)
             return false;
@@ -229,16 +224,16 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
 
     /// The reflectance of what is smooth and no glass.
     [[nodiscard]] static Vec3<Real> mirrorReflectance(const Ray<Real> &ray, const Surface<Real> &surface,
-                                                      const layout::MaterialRecord &material) {
+                                                      const MaterialRecord<Real> &material) {
         if (kindOf(material) != layout::materialConductor)
             return Vec3<Real>(Real(1));
-        const Real cosine = std::abs(dotProduct(ray.direction, surface.normal));
+        const Real cosine = abs(dotProduct(ray.direction, surface.normal));
         return conductorReflectance(lesser(cosine, Real(1)), Vec3<Real>(material.conductorIndex),
                                     Vec3<Real>(material.conductorExtinction));
     }
 
     /// Whether what is not smooth is black from behind.
-    [[nodiscard]] static bool isBlackBehind(const layout::MaterialRecord &material) {
+    [[nodiscard]] static bool isBlackBehind(const MaterialRecord<Real> &material) {
         return !isTwoSided(material) && kindOf(material) != layout::materialConductor && !isGlass(material);
     }
 
@@ -255,7 +250,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         }
         std::uint32_t materialIndex;
         Surface<Real> surface = hitSurface(scene_, ray, hit, materialIndex);
-        const layout::MaterialRecord material = hitMaterial(scene_, hit, materialIndex, surface.position);
+        const MaterialRecord<Real> material = hitMaterial(scene_, hit, materialIndex, surface.position);
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, throughput_);
@@ -286,11 +281,11 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     /// On a diffuse surface: draws the direction in which the path goes on, and aims at a light.
     [[nodiscard]] std::optional<Ray<Real>> scatterFromDiffuse(const Surface<Real> &surface,
                                                               std::uint32_t primitive) {
-        const Vec3<Real> direction = sampleCosine(surface.normal, unitReals<Real>(vertexBits(pairScatter)));
+        const Vec3<Real> direction = sampleCosine(surface.normal, unitFloats<Real>(vertexBits(pairScatter)));
         const bool isAbove = dotProduct(surface.geometricNormal, direction) > 0;
         scatterDensity_ = isAbove ? pdfCosine(dotProduct(surface.normal, direction)) : Real(0);
 
-        const std::uint32_t emitter = chooseEmitter(scene_.emitters, vertexBits(pairChoice).x);
+        const std::uint32_t emitter = chooseEmitter(scene_, vertexBits(pairChoice).x);
         const LightSample<Real> light =
             sampleEmitter<Real>(scene_, emitter, surface.position, vertexBits(pairLight));
         const Real cosine = dotProduct(surface.normal, light.direction);
@@ -308,23 +303,21 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     }
 
     /// On a surface with lobes: draws the direction in which the path will go on, and aims at a light.
-    [[nodiscard]] std::optional<Ray<Real>> scatterFromRough(const Ray<Real> &ray,
-                                                            const Surface<Real> &surface,
-                                                            const layout::MaterialRecord &material,
-                                                            std::uint32_t materialIndex, bool isBehind,
-                                                            std::uint32_t primitive) {
+    [[nodiscard]] std::optional<Ray<Real>>
+    scatterFromRough(const Ray<Real> &ray, const Surface<Real> &surface, const MaterialRecord<Real> &material,
+                     std::uint32_t materialIndex, bool isBehind, std::uint32_t primitive) {
         const Crossing crossing = isGlass(material) ? crossingOf(materialIndex, !isBehind)
                                                     : Crossing{mediaInside_, mediaInside_, Real(1), true};
         const Vec2<Real> choice = lobeChoice();
-        const Rough<Real> rough = roughOf(scene_.texels, material, ray.direction, surface.normal,
-                                          surface.geometricNormal, isBehind, crossing.eta, choice.x);
+        const Rough<Real> rough = roughOf<Real>(scene_, material, ray.direction, surface.normal,
+                                                surface.geometricNormal, isBehind, crossing.eta, choice.x);
 
-        const std::uint32_t emitter = chooseEmitter(scene_.emitters, vertexBits(pairChoice).x);
+        const std::uint32_t emitter = chooseEmitter(scene_, vertexBits(pairChoice).x);
         const LightSample<Real> light =
             sampleEmitter<Real>(scene_, emitter, surface.position, vertexBits(pairLight));
         const Vec3<Real> toLight = toLocal(rough.frame, light.direction);
         const bool isLightBeyond = dotProduct(surface.geometricNormal, light.direction) <= 0;
-        const Scattered<Real> lit = evaluateRough(rough, toLight);
+        const Scattered<Real> lit = evaluateRough(scene_, rough, toLight);
         const bool isLit =
             largestComponent(light.radiance) > 0 && lit.density > 0 && isLightBeyond == (toLight.z <= 0);
         if (isLit) {
@@ -336,9 +329,10 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             aimAtNothing(emitter);
         }
 
-        const Vec3<Real> drawn = drawRough(rough, unitReals<Real>(vertexBits(pairScatter)), choice.y);
+        const Vec3<Real> drawn =
+            drawRough(scene_, rough, unitFloats<Real>(vertexBits(pairScatter)), choice.y);
         const Vec3<Real> direction = unitVector(toWorld(rough.frame, drawn));
-        const Scattered<Real> scattered = evaluateRough(rough, drawn);
+        const Scattered<Real> scattered = evaluateRough(scene_, rough, drawn);
         const bool isBeyond = dotProduct(surface.geometricNormal, direction) <= 0;
         const bool isPossible = scattered.density > 0 && isBeyond == (drawn.z <= 0);
         mediaInside_ = isBeyond ? crossing.beyond : crossing.before;
@@ -356,7 +350,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceEvent(layout::traceScatter, std::bit_cast<std::uint32_t>(static_cast<float>(scatterDensity_)),
                    direction);
         ++counts_.bounce;
-        return Ray<Real>{spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive};
+        return Ray<Real>{spawnPoint(scene_, surface, direction), direction, primitive};
     }
 
     void aimAtNothing(std::uint32_t emitter) {
@@ -367,8 +361,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     void aimAt(const Surface<Real> &surface, std::uint32_t emitter, const LightSample<Real> &light,
                const Vec3<Real> &weight, std::uint32_t primitive) {
         ++counts_.shadow;
-        const Ray<Real> ray{spawnPoint(surface, light.direction, scene_.hasTriangles), light.direction,
-                            primitive};
+        const Ray<Real> ray{spawnPoint(scene_, surface, light.direction), light.direction, primitive};
         const bool isBlocked = isAnythingBefore(scene_, ray, light.distance, light.target, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
                    Vec3<Real>(static_cast<Real>(emitter)));
@@ -376,8 +369,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             addRadiance(weight, Vec3<Real>(Real(1)));
     }
 
-    const PackedScene &scene_;
-    const std::uint32_t samplerKind_;
+    const SceneView<Real> scene_;
     glm::uvec2 pixel_{0};
     std::uint32_t sampleIndex_ = 0;
     std::uint32_t depth_ = 0; ///< segment number of the current ray

@@ -5,11 +5,8 @@
 #pragma once
 
 #include "host/film/ray_counts.h"
-#include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/hit_surface.h"
-#include "host/reference/random.h"
-#include "host/reference/sampling.h"
 
 #include <vector>
 
@@ -19,7 +16,7 @@ namespace hyalite::reference {
 template <class Real> [[nodiscard]] Vec3<Real> idColour(std::uint32_t id) {
     const glm::uvec3 bits = hashKeys({id, 1, 2});
     return Real(0.2) +
-           Real(0.8) * Vec3<Real>(unitReal<Real>(bits.x), unitReal<Real>(bits.y), unitReal<Real>(bits.z));
+           Real(0.8) * Vec3<Real>(unitFloat<Real>(bits.x), unitFloat<Real>(bits.y), unitFloat<Real>(bits.z));
 }
 
 /// From [-1, 1] to [0, 1], as normal maps do.
@@ -32,13 +29,14 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
   public:
     /// `view` is one of layout::view...
     ViewIntegrator(const PackedScene &scene, std::uint32_t samplerKind, std::uint32_t view)
-        : scene_(scene), samplerKind_(samplerKind), view_(view) {}
+        : scene_(scene, samplerKind), view_(view) {}
 
     /// What one sample of a pixel of the whole image shows. `shift` moves it by so many pixels, to learn how the picture
     /// changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
-        const PrimaryRay<Real> primary = primaryRay(scene_, samplerKind_, pixel, sampleIndex, shift);
+        const PrimaryRay<Real> primary = primaryRayThrough<Real>(
+            scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
         ++counts_.primary;
         sampleIndex_ = sampleIndex;
         const Ray<Real> ray{primary.origin, primary.direction};
@@ -52,7 +50,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         const Surface<Real> surface = hitSurface(scene_, ray, hit, materialIndex);
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
-        const layout::MaterialRecord material = hitMaterial(scene_, hit, materialIndex, surface.position);
+        const MaterialRecord<Real> material = hitMaterial(scene_, hit, materialIndex, surface.position);
         switch (view_) {
         case layout::viewNormal:
             return show(normalColour(surface.normal));
@@ -99,11 +97,11 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
             surface.geometricNormal = -surface.geometricNormal;
         }
         const glm::uvec2 bits = sampleBits(pairKeys(pixel, scene_.frame.seed, 1), sampleIndex_);
-        const Vec3<Real> direction = sampleCosine(surface.normal, unitReals<Real>(bits));
+        const Vec3<Real> direction = sampleCosine(surface.normal, unitFloats<Real>(bits));
         if (!(dotProduct(surface.geometricNormal, direction) > 0))
             return Vec3<Real>(Real(0));
         ++counts_.shadow;
-        const Ray<Real> toSky{spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive};
+        const Ray<Real> toSky{spawnPoint(scene_, surface, direction), direction, primitive};
         const Real length = static_cast<Real>(scene_.frame.occlusionDistance);
         const bool isBlocked = isAnythingBefore(scene_, toSky, length, layout::noPrimitive, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
@@ -111,8 +109,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         return isBlocked ? Vec3<Real>(Real(0)) : show(Vec3<Real>(Real(1)));
     }
 
-    const PackedScene &scene_;
-    const std::uint32_t samplerKind_;
+    const SceneView<Real> scene_;
     const std::uint32_t view_;
     RayCounts counts_;
     Counter counter_;

@@ -4,14 +4,8 @@
 #pragma once
 
 #include "host/film/ray_counts.h"
-#include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
-#include "host/reference/dielectric.h"
-#include "host/reference/environment.h"
 #include "host/reference/hit_surface.h"
-#include "host/reference/lights.h"
-#include "host/reference/random.h"
-#include "host/reference/surface.h"
 
 #include <vector>
 
@@ -20,14 +14,14 @@ namespace hyalite::reference {
 /// Follows camera samples through the scene. One instance a thread: it keeps the rays that wait and the counts.
 template <class Real, class Counter = NoCounter> class WhittedIntegrator {
   public:
-    WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind)
-        : scene_(scene), samplerKind_(samplerKind) {}
+    WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind) : scene_(scene, samplerKind) {}
 
     /// Radiance of one sample of a pixel of the whole image. `shift` moves it by so many pixels, to learn how the
     /// picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
-        const PrimaryRay<Real> primary = primaryRay(scene_, samplerKind_, pixel, sampleIndex, shift);
+        const PrimaryRay<Real> primary = primaryRayThrough<Real>(
+            scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
         ++counts_.primary;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
@@ -48,8 +42,6 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
 
   private:
-    static constexpr Real inversePi = Real(0.31830988618379067);
-
     struct Segment {
         Ray<Real> ray;
         Vec3<Real> throughput;
@@ -70,19 +62,19 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         if (hit.primitive == layout::noPrimitive) {
             if (segment.medium != layout::noMaterial)
-                segment.throughput *= Vec3<Real>(scene_.materials[segment.medium].segmentTint);
+                segment.throughput *= Vec3<Real>(scene_.packed.materials[segment.medium].segmentTint);
             radiance_ = radiance_ + segment.throughput * radianceAround(segment.ray.direction);
             traceEvent(layout::traceRadiance, 0, radiance_);
             return;
         }
         std::uint32_t materialIndex;
         const Surface<Real> surface = hitSurface(scene_, segment.ray, hit, materialIndex);
-        const layout::MaterialRecord material = hitMaterial(scene_, hit, materialIndex, surface.position);
+        const MaterialRecord<Real> material = hitMaterial(scene_, hit, materialIndex, surface.position);
         const bool isEntering = dotProduct(segment.ray.direction, surface.normal) < 0;
         const bool isGlass = kindOf(material) == layout::materialDielectric;
         const std::uint32_t medium = isGlass && !isEntering ? materialIndex : segment.medium;
         if (medium != layout::noMaterial)
-            segment.throughput *= Vec3<Real>(scene_.materials[medium].segmentTint);
+            segment.throughput *= Vec3<Real>(scene_.packed.materials[medium].segmentTint);
 
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
@@ -109,18 +101,18 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     /// What rays find that leave the scene.
     [[nodiscard]] Vec3<Real> radianceAround(const Vec3<Real> &direction) const {
         if ((scene_.lighting & layout::lightsByEnvironment) != 0)
-            return EnvironmentMap<Real>(scene_).radianceFrom(direction);
+            return environmentRadianceAt(scene_, environmentPlace(scene_, direction));
         return Vec3<Real>(scene_.frame.background);
     }
 
-    void shadeDiffuse(const Segment &segment, Surface<Real> surface, const layout::MaterialRecord &material,
+    void shadeDiffuse(const Segment &segment, Surface<Real> surface, const MaterialRecord<Real> &material,
                       std::uint32_t primitive) {
         if (isTwoSided(material) && dotProduct(segment.ray.direction, surface.geometricNormal) > 0) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
-        const Vec3<Real> weight = segment.throughput * (Vec3<Real>(material.albedo) * inversePi);
-        for (const layout::LightRecord &light : scene_.lights) {
+        const Vec3<Real> weight = segment.throughput * (Vec3<Real>(material.albedo) * inversePi<Real>);
+        for (const layout::LightRecord &light : scene_.packed.lights) {
             const Vec3<Real> toLight = Vec3<Real>(light.position) - surface.position;
             const bool isDirectional = light.kind == layout::lightDirectional;
             const Real distance = isDirectional ? unboundedDistance<Real> : vectorLength(toLight);
@@ -128,13 +120,13 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                 isDirectional ? -Vec3<Real>(light.axis) : toLight * (Real(1) / distance);
             const bool isLit = dotProduct(surface.normal, direction) > 0 &&
                                dotProduct(surface.geometricNormal, direction) > 0;
-            const Vec3<Real> lightIndex(static_cast<Real>(&light - scene_.lights.data()));
+            const Vec3<Real> lightIndex(static_cast<Real>(&light - scene_.packed.lights.data()));
             if (!isLit) {
                 traceEvent(layout::traceVisibility, layout::visibilityUnlit, lightIndex);
                 continue;
             }
             ++counts_.shadow;
-            const Ray<Real> ray{spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive};
+            const Ray<Real> ray{spawnPoint(scene_, surface, direction), direction, primitive};
             const Shadow shadow = castShadowRay(scene_, ray, distance, counter_);
             traceEvent(layout::traceVisibility,
                        shadow.isBlocked  ? layout::visibilityBlocked
@@ -163,17 +155,17 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                  std::uint32_t medium, std::uint32_t primitive) {
         const Vec3<Real> direction = mirrorDirection(segment.ray.direction, surface.normal);
         ++counts_.reflection;
-        pending_.push_back({{spawnPoint(surface, direction, scene_.hasTriangles), direction, primitive},
+        pending_.push_back({{spawnPoint(scene_, surface, direction), direction, primitive},
                             throughput,
                             segment.depth + 1,
                             medium});
     }
 
-    void splitAtGlass(const Segment &segment, const Surface<Real> &surface, float refractiveIndex,
+    void splitAtGlass(const Segment &segment, const Surface<Real> &surface, Real refractiveIndex,
                       std::uint32_t materialIndex, bool isEntering, std::uint32_t primitive) {
         const Vec3<Real> facing = isEntering ? surface.normal : -surface.normal;
         const Refraction<Real> refraction =
-            refractRay(segment.ray.direction, facing, static_cast<Real>(refractiveIndex), isEntering);
+            refractRay(segment.ray.direction, facing, refractiveIndex, isEntering);
         traceEvent(layout::traceReflectance, refraction.isTotal ? 1 : 0, Vec3<Real>(refraction.reflectance));
         const std::uint32_t mediumOfReflection = isEntering ? segment.medium : materialIndex;
         if (refraction.isTotal) {
@@ -183,15 +175,14 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         // The refracted ray is followed first.
         reflect(segment, surface, segment.throughput * refraction.reflectance, mediumOfReflection, primitive);
         ++counts_.refraction;
-        pending_.push_back({{spawnPoint(surface, refraction.direction, scene_.hasTriangles),
-                             refraction.direction, primitive},
-                            segment.throughput * refraction.transmittance,
-                            segment.depth + 1,
-                            isEntering ? materialIndex : layout::noMaterial});
+        pending_.push_back(
+            {{spawnPoint(scene_, surface, refraction.direction), refraction.direction, primitive},
+             segment.throughput * refraction.transmittance,
+             segment.depth + 1,
+             isEntering ? materialIndex : layout::noMaterial});
     }
 
-    const PackedScene &scene_;
-    const std::uint32_t samplerKind_;
+    const SceneView<Real> scene_;
     std::vector<Segment> pending_;
     Vec3<Real> radiance_{Real(0)};
     RayCounts counts_;

@@ -1,4 +1,4 @@
-// What metals reflect. Twin: host/reference/conductor.h.
+// What metals reflect.
 
 // Fresnel's equations for unpolarised light at a surface from vacuum to the complex refractive index n + i k: Lagarde,
 // "Memo on Fresnel equations", 2013. `cosine` in [0, 1].

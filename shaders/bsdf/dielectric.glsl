@@ -1,4 +1,4 @@
-// Reflection and refraction at smooth glass. Twin: host/reference/dielectric.h.
+// Reflection and refraction at smooth glass.
 
 struct Refraction {
     vec3 direction;    // of the transmitted ray, unit length; meaningless when total

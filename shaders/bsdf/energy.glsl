@@ -1,4 +1,4 @@
-// How much light microfacets reflect at once, and what becomes of the rest. Twin: host/reference/energy.h.
+// How much light microfacets reflect at once, and what becomes of the rest.
 //
 // Light that one facet sends to another is lost to the model of single reflections; at roughness 1 that is up to half
 // of it. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, give it back as a

@@ -1,4 +1,4 @@
-// Which glass is around a point, where solids of glass lie in each other or overlap. Twin: host/reference/media.h.
+// Which glass is around a point, where solids of glass lie in each other or overlap.
 //
 // `inside` counts in 4 bits for each of the first dielectrics how many of its surfaces a path has entered and not left.
 // What is there is the one of highest priority: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT

@@ -1,4 +1,4 @@
-// Rough surfaces of microfacets with the GGX distribution. Twin: host/reference/microfacet.h.
+// Rough surfaces of microfacets with the GGX distribution.
 //
 // All directions are unit vectors in the frame of the surface, whose normal is +z; `view` has z > 0 and leads back to
 // where the path comes from. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz,
@@ -26,13 +26,13 @@ float facetDensity(vec3 m, float alpha) {
 // A facet's normal with the density facetDensity G1 (view.m) / view.z of those that are seen: Dupuy and Benyoub,
 // "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
 vec3 sampleVisibleFacet(vec3 view, float alpha, vec2 u) {
-    vec3 stretched = unitVector(vec3(view.xy * alpha, view.z));
+    vec3 stretched = unitVector(vec3(vec2(view) * alpha, view.z));
     float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
     float squaredSine = 1.0 - z * z;
     float sine = squareRoot(greater(squaredSine, 0.0));
     SineCosine angle = sineCosine(u.x);
     vec3 cap = vec3(sine * angle.cosine, sine * angle.sine, z) + stretched;
-    return unitVector(vec3(cap.xy * alpha, cap.z));
+    return unitVector(vec3(vec2(cap) * alpha, cap.z));
 }
 
 // The density, per solid angle, of the direction that a visible facet reflects `view` to; `density` is that of the

@@ -1,4 +1,4 @@
-// What surfaces with microfacets do with light, and diffuse ones beside them. Twin: host/reference/rough.h.
+// What surfaces with microfacets do with light, and diffuse ones beside them.
 //
 // A principled material is a mixture, after Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 courses: a
 // clear coat over a metal, a plastic and a glass. At each hit one of coat, glass, and metal with plastic is chosen with

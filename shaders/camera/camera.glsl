@@ -1,4 +1,4 @@
-// Primary rays. Twin: host/reference/camera.h.
+// Primary rays.
 
 // Where `offset` from the top left of `pixel` lies, in pixels from the middle of an image of this size, y up.
 vec2 fromMiddle(uvec2 pixel, vec2 offset, uvec2 size) {
@@ -66,11 +66,16 @@ float filterQuantile(float u) {
 
 const uint lensPair = 1024u; // of random numbers: beyond those of paths
 
-// The primary ray of a sample.
-PrimaryRay primaryRay(uvec2 pixel, uint sampleIndex) {
+// Where a sample lies, seen from the top left of its pixel: in [0,1)^2, or around it where a filter is wider.
+vec2 sampleOffset(uvec2 pixel, uint sampleIndex) {
     vec2 offset = samplePixel(pixel, sampleIndex, frame.seed);
     if (samplerKind == samplerFiltered)
         offset = vec2(filterQuantile(offset.x), filterQuantile(offset.y));
+    return offset;
+}
+
+// The ray of a sample through `offset`, from where the camera's kind has it begin.
+PrimaryRay primaryRayThrough(uvec2 pixel, vec2 offset, uint sampleIndex) {
     if (camera == cameraLens)
         return throughLens(pixel, offset, unitFloats(sampleBits(pairKeys(pixel, frame.seed, lensPair), sampleIndex)));
     if (camera == cameraOrthographic)
@@ -78,4 +83,9 @@ PrimaryRay primaryRay(uvec2 pixel, uint sampleIndex) {
     if (camera == cameraPanorama)
         return allAround(pixel, offset);
     return PrimaryRay(frame.eye, primaryDirection(pixel, offset));
+}
+
+// The primary ray of a sample.
+PrimaryRay primaryRay(uvec2 pixel, uint sampleIndex) {
+    return primaryRayThrough(pixel, sampleOffset(pixel, sampleIndex), sampleIndex);
 }

@@ -1,9 +1,15 @@
-// Conservative ray-box tests. Twin: host/reference/box.h.
+// Conservative ray-box tests.
 //
-// A box is widened by a pad on each side, which covers all rounding in this test and in the triangle test (box.h
-// derives it). The test is monotone: whatever interval a box gives, a box around it gives no smaller one, to the
-// bit. Triangle hits are confined to the interval of the triangle's own box (triangle.glsl), so no tree over the
-// same triangles can lose or change a hit.
+// A box is widened by a pad on each side, which covers all rounding in this test and in the triangle test. How wide must it
+// be? Let u be the unit of rounding and M the largest coordinate distance from the ray's origin to any box ("reach"). The
+// triangle test moves the image of a vertex by at most 7 u M: one rounding of each of two translations, three of the shear,
+// and one of the sum, which is at most 2 M. The slab test moves a plane by at most 4 u M: a difference, the pad, the
+// inverse, a product. Together 11 u M: a pad of 16 u M covers it with room to spare.
+//
+// The test is monotone: whatever interval a box gives, a box around it gives no smaller one, to the bit, because each
+// operation rounds monotonically. Triangle hits are confined to the interval of the triangle's own box (triangle.glsl), so
+// no tree over the same triangles can lose or change a hit. Compare Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, which
+// widens the far distance only: enough for the slab test, not for the error of the triangle test.
 
 const float boxPadScale = 16.0 / 16777216.0; // 16 units of rounding
 

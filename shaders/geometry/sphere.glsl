@@ -1,4 +1,4 @@
-// Ray-sphere intersection. Twin: host/reference/sphere.h.
+// Ray-sphere intersection.
 
 struct SphereShape {
     vec3 centre;

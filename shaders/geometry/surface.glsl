@@ -1,4 +1,4 @@
-// Points on surfaces and the rays that leave them. Twin: host/reference/surface.h.
+// Points on surfaces and the rays that leave them.
 
 struct Surface {
     vec3 position;

@@ -1,4 +1,4 @@
-// Watertight ray-triangle intersection. Twin: host/reference/triangle.h.
+// Watertight ray-triangle intersection.
 //
 // Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013. The vertices are sheared to where
 // the ray is the z axis, so a vertex has one image for all triangles that share it. An edge function
@@ -21,7 +21,9 @@ struct TriangleHit {
 };
 
 // Rotates components so that the given axis becomes z.
-vec3 axisToZ(vec3 v, uint axis) { return axis == 0u ? v.yzx : (axis == 1u ? v.zxy : v); }
+vec3 axisToZ(vec3 v, uint axis) {
+    return axis == 0u ? vec3(v.y, v.z, v.x) : (axis == 1u ? vec3(v.z, v.x, v.y) : v);
+}
 
 TriangleRay makeTriangleRay(vec3 origin, vec3 direction) {
     vec3 size = abs(direction);
@@ -30,8 +32,7 @@ TriangleRay makeTriangleRay(vec3 origin, vec3 direction) {
     ray.axis = size.z >= size.x && size.z >= size.y ? 2u : (size.y >= size.x ? 1u : 0u);
     vec3 along = axisToZ(direction, ray.axis);
     float inverse = divide(1.0, along.z);
-    vec2 shear = along.xy * inverse;
-    ray.shear = vec3(shear, inverse);
+    ray.shear = vec3(vec2(along) * inverse, inverse);
     return ray;
 }
 
@@ -42,9 +43,10 @@ TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, 
     vec3 a = axisToZ(to0, ray.axis);
     vec3 b = axisToZ(to1, ray.axis);
     vec3 c = axisToZ(to2, ray.axis);
-    vec2 p = a.xy - ray.shear.xy * a.z;
-    vec2 q = b.xy - ray.shear.xy * b.z;
-    vec2 r = c.xy - ray.shear.xy * c.z;
+    vec2 shear = vec2(ray.shear);
+    vec2 p = vec2(a) - shear * a.z;
+    vec2 q = vec2(b) - shear * b.z;
+    vec2 r = vec2(c) - shear * c.z;
     float e0 = r.x * q.y - r.y * q.x;
     float e1 = p.x * r.y - p.y * r.x;
     float e2 = q.x * p.y - q.y * p.x;

@@ -1,4 +1,4 @@
-// How densely a way of aiming at light covers directions. Twin: host/reference/emitters.h.
+// How densely a way of aiming at light covers directions.
 
 const float fourPi = 12.566370614359173;
 

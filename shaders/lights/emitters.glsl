@@ -1,5 +1,4 @@
-// Light that a surface is aimed at: lights without size, spheres and triangles that emit, an image around. Twin:
-// host/reference/emitters.h.
+// Light that a surface is aimed at: lights without size, spheres and triangles that emit, an image around.
 
 struct LightSample {
     vec3 direction; // unit length, from the surface to the light

@@ -1,4 +1,4 @@
-// An image around the scene, and how it is aimed at. Twin: host/reference/environment.h.
+// An image around the scene, and how it is aimed at.
 //
 // The image is a map of directions by longitude and latitude: its middle is -z, its top row is around +y. Between the
 // middles of its pixels radiance is interpolated. A pixel is chosen by integers, the row first; the weights are what

@@ -1,4 +1,4 @@
-// Lights without size. Twin: host/reference/lights.h.
+// Lights without size.
 
 // How much of a spot's intensity there is in the direction from which it is seen: `toSpot` leads to it. It fades between
 // two angles as the cubic that is even at both ends.

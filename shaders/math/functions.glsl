@@ -1,5 +1,4 @@
-// Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere. Twin:
-// host/reference/functions.h.
+// Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere.
 
 struct SineCosine {
     float sine;

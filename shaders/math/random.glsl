@@ -1,4 +1,4 @@
-// Sample points from integer hashes: no state, no order. Twin: host/reference/random.h.
+// Sample points from integer hashes: no state, no order.
 
 // Three hashes of three keys. Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d.
 uvec3 hashKeys(uvec3 v) {

@@ -1,5 +1,4 @@
-// Directions and points drawn from two numbers in [0, 1), and the densities that they have. Twin:
-// host/reference/sampling.h.
+// Directions and points drawn from two numbers in [0, 1), and the densities that they have.
 
 const float inversePi = 0.31830988618379067;
 

@@ -1,4 +1,4 @@
-// Normals turned by images. Twin: host/reference/normal_map.h.
+// Normals turned by images.
 
 // The directions on a surface in which u and v grow, of any length; 0 where they are not known.
 struct Tangent {
@@ -51,7 +51,7 @@ vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     float strength = uintBitsToFloat(fetchTextureRow(row).w);
     vec3 texel = lookUpTexture(row, uv);
     vec3 turned = 2.0 * texel - 1.0;
-    vec2 sideways = turned.xy * strength;
+    vec2 sideways = vec2(turned) * strength;
     vec3 mapped = x * sideways.x + y * sideways.y + normal * greater(turned.z, leastHeight);
     return unitVector(mapped);
 }

@@ -1,4 +1,4 @@
-// Images on surfaces. Twin: host/reference/texture.h.
+// Images on surfaces.
 //
 // The filter is ours, and no sampler's: those have 8 bits of weights, and round as they like.
 
@@ -12,7 +12,7 @@ struct Coordinates {
 Coordinates fetchCoordinates(uint triangleRecord) {
     uint row = firstCoordinateRow + rowsPerCoordinates * triangleRecord;
     vec4 first = uintBitsToFloat(fetchTextureRow(row));
-    return Coordinates(first.xy, first.zw, uintBitsToFloat(fetchTextureRow(row + 1u).xy));
+    return Coordinates(vec2(first), vec2(first.z, first.w), uintBitsToFloat(uvec2(fetchTextureRow(row + 1u))));
 }
 
 // As trianglePoint.
@@ -50,7 +50,7 @@ float decodeLevel(uint tableRow, uint level) {
 vec3 textureTexel(uvec4 description, uint x, uint y) {
     uint index = y * (description.y & 0xFFFFu) + x;
     if ((texturing & texturesLevels) == 0u || (description.z & textureIsFloat) != 0u)
-        return uintBitsToFloat(fetchTextureRow(description.x + index).xyz);
+        return uintBitsToFloat(uvec3(fetchTextureRow(description.x + index)));
     uint levels = wordOf(fetchTextureRow(description.x + (index >> 2u)), index);
     if ((description.z & textureIsAlpha) != 0u)
         levels = (levels >> 24u) * 0x010101u;
@@ -65,7 +65,7 @@ vec3 lookUpTexture(uint row, vec2 uv) {
     vec4 placement = uintBitsToFloat(fetchTextureRow(row + 1u));
     uint width = description.y & 0xFFFFu;
     uint height = description.y >> 16u;
-    vec2 placed = uv * placement.xy + placement.zw;
+    vec2 placed = uv * vec2(placement) + vec2(placement.z, placement.w);
     float x = fractionOf(placed.x) * float(width) + 0.5;
     float y = (1.0 - fractionOf(placed.y)) * float(height) + 0.5;
     uint right = uint(x);

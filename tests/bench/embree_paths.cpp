@@ -1,6 +1,6 @@
 #include "tests/bench/embree_paths.h"
 
-#include "host/reference/random.h"
+#include "host/reference/scene_view.h"
 #include "tests/bench/parallel.h"
 
 #include <glm/geometric.hpp>
@@ -54,7 +54,7 @@ class PathNumbers {
     }
     glm::vec2 next() {
         if (samples_ == PathSamples::Stratified)
-            return reference::unitReals<float>(
+            return reference::unitFloats<float>(
                 reference::sampleBits(reference::pairKeys(pixel_, seed_, pair_++), sampleIndex_));
         const float first = random_();
         return {first, random_()};

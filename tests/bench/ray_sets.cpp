@@ -1,9 +1,7 @@
 #include "tests/bench/ray_sets.h"
 
-#include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
-#include "host/reference/random.h"
-#include "host/reference/surface.h"
+#include "host/reference/scene_view.h"
 #include "tests/bench/parallel.h"
 
 #include <cmath>
@@ -83,9 +81,9 @@ std::vector<layout::RayRecord> bounceRays(const PackedScene &scene) {
     for (const Arrival &arrival : arrivals(scene)) {
         // A point of the unit sphere around the tip of the normal is cosine-distributed as seen from the normal's foot.
         const glm::uvec3 hash = reference::hashKeys({static_cast<std::uint32_t>(rays.size()), 0, 0});
-        const float height = 1.0f - 2.0f * reference::unitReal<float>(hash.x);
+        const float height = 1.0f - 2.0f * reference::unitFloat<float>(hash.x);
         const float radius = std::sqrt(std::max(0.0f, 1.0f - height * height));
-        const float turn = 2.0f * std::numbers::pi_v<float> * reference::unitReal<float>(hash.y);
+        const float turn = 2.0f * std::numbers::pi_v<float> * reference::unitFloat<float>(hash.y);
         const vec3 onSphere(radius * std::cos(turn), radius * std::sin(turn), height);
         const vec3 direction = reference::unitVector(arrival.surface.geometricNormal + 0.999f * onSphere);
         rays.push_back(

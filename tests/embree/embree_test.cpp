@@ -5,12 +5,11 @@
 // triangles of the mesh in long double (exact_meeting.h): what that cannot explain fails the test.
 #include "host/import/obj.h"
 #include "host/packing/packed_scene.h"
-#include "host/reference/camera.h"
 #include "host/reference/closest_hit.h"
-#include "host/reference/surface.h"
 #include "tests/embree/embree_scene.h"
 #include "tests/embree/exact_meeting.h"
 #include "tests/embree/meshes.h"
+#include "tests/fixtures/leaves.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -210,7 +209,7 @@ void compareHits(const Subject &subject, const FloatRay &ray, const FloatHit &ou
     if (exact.slenderness < 4 && exact.cosine > Real(0.25) && exact.reach < 2 * exact.t)
         rates.relative = std::max(rates.relative, std::abs(ourT - theirT) / exact.t);
 
-    const reference::Surface<float> surface = reference::triangleSurface(
+    const reference::Surface<float> surface = reference::triangleSurface<float>(
         subject.ours.triangles[ours.record], subject.ours.normals[ours.record], ours.u, ours.v);
     rates.ourPosition =
         std::max(rates.ourPosition,
@@ -375,7 +374,7 @@ class RayMaker {
 
     /// A ray that leaves the surface that another one hit.
     FloatRay leaving(const FloatHit &hit, const dvec3 &direction) const {
-        const reference::Surface<float> surface = reference::triangleSurface(
+        const reference::Surface<float> surface = reference::triangleSurface<float>(
             subject_.ours.triangles[hit.record], subject_.ours.normals[hit.record], hit.u, hit.v);
         return {reference::spawnPoint(surface, vec3(direction)), vec3(direction), hit.primitive};
     }
@@ -398,7 +397,7 @@ std::vector<FloatRay> primaryRays(const Subject &subject, int size) {
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x)
             rays.push_back(
-                {frame.eye, reference::primaryDirection(frame, glm::uvec2(x, y), glm::vec2(0.5f))});
+                {frame.eye, reference::primaryDirection<float>(frame, glm::uvec2(x, y), glm::vec2(0.5f))});
     return rays;
 }
 

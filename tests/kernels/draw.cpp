@@ -1,6 +1,6 @@
 #include "tests/kernels/draw.h"
 
-#include "host/reference/vector.h"
+#include "host/reference/scene_view.h"
 
 #include <cmath>
 

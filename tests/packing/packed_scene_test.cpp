@@ -1,7 +1,7 @@
 #include "host/packing/packed_scene.h"
 
-#include "host/reference/camera.h"
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/leaves.h"
 
 #include <functional>
 #include <optional>

@@ -1,6 +1,6 @@
 // The filter of pixels: its table against its formula, and samples drawn through it against both.
 #include "host/packing/pixel_filter.h"
-#include "host/reference/camera.h"
+#include "tests/fixtures/leaves.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(PixelFilter, QuantilesAreTheInverseOfTheShare) {
     ASSERT_EQ(packed.texels.size(), 5u + layout::filterCellCount);
     for (int i = 0; i < 10'000; ++i) {
         const double u = i / 10'000.0;
-        const double x = reference::filterQuantile<double>(packed, u) - 0.5;
+        const double x = reference::filterQuantile(reference::SceneView<double>(packed), u) - 0.5;
         // Straight between the ends of a cell: a share is off by less than half of one.
         EXPECT_NEAR(filterShareBelow(x), u, 0.5 / layout::filterCellCount) << u;
         const double ofCell = u * layout::filterCellCount;
@@ -54,8 +54,10 @@ TEST(PixelFilter, QuantilesAreTheInverseOfTheShare) {
         }
     }
     const float last = std::nextafter(1.0f, 0.0f);
-    EXPECT_NEAR(reference::filterQuantile<float>(packed, 0.0f), 0.5 - filterRadius, 1e-6);
-    EXPECT_NEAR(reference::filterQuantile<float>(packed, last), 0.5 + filterRadius, 1e-4);
+    EXPECT_NEAR(reference::filterQuantile(reference::SceneView<float>(packed), 0.0f), 0.5 - filterRadius,
+                1e-6);
+    EXPECT_NEAR(reference::filterQuantile(reference::SceneView<float>(packed), last), 0.5 + filterRadius,
+                1e-4);
 }
 
 TEST(PixelFilter, SamplesAreAsDenseAsTheFilterIsHigh) {
@@ -70,7 +72,9 @@ TEST(PixelFilter, SamplesAreAsDenseAsTheFilterIsHigh) {
         for (std::uint32_t i = 0; i < samplesPerPixel; ++i) {
             const reference::Vec2<float> u =
                 reference::samplePixel<float>(layout::samplerFiltered, {p, 3 * p}, i, 7);
-            const double x = static_cast<double>(reference::filterQuantile(packed, u.x)) - 0.5;
+            const double x =
+                static_cast<double>(reference::filterQuantile(reference::SceneView<float>(packed), u.x)) -
+                0.5;
             ++found[std::min(static_cast<std::size_t>((x + filterRadius) / (2.0 * filterRadius) * binCount),
                              std::size_t{binCount - 1})];
             mean += x;

@@ -1,4 +1,4 @@
-#include "host/reference/box.h"
+#include "tests/fixtures/leaves.h"
 
 #include "tests/fixtures/geometry_fixture.h"
 
@@ -64,9 +64,9 @@ TEST(Box, AnOuterBoxesIntervalContainsTheInnerOnesToTheBit) {
             origin[static_cast<int>(random.below(3))] = lower[static_cast<int>(random.below(3))];
         const glm::vec3 direction = hostileDirection(random);
         const BoxRay<float> ray = makeBoxRay(origin, direction, outerLower, outerUpper);
-        const Interval<float> inner = boxInterval(ray, lower, upper);
-        const Interval<float> outer = boxInterval(ray, outerLower, outerUpper);
-        wrong.check(outer.enter <= inner.enter && inner.leave <= outer.leave && inner.enter >= 0, [&] {
+        const Vec2<float> inner = boxInterval(ray, lower, upper);
+        const Vec2<float> outer = boxInterval(ray, outerLower, outerUpper);
+        wrong.check(outer.x <= inner.x && inner.y <= outer.y && inner.x >= 0, [&] {
             return fmt::format("{} {} in {} {}, origin {}, direction {}", text(lower), text(upper),
                                text(outerLower), text(outerUpper), text(origin), text(direction));
         });
@@ -100,18 +100,18 @@ TEST(Box, IsNeverMissedByARayThroughAPointInside) {
             continue;
         const glm::vec3 direction(way / back);
         const BoxRay<float> ray = makeBoxRay(origin, direction, lower, upper);
-        const Interval<float> interval = boxInterval(ray, lower, upper);
-        missed.check(interval.enter <= interval.leave, [&] {
+        const Vec2<float> interval = boxInterval(ray, lower, upper);
+        missed.check(interval.x <= interval.y, [&] {
             return fmt::format("{} {}, origin {}, direction {}", text(lower), text(upper), text(origin),
                                text(direction));
         });
         const double slack = 0x1p-22 * back;
-        outside.check(static_cast<double>(interval.enter) <= back + slack &&
-                          back - slack <= static_cast<double>(interval.leave),
+        outside.check(static_cast<double>(interval.x) <= back + slack &&
+                          back - slack <= static_cast<double>(interval.y),
                       [&] {
                           return fmt::format("{} {}, origin {}, direction {}: {} not in [{}, {}]",
                                              text(lower), text(upper), text(origin), text(direction), back,
-                                             interval.enter, interval.leave);
+                                             interval.x, interval.y);
                       });
     }
     missed.expectNone();
@@ -136,11 +136,10 @@ TEST(Box, HasNoNanForRaysParallelToItsFaces) {
             for (const glm::vec3 upper : {glm::vec3(scale), glm::vec3(scale, -scale, scale)}) {
                 const glm::vec3 lower(-scale);
                 const BoxRay<float> ray = makeBoxRay(origin * scale, direction, lower, upper);
-                const Interval<float> interval = boxInterval(ray, lower, upper);
+                const Vec2<float> interval = boxInterval(ray, lower, upper);
                 wrong.check(
-                    !std::isnan(interval.enter) && !std::isnan(interval.leave) &&
-                        !std::isinf(ray.inverse.x) && !std::isinf(ray.inverse.y) &&
-                        !std::isinf(ray.inverse.z),
+                    !std::isnan(interval.x) && !std::isnan(interval.y) && !std::isinf(ray.inverse.x) &&
+                        !std::isinf(ray.inverse.y) && !std::isinf(ray.inverse.z),
                     [&] { return fmt::format("origin {}, direction {}", text(origin), text(direction)); });
             }
         }
@@ -155,20 +154,21 @@ TEST(Box, ClosedFormsOfTheInterval) {
         return boxInterval(makeBoxRay(origin, direction, glm::dvec3(lower), glm::dvec3(upper)),
                            glm::dvec3(lower), glm::dvec3(upper));
     };
-    EXPECT_NEAR(interval({-5, 0, 0}, {1, 0, 0}).enter, 4.0, 1e-13);
-    EXPECT_NEAR(interval({-5, 0, 0}, {1, 0, 0}).leave, 6.0, 1e-13);
-    EXPECT_EQ(interval({0, 0, 0}, {0, -1, 0}).enter, 0.0);
-    EXPECT_NEAR(interval({0, 0, 0}, {0, -1, 0}).leave, 2.0, 1e-13);
-    EXPECT_LT(interval({5, 0, 0}, {1, 0, 0}).leave, 0.0);
-    const Interval<double> miss = interval({-5, 2.1, 0}, {1, 0, 0});
-    EXPECT_GT(miss.enter, miss.leave);
-    const Interval<double> diagonal = interval({-3, -3, 0}, glm::normalize(glm::dvec3(1, 1, 0)));
-    EXPECT_NEAR(diagonal.enter, 2.0 * std::numbers::sqrt2, 1e-13);
-    EXPECT_NEAR(diagonal.leave, 4.0 * std::numbers::sqrt2, 1e-13);
+    const double pad = 0x1p-20; // of boxes that reach as far as 1 from the origin of the ray
+    EXPECT_NEAR(interval({-5, 0, 0}, {1, 0, 0}).x, 4.0 - 6.0 * pad, 1e-13);
+    EXPECT_NEAR(interval({-5, 0, 0}, {1, 0, 0}).y, 6.0 + 6.0 * pad, 1e-13);
+    EXPECT_EQ(interval({0, 0, 0}, {0, -1, 0}).x, 0.0);
+    EXPECT_NEAR(interval({0, 0, 0}, {0, -1, 0}).y, 2.0 + 3.0 * pad, 1e-13);
+    EXPECT_LT(interval({5, 0, 0}, {1, 0, 0}).y, 0.0);
+    const Vec2<double> miss = interval({-5, 2.1, 0}, {1, 0, 0});
+    EXPECT_GT(miss.x, miss.y);
+    const Vec2<double> diagonal = interval({-3, -3, 0}, glm::normalize(glm::dvec3(1, 1, 0)));
+    EXPECT_NEAR(diagonal.x, (2.0 - 5.0 * pad) * std::numbers::sqrt2, 1e-13);
+    EXPECT_NEAR(diagonal.y, (4.0 + 5.0 * pad) * std::numbers::sqrt2, 1e-13);
 }
 
 TEST(Box, IsWiderByAllThatTheTriangleTestMayBeOff) {
-    // box.h: the triangle test and the slab test together move a plane by up to 11 u M. No smaller pad is promised to
+    // box.glsl: the triangle test and the slab test together move a plane by up to 11 u M. No smaller pad is promised to
     // do, however rare the rays are that show it.
     Random random(205);
     Tally missed("boxes missed within 11 u M", random.seed());
@@ -190,8 +190,8 @@ TEST(Box, IsWiderByAllThatTheTriangleTestMayBeOff) {
         glm::vec3 direction(0.0f);
         direction[axis] = origin[axis] > 0 ? -1.0f : 1.0f;
         const BoxRay<float> ray = makeBoxRay(origin, direction, -half, half);
-        const Interval<float> interval = boxInterval(ray, -half, half);
-        missed.check(interval.enter <= interval.leave, [&] {
+        const Vec2<float> interval = boxInterval(ray, -half, half);
+        missed.check(interval.x <= interval.y, [&] {
             return fmt::format("{}, origin {}, direction {}", text(half), text(origin), text(direction));
         });
     }
@@ -215,8 +215,8 @@ TEST(Box, IsNotMuchWiderThanItIs) {
         glm::vec3 direction(0.0f);
         direction[axis] = 1.0f;
         const BoxRay<float> ray = makeBoxRay(origin, direction, -half, half);
-        const Interval<float> interval = boxInterval(ray, -half, half);
-        wrong.check(interval.enter > interval.leave);
+        const Vec2<float> interval = boxInterval(ray, -half, half);
+        wrong.check(interval.x > interval.y);
     }
     wrong.expectNone();
 }

@@ -1,4 +1,4 @@
-#include "host/reference/camera.h"
+#include "tests/fixtures/leaves.h"
 
 #include "tests/fixtures/geometry_fixture.h"
 

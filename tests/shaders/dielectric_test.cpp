@@ -1,4 +1,4 @@
-#include "host/reference/dielectric.h"
+#include "host/reference/scene_view.h"
 
 #include "tests/fixtures/geometry_fixture.h"
 

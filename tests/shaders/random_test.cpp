@@ -1,4 +1,4 @@
-#include "host/reference/random.h"
+#include "tests/fixtures/leaves.h"
 
 #include "tests/fixtures/geometry_fixture.h"
 
@@ -71,12 +71,12 @@ TEST(Random, SamplesLieInTheHalfOpenUnitSquare) {
         wrong.check(wide == Vec2<double>(sample));
     }
     wrong.expectNone();
-    EXPECT_EQ(unitReal<float>(0), 0.0f);
-    EXPECT_EQ(unitReal<float>(0xFFu), 0.0f);
-    EXPECT_EQ(unitReal<float>(0x100u), 0x1p-24f);
-    EXPECT_EQ(unitReal<float>(0x80000000u), 0.5f);
-    EXPECT_EQ(unitReal<float>(0xFFFFFFFFu), 1.0f - 0x1p-24f);
-    EXPECT_EQ(unitReal<double>(0xFFFFFFFFu), 1.0 - 0x1p-24);
+    EXPECT_EQ(unitFloat<float>(0), 0.0f);
+    EXPECT_EQ(unitFloat<float>(0xFFu), 0.0f);
+    EXPECT_EQ(unitFloat<float>(0x100u), 0x1p-24f);
+    EXPECT_EQ(unitFloat<float>(0x80000000u), 0.5f);
+    EXPECT_EQ(unitFloat<float>(0xFFFFFFFFu), 1.0f - 0x1p-24f);
+    EXPECT_EQ(unitFloat<double>(0xFFFFFFFFu), 1.0 - 0x1p-24);
 }
 
 TEST(Random, TheCentreSamplerKnowsOnlyTheCentre) {
@@ -137,15 +137,15 @@ TEST(Random, OwenScrambleFlipsEachBitHalfOfTheTime) {
 }
 
 TEST(Random, ReverseBitsMirrorsThem) {
-    EXPECT_EQ(reverseBits(1u), 0x80000000u);
-    EXPECT_EQ(reverseBits(0x80000000u), 1u);
-    EXPECT_EQ(reverseBits(0x12345678u), 0x1E6A2C48u);
+    EXPECT_EQ(bitfieldReverse(1u), 0x80000000u);
+    EXPECT_EQ(bitfieldReverse(0x80000000u), 1u);
+    EXPECT_EQ(bitfieldReverse(0x12345678u), 0x1E6A2C48u);
     for (int bit = 0; bit < 32; ++bit)
-        EXPECT_EQ(reverseBits(1u << bit), 1u << (31 - bit));
+        EXPECT_EQ(bitfieldReverse(1u << bit), 1u << (31 - bit));
     Random random(307);
     for (int i = 0; i < 1000; ++i) {
         const auto x = static_cast<std::uint32_t>(random.bits());
-        EXPECT_EQ(reverseBits(reverseBits(x)), x);
+        EXPECT_EQ(bitfieldReverse(bitfieldReverse(x)), x);
     }
 }
 
@@ -166,17 +166,17 @@ TEST(Random, TheSecondSobolCoordinateFollowsItsDirectionNumbers) {
     // The first points of the sequence, by hand: 0, 1/2, 3/4, 1/4, 5/8, 1/8, 3/8, 7/8.
     const std::uint32_t eighths[] = {0, 4, 6, 2, 5, 1, 3, 7};
     for (std::uint32_t i = 0; i < 8; ++i)
-        EXPECT_EQ(secondSobolCoordinate(reverseBits(i)), eighths[i] << 29) << i;
+        EXPECT_EQ(secondSobolCoordinate(bitfieldReverse(i)), eighths[i] << 29) << i;
     Random random(308);
     Tally wrong("coordinates unlike Sobol's", random.seed());
     for (std::uint32_t i = 0; i < 70'000; ++i)
-        wrong.check(secondSobolCoordinate(reverseBits(i)) == sobolByDefinition(i));
+        wrong.check(secondSobolCoordinate(bitfieldReverse(i)) == sobolByDefinition(i));
     for (int i = 0; i < 200'000; ++i) {
         const auto index = static_cast<std::uint32_t>(random.bits());
-        wrong.check(secondSobolCoordinate(reverseBits(index)) == sobolByDefinition(index));
+        wrong.check(secondSobolCoordinate(bitfieldReverse(index)) == sobolByDefinition(index));
     }
     for (int bit = 0; bit < 32; ++bit)
-        wrong.check(secondSobolCoordinate(reverseBits(1u << bit)) == sobolByDefinition(1u << bit));
+        wrong.check(secondSobolCoordinate(bitfieldReverse(1u << bit)) == sobolByDefinition(1u << bit));
     wrong.expectNone();
 }
 

@@ -1,5 +1,5 @@
 // Rough surfaces: energy, reciprocity, and directions with the density that they say they have.
-#include "host/reference/rough.h"
+#include "tests/fixtures/leaves.h"
 
 #include "host/packing/microfacet_energy.h"
 #include "tests/fixtures/geometry_fixture.h"
@@ -14,10 +14,7 @@ using hyalite::testing::Random;
 constexpr double pi = std::numbers::pi;
 using Direction = Vec3<double>;
 
-const std::vector<layout::TexelRecord> &energyTexels() {
-    static const std::vector<layout::TexelRecord> texels = makeEnergyTexels();
-    return texels;
-}
+const SceneView<double> scene(sceneOfAllMaterials());
 
 /// A direction above the plane z = 0, with the given cosine to +z.
 Direction viewAt(double cosine) { return {std::sqrt(1.0 - cosine * cosine), 0.0, cosine}; }
@@ -25,7 +22,7 @@ Direction viewAt(double cosine) { return {std::sqrt(1.0 - cosine * cosine), 0.0,
 Rough<double> seenFrom(const layout::MaterialRecord &material, const Direction &view, double choice = 0.999,
                        double eta = 1.0 / 1.5, bool isBehind = false) {
     const Direction normal(0, 0, 1);
-    return roughOf<double>(energyTexels(), material, -view, normal, normal, isBehind, eta, choice);
+    return roughOf<double>(scene, material, -view, normal, normal, isBehind, eta, choice);
 }
 
 layout::MaterialRecord conductor(double alpha, float index, float extinction) {
@@ -54,7 +51,7 @@ layout::MaterialRecord principled(double alpha, float metallic, float colour, fl
     return material;
 }
 
-layout::MaterialRecord roughGlass(double alpha) {
+layout::MaterialRecord frostedGlass(double alpha) {
     layout::MaterialRecord material{};
     material.kindAndSides = layout::materialDielectric;
     material.alpha = static_cast<float>(alpha);
@@ -78,8 +75,8 @@ Albedo albedoOf(const layout::MaterialRecord &material, const Direction &view, s
         const Rough<double> rough = seenFrom(material, view, random.uniform(0.0, 1.0), eta, isBehind);
         const double x = random.uniform(0.0, 1.0);
         const Direction light =
-            drawRough(rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
-        const Scattered<double> scattered = evaluateRough(rough, light);
+            drawRough(scene, rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
+        const Scattered<double> scattered = evaluateRough(scene, rough, light);
         double value = scattered.density > 0.0 ? scattered.value.x / scattered.density : 0.0;
         if (light.z < 0.0)
             value /= eta * eta; // radiance is larger in glass by the square of the index
@@ -113,7 +110,7 @@ TEST(MicrofacetEnergy, TheTableIsWhatFacetsReflectAtOnce) {
             white += lit;
             grazing += lit * std::pow(1.0 - dotProduct(view, facet), 5.0);
         }
-        const Energy<double> found = energyOf(energyTexels(), cosine, roughness);
+        const Energy<double> found = energyOf(scene, cosine, roughness);
         EXPECT_NEAR(found.white, white / count, 2.5e-3) << roughness << ", " << cosine;
         EXPECT_NEAR(found.grazing, grazing / count, 2.5e-3) << roughness << ", " << cosine;
     }
@@ -126,11 +123,11 @@ TEST(MicrofacetEnergy, AveragesAreThoseOfTheTable) {
         double grazing = 0.0;
         for (int i = 0; i < steps; ++i) {
             const double cosine = (i + 0.5) / steps;
-            const Energy<double> energy = energyOf(energyTexels(), cosine, roughness);
+            const Energy<double> energy = energyOf(scene, cosine, roughness);
             white += 2.0 * energy.white * cosine / steps;
             grazing += 2.0 * energy.grazing * cosine / steps;
         }
-        const Energy<double> average = averageEnergy(energyTexels(), roughness);
+        const Energy<double> average = averageEnergy(scene, roughness);
         EXPECT_NEAR(average.white, white, 1e-6);
         EXPECT_NEAR(average.grazing, grazing, 1e-6);
     }
@@ -178,8 +175,8 @@ TEST(RoughFurnace, GlassLosesWhatFacetsSendToEachOther) {
     // Nothing gives that back: smooth glass keeps all, and the roughest not half.
     for (const double eta : {1.0 / 1.5, 1.5})
         for (const double cosine : {0.2, 0.6, 1.0}) {
-            EXPECT_NEAR(albedoOf(roughGlass(0.0016), viewAt(cosine), 604, eta).mean, 1.0, 3e-3) << eta;
-            const Albedo rough = albedoOf(roughGlass(1.0), viewAt(cosine), 605, eta);
+            EXPECT_NEAR(albedoOf(frostedGlass(0.0016), viewAt(cosine), 604, eta).mean, 1.0, 3e-3) << eta;
+            const Albedo rough = albedoOf(frostedGlass(1.0), viewAt(cosine), 605, eta);
             EXPECT_LT(rough.mean, 1.0);
             EXPECT_GT(rough.mean, 0.4);
         }
@@ -200,17 +197,19 @@ TEST(RoughReciprocity, LightGoesBothWaysAlike) {
         for (const layout::MaterialRecord &material :
              {conductor(alpha, 0.3f, 2.5f), principled(alpha, metallic, 0.6f)}) {
             const double forth =
-                evaluateRough(seenFrom(material, a), toLocal(seenFrom(material, a).frame, b)).value.x / b.z;
+                evaluateRough(scene, seenFrom(material, a), toLocal(seenFrom(material, a).frame, b)).value.x /
+                b.z;
             const double back =
-                evaluateRough(seenFrom(material, b), toLocal(seenFrom(material, b).frame, a)).value.x / a.z;
+                evaluateRough(scene, seenFrom(material, b), toLocal(seenFrom(material, b).frame, a)).value.x /
+                a.z;
             ASSERT_NEAR(forth / back, 1.0, 1e-6) << "alpha " << alpha;
         }
         // Through an interface radiance grows by the square of the index, and that alone is what differs.
         const Direction below(b.x, b.y, -b.z);
-        const Rough<double> fromAbove = seenFrom(roughGlass(alpha), a, 0.5, 1.0 / 1.5);
-        const double through = evaluateRough(fromAbove, below).value.x / b.z;
-        const Rough<double> fromBelow = seenFrom(roughGlass(alpha), b, 0.5, 1.5);
-        const double back = evaluateRough(fromBelow, Direction(a.x, a.y, -a.z)).value.x / a.z;
+        const Rough<double> fromAbove = seenFrom(frostedGlass(alpha), a, 0.5, 1.0 / 1.5);
+        const double through = evaluateRough(scene, fromAbove, below).value.x / b.z;
+        const Rough<double> fromBelow = seenFrom(frostedGlass(alpha), b, 0.5, 1.5);
+        const double back = evaluateRough(scene, fromBelow, Direction(a.x, a.y, -a.z)).value.x / a.z;
         if (through > 1e-12) {
             ASSERT_NEAR(through * 2.25 / back, 1.0, 1e-5) << "alpha " << alpha;
         }
@@ -230,8 +229,8 @@ double chiSquareOf(const Rough<double> &rough, std::uint64_t seed) {
     for (int i = 0; i < count; ++i) {
         const double x = random.uniform(0.0, 1.0);
         const Direction drawn =
-            drawRough(rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
-        if (evaluateRough(rough, drawn).density <= 0.0)
+            drawRough(scene, rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
+        if (evaluateRough(scene, rough, drawn).density <= 0.0)
             continue;
         const int column = std::min(
             static_cast<int>((std::atan2(drawn.y, drawn.x) / (2.0 * pi) + 0.5) * across), across - 1);
@@ -250,8 +249,9 @@ double chiSquareOf(const Rough<double> &rough, std::uint64_t seed) {
                 const double angle =
                     2.0 * pi * ((column + (k % fineAcross + 0.5) / fineAcross) / across - 0.5);
                 const double sine = std::sqrt(1.0 - z * z);
-                expected += evaluateRough(rough, Direction(sine * std::cos(angle), sine * std::sin(angle), z))
-                                .density;
+                expected +=
+                    evaluateRough(scene, rough, Direction(sine * std::cos(angle), sine * std::sin(angle), z))
+                        .density;
             }
             expected *= count * 4.0 * pi / (across * up) / (fineAcross * fineUp);
             const double found = counts[static_cast<std::size_t>(row * across + column)];
@@ -279,8 +279,8 @@ TEST(RoughDensity, IsThatOfTheDirectionsDrawn) {
                 << alpha << ", " << cosine;
             EXPECT_LT(chiSquareOf(seenFrom(principled(alpha, 0.0f, 0.5f), view), 608), 4.5)
                 << alpha << ", " << cosine;
-            EXPECT_LT(chiSquareOf(seenFrom(roughGlass(alpha), view), 609), 4.5) << alpha << ", " << cosine;
-            EXPECT_LT(chiSquareOf(seenFrom(roughGlass(alpha), view, 0.5, 1.5), 610), 4.5)
+            EXPECT_LT(chiSquareOf(seenFrom(frostedGlass(alpha), view), 609), 4.5) << alpha << ", " << cosine;
+            EXPECT_LT(chiSquareOf(seenFrom(frostedGlass(alpha), view, 0.5, 1.5), 610), 4.5)
                 << alpha << ", " << cosine;
         }
 }
@@ -290,9 +290,9 @@ TEST(PrincipledMaterial, ItsComponentsAreChosenByTheirShares) {
     material.transmission = 0.5f;
     int glassCount = 0;
     for (int i = 0; i < 1000; ++i)
-        glassCount += seenFrom(material, viewAt(0.8), (i + 0.5) / 1000.0).kind == RoughKind::Glass;
+        glassCount += seenFrom(material, viewAt(0.8), (i + 0.5) / 1000.0).kind == roughGlass;
     EXPECT_EQ(glassCount, 375); // of what is no metal, the half
-    EXPECT_EQ(seenFrom(material, viewAt(0.8), 0.99, 1.5, true).kind, RoughKind::Glass) << "from inside";
+    EXPECT_EQ(seenFrom(material, viewAt(0.8), 0.99, 1.5, true).kind, roughGlass) << "from inside";
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 // Each way of drawing directions and points has the density that it says it has.
-#include "host/reference/sampling.h"
+#include "host/reference/scene_view.h"
 
-#include "host/reference/random.h"
 #include "tests/fixtures/geometry_fixture.h"
 
 namespace hyalite::reference {
@@ -33,7 +32,7 @@ template <class Draw> void expectUniform(std::uint64_t seed, const Draw &draw) {
     std::vector<int> counts(side * side, 0);
     Random random(seed);
     for (int i = 0; i < 200 * side * side; ++i) {
-        const Vec2<double> back = draw(Vec2<float>(unitReals<float>(
+        const Vec2<double> back = draw(Vec2<float>(unitFloats<float>(
             {static_cast<std::uint32_t>(random.bits()), static_cast<std::uint32_t>(random.bits())})));
         const int x = std::clamp(static_cast<int>(back.x * side), 0, side - 1);
         const int y = std::clamp(static_cast<int>(back.y * side), 0, side - 1);

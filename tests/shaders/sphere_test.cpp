@@ -1,7 +1,6 @@
-#include "host/reference/sphere.h"
+#include "tests/fixtures/leaves.h"
 
 #include "host/reference/closest_hit.h"
-#include "host/reference/surface.h"
 #include "tests/fixtures/geometry_fixture.h"
 
 #include <optional>
@@ -158,7 +157,7 @@ struct SurfacePoint {
             intersectSphere(origin, direction, point.sphere.centre, point.sphere.radius, false);
         if (!(distance > 0))
             return std::nullopt;
-        point.surface = sphereSurface(origin, direction, distance, point.sphere);
+        point.surface = sphereSurface<float>(origin, direction, distance, point.sphere);
         return point;
     }
 

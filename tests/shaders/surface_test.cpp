@@ -1,4 +1,4 @@
-#include "host/reference/surface.h"
+#include "tests/fixtures/leaves.h"
 
 #include "host/reference/closest_hit.h"
 #include "tests/fixtures/geometry_fixture.h"
@@ -61,7 +61,8 @@ std::optional<Landing> land(const PackedScene &scene, Random &random, double siz
         return std::nullopt;
     const layout::TriangleRecord &triangle = scene.triangles[hit.record];
     return Landing{hit.record, hit.primitive,
-                   triangleSurface(triangle, scene.normals[hit.record], hit.u, hit.v), exactNormal(triangle)};
+                   triangleSurface<float>(triangle, scene.normals[hit.record], hit.u, hit.v),
+                   exactNormal(triangle)};
 }
 
 glm::vec3 leavingDirection(Random &random, const glm::dvec3 &normal, double leastCosine) {
@@ -194,8 +195,8 @@ TEST(SpawnPoint, AFloorOfManyTrianglesDoesNotShadowItself) {
                     const Hit<float> hit = closestHit(scene, ray);
                     if (hit.primitive == layout::noPrimitive) // past the rim
                         continue;
-                    const Surface<float> surface =
-                        triangleSurface(scene.triangles[hit.record], scene.normals[hit.record], hit.u, hit.v);
+                    const Surface<float> surface = triangleSurface<float>(
+                        scene.triangles[hit.record], scene.normals[hit.record], hit.u, hit.v);
                     const glm::dvec3 light(random.uniform(-extent, extent), height + extent,
                                            random.uniform(-extent, extent));
                     const glm::vec3 toLight(glm::normalize(light - glm::dvec3(surface.position)));
@@ -288,16 +289,16 @@ layout::TriangleRecord triangleOf(const glm::vec3 &a, const glm::vec3 &b, const 
 TEST(TriangleSurface, TheGeometricNormalFollowsTheWinding) {
     const layout::NormalRecord none{};
     const Surface<float> front =
-        triangleSurface(triangleOf({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), none, 0.25f, 0.25f);
+        triangleSurface<float>(triangleOf({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), none, 0.25f, 0.25f);
     EXPECT_EQ(front.geometricNormal, glm::vec3(0, 0, 1)) << "counter-clockwise seen from +z";
     EXPECT_EQ(front.normal, glm::vec3(0, 0, 1));
     EXPECT_EQ(front.position, glm::vec3(0.25f, 0.5f, 0));
     const Surface<float> back =
-        triangleSurface(triangleOf({0, 0, 0}, {0, 1, 0}, {1, 0, 0}), none, 0.25f, 0.25f);
+        triangleSurface<float>(triangleOf({0, 0, 0}, {0, 1, 0}, {1, 0, 0}), none, 0.25f, 0.25f);
     EXPECT_EQ(back.geometricNormal, glm::vec3(0, 0, -1));
     for (const layout::TriangleRecord &t :
          hyalite::testing::packed(hyalite::testing::sceneOf(unitCube())).triangles) {
-        const Surface<float> surface = triangleSurface(t, none, 0.3f, 0.3f);
+        const Surface<float> surface = triangleSurface<float>(t, none, 0.3f, 0.3f);
         EXPECT_GT(glm::dot(surface.normal, surface.position - glm::vec3(0.5f)), 0.0f);
     }
 }
@@ -315,7 +316,7 @@ TEST(TriangleSurface, SmoothNormalsAreBlendedAndOfUnitLength) {
         normals.n2 = glm::vec3(glm::normalize(around + random.inCube(0.3)));
         const float u = static_cast<float>(random.uniform());
         const float v = static_cast<float>(random.uniform()) * (1.0f - u);
-        const Surface<float> surface = triangleSurface(triangle, normals, u, v);
+        const Surface<float> surface = triangleSurface<float>(triangle, normals, u, v);
         const double w = 1.0 - static_cast<double>(u) - static_cast<double>(v);
         const glm::dvec3 blend =
             glm::normalize(glm::dvec3(normals.n0) * static_cast<double>(u) +
@@ -336,13 +337,14 @@ TEST(TriangleSurface, NormalsThatCancelFallBackToTheGeometricOne) {
     normals.n0 = {1, 0, 0};
     normals.n1 = {-1, 0, 0};
     normals.n2 = {0, 1, 0};
-    EXPECT_EQ(triangleSurface(triangle, normals, 0.5f, 0.5f).normal, glm::vec3(0, 0, 1));
-    EXPECT_EQ(triangleSurface(triangle, layout::NormalRecord{}, 0.5f, 0.25f).normal, glm::vec3(0, 0, 1));
+    EXPECT_EQ(triangleSurface<float>(triangle, normals, 0.5f, 0.5f).normal, glm::vec3(0, 0, 1));
+    EXPECT_EQ(triangleSurface<float>(triangle, layout::NormalRecord{}, 0.5f, 0.25f).normal,
+              glm::vec3(0, 0, 1));
 }
 
 TEST(TriangleSurface, WithoutAreaHasNoNormalAndNoNan) {
-    const Surface<float> surface =
-        triangleSurface(triangleOf({1, 1, 1}, {1, 1, 1}, {2, 2, 2}), layout::NormalRecord{}, 0.5f, 0.25f);
+    const Surface<float> surface = triangleSurface<float>(triangleOf({1, 1, 1}, {1, 1, 1}, {2, 2, 2}),
+                                                          layout::NormalRecord{}, 0.5f, 0.25f);
     EXPECT_EQ(surface.geometricNormal, glm::vec3(0.0f));
     EXPECT_EQ(surface.normal, glm::vec3(0.0f));
     EXPECT_EQ(spawnPoint(surface, {0, 0, 1}), surface.position);
@@ -352,8 +354,8 @@ TEST(TriangleSurface, HasAUnitNormalAtEverySizeThatASceneMayHave) {
     // Coordinates go up to 1e15 and framed meshes down to a diagonal of 1e-12: neither may turn black.
     for (int exponent = -14; exponent <= 15; ++exponent) {
         const float size = std::pow(10.0f, static_cast<float>(exponent));
-        const Surface<float> surface = triangleSurface(triangleOf({0, 0, 0}, {size, 0, 0}, {0, size, 0}),
-                                                       layout::NormalRecord{}, 0.25f, 0.25f);
+        const Surface<float> surface = triangleSurface<float>(
+            triangleOf({0, 0, 0}, {size, 0, 0}, {0, size, 0}), layout::NormalRecord{}, 0.25f, 0.25f);
         EXPECT_NEAR(surface.geometricNormal.z, 1.0f, 1e-6f) << "size " << size;
         const Surface<double> wide = triangleSurface<double>(
             triangleOf({0, 0, 0}, {size, 0, 0}, {0, size, 0}), layout::NormalRecord{}, 0.25, 0.25);

@@ -33,7 +33,8 @@ class Lookup {
         : packed_(packed(scene)), row_(reference::textureRow(packed_.materials[0].textures, slot)) {}
 
     template <class Real> [[nodiscard]] reference::Vec3<Real> at(Real u, Real v) const {
-        return reference::lookUpTexture(packed_.textures, row_, reference::Vec2<Real>(u, v));
+        return reference::lookUpTexture(reference::SceneView<Real>(packed_), row_,
+                                        reference::Vec2<Real>(u, v));
     }
 
   private:
@@ -197,7 +198,7 @@ vec3 normalSeen(const Scene &scene, const vec3 &origin, const vec3 &direction) {
     const auto hit = reference::closestHit(packedScene, ray);
     EXPECT_NE(hit.primitive, layout::noPrimitive);
     std::uint32_t materialIndex;
-    return reference::hitSurface(packedScene, ray, hit, materialIndex).normal;
+    return reference::hitSurface(reference::SceneView<float>(packedScene), ray, hit, materialIndex).normal;
 }
 
 void expectNear(const vec3 &found, const dvec3 &expected, double tolerance) {
@@ -286,7 +287,8 @@ TEST(CutOut, RaysGoOnWhereNothingIs) {
     reference::NoCounter counter;
     const auto isShadowed = [&](float x) {
         const reference::Ray<float> ray{{x, 0.1f, -1}, {0, 0, 1}};
-        return reference::isAnythingBefore(packedScene, ray, 10.0f, layout::noPrimitive, counter);
+        return reference::isAnythingBefore(reference::SceneView<float>(packedScene), ray, 10.0f,
+                                           layout::noPrimitive, counter);
     };
     EXPECT_TRUE(isShadowed(-0.5f));
     EXPECT_FALSE(isShadowed(0.5f));

@@ -1,4 +1,4 @@
-#include "host/reference/triangle.h"
+#include "tests/fixtures/leaves.h"
 
 #include "host/reference/closest_hit.h"
 #include "tests/fixtures/geometry_fixture.h"
@@ -661,10 +661,10 @@ TEST(Triangle, TheDistanceLiesInTheIntervalOfItsOwnBox) {
         if (!(shot.hit.distance > 0))
             continue;
         ++hitCount;
-        const Interval<float> interval =
+        const Vec2<float> interval =
             boxInterval(shot.boxRay, glm::min(glm::min(corners[0], corners[1]), corners[2]),
                         glm::max(glm::max(corners[0], corners[1]), corners[2]));
-        outside.check(interval.enter <= shot.hit.distance && shot.hit.distance <= interval.leave,
+        outside.check(interval.x <= shot.hit.distance && shot.hit.distance <= interval.y,
                       [&] { return shot.text(); });
     }
     EXPECT_GT(hitCount, 800'000u);

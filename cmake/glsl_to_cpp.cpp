@@ -1,0 +1,391 @@
+// From the leaf functions of the shaders to C++, so that they are written once:
+//
+//   glsl_to_cpp LAYOUT.h LEAF.glsl... OUT.h
+//
+// GLSL and C++ differ in little that leaves use. Each struct and each function that has to do with floats becomes a
+// template over `Real`, float or double; literals become `Real(0.5)`, so that no sum is taken in another precision. What a
+// function reads of the scene (constants, frame, records) comes in a parameter `scene` of its own in C++, of the type
+// SceneView<Real> (host/reference/scene_view.h), which has members of the same names.
+//
+//   GLSL   float pdfCosine(float cosine) { return cosine * inversePi; }
+//   C++    template <class Real> inline Real pdfCosine(Real cosine) { return cosine * inversePi<Real>; }
+//
+// Leaves keep to this part of GLSL: functions, structs and constants at the top level, every function defined before it is
+// used, no swizzles (vec2(v) takes the first two components), no arrays and no preprocessor.
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+// ---- Tokens
+
+struct Token {
+    enum Kind { Blank, Word, Number, Mark } kind;
+    std::string text;
+};
+
+using Tokens = std::vector<Token>;
+
+bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// Comments are blanks; lines for the preprocessor are left out.
+Tokens tokensOf(const std::string &text) {
+    Tokens tokens;
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at + 1;
+        Token::Kind kind = Token::Mark;
+        if (text.compare(at, 2, "//") == 0) {
+            end = text.find('\n', at);
+            kind = Token::Blank;
+        } else if (text[at] == '#') {
+            at = text.find('\n', at);
+            continue;
+        } else if (std::isspace(static_cast<unsigned char>(text[at])) != 0) {
+            kind = Token::Blank;
+        } else if (std::isdigit(static_cast<unsigned char>(text[at])) != 0) {
+            kind = Token::Number;
+            while (isWordLetter(text[end]) || text[end] == '.' ||
+                   ((text[end] == '-' || text[end] == '+') && text[end - 1] == 'e'))
+                ++end;
+        } else if (isWordLetter(text[at])) {
+            kind = Token::Word;
+            while (isWordLetter(text[end]))
+                ++end;
+        }
+        tokens.push_back({kind, text.substr(at, end - at)});
+        at = end;
+    }
+    return tokens;
+}
+
+/// Without the parts that are for C++ alone.
+std::string glslPartOf(const std::string &text) {
+    std::istringstream lines(text);
+    std::string part;
+    int depth = 0; // in #ifdef __cplusplus, before its #else
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("#ifdef __cplusplus"))
+            depth = 1;
+        else if (line.starts_with("#else") || line.starts_with("#endif"))
+            depth = 0;
+        else if (depth == 0)
+            part += line + "\n";
+    }
+    return part;
+}
+
+// ---- Declarations
+
+struct Declaration {
+    enum Kind { Struct, Constant, Function } kind;
+    std::string name;
+    std::string type; ///< of a constant or a result
+    Tokens head;      ///< blanks and comments before it
+    Tokens parameters;
+    Tokens body;            ///< of a struct and a function with braces; of a constant its value
+    bool isRecord = false;  ///< of layout.h
+    bool usesReal = false;  ///< has to do with floats: a template
+    bool usesScene = false; ///< a function that reads the scene
+};
+
+/// From an opening bracket to after the one that closes it.
+std::size_t endOfBrackets(const Tokens &tokens, std::size_t begin) {
+    int depth = 0;
+    for (std::size_t i = begin; i < tokens.size(); ++i) {
+        const std::string &text = tokens[i].text;
+        depth += text == "(" || text == "{" ? 1 : text == ")" || text == "}" ? -1 : 0;
+        if (depth == 0)
+            return i + 1;
+    }
+    throw std::runtime_error("a bracket is not closed after " + tokens[begin].text);
+}
+
+std::size_t afterBlanks(const Tokens &tokens, std::size_t at) {
+    while (at < tokens.size() && tokens[at].kind == Token::Blank)
+        ++at;
+    return at;
+}
+
+Tokens part(const Tokens &tokens, std::size_t begin, std::size_t end) {
+    return {tokens.begin() + static_cast<std::ptrdiff_t>(begin),
+            tokens.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+std::vector<Declaration> declarationsOf(const Tokens &tokens) {
+    std::vector<Declaration> declarations;
+    for (std::size_t begin = 0; begin < tokens.size();) {
+        Declaration one{};
+        std::size_t at = afterBlanks(tokens, begin);
+        one.head = part(tokens, begin, at);
+        if (at == tokens.size())
+            break;
+        if (tokens[at].text == "HYALITE_INLINE")
+            at = afterBlanks(tokens, at + 1);
+        const bool isConstant = tokens[at].text == "const";
+        const bool isStruct = tokens[at].text == "struct";
+        if (isConstant)
+            at = afterBlanks(tokens, at + 1);
+        one.type = tokens[at].text;
+        at = afterBlanks(tokens, at + 1);
+        one.name = tokens.at(at).text;
+        at = afterBlanks(tokens, at + 1);
+        if (isStruct) {
+            one.kind = Declaration::Struct;
+            const std::size_t end = endOfBrackets(tokens, at);
+            one.body = part(tokens, at, end);
+            begin = end + 1; // the semicolon
+        } else if (isConstant) {
+            one.kind = Declaration::Constant;
+            std::size_t end = at;
+            while (tokens.at(end).text != ";")
+                ++end;
+            one.body = part(tokens, afterBlanks(tokens, at + 1), end);
+            begin = end + 1;
+        } else if (tokens.at(at).text == "(") {
+            one.kind = Declaration::Function;
+            const std::size_t end = endOfBrackets(tokens, at);
+            one.parameters = part(tokens, at + 1, end - 1);
+            at = afterBlanks(tokens, end);
+            const std::size_t last = endOfBrackets(tokens, at);
+            one.body = part(tokens, at, last);
+            begin = last;
+        } else {
+            throw std::runtime_error(one.name + " is no struct, constant or function");
+        }
+        declarations.push_back(one);
+    }
+    return declarations;
+}
+
+// ---- Translation
+
+const std::set<std::string> sceneWords{"frame",  "scattering",   "texturing",    "lighting",   "samplerKind",
+                                       "camera", "emitterCount", "hasTriangles", "hasEmission"};
+const std::map<std::string, std::string> types{
+    {"float", "Real"}, {"vec2", "Vec2<Real>"}, {"vec3", "Vec3<Real>"}, {"vec4", "Vec4<Real>"}};
+
+class Translator {
+  public:
+    void add(const Declaration &added) {
+        Declaration one = added;
+        const auto look = [&](const Tokens &tokens) {
+            for (std::size_t i = 0; i < tokens.size(); ++i) {
+                if (isMember(tokens, i))
+                    continue;
+                const Declaration *known = find(tokens[i]);
+                one.usesScene |= one.kind == Declaration::Function &&
+                                 (isSceneWord(tokens[i]) || (known != nullptr && known->usesScene));
+                one.usesReal |= isReal(tokens[i]) || (known != nullptr && known->usesReal);
+            }
+        };
+        look(one.parameters);
+        look(one.body);
+        look({{Token::Word, one.type}});
+        one.usesReal |= one.usesScene;
+        const auto [overload, isNew] = names_.emplace(one.name, declarations_.size());
+        if (!isNew && declarations_[overload->second].usesReal != one.usesReal)
+            throw std::runtime_error(one.name + " has overloads with and without floats");
+        declarations_.push_back(one);
+    }
+
+    [[nodiscard]] std::string text() const {
+        std::string out;
+        for (const Declaration &one : declarations_)
+            out += one.kind == Declaration::Struct     ? structText(one)
+                   : one.kind == Declaration::Constant ? constantText(one)
+                                                       : functionText(one);
+        return out;
+    }
+
+  private:
+    [[nodiscard]] const Declaration *find(const Token &token) const {
+        const auto found = names_.find(token.text);
+        return token.kind == Token::Word && found != names_.end() ? &declarations_[found->second] : nullptr;
+    }
+
+    static bool isMember(const Tokens &tokens, std::size_t i) { return i > 0 && tokens[i - 1].text == "."; }
+
+    [[nodiscard]] bool isSceneWord(const Token &token) const {
+        return sceneWords.contains(token.text) || (token.text.starts_with("fetch") && find(token) == nullptr);
+    }
+
+    static bool isReal(const Token &token) {
+        if (token.kind != Token::Number)
+            return types.contains(token.text);
+        return !token.text.starts_with("0x") && token.text.find_first_of(".e") != std::string::npos;
+    }
+
+    [[nodiscard]] std::string typeText(const std::string &type) const {
+        if (const auto found = types.find(type); found != types.end())
+            return found->second;
+        const Declaration *known = find({Token::Word, type});
+        return known != nullptr && known->kind == Declaration::Struct && known->usesReal ? type + "<Real>"
+                                                                                         : type;
+    }
+
+    /// An expression, statements or fields. A struct that is constructed gets braces, as it has no constructor.
+    [[nodiscard]] std::string translated(const Tokens &tokens, bool isStruct = false) const {
+        std::string out;
+        std::vector<bool> isBraced; // for each open bracket
+        bool opensStruct = false;
+        for (std::size_t i = 0; i < tokens.size(); ++i) {
+            const Token &token = tokens[i];
+            const bool isCalled = i + 1 < tokens.size() && tokens[i + 1].text == "(";
+            const Declaration *known = isMember(tokens, i) ? nullptr : find(token);
+            if (known != nullptr && known->kind == Declaration::Function && !isCalled)
+                known = nullptr; // a field or a variable of the same name
+            if (token.text == "(") {
+                isBraced.push_back(opensStruct);
+                out += opensStruct ? "{" : "(";
+                opensStruct = false;
+            } else if (token.text == ")") {
+                out += isBraced.back() ? "}" : ")";
+                isBraced.pop_back();
+            } else if (token.kind == Token::Number && isReal(token)) {
+                out += "Real(" + token.text + ")";
+            } else if (known != nullptr) {
+                out += known->usesReal ? token.text + "<Real>" : token.text;
+                opensStruct = known->kind == Declaration::Struct && isCalled;
+                if (known->usesScene) {
+                    const bool hasOthers = tokens[afterBlanks(tokens, i + 2)].text != ")";
+                    out += hasOthers ? "(scene, " : "(scene";
+                    isBraced.push_back(false);
+                    ++i;
+                }
+            } else if (token.kind == Token::Word && !isStruct && !isMember(tokens, i) && isSceneWord(token)) {
+                out += "scene." + token.text;
+            } else if (token.kind == Token::Word && !isMember(tokens, i)) {
+                out += typeText(token.text);
+            } else {
+                out += token.text;
+            }
+        }
+        return out;
+    }
+
+    [[nodiscard]] std::string parametersOf(const Declaration &function) const {
+        std::string out = function.usesScene ? "const SceneView<Real> &scene" : "";
+        Tokens one;
+        const auto addOne = [&] {
+            const std::size_t type = afterBlanks(one, 0);
+            if (type == one.size())
+                return;
+            const bool isOut = one[type].text == "inout" || one[type].text == "out";
+            const std::size_t at = isOut ? afterBlanks(one, type + 1) : type;
+            const std::string &name = one[afterBlanks(one, at + 1)].text;
+            out += (out.empty() ? "" : ", ") + typeText(one[at].text) + (isOut ? " &" : " ") + name;
+        };
+        for (const Token &token : function.parameters) {
+            if (token.text == ",") {
+                addOne();
+                one.clear();
+            } else {
+                one.push_back(token);
+            }
+        }
+        addOne();
+        return out;
+    }
+
+    static std::string plain(const Tokens &tokens) {
+        std::string out;
+        for (const Token &token : tokens)
+            out += token.text;
+        return out;
+    }
+
+    static std::string templateText(const Declaration &one) {
+        return one.usesReal ? "template <class Real> " : "";
+    }
+
+    [[nodiscard]] std::string structText(const Declaration &one) const {
+        std::string out =
+            plain(one.head) + templateText(one) + "struct " + one.name + " " + translated(one.body, true);
+        if (!one.isRecord)
+            return out + ";\n";
+        // A record of the host becomes one in this precision.
+        std::string fields;
+        for (std::size_t i = 0; i + 1 < one.body.size(); ++i)
+            if (one.body[i].kind == Token::Word && one.body[i + 1].text == ";")
+                fields +=
+                    (fields.empty() ? "" : ", ") + one.body[i].text + "(record." + one.body[i].text + ")";
+        out.pop_back();
+        return out + "\n    " + one.name + "() = default;\n    " + one.name + "(const layout::" + one.name +
+               " &record) : " + fields + " {}\n};\n";
+    }
+
+    [[nodiscard]] std::string constantText(const Declaration &one) const {
+        return plain(one.head) + templateText(one) + "inline constexpr " + typeText(one.type) + " " +
+               one.name + " = " + translated(one.body) + ";";
+    }
+
+    [[nodiscard]] std::string functionText(const Declaration &one) const {
+        return plain(one.head) + templateText(one) + "[[nodiscard]] inline " + typeText(one.type) + " " +
+               one.name + "(" + parametersOf(one) + ") " + translated(one.body);
+    }
+
+    std::vector<Declaration> declarations_;
+    std::map<std::string, std::size_t> names_; ///< of the first overload
+};
+
+std::string read(const std::string &path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file)
+        throw std::runtime_error("it cannot be read");
+    return text.str() + "\n";
+}
+
+} // namespace
+
+int main(int argumentCount, char **arguments) {
+    if (argumentCount < 4) {
+        std::fputs("glsl_to_cpp LAYOUT.h LEAF.glsl... OUT.h\n", stderr);
+        return 2;
+    }
+    Translator translator;
+    std::string file;
+    try {
+        std::string leaves;
+        for (int i = 2; i < argumentCount - 1; ++i) {
+            file = arguments[i];
+            leaves += read(file);
+        }
+        file = arguments[1];
+        std::set<std::string> words;
+        for (const Token &token : tokensOf(leaves))
+            words.insert(token.text);
+        words.insert("FrameRecord");
+        for (Declaration one : declarationsOf(tokensOf(glslPartOf(read(file)))))
+            if (one.kind != Declaration::Constant && words.contains(one.name)) {
+                one.isRecord = one.kind == Declaration::Struct;
+                translator.add(one);
+            }
+        for (int i = 2; i < argumentCount - 1; ++i) {
+            file = arguments[i];
+            for (const Declaration &one : declarationsOf(tokensOf(read(file))))
+                translator.add(one);
+        }
+        file = arguments[argumentCount - 1];
+        std::ofstream out(file);
+        out << "// Made by cmake/glsl_to_cpp.cpp from the leaf functions of shaders/.\n"
+            << translator.text() << "\n";
+        if (!out.flush())
+            throw std::runtime_error("it cannot be written");
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "%s: %s\n", file.c_str(), error.what());
+        return 1;
+    }
+    return 0;
+}
