@@ -57,7 +57,7 @@ std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
 WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::uint64_t slots) {
     const bool isSplitting = isWhitted(job.integrator) && job.scene.hasDielectric;
     const std::uint32_t mostPending = isSplitting ? job.scene.frame.maxDepth - 1 : 0;
-    const bool keepsPending = !isResumable && mostPending <= layout::mostPendingInRegisters;
+    const bool keepsPending = !isResumable && mostPending <= layout::maxPendingInRegisters;
     WaitingPlan waiting;
     waiting.paths =
         plan("the path slots", BufferUse::Storage, isResumable ? slots * sizeof(layout::PathRecord) : 0);

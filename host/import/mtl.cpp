@@ -47,7 +47,7 @@ glm::vec3 fraction(const glm::vec3 &colour) {
 float mean(const glm::vec3 &colour) { return (colour.x + colour.y + colour.z) / 3.0f; }
 
 /// The roughness whose microfacets are spread as Blinn and Phong's with this exponent: Walter et al., "Microfacet
-/// Models for Refraction through Rough Surfaces", EGSR 2007, section 5.2.
+/// Models for Refraction through Bsdf Surfaces", EGSR 2007, section 5.2.
 float roughnessOf(float exponent) { return std::sqrt(std::sqrt(2.0f / (std::max(exponent, 0.0f) + 2.0f))); }
 
 Material materialOf(const MtlStatements &mtl) {

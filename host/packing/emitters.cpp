@@ -51,7 +51,7 @@ layout::EmitterRecord lightEmitter(const layout::LightRecord &light) {
     emitter.axis = light.axis;
     emitter.cosineOuter = light.cosineOuter;
     if (light.kind == layout::lightSpot)
-        emitter.density = light.falloffScale;
+        emitter.pdf = light.falloffScale;
     return emitter;
 }
 
@@ -144,14 +144,14 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
         emitter.cumulative = static_cast<std::uint32_t>(std::fmin(numbers, all - 1.0));
         emitter.probability = static_cast<float>((numbers - numbersBefore) / all);
         if (area > 0.0)
-            emitter.density = static_cast<float>((numbers - numbersBefore) / all / area);
+            emitter.pdf = static_cast<float>((numbers - numbersBefore) / all / area);
         if (emitter.kind == layout::emitterEnvironment)
             packed.frame.environmentProbability = emitter.probability;
         numbersBefore = numbers;
         packed.emitters.push_back(emitter);
     }
     for (std::size_t i = 0; i < packed.materials.size(); ++i)
-        packed.materials[i].emitterDensity = total > 0.0 ? static_cast<float>(exitances[i] / total) : 0.0f;
+        packed.materials[i].emitterPdf = total > 0.0 ? static_cast<float>(exitances[i] / total) : 0.0f;
 }
 
 } // namespace hyalite

@@ -114,13 +114,13 @@ Energy averageOf(const EnergyRow &row) {
     return average;
 }
 
-layout::TexelRecord texel(double x, double y, double z, double w) {
+layout::LookupRow texel(double x, double y, double z, double w) {
     return {glm::vec3(x, y, z), std::bit_cast<std::uint32_t>(static_cast<float>(w))};
 }
 
 } // namespace
 
-std::vector<layout::TexelRecord> makeEnergyTexels() {
+std::vector<layout::LookupRow> makeEnergyTexels() {
     std::array<EnergyRow, roughnessCount> rows;
     std::array<Energy, roughnessCount> averages;
 #pragma omp parallel for schedule(dynamic)
@@ -129,7 +129,7 @@ std::vector<layout::TexelRecord> makeEnergyTexels() {
         rows[j] = energiesOf(roughness * roughness);
         averages[j] = averageOf(rows[j]);
     }
-    std::vector<layout::TexelRecord> texels;
+    std::vector<layout::LookupRow> texels;
     texels.reserve(layout::energyTexelCount);
     for (std::size_t j = 0; j + 1 < roughnessCount; ++j)
         for (std::size_t i = 0; i + 1 < cosineCount; ++i) {

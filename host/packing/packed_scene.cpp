@@ -263,7 +263,7 @@ std::uint64_t PackedScene::contentHash() const {
     seen.filterTexels = 0;
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials)
-        material.emitterDensity = 0.0f; // which only some integrators need
+        material.emitterPdf = 0.0f; // which only some integrators need
     std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)));
     hash = hashBytes(std::as_bytes(std::span(spheres)), hash);
     hash = hashBytes(std::as_bytes(std::span(lights)), hash);
@@ -326,7 +326,7 @@ std::uint32_t viewOf(Integrator integrator) {
     return layout::viewNormal;
 }
 
-PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t mostDecoded) {
+PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded) {
     assert(bvh.order.size() <= triangleCount(scene));
     PackedScene packed;
     packed.frame = packFrame(scene);
@@ -381,7 +381,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t mostDecode
     }
     packTriangles(scene, bvh, packedMaterial, packed);
     packNodes(bvh, packed);
-    packTextures(scene, order, mostDecoded, packed);
+    packTextures(scene, order, maxDecoded, packed);
     const bool isPath = scene.settings.integrator == Integrator::Path;
     if (isPath && (packed.scattering & layout::scattersAtRough) != 0)
         packed.texels = makeEnergyTexels();

@@ -13,7 +13,7 @@ struct PackedScene {
     std::vector<layout::LightRecord> lights;
     std::vector<layout::MaterialRecord> materials; ///< what light passes first, by falling priority
     std::vector<layout::EmitterRecord> emitters;   ///< for the path integrator only
-    std::vector<layout::TexelRecord> texels;       ///< what is looked up by index
+    std::vector<layout::LookupRow> texels;         ///< what is looked up by index
     std::vector<layout::TextureRow> textures;      ///< see layout.h; empty where nothing reads them
     std::vector<layout::NodePair> nodes;           ///< never empty
     std::vector<layout::TriangleRecord> triangles; ///< leaf by leaf
@@ -46,11 +46,11 @@ struct PackedScene {
 [[nodiscard]] std::uint32_t viewOf(Integrator integrator);
 
 /// As much as textures of 8 bits may take when they are decoded: 16 bytes a pixel.
-inline constexpr std::size_t mostDecodedBytes = std::size_t{64} << 20;
+inline constexpr std::size_t maxDecodedBytes = std::size_t{64} << 20;
 
 /// `scene` is valid, and `bvh` was built from its triangles. Textures of 8 bits are decoded if all together take no more
-/// than `mostDecoded` bytes so: they look the same, and a lookup reads 4 rows in place of 16.
+/// than `maxDecoded` bytes so: they look the same, and a lookup reads 4 rows in place of 16.
 [[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh,
-                                    std::size_t mostDecoded = mostDecodedBytes);
+                                    std::size_t maxDecoded = maxDecodedBytes);
 
 } // namespace hyalite

@@ -85,13 +85,13 @@ struct StoredImage {
 /// The images of a scene, each stored once: the decoded ones for each way to read them.
 class ImageStore {
   public:
-    /// Levels are decoded, for a texel is then read at once, where all images take no more than `mostDecoded` bytes so.
-    ImageStore(const Scene &scene, std::size_t mostDecoded) : scene_(scene) {
+    /// Levels are decoded, for a texel is then read at once, where all images take no more than `maxDecoded` bytes so.
+    ImageStore(const Scene &scene, std::size_t maxDecoded) : scene_(scene) {
         std::size_t pixelCount = 0;
         forEachUse([&](const Texture &texture, std::uint32_t slot) {
             pixelCount += add({&texture, formatOf(texture, slot)}) ? texture.pixelCount() : 0;
         });
-        areDecoded_ = pixelCount <= mostDecoded / sizeof(layout::TextureRow);
+        areDecoded_ = pixelCount <= maxDecoded / sizeof(layout::TextureRow);
         if (areDecoded_)
             return;
         images_.clear();
@@ -221,7 +221,7 @@ bool hasTextures(const Material &material) {
 
 } // namespace
 
-void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std::size_t mostDecoded,
+void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std::size_t maxDecoded,
                   PackedScene &packed) {
     if (packed.texturing == 0 && scene.settings.integrator != Integrator::Uv)
         return;
@@ -230,7 +230,7 @@ void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std:
         layout::firstCoordinateRow + layout::rowsPerCoordinates * packed.triangles.size();
     for (const Material &material : scene.materials)
         firstTexelRow += hasTextures(material) ? rowsPerMaterial : 0;
-    ImageStore images(scene, mostDecoded);
+    ImageStore images(scene, maxDecoded);
     const std::size_t rowCount = images.place(firstTexelRow);
     packed.texturing |= images.hasLevels() ? layout::texturesLevels : 0u;
 

@@ -33,7 +33,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
         throughput_ = Vec3<Real>(Real(1));
-        scatterDensity_ = 0;
+        scatterPdf_ = 0;
         mediaInside_ = 0;
         depth_ = 1;
         std::optional<Ray<Real>> ray = Ray<Real>{primary.origin, primary.direction};
@@ -89,35 +89,34 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                      const MaterialRecord<Real> &material) {
         const Real facing = -dotProduct(ray.direction, surface.geometricNormal);
         const Real cosine = isTwoSided(material) ? abs(facing) : facing;
-        const Real areaDensity = static_cast<Real>(material.emitterDensity);
-        if (areaDensity <= 0 || cosine <= 0)
+        const Real areaPdf = static_cast<Real>(material.emitterPdf);
+        if (areaPdf <= 0 || cosine <= 0)
             return;
         Real weight = 1;
-        if (scatterDensity_ > 0) {
-            Real density;
+        if (scatterPdf_ > 0) {
+            Real pdf;
             if (hit.primitive >= layout::firstTriangleId) {
-                density = solidAngleDensity(areaDensity, hit.distance, cosine);
+                pdf = solidAnglePdf(areaPdf, hit.distance, cosine);
             } else {
                 const layout::SphereRecord &sphere = scene_.packed.spheres[hit.record];
-                density =
-                    sphereLightDensity(ray.origin, ray.direction, hit.distance, Vec3<Real>(sphere.centre),
-                                       static_cast<Real>(sphere.radius),
-                                       surface.normal * static_cast<Real>(normalSignOf(sphere)), areaDensity);
+                pdf = pdfSphereLight(ray.origin, ray.direction, hit.distance, Vec3<Real>(sphere.centre),
+                                     static_cast<Real>(sphere.radius),
+                                     surface.normal * static_cast<Real>(normalSignOf(sphere)), areaPdf);
             }
-            weight = powerHeuristic(scatterDensity_, density);
+            weight = powerHeuristic(scatterPdf_, pdf);
         }
         addRadiance(throughput_ * weight, Vec3<Real>(material.emission));
     }
 
     /// What comes from beyond the scene, weighted against aiming at it.
-    void addSurroundings(const Ray<Real> &ray) {
+    void addEnvironment(const Ray<Real> &ray) {
         if ((scene_.lighting & layout::lightsByEnvironment) == 0) {
             addRadiance(throughput_, Vec3<Real>(scene_.frame.background));
             return;
         }
         const EnvironmentLight<Real> found = environmentFrom(scene_, ray.direction);
-        const Real density = found.density * static_cast<Real>(scene_.frame.environmentProbability);
-        const Real weight = scatterDensity_ > 0 ? powerHeuristic(scatterDensity_, density) : Real(1);
+        const Real pdf = found.pdf * static_cast<Real>(scene_.frame.environmentProbability);
+        const Real weight = scatterPdf_ > 0 ? powerHeuristic(scatterPdf_, pdf) : Real(1);
         addRadiance(throughput_ * weight, found.radiance);
     }
 
@@ -125,7 +124,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     [[nodiscard]] Vec3<Real> transmittance(Real distance) const {
         const std::uint32_t medium = mediumAround(mediaInside_);
         return medium != layout::noMaterial
-                   ? decay<Real>(Vec3<Real>(scene_.packed.materials[medium].absorption) * distance)
+                   ? expNegative<Real>(Vec3<Real>(scene_.packed.materials[medium].absorption) * distance)
                    : Vec3<Real>(Real(1));
     }
 
@@ -151,9 +150,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     [[nodiscard]] Ray<Real> reflect(const Ray<Real> &ray, const Surface<Real> &surface,
                                     const Vec3<Real> &normal, std::uint32_t primitive) {
         const Vec3<Real> direction = mirrorDirection(ray.direction, normal);
-        scatterDensity_ = 0;
+        scatterPdf_ = 0;
         ++counts_.reflection;
-        return {spawnPoint(scene_, surface, direction), direction, primitive};
+        return {offsetRayOrigin(scene_, surface, direction), direction, primitive};
     }
 
     /// The glass on both sides of a surface of glass.
@@ -184,15 +183,15 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const Crossing crossing = crossingOf(materialIndex, isEntering);
         if (crossing.isNothing) {
             mediaInside_ = crossing.beyond;
-            scatterDensity_ = 0; // no light is aimed at through glass
-            return {spawnPoint(scene_, surface, ray.direction), ray.direction, primitive};
+            scatterPdf_ = 0; // no light is aimed at through glass
+            return {offsetRayOrigin(scene_, surface, ray.direction), ray.direction, primitive};
         }
         const Vec3<Real> geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
         const Vec3<Real> shadingFacing = isEntering ? surface.normal : -surface.normal;
         const Vec3<Real> facing =
             dotProduct(ray.direction, shadingFacing) < 0 ? shadingFacing : geometricFacing;
         const Real eta = crossing.eta;
-        const Interface<Real> glass = meetInterface(ray.direction, facing, eta);
+        const DielectricFresnel<Real> glass = fresnelDielectric(ray.direction, facing, eta);
         traceEvent(layout::traceReflectance, glass.reflectance == 1 ? 1 : 0, Vec3<Real>(glass.reflectance));
         if (unitFloat<Real>(vertexBits(pairChoice).x) < glass.reflectance) {
             mediaInside_ = crossing.before;
@@ -200,41 +199,19 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         }
         mediaInside_ = crossing.beyond;
         throughput_ *= eta * eta;
-        scatterDensity_ = 0;
+        scatterPdf_ = 0;
         ++counts_.refraction;
-        return {spawnPoint(scene_, surface, glass.refracted), glass.refracted, primitive};
-    }
-
-    [[nodiscard]] static bool isGlass(const MaterialRecord<Real> &material) {
-        return kindOf(material) == layout::materialDielectric ||
-               (kindOf(material) == layout::materialPrincipled && material.transmission > 0.0f);
+        return {offsetRayOrigin(scene_, surface, glass.refracted), glass.refracted, primitive};
     }
 
     /// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
-    [[nodiscard]] bool isSmooth(const MaterialRecord<Real> &material, std::uint32_t materialIndex,
-                                bool isEntering) const {
-        if (kindOf(material) == layout::materialDiffuse)
-            return false;
-        if (isGlass(material) && material.alpha > 0.0f) {
+    [[nodiscard]] bool isSpecularHere(const MaterialRecord<Real> &material, std::uint32_t materialIndex,
+                                      bool isEntering) const {
+        if (isGlass(scene_, material) && material.alpha > 0) {
             const Crossing crossing = crossingOf(materialIndex, isEntering);
             return crossing.isNothing || crossing.eta == Real(1);
         }
-        return kindOf(material) == layout::materialMirror || material.alpha == 0.0f;
-    }
-
-    /// The reflectance of what is smooth and no glass.
-    [[nodiscard]] static Vec3<Real> mirrorReflectance(const Ray<Real> &ray, const Surface<Real> &surface,
-                                                      const MaterialRecord<Real> &material) {
-        if (kindOf(material) != layout::materialConductor)
-            return Vec3<Real>(Real(1));
-        const Real cosine = abs(dotProduct(ray.direction, surface.normal));
-        return conductorReflectance(lesser(cosine, Real(1)), Vec3<Real>(material.conductorIndex),
-                                    Vec3<Real>(material.conductorExtinction));
-    }
-
-    /// Whether what is not smooth is black from behind.
-    [[nodiscard]] static bool isBlackBehind(const MaterialRecord<Real> &material) {
-        return !isTwoSided(material) && kindOf(material) != layout::materialConductor && !isGlass(material);
+        return isSpecular(material);
     }
 
     /// What the path does next, or nothing.
@@ -245,7 +222,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         throughput_ *= transmittance(hit.distance);
         if (hit.primitive == layout::noPrimitive) {
-            addSurroundings(ray);
+            addEnvironment(ray);
             return std::nullopt;
         }
         std::uint32_t materialIndex;
@@ -258,23 +235,23 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         if (depth_ >= scene_.frame.maxDepth)
             return std::nullopt;
         const bool isBehind = dotProduct(ray.direction, surface.geometricNormal) > 0;
-        if (!isSmooth(material, materialIndex, !isBehind)) {
+        if (!isSpecularHere(material, materialIndex, !isBehind)) {
             if (isBehind) {
-                if (isBlackBehind(material))
+                if (isBlackBehind(scene_, material))
                     return std::nullopt;
                 surface.normal = -surface.normal;
                 surface.geometricNormal = -surface.geometricNormal;
             }
             if (scene_.scattering != 0)
-                return scatterFromRough(ray, surface, material, materialIndex, isBehind, hit.primitive);
+                return scatterFromBsdf(ray, surface, material, materialIndex, isBehind, hit.primitive);
             throughput_ *= Vec3<Real>(material.albedo);
             return scatterFromDiffuse(surface, hit.primitive);
         }
         if (!survivesRoulette())
             return std::nullopt;
-        if (isGlass(material))
+        if (isGlass(scene_, material))
             return meetGlass(ray, surface, materialIndex, hit.primitive);
-        throughput_ *= mirrorReflectance(ray, surface, material);
+        throughput_ *= mirrorReflectance(scene_, material, abs(dotProduct(ray.direction, surface.normal)));
         return reflect(ray, surface, surface.normal, hit.primitive);
     }
 
@@ -283,7 +260,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                                                               std::uint32_t primitive) {
         const Vec3<Real> direction = sampleCosine(surface.normal, unitFloats<Real>(vertexBits(pairScatter)));
         const bool isAbove = dotProduct(surface.geometricNormal, direction) > 0;
-        scatterDensity_ = isAbove ? pdfCosine(dotProduct(surface.normal, direction)) : Real(0);
+        scatterPdf_ = isAbove ? pdfCosine(dotProduct(surface.normal, direction)) : Real(0);
 
         const std::uint32_t emitter = chooseEmitter(scene_, vertexBits(pairChoice).x);
         const LightSample<Real> light =
@@ -292,8 +269,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const bool isLit = largestComponent(light.radiance) > 0 && cosine > 0 &&
                            dotProduct(surface.geometricNormal, light.direction) > 0;
         const Real reflected = pdfCosine(cosine); // also the density of a scattered ray
-        const Real share =
-            light.density > 0 ? reflected * powerHeuristic(light.density, reflected) : reflected;
+        const Real share = light.pdf > 0 ? reflected * powerHeuristic(light.pdf, reflected) : reflected;
         if (isLit)
             aimAt(surface, emitter, light,
                   throughput_ * (light.radiance * share) * transmittance(light.distance), primitive);
@@ -303,25 +279,27 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     }
 
     /// On a surface with lobes: draws the direction in which the path will go on, and aims at a light.
-    [[nodiscard]] std::optional<Ray<Real>>
-    scatterFromRough(const Ray<Real> &ray, const Surface<Real> &surface, const MaterialRecord<Real> &material,
-                     std::uint32_t materialIndex, bool isBehind, std::uint32_t primitive) {
-        const Crossing crossing = isGlass(material) ? crossingOf(materialIndex, !isBehind)
-                                                    : Crossing{mediaInside_, mediaInside_, Real(1), true};
+    [[nodiscard]] std::optional<Ray<Real>> scatterFromBsdf(const Ray<Real> &ray, const Surface<Real> &surface,
+                                                           const MaterialRecord<Real> &material,
+                                                           std::uint32_t materialIndex, bool isBehind,
+                                                           std::uint32_t primitive) {
+        const Crossing crossing = isGlass(scene_, material)
+                                      ? crossingOf(materialIndex, !isBehind)
+                                      : Crossing{mediaInside_, mediaInside_, Real(1), true};
         const Vec2<Real> choice = lobeChoice();
-        const Rough<Real> rough = roughOf<Real>(scene_, material, ray.direction, surface.normal,
-                                                surface.geometricNormal, isBehind, crossing.eta, choice.x);
+        const Bsdf<Real> bsdf = makeBsdf<Real>(scene_, material, ray.direction, surface.normal,
+                                               surface.geometricNormal, isBehind, crossing.eta, choice.x);
 
         const std::uint32_t emitter = chooseEmitter(scene_, vertexBits(pairChoice).x);
         const LightSample<Real> light =
             sampleEmitter<Real>(scene_, emitter, surface.position, vertexBits(pairLight));
-        const Vec3<Real> toLight = toLocal(rough.frame, light.direction);
+        const Vec3<Real> wi = toLocal(bsdf.frame, light.direction);
         const bool isLightBeyond = dotProduct(surface.geometricNormal, light.direction) <= 0;
-        const Scattered<Real> lit = evaluateRough(scene_, rough, toLight);
+        const BsdfEval<Real> lit = evalBsdf(scene_, bsdf, wi);
         const bool isLit =
-            largestComponent(light.radiance) > 0 && lit.density > 0 && isLightBeyond == (toLight.z <= 0);
+            largestComponent(light.radiance) > 0 && lit.pdf > 0 && isLightBeyond == (wi.z <= 0);
         if (isLit) {
-            const Real share = light.density > 0 ? powerHeuristic(light.density, lit.density) : Real(1);
+            const Real share = light.pdf > 0 ? powerHeuristic(light.pdf, lit.pdf) : Real(1);
             mediaInside_ = isLightBeyond ? crossing.beyond : crossing.before;
             const Vec3<Real> weight = throughput_ * (light.radiance * (lit.value * share));
             aimAt(surface, emitter, light, weight * transmittance(light.distance), primitive);
@@ -330,27 +308,27 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         }
 
         const Vec3<Real> drawn =
-            drawRough(scene_, rough, unitFloats<Real>(vertexBits(pairScatter)), choice.y);
-        const Vec3<Real> direction = unitVector(toWorld(rough.frame, drawn));
-        const Scattered<Real> scattered = evaluateRough(scene_, rough, drawn);
+            sampleBsdf(scene_, bsdf, unitFloats<Real>(vertexBits(pairScatter)), choice.y);
+        const Vec3<Real> direction = unitVector(toWorld(bsdf.frame, drawn));
+        const BsdfEval<Real> scattered = evalBsdf(scene_, bsdf, drawn);
         const bool isBeyond = dotProduct(surface.geometricNormal, direction) <= 0;
-        const bool isPossible = scattered.density > 0 && isBeyond == (drawn.z <= 0);
+        const bool isPossible = scattered.pdf > 0 && isBeyond == (drawn.z <= 0);
         mediaInside_ = isBeyond ? crossing.beyond : crossing.before;
-        scatterDensity_ = isPossible ? scattered.density : Real(0);
+        scatterPdf_ = isPossible ? scattered.pdf : Real(0);
         if (isPossible)
-            throughput_ *= scattered.value * (Real(1) / scattered.density);
+            throughput_ *= scattered.value * (Real(1) / scattered.pdf);
         return scatter(surface, direction, primitive);
     }
 
     /// The path goes on from a surface.
     [[nodiscard]] std::optional<Ray<Real>> scatter(const Surface<Real> &surface, const Vec3<Real> &direction,
                                                    std::uint32_t primitive) {
-        if (!(scatterDensity_ > 0) || !survivesRoulette())
+        if (!(scatterPdf_ > 0) || !survivesRoulette())
             return std::nullopt;
-        traceEvent(layout::traceScatter, std::bit_cast<std::uint32_t>(static_cast<float>(scatterDensity_)),
+        traceEvent(layout::traceScatter, std::bit_cast<std::uint32_t>(static_cast<float>(scatterPdf_)),
                    direction);
         ++counts_.bounce;
-        return Ray<Real>{spawnPoint(scene_, surface, direction), direction, primitive};
+        return Ray<Real>{offsetRayOrigin(scene_, surface, direction), direction, primitive};
     }
 
     void aimAtNothing(std::uint32_t emitter) {
@@ -361,7 +339,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     void aimAt(const Surface<Real> &surface, std::uint32_t emitter, const LightSample<Real> &light,
                const Vec3<Real> &weight, std::uint32_t primitive) {
         ++counts_.shadow;
-        const Ray<Real> ray{spawnPoint(scene_, surface, light.direction), light.direction, primitive};
+        const Ray<Real> ray{offsetRayOrigin(scene_, surface, light.direction), light.direction, primitive};
         const bool isBlocked = isAnythingBefore(scene_, ray, light.distance, light.target, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
                    Vec3<Real>(static_cast<Real>(emitter)));
@@ -375,7 +353,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     std::uint32_t depth_ = 0; ///< segment number of the current ray
     Vec3<Real> radiance_{Real(0)};
     Vec3<Real> throughput_{Real(1)};
-    Real scatterDensity_ = 0; ///< of the direction of the current ray, per solid angle; 0: it had no choice
+    Real scatterPdf_ = 0; ///< of the direction of the current ray, per solid angle; 0: it had no choice
     std::uint32_t mediaInside_ = 0; ///< see media.h
     RayCounts counts_;
     Counter counter_;

@@ -96,7 +96,7 @@ template <class Real> struct SceneView {
     [[nodiscard]] NormalRecord<Real> fetchNormals(uint index) const { return packed.normals[index]; }
     [[nodiscard]] MaterialRecord<Real> fetchMaterial(uint index) const { return packed.materials[index]; }
     [[nodiscard]] EmitterRecord<Real> fetchEmitter(uint index) const { return packed.emitters[index]; }
-    [[nodiscard]] TexelRecord<Real> fetchTexel(uint index) const { return packed.texels[index]; }
+    [[nodiscard]] LookupRow<Real> fetchLookupRow(uint index) const { return packed.texels[index]; }
     [[nodiscard]] uvec4 fetchTextureRow(uint index) const {
         const layout::TextureRow &row = packed.textures[index];
         return {row.x, row.y, row.z, row.w};

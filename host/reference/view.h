@@ -63,10 +63,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         case layout::viewId:
             return show(idColour<Real>(hit.primitive));
         case layout::viewAlbedo:
-            return show(kindOf(material) == layout::materialMirror ||
-                                kindOf(material) == layout::materialDielectric
-                            ? Vec3<Real>(Real(1))
-                            : Vec3<Real>(material.albedo));
+            return show(isColourless(material) ? Vec3<Real>(Real(1)) : Vec3<Real>(material.albedo));
         default:
             return seeSky(ray, surface, hit.primitive, pixel);
         }
@@ -101,7 +98,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         if (!(dotProduct(surface.geometricNormal, direction) > 0))
             return Vec3<Real>(Real(0));
         ++counts_.shadow;
-        const Ray<Real> toSky{spawnPoint(scene_, surface, direction), direction, primitive};
+        const Ray<Real> toSky{offsetRayOrigin(scene_, surface, direction), direction, primitive};
         const Real length = static_cast<Real>(scene_.frame.occlusionDistance);
         const bool isBlocked = isAnythingBefore(scene_, toSky, length, layout::noPrimitive, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,

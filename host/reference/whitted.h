@@ -71,8 +71,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         const Surface<Real> surface = hitSurface(scene_, segment.ray, hit, materialIndex);
         const MaterialRecord<Real> material = hitMaterial(scene_, hit, materialIndex, surface.position);
         const bool isEntering = dotProduct(segment.ray.direction, surface.normal) < 0;
-        const bool isGlass = kindOf(material) == layout::materialDielectric;
-        const std::uint32_t medium = isGlass && !isEntering ? materialIndex : segment.medium;
+        const bool isClear = isGlassForWhitted(material);
+        const std::uint32_t medium = isClear && !isEntering ? materialIndex : segment.medium;
         if (medium != layout::noMaterial)
             segment.throughput *= Vec3<Real>(scene_.packed.materials[medium].segmentTint);
 
@@ -84,17 +84,13 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             radiance_ = radiance_ + segment.throughput * Vec3<Real>(material.emission);
             traceEvent(layout::traceRadiance, 0, radiance_);
         }
-        // Rough metals are mirrors here, and principled materials diffuse.
-        if (kindOf(material) == layout::materialDiffuse || kindOf(material) == layout::materialPrincipled)
+        if (isDiffuseForWhitted(scene_, material))
             shadeDiffuse(segment, surface, material, hit.primitive);
-        else if (segment.depth < scene_.frame.maxDepth && isGlass)
+        else if (segment.depth < scene_.frame.maxDepth && isClear)
             splitAtGlass(segment, surface, material.refractiveIndex, materialIndex, isEntering,
                          hit.primitive);
         else if (segment.depth < scene_.frame.maxDepth)
-            reflect(segment, surface,
-                    kindOf(material) == layout::materialConductor
-                        ? segment.throughput * Vec3<Real>(material.albedo)
-                        : segment.throughput,
+            reflect(segment, surface, segment.throughput * mirrorReflectanceForWhitted(scene_, material),
                     segment.medium, hit.primitive);
     }
 
@@ -126,7 +122,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                 continue;
             }
             ++counts_.shadow;
-            const Ray<Real> ray{spawnPoint(scene_, surface, direction), direction, primitive};
+            const Ray<Real> ray{offsetRayOrigin(scene_, surface, direction), direction, primitive};
             const Shadow shadow = castShadowRay(scene_, ray, distance, counter_);
             traceEvent(layout::traceVisibility,
                        shadow.isBlocked  ? layout::visibilityBlocked
@@ -155,7 +151,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                  std::uint32_t medium, std::uint32_t primitive) {
         const Vec3<Real> direction = mirrorDirection(segment.ray.direction, surface.normal);
         ++counts_.reflection;
-        pending_.push_back({{spawnPoint(scene_, surface, direction), direction, primitive},
+        pending_.push_back({{offsetRayOrigin(scene_, surface, direction), direction, primitive},
                             throughput,
                             segment.depth + 1,
                             medium});
@@ -176,7 +172,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         reflect(segment, surface, segment.throughput * refraction.reflectance, mediumOfReflection, primitive);
         ++counts_.refraction;
         pending_.push_back(
-            {{spawnPoint(scene_, surface, refraction.direction), refraction.direction, primitive},
+            {{offsetRayOrigin(scene_, surface, refraction.direction), refraction.direction, primitive},
              segment.throughput * refraction.transmittance,
              segment.depth + 1,
              isEntering ? materialIndex : layout::noMaterial});

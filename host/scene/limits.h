@@ -50,7 +50,7 @@ inline constexpr Interval inspectedRays{1, 1e6}; ///< each meets all triangles
 
 inline constexpr std::size_t lightCount = layout::maxLightCount;
 inline constexpr std::size_t sphereCount = layout::maxSphereCount; ///< each ray tests all of them
-inline constexpr std::size_t mediumCount = layout::mostMedia;      ///< dielectrics, for the path integrator
+inline constexpr std::size_t mediumCount = layout::maxMedia;       ///< dielectrics, for the path integrator
 inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 22; ///< pixels: 64 MiB on the device
 inline constexpr std::size_t textureBytes = std::size_t{1} << 30; ///< of all textures together, on the device
 inline constexpr std::size_t materialCount = 65536;

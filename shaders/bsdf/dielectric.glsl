@@ -30,14 +30,14 @@ Refraction refractRay(vec3 direction, vec3 facing, float index, bool isEntering)
     return Refraction(unitVector(transmitted), reflectance, transmittance, radicand < 0.0);
 }
 
-struct Interface {
+struct DielectricFresnel {
     vec3 refracted;    // direction, unit length; meaningless where the reflectance is 1
     float reflectance; // in [0, 1]; 1: total
 };
 
 // What a smooth interface does with unpolarised light: Fresnel's equations. `direction` meets it from the side of its
 // unit normal `facing`; `eta` is the refractive index on that side divided by the one beyond.
-Interface meetInterface(vec3 direction, vec3 facing, float eta) {
+DielectricFresnel fresnelDielectric(vec3 direction, vec3 facing, float eta) {
     float cosIncident = -dotProduct(direction, facing);
     float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);
     float cosTransmitted = squareRoot(greater(radicand, 0.0));
@@ -52,5 +52,5 @@ Interface meetInterface(vec3 direction, vec3 facing, float eta) {
     float across = divide(acrossDifference, acrossSum);
     float parallel = divide(alongDifference, alongSum);
     float reflectance = 0.5 * (across * across + parallel * parallel);
-    return Interface(unitVector(refracted), radicand > 0.0 ? lesser(reflectance, 1.0) : 1.0);
+    return DielectricFresnel(unitVector(refracted), radicand > 0.0 ? lesser(reflectance, 1.0) : 1.0);
 }

@@ -33,8 +33,8 @@ Energy energyOf(float cosine, float roughness) {
     EnergyPlace across = energyPlace(squareRoot(cosine), energyCosines);
     EnergyPlace along = energyPlace(roughness, energyRoughnesses);
     uint row = 2u * (along.cell * (energyCosines - 1u) + across.cell);
-    TexelRecord white = fetchTexel(row);
-    TexelRecord grazing = fetchTexel(row + 1u);
+    LookupRow white = fetchLookupRow(row);
+    LookupRow grazing = fetchLookupRow(row + 1u);
     return Energy(mixture(mixture(white.value.x, white.value.y, across.share),
                           mixture(white.value.z, uintBitsToFloat(white.word), across.share), along.share),
                   mixture(mixture(grazing.value.x, grazing.value.y, across.share),
@@ -44,7 +44,7 @@ Energy energyOf(float cosine, float roughness) {
 // Averages over the hemisphere, weighted by the cosine.
 Energy averageEnergy(float roughness) {
     EnergyPlace along = energyPlace(roughness, energyRoughnesses);
-    TexelRecord ends = fetchTexel(2u * energyCellCount + along.cell);
+    LookupRow ends = fetchLookupRow(2u * energyCellCount + along.cell);
     return Energy(mixture(ends.value.x, ends.value.y, along.share),
                   mixture(ends.value.z, uintBitsToFloat(ends.word), along.share));
 }
@@ -54,7 +54,7 @@ float energyAt(Energy energy, float normal) { return mixture(energy.grazing, ene
 
 // What is reflected twice and more often by facets whose reflectance is `average`, of what is not reflected at once;
 // `white` is the average energy. Hill, "A Multi-Faceted Exploration", 2018, part 3.
-vec3 lateReflectance(vec3 average, float white) {
+vec3 multiScatterReflectance(vec3 average, float white) {
     vec3 above = average * average * white;
     vec3 below = 1.0 - average * (1.0 - white);
     return above * divide(1.0, below);

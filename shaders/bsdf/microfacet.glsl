@@ -1,6 +1,6 @@
 // Rough surfaces of microfacets with the GGX distribution.
 //
-// All directions are unit vectors in the frame of the surface, whose normal is +z; `view` has z > 0 and leads back to
+// All directions are unit vectors in the frame of the surface, whose normal is +z; `wo` has z > 0 and leads back to
 // where the path comes from. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz,
 // "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, for the masking of both
 // directions together: G = 2 |o.z| |i.z| / (|o.z| stretch(i) + |i.z| stretch(o)).
@@ -14,7 +14,7 @@ float stretchOf(vec3 w, float alpha) {
 }
 
 // Microfacets with the normal `m`, per solid angle and unit of area.
-float facetDensity(vec3 m, float alpha) {
+float ggxD(vec3 m, float alpha) {
     float squaredAlpha = alpha * alpha;
     float squaredSine = m.x * m.x + m.y * m.y;
     float spread = squaredSine + squaredAlpha * (m.z * m.z);
@@ -23,10 +23,10 @@ float facetDensity(vec3 m, float alpha) {
     return divide(scaled, squared);
 }
 
-// A facet's normal with the density facetDensity G1 (view.m) / view.z of those that are seen: Dupuy and Benyoub,
+// A facet's normal with the density ggxD G1 (wo.m) / wo.z of those that are seen: Dupuy and Benyoub,
 // "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
-vec3 sampleVisibleFacet(vec3 view, float alpha, vec2 u) {
-    vec3 stretched = unitVector(vec3(vec2(view) * alpha, view.z));
+vec3 sampleGgxVndf(vec3 wo, float alpha, vec2 u) {
+    vec3 stretched = unitVector(vec3(vec2(wo) * alpha, wo.z));
     float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
     float squaredSine = 1.0 - z * z;
     float sine = squareRoot(greater(squaredSine, 0.0));
@@ -35,37 +35,37 @@ vec3 sampleVisibleFacet(vec3 view, float alpha, vec2 u) {
     return unitVector(vec3(vec2(cap) * alpha, cap.z));
 }
 
-// The density, per solid angle, of the direction that a visible facet reflects `view` to; `density` is that of the
+// The density, per solid angle, of the direction that a visible facet reflects `wo` to; `density` is that of the
 // facets.
-float reflectionDensity(float density, vec3 view, float stretchView) {
-    float below = 2.0 * (view.z + stretchView);
-    return divide(density, below);
+float pdfReflection(float pdf, vec3 wo, float stretchWo) {
+    float below = 2.0 * (wo.z + stretchWo);
+    return divide(pdf, below);
 }
 
-// How many of the facets that are seen are also lit: G / G1(view). `light` may be on the other side.
-float litShare(float viewHeight, float stretchView, float lightHeight, float stretchLight) {
+// How many of the facets that are seen are also lit: G / G1(wo). `wi` may be on the other side.
+float smithG2OverG1(float viewHeight, float stretchWo, float lightHeight, float stretchLight) {
     float height = abs(lightHeight);
-    float above = height * (viewHeight + stretchView);
-    float below = viewHeight * stretchLight + height * stretchView;
+    float above = height * (viewHeight + stretchWo);
+    float below = viewHeight * stretchLight + height * stretchWo;
     return divide(above, below);
 }
 
-// The facet that reflects `view` to `light`.
-vec3 facetBetween(vec3 view, vec3 light) { return unitVector(view + light); }
+// The facet that reflects `wo` to `wi`.
+vec3 halfVector(vec3 wo, vec3 wi) { return unitVector(wo + wi); }
 
-// The facet that refracts `view` to `light`, on the other side, with z > 0 where there is one; `eta` is the refractive
-// index on the side of `view` divided by the other.
-vec3 facetAcross(vec3 view, vec3 light, float eta) {
-    vec3 across = view * eta + light;
+// The facet that refracts `wo` to `wi`, on the other side, with z > 0 where there is one; `eta` is the refractive
+// index on the side of `wo` divided by the other.
+vec3 halfVectorOfRefraction(vec3 wo, vec3 wi, float eta) {
+    vec3 across = wo * eta + wi;
     vec3 m = unitVector(across);
     return m.z < 0.0 ? -m : m;
 }
 
 // The density, per solid angle, of the direction to which visible facets refract: that of the facets that are seen, by
 // Walter's Jacobian (equation 17). `viewCosine` > 0 and `lightCosine` < 0 are those to the facet.
-float refractionDensity(float density, vec3 view, float stretchView, float viewCosine, float lightCosine, float eta) {
-    float seen = density * 2.0 * viewCosine * -lightCosine;
+float pdfRefraction(float pdf, vec3 wo, float stretchWo, float viewCosine, float lightCosine, float eta) {
+    float seen = pdf * 2.0 * viewCosine * -lightCosine;
     float sum = eta * viewCosine + lightCosine;
-    float below = (view.z + stretchView) * (sum * sum);
+    float below = (wo.z + stretchWo) * (sum * sum);
     return divide(seen, below);
 }

@@ -60,7 +60,7 @@ PrimaryRay allAround(uvec2 pixel, vec2 offset) {
 float filterQuantile(float u) {
     float x = u * float(filterCellCount);
     uint cell = uint(x);
-    TexelRecord texel = fetchTexel(frame.filterTexels + cell);
+    LookupRow texel = fetchLookupRow(frame.filterTexels + cell);
     return texel.value.x + texel.value.y * (x - float(cell));
 }
 

@@ -3,13 +3,13 @@
 struct SphereShape {
     vec3 centre;
     float squaredRadius;
-    float leastChord; // along the tangent the sign of a shorter one is that of rounding
+    float minChord; // along the tangent the sign of a shorter one is that of rounding
 };
 
 SphereShape makeSphereShape(vec3 centre, float radius) {
     float squaredRadius = radius * radius;
-    float leastChord = radius * (8.0 / 16777216.0);
-    return SphereShape(centre, squaredRadius, leastChord);
+    float minChord = radius * (8.0 / 16777216.0);
+    return SphereShape(centre, squaredRadius, minChord);
 }
 
 // The smallest positive distance at which a ray meets a sphere, or a negative number. `direction` is of unit length.
@@ -32,7 +32,7 @@ float intersectSphere(vec3 origin, vec3 direction, SphereShape sphere, bool star
     float chord = -2.0 * b;
     float first = r < q ? r : q;
     float second = r < q ? q : r;
-    float across = chord > sphere.leastChord ? chord : -1.0;
+    float across = chord > sphere.minChord ? chord : -1.0;
     float distance = startsOnSphere ? across : (first > 0.0 ? first : second);
     return startsOnSphere || discriminant > 0.0 ? distance : -1.0;
 }

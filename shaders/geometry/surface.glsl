@@ -34,7 +34,7 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
 // Where a ray leaves the surface in `direction`: moved along the geometric normal by twice the error bound, to the
 // side that the ray goes to (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
 // Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
-vec3 spawnPoint(Surface surface, vec3 direction) {
+vec3 offsetRayOrigin(Surface surface, vec3 direction) {
     if (!hasTriangles)
         return surface.position; // the same, unless the normal is NaN
     float distance = 2.0 * dotProduct(abs(surface.geometricNormal), surface.error);

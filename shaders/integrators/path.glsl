@@ -26,7 +26,7 @@ vec2 lobeChoice(uint slot) {
 
 void beginSample(uint slot) {
     sendPrimaryRay(slot);
-    path[slot].scatterDensity = 0.0;
+    path[slot].scatterPdf = 0.0;
     path[slot].mediaInside = 0u;
 }
 
@@ -45,40 +45,40 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
     vec3 direction = path[slot].rayDirection;
     float facing = -dotProduct(direction, surface.geometricNormal);
     float cosine = isTwoSided(material) ? abs(facing) : facing;
-    if (material.emitterDensity <= 0.0 || cosine <= 0.0)
+    if (material.emitterPdf <= 0.0 || cosine <= 0.0)
         return;
     float weight = 1.0;
-    if (path[slot].scatterDensity > 0.0) {
-        float density;
+    if (path[slot].scatterPdf > 0.0) {
+        float pdf;
         // A sphere that emits is aimed at, unless its radius is 0 and it is never met.
         if ((lighting & lightsBySpheres) == 0u || isTriangle(path[slot].hitPrimitive)) {
-            density = solidAngleDensity(material.emitterDensity, path[slot].rayLength, cosine);
+            pdf = solidAnglePdf(material.emitterPdf, path[slot].rayLength, cosine);
         } else {
             SphereRecord sphere = fetchSphere(path[slot].hitRecord);
-            density = sphereLightDensity(path[slot].rayOrigin, direction, path[slot].rayLength, sphere.centre, sphere.radius,
-                                         surface.normal * normalSignOf(sphere), material.emitterDensity);
+            pdf = pdfSphereLight(path[slot].rayOrigin, direction, path[slot].rayLength, sphere.centre, sphere.radius,
+                                         surface.normal * normalSignOf(sphere), material.emitterPdf);
         }
-        weight = powerHeuristic(path[slot].scatterDensity, density);
+        weight = powerHeuristic(path[slot].scatterPdf, pdf);
     }
     addRadiance(slot, path[slot].throughput * weight, material.emission);
 }
 
 // What comes from beyond the scene, weighted against aiming at it.
-void addSurroundings(uint slot) {
+void addEnvironment(uint slot) {
     if ((lighting & lightsByEnvironment) == 0u) {
         addRadiance(slot, path[slot].throughput, frame.background);
         return;
     }
     EnvironmentLight found = environmentFrom(path[slot].rayDirection);
-    float density = found.density * frame.environmentProbability;
-    float weight = path[slot].scatterDensity > 0.0 ? powerHeuristic(path[slot].scatterDensity, density) : 1.0;
+    float pdf = found.pdf * frame.environmentProbability;
+    float weight = path[slot].scatterPdf > 0.0 ? powerHeuristic(path[slot].scatterPdf, pdf) : 1.0;
     addRadiance(slot, path[slot].throughput * weight, found.radiance);
 }
 
 // What glass around the path leaves of light after this distance.
 vec3 transmittance(uint slot, float distance) {
     uint medium = mediumAround(path[slot].mediaInside);
-    return medium != noMaterial ? decay(fetchMaterial(medium).absorption * distance) : vec3(1.0);
+    return medium != noMaterial ? expNegative(fetchMaterial(medium).absorption * distance) : vec3(1.0);
 }
 
 float mediumIndex(uint medium) { return medium != noMaterial ? fetchMaterial(medium).refractiveIndex : 1.0; }
@@ -102,8 +102,8 @@ void continueRay(uint slot, vec3 origin, vec3 direction, uint excluded) {
 
 void reflectRay(uint slot, Surface surface, vec3 normal) {
     vec3 direction = mirrorDirection(path[slot].rayDirection, normal);
-    vec3 origin = spawnPoint(surface, direction);
-    path[slot].scatterDensity = 0.0;
+    vec3 origin = offsetRayOrigin(surface, direction);
+    path[slot].scatterPdf = 0.0;
     rayCounts[slot].z += 1u;
     continueRay(slot, origin, direction, path[slot].hitPrimitive);
 }
@@ -134,15 +134,15 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
     Crossing crossing = crossingOf(slot, materialIndex, isEntering);
     if (crossing.isNothing) {
         path[slot].mediaInside = crossing.beyond;
-        path[slot].scatterDensity = 0.0; // no light is aimed at through glass
-        continueRay(slot, spawnPoint(surface, direction), direction, path[slot].hitPrimitive);
+        path[slot].scatterPdf = 0.0; // no light is aimed at through glass
+        continueRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive);
         return;
     }
     vec3 geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
     vec3 shadingFacing = isEntering ? surface.normal : -surface.normal;
     vec3 facing = dotProduct(direction, shadingFacing) < 0.0 ? shadingFacing : geometricFacing;
     float eta = crossing.eta;
-    Interface glass = meetInterface(direction, facing, eta);
+    DielectricFresnel glass = fresnelDielectric(direction, facing, eta);
     traceEvent(slot, traceReflectance, glass.reflectance == 1.0 ? 1u : 0u, vec3(glass.reflectance));
     if (unitFloat(vertexBits(slot, pairChoice).x) < glass.reflectance) {
         path[slot].mediaInside = crossing.before;
@@ -152,39 +152,18 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
     path[slot].mediaInside = crossing.beyond;
     float squaredEta = eta * eta;
     path[slot].throughput *= squaredEta;
-    path[slot].scatterDensity = 0.0;
+    path[slot].scatterPdf = 0.0;
     rayCounts[slot].w += 1u;
-    continueRay(slot, spawnPoint(surface, glass.refracted), glass.refracted, path[slot].hitPrimitive);
-}
-
-bool isGlass(MaterialRecord material) {
-    return kindOf(material) == materialDielectric ||
-           ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled &&
-            material.transmission > 0.0);
+    continueRay(slot, offsetRayOrigin(surface, glass.refracted), glass.refracted, path[slot].hitPrimitive);
 }
 
 // Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
-bool isSmooth(uint slot, MaterialRecord material, uint materialIndex, bool isEntering) {
-    if (kindOf(material) == materialDiffuse)
-        return false;
+bool isSpecularHere(uint slot, MaterialRecord material, uint materialIndex, bool isEntering) {
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material) && material.alpha > 0.0) {
         Crossing crossing = crossingOf(slot, materialIndex, isEntering);
         return crossing.isNothing || crossing.eta == 1.0;
     }
-    return kindOf(material) == materialMirror || material.alpha == 0.0;
-}
-
-// The reflectance of what is smooth and no glass.
-vec3 mirrorReflectance(uint slot, Surface surface, MaterialRecord material) {
-    if ((scattering & scattersAtConductors) == 0u || kindOf(material) != materialConductor)
-        return vec3(1.0);
-    float cosine = abs(dotProduct(path[slot].rayDirection, surface.normal));
-    return conductorReflectance(lesser(cosine, 1.0), material.conductorIndex, material.conductorExtinction);
-}
-
-// Whether what is not smooth is black from behind.
-bool isBlackBehind(MaterialRecord material) {
-    return !isTwoSided(material) && (scattering == 0u || kindOf(material) != materialConductor && !isGlass(material));
+    return isSpecular(material);
 }
 
 // Stage: the nearest hit is known.
@@ -194,7 +173,7 @@ void shadeHit(uint slot) {
     if (hasDielectric)
         path[slot].throughput *= transmittance(slot, path[slot].rayLength);
     if (path[slot].hitPrimitive == noPrimitive) {
-        addSurroundings(slot);
+        addEnvironment(slot);
         return;
     }
     uint materialIndex;
@@ -208,8 +187,8 @@ void shadeHit(uint slot) {
     if (path[slot].rayDepth >= frame.maxDepth)
         return;
     bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
-    if (scattering != 0u ? !isSmooth(slot, material, materialIndex, !isBehind)
-                         : !hasSpecular || kindOf(material) == materialDiffuse) {
+    if (scattering != 0u ? !isSpecularHere(slot, material, materialIndex, !isBehind)
+                         : !hasSpecular || !isSpecular(material)) {
         if (isBehind) {
             if (isBlackBehind(material))
                 return;
@@ -229,7 +208,7 @@ void shadeHit(uint slot) {
         meetGlass(slot, surface, materialIndex);
     } else {
         if (scattering != 0u)
-            path[slot].throughput *= mirrorReflectance(slot, surface, material);
+            path[slot].throughput *= mirrorReflectance(material, abs(dotProduct(path[slot].rayDirection, surface.normal)));
         reflectRay(slot, surface, surface.normal);
     }
 }
@@ -238,11 +217,11 @@ void shadeHit(uint slot) {
 void scatter(uint slot) {
     endPath(slot);
     vec3 direction = path[slot].scatterDirection;
-    if (!(path[slot].scatterDensity > 0.0) || !survivesRoulette(slot))
+    if (!(path[slot].scatterPdf > 0.0) || !survivesRoulette(slot))
         return;
-    traceEvent(slot, traceScatter, floatBitsToUint(path[slot].scatterDensity), direction);
+    traceEvent(slot, traceScatter, floatBitsToUint(path[slot].scatterPdf), direction);
     bounceCounts[slot] += 1u;
-    continueRay(slot, spawnPoint(surfaceAt(slot), direction), direction, path[slot].surfacePrimitive);
+    continueRay(slot, offsetRayOrigin(surfaceAt(slot), direction), direction, path[slot].surfacePrimitive);
 }
 
 void aimAtNothing(uint slot, uint emitter) {
@@ -258,7 +237,7 @@ void aimAt(uint slot, uint emitter, LightSample light) {
 }
 
 // On a surface with lobes: draws the direction in which the path will go on, and aims at a light.
-void aimFromRough(uint slot) {
+void aimFromBsdf(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
     MaterialRecord material = hitMaterial(slot, materialIndex, path[slot].surfacePosition);
@@ -267,32 +246,32 @@ void aimFromRough(uint slot) {
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
         crossing = crossingOf(slot, materialIndex, !isBehind);
     vec2 choice = lobeChoice(slot);
-    Rough rough = roughOf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, isBehind,
+    Bsdf bsdf = makeBsdf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, isBehind,
                           crossing.eta, choice.x);
 
     uint emitter = chooseEmitter(vertexBits(slot, pairChoice).x);
     LightSample light = sampleEmitter(emitter, path[slot].surfacePosition, vertexBits(slot, pairLight));
-    vec3 toLight = toLocal(rough.frame, light.direction);
+    vec3 wi = toLocal(bsdf.frame, light.direction);
     bool isLightBeyond = dotProduct(geometricNormal, light.direction) <= 0.0;
-    Scattered lit = evaluateRough(rough, toLight);
-    bool isLit = largestComponent(light.radiance) > 0.0 && lit.density > 0.0 && isLightBeyond == (toLight.z <= 0.0);
-    float share = light.density > 0.0 ? powerHeuristic(light.density, lit.density) : 1.0;
+    BsdfEval lit = evalBsdf(bsdf, wi);
+    bool isLit = largestComponent(light.radiance) > 0.0 && lit.pdf > 0.0 && isLightBeyond == (wi.z <= 0.0);
+    float share = light.pdf > 0.0 ? powerHeuristic(light.pdf, lit.pdf) : 1.0;
     path[slot].surfaceWeight = path[slot].throughput * (light.radiance * (lit.value * share));
     if (hasDielectric) {
         path[slot].mediaInside = isLightBeyond ? crossing.beyond : crossing.before;
         path[slot].surfaceWeight *= transmittance(slot, light.distance);
     }
 
-    vec3 drawn = drawRough(rough, unitFloats(vertexBits(slot, pairScatter)), choice.y);
-    vec3 direction = unitVector(toWorld(rough.frame, drawn));
-    Scattered scattered = evaluateRough(rough, drawn);
+    vec3 drawn = sampleBsdf(bsdf, unitFloats(vertexBits(slot, pairScatter)), choice.y);
+    vec3 direction = unitVector(toWorld(bsdf.frame, drawn));
+    BsdfEval scattered = evalBsdf(bsdf, drawn);
     bool isBeyond = dotProduct(geometricNormal, direction) <= 0.0;
-    bool isPossible = scattered.density > 0.0 && isBeyond == (drawn.z <= 0.0);
+    bool isPossible = scattered.pdf > 0.0 && isBeyond == (drawn.z <= 0.0);
     path[slot].scatterDirection = direction;
-    path[slot].scatterDensity = isPossible ? scattered.density : 0.0;
+    path[slot].scatterPdf = isPossible ? scattered.pdf : 0.0;
     if (hasDielectric)
         path[slot].mediaInside = isBeyond ? crossing.beyond : crossing.before;
-    path[slot].throughput *= isPossible ? scattered.value * divide(1.0, scattered.density) : vec3(0.0);
+    path[slot].throughput *= isPossible ? scattered.value * divide(1.0, scattered.pdf) : vec3(0.0);
     if (isLit)
         aimAt(slot, emitter, light);
     else
@@ -302,14 +281,14 @@ void aimFromRough(uint slot) {
 // Stage: on a surface, draw the direction in which the path will go on, and aim at a light.
 void aimAtLight(uint slot) {
     if (scattering != 0u) {
-        aimFromRough(slot);
+        aimFromBsdf(slot);
         return;
     }
     vec3 normal = path[slot].surfaceNormal;
     vec3 direction = sampleCosine(normal, unitFloats(vertexBits(slot, pairScatter)));
     bool isAbove = dotProduct(surfaceAt(slot).geometricNormal, direction) > 0.0;
     path[slot].scatterDirection = direction;
-    path[slot].scatterDensity = isAbove ? pdfCosine(dotProduct(normal, direction)) : 0.0;
+    path[slot].scatterPdf = isAbove ? pdfCosine(dotProduct(normal, direction)) : 0.0;
 
     uint emitter = chooseEmitter(vertexBits(slot, pairChoice).x);
     LightSample light = sampleEmitter(emitter, path[slot].surfacePosition, vertexBits(slot, pairLight));
@@ -321,7 +300,7 @@ void aimAtLight(uint slot) {
         return;
     }
     float reflected = pdfCosine(cosine); // also the density of a scattered ray
-    float share = light.density > 0.0 ? reflected * powerHeuristic(light.density, reflected) : reflected;
+    float share = light.pdf > 0.0 ? reflected * powerHeuristic(light.pdf, reflected) : reflected;
     path[slot].surfaceWeight = path[slot].throughput * (light.radiance * share);
     if (hasDielectric)
         path[slot].surfaceWeight *= transmittance(slot, light.distance);

@@ -124,13 +124,13 @@ uint mostOfLanes(uint x) {
     return x;
 }
 
-bool isSpeaker() { return gl_SubgroupInvocationID == 0u; }
+bool subgroupElected() { return gl_SubgroupInvocationID == 0u; }
 #else
 uint sumOfLanes(uint x) { return x; }
 
 uint mostOfLanes(uint x) { return x; }
 
-bool isSpeaker() { return true; }
+bool subgroupElected() { return true; }
 #endif
 
 void addProgress() {
@@ -152,7 +152,7 @@ void addProgress() {
                        sumOfLanes(finishedRayCounts.z), sumOfLanes(finishedRayCounts.w));
     uint bounces = hasBounces ? sumOfLanes(finishedBounceCount) : 0u;
     uint work = mostOfLanes(stepsTaken - stepsForfeited + passWork);
-    if (!isSpeaker())
+    if (!subgroupElected())
         return;
     atomicAdd(progress.workDone, work);
     if (unfinished != 0u)

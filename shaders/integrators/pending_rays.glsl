@@ -27,7 +27,7 @@ void storePendingRay(uint index, PendingRay ray) { pendingRays[index] = ray; }
 PendingRay loadPendingRay(uint index) { return pendingRays[index]; }
 #endif
 
-PendingRay pendingLevels[RAYS][mostPendingInRegisters];
+PendingRay pendingLevels[RAYS][maxPendingInRegisters];
 
 // There is one.
 PendingRay popPendingRay(uint slot) {

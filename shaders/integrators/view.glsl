@@ -47,8 +47,7 @@ void shadeHit(uint slot) {
     }
     if (view == viewAlbedo) {
         MaterialRecord material = hitMaterial(slot, materialIndex, surface.position);
-        bool isClear = kindOf(material) == materialMirror || kindOf(material) == materialDielectric;
-        show(slot, isClear ? vec3(1.0) : material.albedo);
+        show(slot, isColourless(material) ? vec3(1.0) : material.albedo);
     }
     if (view == viewOcclusion) {
         bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;

@@ -4,7 +4,6 @@
 //
 // A path slot works through the samples of one pixel and, for each, through the tree of rays that glass makes of it.
 
-const float inversePi = 0.31830988618379067;
 
 void beginSample(uint slot) { sendPrimaryRay(slot); }
 
@@ -22,7 +21,7 @@ void takePendingRay(uint slot) {
 
 void reflectRay(uint slot, Surface surface, uint medium) {
     vec3 direction = mirrorDirection(path[slot].rayDirection, surface.normal);
-    vec3 origin = spawnPoint(surface, direction);
+    vec3 origin = offsetRayOrigin(surface, direction);
     startRay(slot, origin, direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u, medium);
     rayCounts[slot].z += 1u;
 }
@@ -30,7 +29,7 @@ void reflectRay(uint slot, Surface surface, uint medium) {
 PendingRay reflectedRay(uint slot, Surface surface, float reflectance, uint medium) {
     PendingRay reflected;
     reflected.direction = mirrorDirection(path[slot].rayDirection, surface.normal);
-    reflected.origin = spawnPoint(surface, reflected.direction);
+    reflected.origin = offsetRayOrigin(surface, reflected.direction);
     reflected.excluded = path[slot].hitPrimitive;
     reflected.depth = path[slot].rayDepth + 1u;
     reflected.medium = medium;
@@ -65,7 +64,7 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
     rayCounts[slot].z += 1u;
 
     path[slot].throughput = path[slot].throughput * refraction.transmittance;
-    vec3 origin = spawnPoint(surface, refraction.direction);
+    vec3 origin = offsetRayOrigin(surface, refraction.direction);
     startRay(slot, origin, refraction.direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u,
              isEntering ? materialIndex : noMaterial);
     rayCounts[slot].w += 1u;
@@ -101,9 +100,9 @@ void shadeHit(uint slot) {
     MaterialRecord material = hitMaterial(slot, materialIndex, surface.position);
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
-    bool isGlass = hasDielectric && kindOf(material) == materialDielectric;
+    bool isClear = hasDielectric && isGlassForWhitted(material);
     if (hasDielectric)
-        path[slot].throughput *= isGlass && !isEntering ? material.segmentTint : tint;
+        path[slot].throughput *= isClear && !isEntering ? material.segmentTint : tint;
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
@@ -113,9 +112,7 @@ void shadeHit(uint slot) {
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }
     endPath(slot);
-    // Rough metals are mirrors here, and principled materials diffuse.
-    bool isPrincipled = (scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled;
-    if (!hasSpecular || kindOf(material) == materialDiffuse || isPrincipled) {
+    if (!hasSpecular || isDiffuseForWhitted(material)) {
         if (isTwoSided(material) && dotProduct(direction, surface.geometricNormal) > 0.0) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
@@ -124,11 +121,10 @@ void shadeHit(uint slot) {
         path[slot].surfaceWeight = path[slot].throughput * (material.albedo * inversePi);
         path[slot].lightIndex = 0u;
     } else if (path[slot].rayDepth < frame.maxDepth) {
-        if (isGlass) {
+        if (isClear) {
             splitAtGlass(slot, surface, material, materialIndex, isEntering);
         } else {
-            if ((scattering & scattersAtConductors) != 0u && kindOf(material) == materialConductor)
-                path[slot].throughput *= material.albedo;
+            path[slot].throughput *= mirrorReflectanceForWhitted(material);
             reflectRay(slot, surface, path[slot].rayMedium);
         }
     }

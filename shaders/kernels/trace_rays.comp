@@ -21,11 +21,7 @@ const bool hasBounces = false;
 
 #include "shaders/memory/scene_data.glsl"
 #include "shaders/math/arithmetic.glsl"
-#include "shaders/math/vector.glsl"
-#include "shaders/math/functions.glsl"
-#include "shaders/geometry/box.glsl"
-#include "shaders/geometry/triangle.glsl"
-#include "shaders/textures/texture.glsl"
+#include "shaders/leaves.glsl"
 #include "shaders/integrators/path_slots.glsl"
 #include "shaders/traversal/meet_triangle.glsl"
 #if SKIP_LIST

@@ -118,7 +118,7 @@ const uint noMaterial = 0xFFFFFFFFu;
 
 // Dielectrics come first among the materials, those of higher priority before others: what glass is where several overlap
 // (shaders/bsdf/media.glsl).
-const uint mostMedia = 8u; // dielectrics that the path integrator tells apart
+const uint maxMedia = 8u; // dielectrics that the path integrator tells apart
 
 struct MaterialRecord {
     vec3 albedo; // of a conductor its reflectance seen head on, of a principled material its colour
@@ -127,7 +127,7 @@ struct MaterialRecord {
     float refractiveIndex;
     vec3 emission; // radiance on the side of the normal, on both where it is two-sided
     // path: with which density, per unit of area, a light sample lies at a point that emits
-    float emitterDensity;
+    float emitterPdf;
     vec3 absorption; // path: of this dielectric, per unit of length
     uint pad0;
     // What follows is read where constantScattering asks for it.
@@ -159,7 +159,7 @@ const uint scattersAtRough = 14u; // any of those that need microfacets
 
 // What is looked up by index: rows of four numbers. First the energy of microfacets, see shaders/bsdf/energy.glsl, where
 // constantScattering needs it; then the environment.
-struct TexelRecord {
+struct LookupRow {
     vec3 value;
     uint word; // another float, or an integer
 };
@@ -253,7 +253,7 @@ struct EmitterRecord {
     float probability;
     uint cumulative; // of 2^32 numbers, so many choose this emitter or one before it
     uint record;     // index among the sphere or the triangle records
-    float density;   // probability per unit of area of a triangle or a sphere; falloffScale of a spot
+    float pdf;   // probability per unit of area of a triangle or a sphere; falloffScale of a spot
     uint isTwoSided;
     vec3 axis;         // of a spot or a directional light
     float cosineOuter; // of a spot
@@ -461,7 +461,7 @@ struct PathRecord {
     uint isLightDimmed;  // 1: the shadow ray has passed glass
     // Of the path integrator:
     vec3 scatterDirection; // of the ray that goes on from the surface
-    float scatterDensity;  // of the direction of the current ray, per solid angle; 0: it had no choice
+    float scatterPdf;  // of the direction of the current ray, per solid angle; 0: it had no choice
     uint rayTarget;        // the primitive that the shadow ray is aimed at
     uint mediaInside;      // the glass around the current ray, see media.glsl
     // Rays of the samples that are not in the film:
@@ -483,7 +483,7 @@ struct PendingRay {
     uint medium;
 };
 
-const uint mostPendingInRegisters = 8u;
+const uint maxPendingInRegisters = 8u;
 
 // ---- Bindings, all in set 0. The first three are uniform buffers, the others storage buffers.
 
@@ -502,7 +502,7 @@ const uint bindingStacks = 11u;  // stackSize references a slot
 const uint bindingTrace = 12u;
 const uint bindingSphereArray = 13u; // the spheres again, as texels
 const uint bindingEmitters = 14u;
-const uint bindingTexels = 15u;
+const uint bindingLookups = 15u;
 const uint bindingTextures = 16u;
 const uint bindingCount = 17u;
 
@@ -539,7 +539,7 @@ static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
 static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
 static_assert(sizeof(MaterialRecord) == 128 && offsetof(MaterialRecord, normalReflectance) == 112);
-static_assert(sizeof(TexelRecord) == 16);
+static_assert(sizeof(LookupRow) == 16);
 static_assert(sizeof(TextureRow) == 16);
 static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));
 static_assert(firstCoordinateRow == linearTableRow + rowsPerTable &&

@@ -4,7 +4,7 @@ struct LightSample {
     vec3 direction; // unit length, from the surface to the light
     float distance;
     vec3 radiance;  // divided by the density; of a point light the intensity / squared distance / probability
-    float density;  // per solid angle, the choice of the emitter included; 0: a light without size
+    float pdf;  // per solid angle, the choice of the emitter included; 0: a light without size
     uint target;    // the primitive at its end
 };
 
@@ -22,7 +22,7 @@ LightSample samplePoint(EmitterRecord emitter, vec3 position) {
 
 LightSample sampleSpot(EmitterRecord emitter, vec3 position) {
     LightSample light = samplePoint(emitter, position);
-    light.radiance *= spotFalloff(light.direction, emitter.axis, emitter.cosineOuter, emitter.density);
+    light.radiance *= spotFalloff(light.direction, emitter.axis, emitter.cosineOuter, emitter.pdf);
     return light;
 }
 
@@ -31,11 +31,11 @@ LightSample sampleDirectional(EmitterRecord emitter) {
                        noPrimitive);
 }
 
-LightSample sampleSurroundings(EmitterRecord emitter, uvec2 bits) {
+LightSample sampleEnvironmentLight(EmitterRecord emitter, uvec2 bits) {
     EnvironmentLight found = sampleEnvironment(bits);
-    float density = found.density * emitter.probability;
+    float pdf = found.pdf * emitter.probability;
     return LightSample(found.direction, unboundedDistance,
-                       density > 0.0 ? found.radiance * divide(1.0, density) : vec3(0.0), density, noPrimitive);
+                       pdf > 0.0 ? found.radiance * divide(1.0, pdf) : vec3(0.0), pdf, noPrimitive);
 }
 
 // What a triangle sends out at the point with these weights, of what its whole material does.
@@ -69,12 +69,12 @@ LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
     vec3 direction = toLight * divide(1.0, distance);
     float facing = -dotProduct(direction, surface.geometricNormal);
     float cosine = emitter.isTwoSided != 0u ? abs(facing) : facing;
-    float density = solidAngleDensity(emitter.density, distance, cosine);
+    float pdf = solidAnglePdf(emitter.pdf, distance, cosine);
     bool isSeen = cosine > 0.0 && distance > 0.0;
     vec3 emission = emitter.emission;
     if ((texturing & (texturesEmission | texturesOpacity)) != 0u)
         emission = triangleEmission(emission, triangle, emitter.record, weights);
-    return LightSample(direction, distance, isSeen ? emission * divide(1.0, density) : vec3(0.0), density,
+    return LightSample(direction, distance, isSeen ? emission * divide(1.0, pdf) : vec3(0.0), pdf,
                        triangle.primitiveId);
 }
 
@@ -83,10 +83,10 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
     SphereShape shape = makeSphereShape(sphere.centre, sphere.radius);
     vec3 toCentre = sphere.centre - position;
     float squaredDistance = dotProduct(toCentre, toCentre);
-    bool isOutside = squaredDistance > shape.squaredRadius * leastConeDistance;
+    bool isOutside = squaredDistance > shape.squaredRadius * minConeDistance;
     vec3 direction;
     float distance;
-    float density;
+    float pdf;
     bool isSeen;
     if (isOutside) {
         float centreDistance = squareRoot(squaredDistance);
@@ -94,7 +94,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
         direction = sampleCone(toCentre * divide(1.0, centreDistance), height, u);
         float meeting = intersectSphere(position, direction, shape, false);
         distance = meeting > 0.0 ? meeting : centreDistance; // past the rim by rounding
-        density = emitter.probability * pdfCone(height);
+        pdf = emitter.probability * pdfCone(height);
         isSeen = normalSignOf(sphere) > 0.0 || emitter.isTwoSided != 0u;
     } else {
         vec3 outward = sampleSphere(u);
@@ -102,13 +102,13 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
         distance = vectorLength(toLight);
         direction = toLight * divide(1.0, distance);
         float cosine = dotProduct(direction, outward);
-        density = solidAngleDensity(emitter.density, distance, cosine);
+        pdf = solidAnglePdf(emitter.pdf, distance, cosine);
         isSeen = cosine > 0.0 && distance > 0.0 && (normalSignOf(sphere) < 0.0 || emitter.isTwoSided != 0u);
     }
     vec3 emission = emitter.emission;
     if ((texturing & texturesEmission) != 0u)
         emission = sphereEmission(emission, sphere, position + direction * distance - sphere.centre);
-    return LightSample(direction, distance, isSeen ? emission * divide(1.0, density) : vec3(0.0), density,
+    return LightSample(direction, distance, isSeen ? emission * divide(1.0, pdf) : vec3(0.0), pdf,
                        emitter.record);
 }
 
@@ -141,7 +141,7 @@ LightSample sampleEmitter(uint index, vec3 position, uvec2 bits) {
     if (isEmitter(emitter, emitterDirectional))
         return sampleDirectional(emitter);
     if (isEmitter(emitter, emitterEnvironment))
-        return sampleSurroundings(emitter, bits);
+        return sampleEnvironmentLight(emitter, bits);
     if (isEmitter(emitter, emitterTriangle))
         return sampleTriangleLight(emitter, position, unitFloats(bits));
     if ((lighting & lightsBySpheres) != 0u)

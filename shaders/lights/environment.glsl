@@ -10,25 +10,25 @@ const float piSquaredTwice = 19.739208802178716;
 struct EnvironmentLight {
     vec3 direction;
     vec3 radiance;
-    float density; // of the direction, per solid angle; 0: it cannot be chosen
+    float pdf; // of the direction, per solid angle; 0: it cannot be chosen
 };
 
 // Place in the image of a direction: x and y from the left and the top, in [0, 1].
 vec2 environmentPlace(vec3 direction) {
     float squared = direction.x * direction.x + direction.z * direction.z;
-    float longitude = squared > 0.0 ? turnsOf(-direction.x, direction.z) : 0.0;
+    float longitude = squared > 0.0 ? atan2Turns(-direction.x, direction.z) : 0.0;
     float turned = longitude + frame.environmentTurns;
     float back = turned - 1.0;
-    float latitude = 2.0 * turnsOf(squareRoot(squared), direction.y);
+    float latitude = 2.0 * atan2Turns(squareRoot(squared), direction.y);
     return vec2(turned >= 1.0 ? back : turned, lesser(latitude, 1.0));
 }
 
-TexelRecord environmentTexel(uint x, uint y) {
-    return fetchTexel(frame.environmentTexels + y * frame.environmentWidth + x);
+LookupRow environmentTexel(uint x, uint y) {
+    return fetchLookupRow(frame.environmentTexels + y * frame.environmentWidth + x);
 }
 
-TexelRecord environmentRow(uint y) {
-    return fetchTexel(frame.environmentTexels + frame.environmentHeight * frame.environmentWidth + y);
+LookupRow environmentRow(uint y) {
+    return fetchLookupRow(frame.environmentTexels + frame.environmentHeight * frame.environmentWidth + y);
 }
 
 vec3 environmentRadianceAt(vec2 place) {
@@ -47,7 +47,7 @@ vec3 environmentRadianceAt(vec2 place) {
 }
 
 // The density, per solid angle, with which a direction is chosen that lies `sine` off the vertical, in the given pixel.
-float environmentDensity(uvec2 pixel, float sine) {
+float pdfEnvironment(uvec2 pixel, float sine) {
     if (sine <= 0.0)
         return 0.0;
     uint before = pixel.x == 0u ? 0u : environmentTexel(pixel.x - 1u, pixel.y).word;
@@ -69,7 +69,7 @@ EnvironmentLight environmentFrom(vec3 direction) {
     vec2 place = environmentPlace(direction);
     vec2 position = place * vec2(float(frame.environmentWidth), float(frame.environmentHeight));
     uvec2 pixel = min(uvec2(position), uvec2(frame.environmentWidth - 1u, frame.environmentHeight - 1u));
-    return EnvironmentLight(direction, environmentRadianceAt(place), environmentDensity(pixel, sineToVertical(direction)));
+    return EnvironmentLight(direction, environmentRadianceAt(place), pdfEnvironment(pixel, sineToVertical(direction)));
 }
 
 // The first of `count` texels, from `first` on, whose `word` is more than `bits`; the last one if none is. Takes no more
@@ -79,7 +79,7 @@ uint searchTexels(uint first, uint count, uint bits) {
     uint last = count - 1u;
     do {
         uint middle = (found + last) >> 1u;
-        bool isBefore = fetchTexel(first + middle).word <= bits;
+        bool isBefore = fetchLookupRow(first + middle).word <= bits;
         found = isBefore ? min(middle + 1u, last) : found;
         last = isBefore ? last : middle;
     } while (found < last);
@@ -106,5 +106,5 @@ EnvironmentLight sampleEnvironment(uvec2 random) {
     float halfLatitude = 0.5 * place.y;
     SineCosine latitude = sineCosine(halfLatitude);
     vec3 direction = vec3(-longitude.sine * latitude.sine, latitude.cosine, longitude.cosine * latitude.sine);
-    return EnvironmentLight(direction, environmentRadianceAt(place), environmentDensity(uvec2(x, y), latitude.sine));
+    return EnvironmentLight(direction, environmentRadianceAt(place), pdfEnvironment(uvec2(x, y), latitude.sine));
 }

@@ -21,7 +21,7 @@ SineCosine sineCosine(float turns) {
 
 // The angle from the x axis to the vector (x, y), in turns, in [0, 1], within 1e-7. One of both is not 0. The Taylor
 // polynomial of the arc tangent to tan(1/16 turn), where it is within 2e-8; further up, of the angle to the diagonal.
-float turnsOf(float y, float x) {
+float atan2Turns(float y, float x) {
     float low = lesser(abs(x), abs(y));
     float high = greater(abs(x), abs(y));
     float limit = high * 0.41421356237309505;
@@ -47,7 +47,7 @@ float turnsOf(float y, float x) {
 
 // e^-x for x >= 0: a power of 2 as an exponent, and the Taylor polynomial around the middle of what remains.
 // Within 2e-7 (1 + x) of the result, exactly 1 at 0, and 0 from 86 on.
-float decay(float x) {
+float expNegative(float x) {
     float t = lesser(x, 86.0) * 1.4426950408889634;
     int k = int(t);
     float y = (float(k) + 0.5 - t) * 0.69314718055994531;
@@ -57,4 +57,4 @@ float decay(float x) {
     return x < 86.0 ? (x > 0.0 ? scaled : 1.0) : 0.0;
 }
 
-vec3 decay(vec3 x) { return vec3(decay(x.x), decay(x.y), decay(x.z)); }
+vec3 expNegative(vec3 x) { return vec3(expNegative(x.x), expNegative(x.y), expNegative(x.z)); }

@@ -10,7 +10,7 @@ struct Frame {
     vec3 z;
 };
 
-Frame frameAround(vec3 n) {
+Frame makeOrthonormalBasis(vec3 n) {
     float side = n.z < 0.0 ? -1.0 : 1.0;
     float height = side + n.z;
     float a = divide(-1.0, height);
@@ -29,7 +29,7 @@ vec3 sampleCosine(vec3 normal, vec2 u) {
     float radius = squareRoot(u.x);
     SineCosine angle = sineCosine(u.y);
     float below = 1.0 - u.x;
-    return unitVector(toWorld(frameAround(normal), vec3(radius * angle.cosine, radius * angle.sine, squareRoot(below))));
+    return unitVector(toWorld(makeOrthonormalBasis(normal), vec3(radius * angle.cosine, radius * angle.sine, squareRoot(below))));
 }
 
 float pdfCosine(float cosine) { return cosine * inversePi; }
@@ -59,7 +59,7 @@ vec3 sampleCone(vec3 axis, float height, vec2 u) {
     float squaredSine = below * (1.0 + cosine);
     float sine = squareRoot(squaredSine);
     SineCosine angle = sineCosine(u.y);
-    return unitVector(toWorld(frameAround(axis), vec3(sine * angle.cosine, sine * angle.sine, cosine)));
+    return unitVector(toWorld(makeOrthonormalBasis(axis), vec3(sine * angle.cosine, sine * angle.sine, cosine)));
 }
 
 float pdfCone(float height) { return divide(0.5 * inversePi, height); }

@@ -15,7 +15,7 @@ layout(set = 0, binding = bindingTriangles, rgba32ui) uniform restrict readonly 
 layout(set = 0, binding = bindingNormals, rgba32ui) uniform restrict readonly uimageBuffer normalTexels;
 layout(set = 0, binding = bindingEmitters, rgba32ui) uniform restrict readonly uimageBuffer emitterTexels;
 
-layout(set = 0, binding = bindingTexels, rgba32ui) uniform restrict readonly uimageBuffer texelTexels;
+layout(set = 0, binding = bindingLookups, rgba32ui) uniform restrict readonly uimageBuffer lookupTable;
 
 layout(set = 0, binding = bindingTextures, rgba32ui) uniform restrict readonly uimageBuffer textureTexels;
 
@@ -44,9 +44,9 @@ MaterialRecord fetchMaterial(uint index) {
                           uintBitsToFloat(h.z), h.w);
 }
 
-TexelRecord fetchTexel(uint index) {
-    uvec4 words = imageLoad(texelTexels, int(index));
-    return TexelRecord(uintBitsToFloat(words.xyz), words.w);
+LookupRow fetchLookupRow(uint index) {
+    uvec4 words = imageLoad(lookupTable, int(index));
+    return LookupRow(uintBitsToFloat(words.xyz), words.w);
 }
 
 uvec4 fetchTextureRow(uint index) { return imageLoad(textureTexels, int(index)); }
@@ -89,7 +89,7 @@ layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { Nod
 layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
 layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
 layout(set = 0, binding = bindingEmitters, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
-layout(set = 0, binding = bindingTexels, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
+layout(set = 0, binding = bindingLookups, std430) readonly buffer TexelBuffer { LookupRow texels[]; };
 layout(set = 0, binding = bindingTextures, std430) readonly buffer TextureBuffer { uvec4 textureRows[]; };
 
 SphereRecord fetchSphere(uint index) { return spheres[index]; }
@@ -98,7 +98,7 @@ EmitterRecord fetchEmitter(uint index) { return emitters[index]; }
 
 MaterialRecord fetchMaterial(uint index) { return materials[index]; }
 
-TexelRecord fetchTexel(uint index) { return texels[index]; }
+LookupRow fetchLookupRow(uint index) { return texels[index]; }
 
 uvec4 fetchTextureRow(uint index) { return textureRows[index]; }
 

@@ -6,10 +6,10 @@ struct Tangent {
     vec3 alongV;
 };
 
-const float leastSpan = 1e-30;        // of a triangle, and of its texture coordinates
-const float mostSpan = 1e30;          // of coordinates: the inverse is no subnormal number
-const float leastDeterminant = 1e-20; // of coordinates that lie on one line, up to rounding
-const float leastHeight = 0.01;       // of a mapped normal above the surface, and of what it reflects
+const float minSpan = 1e-30;        // of a triangle, and of its texture coordinates
+const float maxSpan = 1e30;          // of coordinates: the inverse is no subnormal number
+const float minDeterminant = 1e-20; // of coordinates that lie on one line, up to rounding
+const float minHeight = 0.01;       // of a mapped normal above the surface, and of what it reflects
 
 // Coordinates and edges are scaled first, as their products leave the range of floats.
 Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
@@ -19,14 +19,14 @@ Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
     vec2 step2 = at.uv2 - at.uv0;
     float size = largestComponent(greater(abs(edge1), abs(edge2)));
     float span = greater(greater(abs(step1.x), abs(step1.y)), greater(abs(step2.x), abs(step2.y)));
-    if (!(size > leastSpan && span > leastSpan && span < mostSpan))
+    if (!(size > minSpan && span > minSpan && span < maxSpan))
         return Tangent(vec3(0.0), vec3(0.0));
     vec3 a = edge1 * divide(1.0, size);
     vec3 b = edge2 * divide(1.0, size);
     vec2 s = step1 * divide(1.0, span);
     vec2 t = step2 * divide(1.0, span);
     float determinant = s.x * t.y - t.x * s.y;
-    if (!(abs(determinant) > leastDeterminant))
+    if (!(abs(determinant) > minDeterminant))
         return Tangent(vec3(0.0), vec3(0.0));
     vec3 alongU = a * t.y - b * s.y;
     vec3 alongV = b * s.x - a * t.x;
@@ -43,7 +43,7 @@ Tangent sphereTangent(vec3 outward) {
 // known.
 vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     vec3 flatU = tangent.alongU - normal * dotProduct(normal, tangent.alongU);
-    if (!(dotProduct(flatU, flatU) > leastSpan))
+    if (!(dotProduct(flatU, flatU) > minSpan))
         return normal;
     vec3 x = unitVector(flatU);
     vec3 left = crossProduct(normal, x);
@@ -52,7 +52,7 @@ vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     vec3 texel = lookUpTexture(row, uv);
     vec3 turned = 2.0 * texel - 1.0;
     vec2 sideways = vec2(turned) * strength;
-    vec3 mapped = x * sideways.x + y * sideways.y + normal * greater(turned.z, leastHeight);
+    vec3 mapped = x * sideways.x + y * sideways.y + normal * greater(turned.z, minHeight);
     return unitVector(mapped);
 }
 
@@ -63,12 +63,12 @@ vec3 visibleNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
     bool isBehind = dotProduct(direction, geometricNormal) > 0.0;
     vec3 facing = isBehind ? -normal : normal;
     vec3 up = isBehind ? -geometricNormal : geometricNormal;
-    float lack = leastHeight + dotProduct(direction, facing);
+    float lack = minHeight + dotProduct(direction, facing);
     vec3 raised = facing - direction * lack;
     if (lack > 0.0)
         facing = unitVector(raised);
     vec3 mirrored = mirrorDirection(direction, facing);
-    float depth = leastHeight - dotProduct(mirrored, up);
+    float depth = minHeight - dotProduct(mirrored, up);
     if (depth > 0.0) {
         vec3 grazing = unitVector(mirrored + up * depth);
         facing = unitVector(grazing - direction);

@@ -25,8 +25,8 @@ vec2 triangleUv(Coordinates at, float u, float v) {
 // from outside. Its middle is at +z.
 vec2 sphereUv(vec3 outward) {
     float squared = outward.x * outward.x + outward.z * outward.z;
-    float longitude = squared > 0.0 ? turnsOf(-outward.x, -outward.z) : 0.0;
-    float latitude = 2.0 * turnsOf(squareRoot(squared), -outward.y);
+    float longitude = squared > 0.0 ? atan2Turns(-outward.x, -outward.z) : 0.0;
+    float latitude = 2.0 * atan2Turns(squareRoot(squared), -outward.y);
     return vec2(longitude, latitude);
 }
 

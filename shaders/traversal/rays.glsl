@@ -77,7 +77,7 @@ Surface surfaceAt(uint slot) {
 // Stage: look for what lies between the surface where the path stands and a light, `distance` away in `direction`.
 void beginShadow(uint slot, vec3 direction, float distance) {
     rayCounts[slot].y += 1u;
-    path[slot].rayOrigin = spawnPoint(surfaceAt(slot), direction);
+    path[slot].rayOrigin = offsetRayOrigin(surfaceAt(slot), direction);
     path[slot].rayDirection = direction;
     path[slot].rayLength = distance;
     path[slot].rayExcluded = path[slot].surfacePrimitive;

@@ -70,8 +70,8 @@ std::vector<layout::RayRecord> shadowRays(const PackedScene &scene) {
         const float distance = reference::vectorLength(toLight);
         const vec3 direction = toLight * (1.0f / distance);
         if (reference::dotProduct(arrival.surface.geometricNormal, direction) > 0.0f)
-            rays.push_back(
-                {reference::spawnPoint(arrival.surface, direction), distance, direction, arrival.primitive});
+            rays.push_back({reference::offsetRayOrigin(arrival.surface, direction), distance, direction,
+                            arrival.primitive});
     }
     return rays;
 }
@@ -86,8 +86,8 @@ std::vector<layout::RayRecord> bounceRays(const PackedScene &scene) {
         const float turn = 2.0f * std::numbers::pi_v<float> * reference::unitFloat<float>(hash.y);
         const vec3 onSphere(radius * std::cos(turn), radius * std::sin(turn), height);
         const vec3 direction = reference::unitVector(arrival.surface.geometricNormal + 0.999f * onSphere);
-        rays.push_back(
-            {reference::spawnPoint(arrival.surface, direction), unbounded, direction, arrival.primitive});
+        rays.push_back({reference::offsetRayOrigin(arrival.surface, direction), unbounded, direction,
+                        arrival.primitive});
     }
     return rays;
 }

@@ -376,7 +376,7 @@ class RayMaker {
     FloatRay leaving(const FloatHit &hit, const dvec3 &direction) const {
         const reference::Surface<float> surface = reference::triangleSurface<float>(
             subject_.ours.triangles[hit.record], subject_.ours.normals[hit.record], hit.u, hit.v);
-        return {reference::spawnPoint(surface, vec3(direction)), vec3(direction), hit.primitive};
+        return {reference::offsetRayOrigin(surface, vec3(direction)), vec3(direction), hit.primitive};
     }
 
   private:

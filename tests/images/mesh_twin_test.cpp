@@ -1,7 +1,7 @@
 // The device's image and the CPU twin's are equal bit for bit on meshes that are hard on float32, for every kernel and
 // every tree.
-#include "tests/images/rendering.h"
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
 

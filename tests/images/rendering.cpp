@@ -28,21 +28,21 @@ Scene shippedScene(const std::string &name, int width, int height, int samplesPe
     return scene;
 }
 
-PackedScene pack(const Scene &scene, std::size_t mostDecoded) {
+PackedScene pack(const Scene &scene, std::size_t maxDecoded) {
     validateScene(scene, "the test");
     return packScene(scene, buildBvh(scene.settings.tree, buildTriangles(scene), scene.settings.leafSize),
-                     mostDecoded);
+                     maxDecoded);
 }
 
-gpu::Result renderOnDevice(const Scene &scene, const gpu::Batching &batching, std::size_t mostDecoded) {
+gpu::Result renderOnDevice(const Scene &scene, const gpu::Batching &batching, std::size_t maxDecoded) {
     return gpu::Renderer(softwareDevice(), batching)
-        .render(pack(scene, mostDecoded), scene.settings, wholeImage(scene));
+        .render(pack(scene, maxDecoded), scene.settings, wholeImage(scene));
 }
 
-reference::Result renderOnCpu(const Scene &scene, reference::Precision precision, std::size_t mostDecoded) {
+reference::Result renderOnCpu(const Scene &scene, reference::Precision precision, std::size_t maxDecoded) {
     reference::Options options;
     options.precision = precision;
-    return reference::render(pack(scene, mostDecoded), scene.settings, wholeImage(scene), options);
+    return reference::render(pack(scene, maxDecoded), scene.settings, wholeImage(scene), options);
 }
 
 std::size_t differingPixels(const Film &a, const Film &b) {

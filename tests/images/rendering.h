@@ -15,15 +15,15 @@ namespace hyalite::testing {
 [[nodiscard]] Scene shippedScene(const std::string &name, int width, int height, int samplesPerPixel);
 
 /// Validates, builds the tree that the settings ask for, and packs.
-[[nodiscard]] PackedScene pack(const Scene &scene, std::size_t mostDecoded = mostDecodedBytes);
+[[nodiscard]] PackedScene pack(const Scene &scene, std::size_t maxDecoded = maxDecodedBytes);
 
 /// Renders all of the image on the software device of the machine, which every test run must have.
 [[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::Batching &batching = {},
-                                         std::size_t mostDecoded = mostDecodedBytes);
+                                         std::size_t maxDecoded = maxDecodedBytes);
 
 [[nodiscard]] reference::Result renderOnCpu(const Scene &scene,
                                             reference::Precision precision = reference::Precision::Float32,
-                                            std::size_t mostDecoded = mostDecodedBytes);
+                                            std::size_t maxDecoded = maxDecodedBytes);
 
 /// How many film pixels differ in any bit of their sums or in their counts.
 [[nodiscard]] std::size_t differingPixels(const Film &a, const Film &b);

@@ -1,6 +1,6 @@
 // The device's image and the CPU twin's are equal bit for bit, whatever the batching.
-#include "tests/images/rendering.h"
 #include "tests/fixtures/texture_fixture.h"
+#include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
 

@@ -24,7 +24,7 @@ layout(set = 0, binding = 10, std430) readonly buffer PathBuffer { PathRecord pa
 layout(set = 0, binding = 11, std430) readonly buffer PendingBuffer { PendingRay pendings[]; };
 layout(set = 0, binding = 12, std430) readonly buffer SkipBuffer { SkipNode skips[]; };
 layout(set = 0, binding = 13, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
-layout(set = 0, binding = 14, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
+layout(set = 0, binding = 14, std430) readonly buffer TexelBuffer { LookupRow texels[]; };
 layout(set = 0, binding = 15, std430) readonly buffer TextureRowBuffer { TextureRow textureRows[]; };
 layout(set = 0, binding = 16, std430) readonly buffer TextureBuffer { TextureRecord textures[]; };
 layout(set = 0, binding = 17, std430) writeonly buffer WordBuffer { uint words[]; };

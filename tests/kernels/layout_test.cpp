@@ -80,7 +80,7 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     const Pair<layout::PendingRay> pending(Storage);
     const Pair<layout::SkipNode> skip(Storage);
     const Pair<layout::EmitterRecord> emitter(Storage);
-    const Pair<layout::TexelRecord> texel(Storage);
+    const Pair<layout::LookupRow> texel(Storage);
     const Pair<layout::TextureRow> textureRow(Storage);
     const Pair<layout::TextureRecord> texture(Storage);
     const layout::DispatchConstants dispatch = fill<layout::DispatchConstants>();
@@ -100,7 +100,7 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     EXPECT_FIELDS(PendingRay, pending.records[1]);
     EXPECT_FIELDS(SkipNode, skip.records[1]);
     EXPECT_FIELDS(EmitterRecord, emitter.records[1]);
-    EXPECT_FIELDS(TexelRecord, texel.records[1]);
+    EXPECT_FIELDS(LookupRow, texel.records[1]);
     EXPECT_FIELDS(TextureRow, textureRow.records[1]);
     EXPECT_FIELDS(TextureRecord, texture.records[1]);
     EXPECT_FIELDS(DispatchConstants, dispatch);

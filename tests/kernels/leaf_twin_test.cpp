@@ -384,14 +384,14 @@ TEST(SurfaceTwin, TriangleSurface) {
 }
 
 TEST(SurfaceTwin, SpawnPoint) {
-    expectTwin(probeSpawnPoint, [](Draw &draw, Words &input, Words &expected) {
+    expectTwin(probeOffsetRayOrigin, [](Draw &draw, Words &input, Words &expected) {
         reference::Surface<float> surface{};
         surface.position = draw.point();
         surface.error = draw.chance(4) ? vec3(0.0f) : glm::abs(surface.position) * 0x1p-21f;
         surface.geometricNormal = draw.direction();
         const vec3 direction = draw.chance(8) ? -surface.geometricNormal : draw.direction();
         input << surface.position << surface.error << surface.geometricNormal << direction;
-        expected << reference::spawnPoint(surface, direction);
+        expected << reference::offsetRayOrigin(surface, direction);
     });
 }
 
@@ -424,10 +424,10 @@ TEST(FunctionTwin, SineCosine) {
 }
 
 TEST(FunctionTwin, Decay) {
-    expectTwin(probeDecay, [](Draw &draw, Words &input, Words &expected) {
+    expectTwin(probeExpNegative, [](Draw &draw, Words &input, Words &expected) {
         const float x = draw.chance(4) ? std::abs(draw.coordinate()) : draw.unit() * 90.0f;
         input << x;
-        expected << reference::decay(x);
+        expected << reference::expNegative(x);
     });
 }
 
@@ -485,7 +485,7 @@ TEST(DielectricTwin, MeetInterface) {
         if (glm::dot(direction, normal) > 0.0f)
             direction = -direction;
         const float eta = draw.chance(2) ? 0.1f + draw.unit() : 1.0f + draw.unit() * 2.0f;
-        const auto glass = reference::meetInterface(direction, normal, eta);
+        const auto glass = reference::fresnelDielectric(direction, normal, eta);
         input << direction << normal << eta;
         expected << glass.refracted << glass.reflectance;
     });
@@ -494,7 +494,7 @@ TEST(DielectricTwin, MeetInterface) {
 TEST(MediaTwin, CountsAndPriorities) {
     expectTwin(probeMedia, [](Draw &draw, Words &input, Words &expected) {
         const std::uint32_t inside = draw.word();
-        const std::uint32_t material = draw.index(layout::mostMedia);
+        const std::uint32_t material = draw.index(layout::maxMedia);
         input << inside << material;
         expected << reference::mediumAround(inside) << reference::mediumCount(inside, material)
                  << reference::enterMedium(inside, material) << reference::leaveMedium(inside, material);
@@ -502,12 +502,12 @@ TEST(MediaTwin, CountsAndPriorities) {
 }
 
 TEST(FunctionTwin, TurnsOf) {
-    expectTwin(probeTurnsOf, [](Draw &draw, Words &input, Words &expected) {
+    expectTwin(probeAtan2Turns, [](Draw &draw, Words &input, Words &expected) {
         const vec3 direction = draw.direction();
         const float y = draw.chance(2) ? direction.y : draw.coordinate();
         const float x = direction.x == 0.0f && y == 0.0f ? 1.0f : direction.x;
         input << y << x;
-        expected << reference::turnsOf(y, x);
+        expected << reference::atan2Turns(y, x);
     });
 }
 
@@ -539,7 +539,7 @@ TEST(EnvironmentTwin, FromADirection) {
         const vec3 direction = draw.direction();
         const auto light = reference::environmentFrom(reference::SceneView<float>(packed), direction);
         input << direction;
-        expected << light.radiance << light.density;
+        expected << light.radiance << light.pdf;
     };
     expectTwin(probeEnvironmentFrom, call, {.frame = packed.frame, .texels = packed.texels});
 }
@@ -551,7 +551,7 @@ TEST(EnvironmentTwin, Sampled) {
         const uvec2 bits(x, draw.word());
         const auto light = reference::sampleEnvironment(reference::SceneView<float>(packed), bits);
         input << bits;
-        expected << light.direction << light.radiance << light.density;
+        expected << light.direction << light.radiance << light.pdf;
     };
     expectTwin(probeSampleEnvironment, call, {.frame = packed.frame, .texels = packed.texels});
 }
@@ -725,7 +725,7 @@ TEST(CameraTwin, PrimaryRayThroughTheFilterOfPixels) {
     }
 }
 
-// ---- Rough surfaces
+// ---- BSDFs
 
 /// Above the plane, and not so low that float32 has nothing to say.
 vec3 drawAbove(Draw &draw) {
@@ -760,13 +760,12 @@ TEST(MicrofacetTwin, Reflecting) {
         const vec2 u = unitPair(draw);
         const vec3 light = drawAbove(draw);
         const float stretchView = reference::stretchOf(view, alpha);
-        const vec3 facet = reference::sampleVisibleFacet(view, alpha, u);
-        const float density = reference::facetDensity(facet, alpha);
+        const vec3 facet = reference::sampleGgxVndf(view, alpha, u);
+        const float pdf = reference::ggxD(facet, alpha);
         input << view << alpha << u << light;
-        expected << stretchView << facet << density
-                 << reference::reflectionDensity(density, view, stretchView)
-                 << reference::litShare(view.z, stretchView, light.z, reference::stretchOf(light, alpha))
-                 << reference::facetBetween(view, light);
+        expected << stretchView << facet << pdf << reference::pdfReflection(pdf, view, stretchView)
+                 << reference::smithG2OverG1(view.z, stretchView, light.z, reference::stretchOf(light, alpha))
+                 << reference::halfVector(view, light);
     });
 }
 
@@ -776,11 +775,11 @@ TEST(MicrofacetTwin, Refracting) {
         const vec3 light = -drawAbove(draw);
         const float alpha = drawAlpha(draw);
         const float eta = draw.chance(2) ? 0.4f + 0.5f * draw.unit() : 1.1f + draw.unit();
-        const vec3 facet = reference::facetAcross(view, light, eta);
+        const vec3 facet = reference::halfVectorOfRefraction(view, light, eta);
         input << view << light << alpha << eta;
         expected << facet
-                 << reference::refractionDensity(
-                        reference::facetDensity(facet, alpha), view, reference::stretchOf(view, alpha),
+                 << reference::pdfRefraction(
+                        reference::ggxD(facet, alpha), view, reference::stretchOf(view, alpha),
                         reference::dotProduct(view, facet), reference::dotProduct(light, facet), eta);
     });
 }
@@ -797,12 +796,12 @@ TEST(EnergyTwin, OfTheTable) {
         input << cosine << roughness << colour;
         expected << energy.white << energy.grazing << average.white << average.grazing
                  << reference::energyAt(energy, colour.x)
-                 << reference::lateReflectance(colour, average.white);
+                 << reference::multiScatterReflectance(colour, average.white);
     };
     expectTwin(probeEnergy, call, {.texels = packed.texels});
 }
 
-TEST(RoughTwin, DrawnAndEvaluated) {
+TEST(BsdfTwin, DrawnAndEvaluated) {
     const PackedScene &packed = reference::sceneOfAllMaterials();
     const reference::SceneView<float> scene(packed);
     const auto call = [&](Draw &draw, Words &input, Words &expected) {
@@ -835,38 +834,38 @@ TEST(RoughTwin, DrawnAndEvaluated) {
               << material.metallic << material.transmission << material.normalReflectance
               << material.clearcoat << material.clearcoatAlpha << direction << normal << geometricNormal
               << static_cast<std::uint32_t>(isBehind) << eta << choice << u << light;
-        const auto rough = reference::roughOf<float>(scene, material, direction, normal, geometricNormal,
-                                                     isBehind, eta, choice.x);
-        const vec3 drawn = reference::drawRough(scene, rough, u, choice.y);
-        const auto scattered = reference::evaluateRough(scene, rough, drawn);
-        const auto lit = reference::evaluateRough(scene, rough, light);
-        expected << drawn << scattered.value << scattered.density << lit.value << lit.density;
+        const auto rough = reference::makeBsdf<float>(scene, material, direction, normal, geometricNormal,
+                                                      isBehind, eta, choice.x);
+        const vec3 drawn = reference::sampleBsdf(scene, rough, u, choice.y);
+        const auto scattered = reference::evalBsdf(scene, rough, drawn);
+        const auto lit = reference::evalBsdf(scene, rough, light);
+        expected << drawn << scattered.value << scattered.pdf << lit.value << lit.pdf;
     };
-    expectTwin(probeRough, call, {.texels = packed.texels, .scattering = 15u});
+    expectTwin(probeBsdf, call, {.texels = packed.texels, .scattering = 15u});
 }
 
 TEST(EmitterTwin, SolidAngleDensity) {
-    expectTwin(probeSolidAngleDensity, [](Draw &draw, Words &input, Words &expected) {
-        const float areaDensity = draw.unit();
+    expectTwin(probeSolidAnglePdf, [](Draw &draw, Words &input, Words &expected) {
+        const float areaPdf = draw.unit();
         const float distance = std::abs(draw.coordinate());
         const float cosine = draw.unit() + 0x1p-24f;
-        input << areaDensity << distance << cosine;
-        expected << reference::solidAngleDensity(areaDensity, distance, cosine);
+        input << areaPdf << distance << cosine;
+        expected << reference::solidAnglePdf(areaPdf, distance, cosine);
     });
 }
 
 TEST(EmitterTwin, SphereLightDensity) {
-    expectTwin(probeSphereLightDensity, [](Draw &draw, Words &input, Words &expected) {
+    expectTwin(probePdfSphereLight, [](Draw &draw, Words &input, Words &expected) {
         const vec3 position = draw.point();
         const vec3 direction = draw.direction();
         const float distance = std::abs(draw.coordinate());
         const vec3 centre = draw.point();
         const float radius = draw.unit() * 10.0f + 0.001f;
         const vec3 outward = draw.direction();
-        const float areaDensity = draw.unit();
-        input << position << direction << distance << centre << radius << outward << areaDensity;
-        expected << reference::sphereLightDensity(position, direction, distance, centre, radius, outward,
-                                                  areaDensity);
+        const float areaPdf = draw.unit();
+        input << position << direction << distance << centre << radius << outward << areaPdf;
+        expected << reference::pdfSphereLight(position, direction, distance, centre, radius, outward,
+                                              areaPdf);
     });
 }
 

@@ -21,11 +21,11 @@ layout(local_size_x_id = 0) in;
 #include "shaders/bsdf/media.glsl"
 #include "shaders/math/sampling.glsl"
 #include "shaders/geometry/surface.glsl"
-#include "shaders/lights/emitter_density.glsl"
+#include "shaders/lights/emitter_pdf.glsl"
 
-layout(set = 0, binding = bindingTexels, std430) readonly buffer TexelBuffer { TexelRecord texels[]; };
+layout(set = 0, binding = bindingLookups, std430) readonly buffer TexelBuffer { LookupRow texels[]; };
 
-TexelRecord fetchTexel(uint index) { return texels[index]; }
+LookupRow fetchLookupRow(uint index) { return texels[index]; }
 
 layout(set = 0, binding = bindingTextures, std430) readonly buffer TextureBuffer { uvec4 textureRows[]; };
 
@@ -38,12 +38,18 @@ MaterialRecord fetchMaterial(uint index) { return materials[index]; }
 #include "shaders/camera/camera.glsl"
 #include "shaders/textures/texture.glsl"
 #include "shaders/textures/normal_map.glsl"
-#include "shaders/lights/lights.glsl"
+#include "shaders/lights/spot.glsl"
 #include "shaders/lights/environment.glsl"
 #include "shaders/bsdf/conductor.glsl"
 #include "shaders/bsdf/microfacet.glsl"
 #include "shaders/bsdf/energy.glsl"
-#include "shaders/bsdf/rough.glsl"
+#include "shaders/bsdf/bsdf_record.glsl"
+#include "shaders/bsdf/diffuse.glsl"
+#include "shaders/bsdf/opaque_ggx.glsl"
+#include "shaders/bsdf/glass_ggx.glsl"
+#include "shaders/bsdf/clearcoat.glsl"
+#include "shaders/bsdf/principled.glsl"
+#include "shaders/bsdf/bsdf.glsl"
 
 layout(set = 0, binding = bindingProbeInputs, std430) readonly buffer InputBuffer { uint inputWords[]; };
 layout(set = 0, binding = bindingProbeOutputs, std430) writeonly buffer OutputBuffer { uint outputWords[]; };
@@ -292,12 +298,12 @@ void main() {
         give(triangleSurface(triangle, normals, uv.x, uv.y));
         break;
     }
-    case probeSpawnPoint: {
+    case probeOffsetRayOrigin: {
         Surface surface;
         surface.position = takeVec3();
         surface.error = takeVec3();
         surface.geometricNormal = takeVec3();
-        give(spawnPoint(surface, takeVec3()));
+        give(offsetRayOrigin(surface, takeVec3()));
         break;
     }
     case probeDivide: {
@@ -323,8 +329,8 @@ void main() {
         give(angle.cosine);
         break;
     }
-    case probeDecay:
-        give(decay(takeFloat()));
+    case probeExpNegative:
+        give(expNegative(takeFloat()));
         break;
     case probeSampleCosine: {
         vec3 normal = takeVec3();
@@ -356,7 +362,7 @@ void main() {
     case probeMeetInterface: {
         vec3 direction = takeVec3();
         vec3 facing = takeVec3();
-        Interface glass = meetInterface(direction, facing, takeFloat());
+        DielectricFresnel glass = fresnelDielectric(direction, facing, takeFloat());
         give(glass.refracted);
         give(glass.reflectance);
         break;
@@ -370,9 +376,9 @@ void main() {
         give(leaveMedium(inside, material));
         break;
     }
-    case probeTurnsOf: {
+    case probeAtan2Turns: {
         float y = takeFloat();
-        give(turnsOf(y, takeFloat()));
+        give(atan2Turns(y, takeFloat()));
         break;
     }
     case probeSpotFalloff: {
@@ -385,14 +391,14 @@ void main() {
     case probeEnvironmentFrom: {
         EnvironmentLight light = environmentFrom(takeVec3());
         give(light.radiance);
-        give(light.density);
+        give(light.pdf);
         break;
     }
     case probeSampleEnvironment: {
         EnvironmentLight light = sampleEnvironment(takeUvec2());
         give(light.direction);
         give(light.radiance);
-        give(light.density);
+        give(light.pdf);
         break;
     }
     case probePrimaryRay: {
@@ -415,14 +421,14 @@ void main() {
         vec2 u = takeVec2();
         vec3 light = takeVec3();
         float stretchView = stretchOf(view, alpha);
-        vec3 facet = sampleVisibleFacet(view, alpha, u);
-        float density = facetDensity(facet, alpha);
+        vec3 facet = sampleGgxVndf(view, alpha, u);
+        float pdf = ggxD(facet, alpha);
         give(stretchView);
         give(facet);
-        give(density);
-        give(reflectionDensity(density, view, stretchView));
-        give(litShare(view.z, stretchView, light.z, stretchOf(light, alpha)));
-        give(facetBetween(view, light));
+        give(pdf);
+        give(pdfReflection(pdf, view, stretchView));
+        give(smithG2OverG1(view.z, stretchView, light.z, stretchOf(light, alpha)));
+        give(halfVector(view, light));
         break;
     }
     case probeFacetsAcross: {
@@ -430,9 +436,9 @@ void main() {
         vec3 light = takeVec3();
         float alpha = takeFloat();
         float eta = takeFloat();
-        vec3 facet = facetAcross(view, light, eta);
+        vec3 facet = halfVectorOfRefraction(view, light, eta);
         give(facet);
-        give(refractionDensity(facetDensity(facet, alpha), view, stretchOf(view, alpha), dotProduct(view, facet),
+        give(pdfRefraction(ggxD(facet, alpha), view, stretchOf(view, alpha), dotProduct(view, facet),
                                dotProduct(light, facet), eta));
         break;
     }
@@ -447,10 +453,10 @@ void main() {
         give(average.grazing);
         vec3 colour = takeVec3();
         give(energyAt(energy, colour.x));
-        give(lateReflectance(colour, average.white));
+        give(multiScatterReflectance(colour, average.white));
         break;
     }
-    case probeRough: {
+    case probeBsdf: {
         MaterialRecord material;
         material.kindAndSides = takeUint();
         material.albedo = takeVec3();
@@ -469,31 +475,31 @@ void main() {
         bool isBehind = takeUint() != 0u;
         float eta = takeFloat();
         vec2 choice = takeVec2();
-        Rough rough = roughOf(material, direction, normal, geometricNormal, isBehind, eta, choice.x);
-        vec3 drawn = drawRough(rough, takeVec2(), choice.y);
-        Scattered scattered = evaluateRough(rough, drawn);
-        Scattered lit = evaluateRough(rough, takeVec3());
+        Bsdf rough = makeBsdf(material, direction, normal, geometricNormal, isBehind, eta, choice.x);
+        vec3 drawn = sampleBsdf(rough, takeVec2(), choice.y);
+        BsdfEval scattered = evalBsdf(rough, drawn);
+        BsdfEval lit = evalBsdf(rough, takeVec3());
         give(drawn);
         give(scattered.value);
-        give(scattered.density);
+        give(scattered.pdf);
         give(lit.value);
-        give(lit.density);
+        give(lit.pdf);
         break;
     }
-    case probeSolidAngleDensity: {
-        float areaDensity = takeFloat();
+    case probeSolidAnglePdf: {
+        float areaPdf = takeFloat();
         float distance = takeFloat();
-        give(solidAngleDensity(areaDensity, distance, takeFloat()));
+        give(solidAnglePdf(areaPdf, distance, takeFloat()));
         break;
     }
-    case probeSphereLightDensity: {
+    case probePdfSphereLight: {
         vec3 position = takeVec3();
         vec3 direction = takeVec3();
         float distance = takeFloat();
         vec3 centre = takeVec3();
         float radius = takeFloat();
         vec3 outward = takeVec3();
-        give(sphereLightDensity(position, direction, distance, centre, radius, outward, takeFloat()));
+        give(pdfSphereLight(position, direction, distance, centre, radius, outward, takeFloat()));
         break;
     }
     }

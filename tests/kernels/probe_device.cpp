@@ -42,7 +42,7 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
             sizeBytes = probeInputCount * inputWords * sizeof(std::uint32_t);
         } else if (binding == bindingProbeOutputs) {
             sizeBytes = probeInputCount * outputWords * sizeof(std::uint32_t);
-        } else if (binding == layout::bindingTexels) {
+        } else if (binding == layout::bindingLookups) {
             sizeBytes = std::max(sizeBytes, std::span(scene.texels).size_bytes());
         } else if (binding == layout::bindingTextures) {
             sizeBytes = std::max(sizeBytes, std::span(scene.textures).size_bytes());
@@ -51,7 +51,7 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
             std::make_unique<gpu::Buffer>(probeDevice(), fmt::format("binding {}", binding), use, sizeBytes));
     }
     if (!scene.texels.empty())
-        buffers_[layout::bindingTexels]->upload(std::as_bytes(std::span(scene.texels)));
+        buffers_[layout::bindingLookups]->upload(std::as_bytes(std::span(scene.texels)));
     if (!scene.textures.empty())
         buffers_[layout::bindingTextures]->upload(std::as_bytes(std::span(scene.textures)));
     buffers_[layout::bindingFrame]->upload(std::as_bytes(std::span(&scene.frame, 1)));

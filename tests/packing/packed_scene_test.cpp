@@ -305,9 +305,9 @@ TEST(Emitters, AreChosenByPowerInTheOrderOfTheInput) {
     EXPECT_NEAR(result.emitters[0].probability, 8.0 * std::numbers::pi / total, 1e-7);
     EXPECT_NEAR(result.emitters[1].probability, 8.0 * std::numbers::pi * std::numbers::pi / total, 1e-7);
     EXPECT_NEAR(result.emitters[2].probability, 8.0 * std::numbers::pi / total, 1e-7);
-    EXPECT_NEAR(result.emitters[2].density, result.emitters[2].probability / 4.0, 1e-7);
-    EXPECT_NEAR(result.materials[2].emitterDensity, result.emitters[2].density, 1e-7);
-    EXPECT_NEAR(result.materials[1].emitterDensity, result.emitters[1].density, 1e-7);
+    EXPECT_NEAR(result.emitters[2].pdf, result.emitters[2].probability / 4.0, 1e-7);
+    EXPECT_NEAR(result.materials[2].emitterPdf, result.emitters[2].pdf, 1e-7);
+    EXPECT_NEAR(result.materials[1].emitterPdf, result.emitters[1].pdf, 1e-7);
     EXPECT_EQ(result.emitters[2].cumulative, 0xFFFFFFFFu);
     EXPECT_TRUE(result.hasEmission);
     scene.settings.integrator = Integrator::Whitted;

@@ -199,18 +199,20 @@ TEST(PathMedia, AHollowBallIsABallOfAirInGlass) {
 
 TEST(Fresnel, NormalIncidenceBrewsterAndTotalReflection) {
     const glm::dvec3 normal(0, 0, 1);
-    EXPECT_NEAR(meetInterface<double>({0, 0, -1}, normal, 1.0 / 1.5).reflectance, 0.04, 1e-12);
-    EXPECT_NEAR(meetInterface<double>({0, 0, -1}, normal, 1.5).reflectance, 0.04, 1e-12);
+    EXPECT_NEAR(fresnelDielectric<double>({0, 0, -1}, normal, 1.0 / 1.5).reflectance, 0.04, 1e-12);
+    EXPECT_NEAR(fresnelDielectric<double>({0, 0, -1}, normal, 1.5).reflectance, 0.04, 1e-12);
     // At Brewster's angle only light across the plane is reflected: half of sin^2(i - t).
     const double angle = std::atan(1.5);
     const double across = std::sin(angle - (pi / 2.0 - angle));
-    EXPECT_NEAR(meetInterface<double>({std::sin(angle), 0, -std::cos(angle)}, normal, 1.0 / 1.5).reflectance,
-                0.5 * across * across, 1e-12);
+    EXPECT_NEAR(
+        fresnelDielectric<double>({std::sin(angle), 0, -std::cos(angle)}, normal, 1.0 / 1.5).reflectance,
+        0.5 * across * across, 1e-12);
     const double beyond = std::asin(1.0 / 1.5) + 1e-3;
-    EXPECT_EQ(meetInterface<double>({std::sin(beyond), 0, -std::cos(beyond)}, normal, 1.5).reflectance, 1.0);
+    EXPECT_EQ(fresnelDielectric<double>({std::sin(beyond), 0, -std::cos(beyond)}, normal, 1.5).reflectance,
+              1.0);
     // Snell.
-    const Interface<double> glass =
-        meetInterface<double>({std::sin(0.5), 0, -std::cos(0.5)}, normal, 1.0 / 1.5);
+    const DielectricFresnel<double> glass =
+        fresnelDielectric<double>({std::sin(0.5), 0, -std::cos(0.5)}, normal, 1.0 / 1.5);
     EXPECT_NEAR(glass.refracted.x, std::sin(0.5) / 1.5, 1e-12);
 }
 

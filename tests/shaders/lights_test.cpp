@@ -108,10 +108,10 @@ TEST(RoughMaterial, UnderAPointLightIsItsClosedForm) {
         const PackedScene scenePacked = packed(scene);
         const Direction up(0, 0, 1);
         const Direction view = glm::normalize(scene.camera.position);
-        const Rough<double> rough = roughOf<double>(SceneView<double>(scenePacked), scenePacked.materials[0],
+        const Bsdf<double> rough = makeBsdf<double>(SceneView<double>(scenePacked), scenePacked.materials[0],
                                                     -view, up, up, false, 1.0, 0.5);
-        const Scattered<double> lit = evaluateRough(SceneView<double>(scenePacked), rough,
-                                                    toLocal(rough.frame, Direction(1, 2, 2) / 3.0));
+        const BsdfEval<double> lit =
+            evalBsdf(SceneView<double>(scenePacked), rough, toLocal(rough.frame, Direction(1, 2, 2) / 3.0));
         expectRadiance(scene, lit.value.y * 100.0 / (4.0 * pi) / 9.0);
     }
 }
@@ -202,7 +202,7 @@ TEST(EnvironmentLight, DirectionsHaveTheDensityThatTheySay) {
     const Scene scene = underSky(grey(0.5f), 1, patchy(32, 16), 20.0);
     const PackedScene scenePacked = packed(scene);
     const SceneView<double> view(scenePacked);
-    EXPECT_NEAR(overSphere([&](const Direction &d) { return environmentFrom(view, d).density; }), 1.0, 2e-3);
+    EXPECT_NEAR(overSphere([&](const Direction &d) { return environmentFrom(view, d).pdf; }), 1.0, 2e-3);
     // Nothing that shines is left out, and what is drawn lies where it says: its density and radiance are those of its
     // direction.
     Random random(702);
@@ -210,7 +210,7 @@ TEST(EnvironmentLight, DirectionsHaveTheDensityThatTheySay) {
         const auto x = static_cast<std::uint32_t>(random.bits());
         const EnvironmentLight<double> drawn = sampleEnvironment(view, uvec2(x, random.bits()));
         const EnvironmentLight<double> found = environmentFrom(view, drawn.direction);
-        ASSERT_GT(drawn.density, 0.0);
+        ASSERT_GT(drawn.pdf, 0.0);
         ASSERT_NEAR(found.radiance.x, drawn.radiance.x, 1e-4 * (1.0 + drawn.radiance.x));
         ASSERT_NEAR(skyRadiance(scene.environment, drawn.direction), drawn.radiance.x,
                     1e-4 * (1.0 + drawn.radiance.x));
@@ -222,7 +222,7 @@ TEST(EnvironmentLight, DirectionsHaveTheDensityThatTheySay) {
     constexpr int count = 400000;
     for (int i = 0; i < count; ++i) {
         const auto x = static_cast<std::uint32_t>(random.bits());
-        sum += 1.0 / sampleEnvironment(view, uvec2(x, random.bits())).density;
+        sum += 1.0 / sampleEnvironment(view, uvec2(x, random.bits())).pdf;
     }
     EXPECT_NEAR(sum / count, 4.0 * pi, 0.02 * 4.0 * pi);
 }

@@ -41,7 +41,7 @@ template <class Draw> void expectUniform(std::uint64_t seed, const Draw &draw) {
     EXPECT_LT(chiSquareDeviations(counts), 4.0) << "seed " << seed;
 }
 
-double turnsOf(double x, double y) {
+double atan2Turns(double x, double y) {
     const double turns = std::atan2(y, x) / (2.0 * pi);
     return turns < 0.0 ? turns + 1.0 : turns;
 }
@@ -56,32 +56,32 @@ TEST(Functions, SineAndCosine) {
 }
 
 TEST(Functions, Decay) {
-    EXPECT_EQ(decay(0.0f), 1.0f);
-    EXPECT_EQ(decay(86.0f), 0.0f);
-    EXPECT_EQ(decay(std::numeric_limits<float>::infinity()), 0.0f);
+    EXPECT_EQ(expNegative(0.0f), 1.0f);
+    EXPECT_EQ(expNegative(86.0f), 0.0f);
+    EXPECT_EQ(expNegative(std::numeric_limits<float>::infinity()), 0.0f);
     for (float x = 0.0f; x < 86.0f; x += 0.0037f)
-        ASSERT_NEAR(decay(x) / std::exp(-static_cast<double>(x)), 1.0, 2e-7 * (1.0 + x)) << x;
+        ASSERT_NEAR(expNegative(x) / std::exp(-static_cast<double>(x)), 1.0, 2e-7 * (1.0 + x)) << x;
 }
 
 TEST(Sampling, FramesAreOrthonormal) {
     Random random(501);
     for (int i = 0; i < 10000; ++i) {
         const glm::vec3 n(random.direction());
-        const Frame<float> f = frameAround(n);
+        const Frame<float> f = makeOrthonormalBasis(n);
         EXPECT_NEAR(dotProduct(f.x, f.y), 0.0f, 2e-6f);
         EXPECT_NEAR(dotProduct(f.x, n), 0.0f, 2e-6f);
         EXPECT_NEAR(dotProduct(crossProduct(f.x, f.y), n), 1.0f, 2e-6f);
     }
-    EXPECT_TRUE(std::isfinite(frameAround(glm::vec3(0, 0, -1)).x.x));
+    EXPECT_TRUE(std::isfinite(makeOrthonormalBasis(glm::vec3(0, 0, -1)).x.x));
 }
 
 TEST(Sampling, CosineHasItsDensity) {
     const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
-    const Frame<float> f = frameAround(normal);
+    const Frame<float> f = makeOrthonormalBasis(normal);
     expectUniform(502, [&](const Vec2<float> &u) {
         const Vec3<float> d = sampleCosine(normal, u);
         const double cosine = dotProduct(d, normal);
-        return Vec2<double>(1.0 - cosine * cosine, turnsOf(dotProduct(d, f.x), dotProduct(d, f.y)));
+        return Vec2<double>(1.0 - cosine * cosine, atan2Turns(dotProduct(d, f.x), dotProduct(d, f.y)));
     });
     EXPECT_FLOAT_EQ(pdfCosine(1.0f), static_cast<float>(1.0 / pi));
 }
@@ -96,7 +96,7 @@ TEST(Sampling, TriangleIsUniformOverItsArea) {
 
 TEST(Sampling, ConeIsUniformOverItsSolidAngle) {
     const glm::vec3 axis = glm::normalize(glm::vec3(-0.2f, 0.1f, -0.9f));
-    const Frame<float> f = frameAround(axis);
+    const Frame<float> f = makeOrthonormalBasis(axis);
     for (const float squaredRadius : {0.99f, 0.3f, 1e-3f}) {
         const float height = coneHeight(squaredRadius, 1.0f);
         EXPECT_NEAR(height, 1.0 - std::sqrt(1.0 - static_cast<double>(squaredRadius)), 3e-7);
@@ -106,7 +106,7 @@ TEST(Sampling, ConeIsUniformOverItsSolidAngle) {
             const double x = dotProduct(d, f.x);
             const double y = dotProduct(d, f.y);
             const double below = (x * x + y * y) / (1.0 + dotProduct(d, axis));
-            return Vec2<double>(below / height, turnsOf(x, y));
+            return Vec2<double>(below / height, atan2Turns(x, y));
         });
     }
 }
@@ -114,7 +114,7 @@ TEST(Sampling, ConeIsUniformOverItsSolidAngle) {
 TEST(Sampling, SphereIsUniformOverItsArea) {
     expectUniform(505, [](const Vec2<float> &u) {
         const Vec3<float> d = sampleSphere(u);
-        return Vec2<double>(0.5 - 0.5 * d.z, turnsOf(d.x, d.y));
+        return Vec2<double>(0.5 - 0.5 * d.z, atan2Turns(d.x, d.y));
     });
 }
 

@@ -162,7 +162,8 @@ struct SurfacePoint {
     }
 
     [[nodiscard]] float distanceAlong(const glm::vec3 &direction) const {
-        return intersectSphere(spawnPoint(surface, direction), direction, sphere.centre, sphere.radius, true);
+        return intersectSphere(offsetRayOrigin(surface, direction), direction, sphere.centre, sphere.radius,
+                               true);
     }
 };
 
@@ -227,7 +228,7 @@ TEST(Sphere, NormalsPointOutwardsUnlessTheSphereIsInverted) {
     sphere.materialAndSide = layout::sphereFacesInward;
     surface = sphereSurface<float>({1, 2, 10}, {0, 0, -1}, 5, sphere);
     EXPECT_EQ(surface.normal, glm::vec3(0, 0, -1));
-    EXPECT_EQ(spawnPoint(surface, {0, 1, 0}), surface.position) << "spheres need no offset";
+    EXPECT_EQ(offsetRayOrigin(surface, {0, 1, 0}), surface.position) << "spheres need no offset";
 }
 
 TEST(Sphere, TwoTouchingBallsAreMetInOrder) {

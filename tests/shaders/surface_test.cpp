@@ -100,7 +100,7 @@ TEST(SpawnPoint, ARayLeavingAConvexMeshNeverMeetsItAgain) {
             continue;
         const glm::vec3 direction = leavingDirection(random, landing->normal, 1e-5);
         Surface<float> surface = landing->surface;
-        const glm::vec3 origin = spawnPoint(surface, direction);
+        const glm::vec3 origin = offsetRayOrigin(surface, direction);
         const auto describe = [&] {
             return fmt::format("size {}, from {} along {}", scale, text(origin), text(direction));
         };
@@ -126,7 +126,7 @@ TEST(SpawnPoint, ARayIntoAConvexMeshMeetsItsOtherSide) {
             if (!landing)
                 continue;
             const glm::vec3 direction = -leavingDirection(random, landing->normal, 1e-3);
-            const glm::vec3 origin = spawnPoint(landing->surface, direction);
+            const glm::vec3 origin = offsetRayOrigin(landing->surface, direction);
             const Hit<float> hit = closestHit(scene, Ray<float>{origin, direction, landing->primitive});
             // Where the ray leaves the cube, from the slabs.
             double leave = std::numeric_limits<double>::infinity();
@@ -200,7 +200,7 @@ TEST(SpawnPoint, AFloorOfManyTrianglesDoesNotShadowItself) {
                     const glm::dvec3 light(random.uniform(-extent, extent), height + extent,
                                            random.uniform(-extent, extent));
                     const glm::vec3 toLight(glm::normalize(light - glm::dvec3(surface.position)));
-                    const Ray<float> shadowRay{spawnPoint(surface, toLight), toLight, hit.primitive};
+                    const Ray<float> shadowRay{offsetRayOrigin(surface, toLight), toLight, hit.primitive};
                     (isAtEdge ? atEdges : anywhere)
                         .check(!castShadowRay(scene, shadowRay, static_cast<float>(extent)).isBlocked, [&] {
                             return fmt::format("height {}, extent {}, {} cells: from {} along {}", height,
@@ -255,7 +255,7 @@ TEST(SpawnPoint, LeavesAnyTriangleOnTheSideThatTheRayGoesTo) {
         const glm::vec3 outward = leavingDirection(random, landing->normal, 1e-4);
         const glm::vec3 direction = random.coin() ? outward : -outward; // both sides
         const double side = glm::dot(glm::dvec3(direction), landing->normal) > 0 ? 1.0 : -1.0;
-        const glm::vec3 origin = spawnPoint(landing->surface, direction);
+        const glm::vec3 origin = offsetRayOrigin(landing->surface, direction);
         const auto describe = [&] {
             return fmt::format("{} {} {}, from {} along {}, height/length {}", text(triangle.v0),
                                text(triangle.v1), text(triangle.v2), text(origin), text(direction),
@@ -347,7 +347,7 @@ TEST(TriangleSurface, WithoutAreaHasNoNormalAndNoNan) {
                                                           layout::NormalRecord{}, 0.5f, 0.25f);
     EXPECT_EQ(surface.geometricNormal, glm::vec3(0.0f));
     EXPECT_EQ(surface.normal, glm::vec3(0.0f));
-    EXPECT_EQ(spawnPoint(surface, {0, 0, 1}), surface.position);
+    EXPECT_EQ(offsetRayOrigin(surface, {0, 0, 1}), surface.position);
 }
 
 TEST(TriangleSurface, HasAUnitNormalAtEverySizeThatASceneMayHave) {

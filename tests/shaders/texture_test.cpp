@@ -106,9 +106,9 @@ TEST(Texture, IsDecodedWhereAllAreSmallEnough) {
                                 return levels(static_cast<std::uint32_t>(40 * x),
                                               static_cast<std::uint32_t>(90 * y), 7);
                             }));
-    const auto isOfLevels = [&](std::size_t mostDecoded) {
+    const auto isOfLevels = [&](std::size_t maxDecoded) {
         const Bvh bvh = buildBvh(TreeKind::Midpoint, buildTriangles(scene), 8);
-        return (packScene(scene, bvh, mostDecoded).texturing & layout::texturesLevels) != 0;
+        return (packScene(scene, bvh, maxDecoded).texturing & layout::texturesLevels) != 0;
     };
     EXPECT_FALSE(isOfLevels(5 * 3 * 16));
     EXPECT_TRUE(isOfLevels(5 * 3 * 16 - 1));

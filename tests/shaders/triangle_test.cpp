@@ -785,7 +785,7 @@ TEST(Triangle, RaysOfNanAndInfinityHitNothing) {
 
 TEST(Triangle, PointErrorBoundsTheRoundingOfThePoint) {
     // For weights as they are rounded: the third is fl(1 - u - v). What its rounding adds, u times a corner, moves the
-    // point off the plane by no more than the bound allows along the normal: that is what spawnPoint needs.
+    // point off the plane by no more than the bound allows along the normal: that is what offsetRayOrigin needs.
     Random random(114);
     Tally wrong("coordinates off by more than the bound", random.seed());
     Tally offPlane("points off their plane by more than the bound", random.seed());

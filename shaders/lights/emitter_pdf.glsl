@@ -2,14 +2,14 @@
 
 const float fourPi = 12.566370614359173;
 
-// Per solid angle, of a point chosen with `areaDensity` per unit of area; `cosine` > 0 is that at the light.
-float solidAngleDensity(float areaDensity, float distance, float cosine) {
-    float scaled = areaDensity * (distance * distance);
+// Per solid angle, of a point chosen with `areaPdf` per unit of area; `cosine` > 0 is that at the light.
+float solidAnglePdf(float areaPdf, float distance, float cosine) {
+    float scaled = areaPdf * (distance * distance);
     return divide(scaled, cosine);
 }
 
 // Seen from further away than this, in squared radii, a sphere is sampled by the cone of directions to it, else by area.
-const float leastConeDistance = 1.0001;
+const float minConeDistance = 1.0001;
 
 float squaredDistanceTo(vec3 centre, vec3 position) {
     vec3 toCentre = centre - position;
@@ -18,12 +18,12 @@ float squaredDistanceTo(vec3 centre, vec3 position) {
 
 // The density with which a sphere is aimed at from `position` in a direction that meets it after `distance`; 0 where that
 // point is never chosen. `outward` is the sphere's outward normal there.
-float sphereLightDensity(vec3 position, vec3 direction, float distance, vec3 centre, float radius, vec3 outward,
-                         float areaDensity) {
+float pdfSphereLight(vec3 position, vec3 direction, float distance, vec3 centre, float radius, vec3 outward,
+                         float areaPdf) {
     float squaredRadius = radius * radius;
     float squaredDistance = squaredDistanceTo(centre, position);
-    if (squaredDistance > squaredRadius * leastConeDistance)
-        return areaDensity * (fourPi * squaredRadius) * pdfCone(coneHeight(squaredRadius, squaredDistance));
+    if (squaredDistance > squaredRadius * minConeDistance)
+        return areaPdf * (fourPi * squaredRadius) * pdfCone(coneHeight(squaredRadius, squaredDistance));
     float cosine = dotProduct(direction, outward);
-    return cosine > 0.0 ? solidAngleDensity(areaDensity, distance, cosine) : 0.0;
+    return cosine > 0.0 ? solidAnglePdf(areaPdf, distance, cosine) : 0.0;
 }

@@ -1,4 +1,4 @@
-// Rough surfaces: energy, reciprocity, and directions with the density that they say they have.
+// BSDFs: energy, reciprocity, and directions with the density that they say they have.
 #include "tests/fixtures/leaves.h"
 
 #include "host/packing/microfacet_energy.h"
@@ -19,10 +19,10 @@ const SceneView<double> scene(sceneOfAllMaterials());
 /// A direction above the plane z = 0, with the given cosine to +z.
 Direction viewAt(double cosine) { return {std::sqrt(1.0 - cosine * cosine), 0.0, cosine}; }
 
-Rough<double> seenFrom(const layout::MaterialRecord &material, const Direction &view, double choice = 0.999,
-                       double eta = 1.0 / 1.5, bool isBehind = false) {
+Bsdf<double> seenFrom(const layout::MaterialRecord &material, const Direction &view, double choice = 0.999,
+                      double eta = 1.0 / 1.5, bool isBehind = false) {
     const Direction normal(0, 0, 1);
-    return roughOf<double>(scene, material, -view, normal, normal, isBehind, eta, choice);
+    return makeBsdf<double>(scene, material, -view, normal, normal, isBehind, eta, choice);
 }
 
 layout::MaterialRecord conductor(double alpha, float index, float extinction) {
@@ -72,12 +72,12 @@ Albedo albedoOf(const layout::MaterialRecord &material, const Direction &view, s
     double sum = 0.0;
     double squares = 0.0;
     for (int i = 0; i < count; ++i) {
-        const Rough<double> rough = seenFrom(material, view, random.uniform(0.0, 1.0), eta, isBehind);
+        const Bsdf<double> rough = seenFrom(material, view, random.uniform(0.0, 1.0), eta, isBehind);
         const double x = random.uniform(0.0, 1.0);
         const Direction light =
-            drawRough(scene, rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
-        const Scattered<double> scattered = evaluateRough(scene, rough, light);
-        double value = scattered.density > 0.0 ? scattered.value.x / scattered.density : 0.0;
+            sampleBsdf(scene, rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
+        const BsdfEval<double> scattered = evalBsdf(scene, rough, light);
+        double value = scattered.pdf > 0.0 ? scattered.value.x / scattered.pdf : 0.0;
         if (light.z < 0.0)
             value /= eta * eta; // radiance is larger in glass by the square of the index
         sum += value;
@@ -101,12 +101,11 @@ TEST(MicrofacetEnergy, TheTableIsWhatFacetsReflectAtOnce) {
         double grazing = 0.0;
         for (int k = 0; k < count; ++k) {
             const double x = random.uniform(0.0, 1.0);
-            const Direction facet =
-                sampleVisibleFacet(view, alpha, Vec2<double>(x, random.uniform(0.0, 1.0)));
+            const Direction facet = sampleGgxVndf(view, alpha, Vec2<double>(x, random.uniform(0.0, 1.0)));
             const Direction light = mirrorDirection<double>(-view, facet);
             if (light.z <= 0.0)
                 continue;
-            const double lit = litShare(view.z, stretch, light.z, stretchOf(light, alpha));
+            const double lit = smithG2OverG1(view.z, stretch, light.z, stretchOf(light, alpha));
             white += lit;
             grazing += lit * std::pow(1.0 - dotProduct(view, facet), 5.0);
         }
@@ -141,7 +140,7 @@ TEST(Conductors, ReflectAsTheirComplexIndexSays) {
     const Direction normal(0, 0, 1);
     for (const double cosine : {0.1, 0.5, 0.9})
         EXPECT_NEAR(conductorReflectance(cosine, 1.5, 0.0),
-                    meetInterface<double>(-viewAt(cosine), normal, 1.0 / 1.5).reflectance, 1e-12);
+                    fresnelDielectric<double>(-viewAt(cosine), normal, 1.0 / 1.5).reflectance, 1e-12);
     double average = 0.0;
     for (int i = 0; i < 4000; ++i) {
         const double cosine = (i + 0.5) / 4000.0;
@@ -197,19 +196,17 @@ TEST(RoughReciprocity, LightGoesBothWaysAlike) {
         for (const layout::MaterialRecord &material :
              {conductor(alpha, 0.3f, 2.5f), principled(alpha, metallic, 0.6f)}) {
             const double forth =
-                evaluateRough(scene, seenFrom(material, a), toLocal(seenFrom(material, a).frame, b)).value.x /
-                b.z;
+                evalBsdf(scene, seenFrom(material, a), toLocal(seenFrom(material, a).frame, b)).value.x / b.z;
             const double back =
-                evaluateRough(scene, seenFrom(material, b), toLocal(seenFrom(material, b).frame, a)).value.x /
-                a.z;
+                evalBsdf(scene, seenFrom(material, b), toLocal(seenFrom(material, b).frame, a)).value.x / a.z;
             ASSERT_NEAR(forth / back, 1.0, 1e-6) << "alpha " << alpha;
         }
         // Through an interface radiance grows by the square of the index, and that alone is what differs.
         const Direction below(b.x, b.y, -b.z);
-        const Rough<double> fromAbove = seenFrom(frostedGlass(alpha), a, 0.5, 1.0 / 1.5);
-        const double through = evaluateRough(scene, fromAbove, below).value.x / b.z;
-        const Rough<double> fromBelow = seenFrom(frostedGlass(alpha), b, 0.5, 1.5);
-        const double back = evaluateRough(scene, fromBelow, Direction(a.x, a.y, -a.z)).value.x / a.z;
+        const Bsdf<double> fromAbove = seenFrom(frostedGlass(alpha), a, 0.5, 1.0 / 1.5);
+        const double through = evalBsdf(scene, fromAbove, below).value.x / b.z;
+        const Bsdf<double> fromBelow = seenFrom(frostedGlass(alpha), b, 0.5, 1.5);
+        const double back = evalBsdf(scene, fromBelow, Direction(a.x, a.y, -a.z)).value.x / a.z;
         if (through > 1e-12) {
             ASSERT_NEAR(through * 2.25 / back, 1.0, 1e-5) << "alpha " << alpha;
         }
@@ -218,7 +215,7 @@ TEST(RoughReciprocity, LightGoesBothWaysAlike) {
 
 /// Chi-square of the directions that a surface draws against the density that it says they have, in boxes of the sphere
 /// (longitude and cosine), as a number of standard deviations.
-double chiSquareOf(const Rough<double> &rough, std::uint64_t seed) {
+double chiSquareOf(const Bsdf<double> &rough, std::uint64_t seed) {
     constexpr int across = 16;
     constexpr int up = 32;
     constexpr int count = 400000;
@@ -229,8 +226,8 @@ double chiSquareOf(const Rough<double> &rough, std::uint64_t seed) {
     for (int i = 0; i < count; ++i) {
         const double x = random.uniform(0.0, 1.0);
         const Direction drawn =
-            drawRough(scene, rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
-        if (evaluateRough(scene, rough, drawn).density <= 0.0)
+            sampleBsdf(scene, rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
+        if (evalBsdf(scene, rough, drawn).pdf <= 0.0)
             continue;
         const int column = std::min(
             static_cast<int>((std::atan2(drawn.y, drawn.x) / (2.0 * pi) + 0.5) * across), across - 1);
@@ -250,8 +247,7 @@ double chiSquareOf(const Rough<double> &rough, std::uint64_t seed) {
                     2.0 * pi * ((column + (k % fineAcross + 0.5) / fineAcross) / across - 0.5);
                 const double sine = std::sqrt(1.0 - z * z);
                 expected +=
-                    evaluateRough(scene, rough, Direction(sine * std::cos(angle), sine * std::sin(angle), z))
-                        .density;
+                    evalBsdf(scene, rough, Direction(sine * std::cos(angle), sine * std::sin(angle), z)).pdf;
             }
             expected *= count * 4.0 * pi / (across * up) / (fineAcross * fineUp);
             const double found = counts[static_cast<std::size_t>(row * across + column)];
@@ -290,9 +286,9 @@ TEST(PrincipledMaterial, ItsComponentsAreChosenByTheirShares) {
     material.transmission = 0.5f;
     int glassCount = 0;
     for (int i = 0; i < 1000; ++i)
-        glassCount += seenFrom(material, viewAt(0.8), (i + 0.5) / 1000.0).kind == roughGlass;
+        glassCount += seenFrom(material, viewAt(0.8), (i + 0.5) / 1000.0).kind == bsdfGlass;
     EXPECT_EQ(glassCount, 375); // of what is no metal, the half
-    EXPECT_EQ(seenFrom(material, viewAt(0.8), 0.99, 1.5, true).kind, roughGlass) << "from inside";
+    EXPECT_EQ(seenFrom(material, viewAt(0.8), 0.99, 1.5, true).kind, bsdfGlass) << "from inside";
 }
 
 } // namespace

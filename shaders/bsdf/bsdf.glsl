@@ -1,0 +1,73 @@
+// The dispatch of BSDFs: make one at a hit, evaluate it, sample it. A new lobe has its row in each of the three functions.
+
+// The surface with the unit normals `normal` and `geometricNormal`, on the side of the viewer, where a ray in `direction`
+// ends. `eta` is as in Bsdf; `choice`, in [0, 1), is random.
+Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, bool isBehind, float eta,
+              float choice) {
+    Bsdf bsdf;
+    bsdf.frame = makeOrthonormalBasis(dotProduct(direction, normal) < 0.0 ? normal : geometricNormal);
+    bsdf.wo = toLocal(bsdf.frame, -direction);
+    bsdf.kind = bsdfOpaque;
+    bsdf.alpha = material.alpha;
+    bsdf.roughness = squareRoot(material.alpha);
+    bsdf.stretchWo = stretchOf(bsdf.wo, material.alpha);
+    bsdf.isConductor = false;
+    bsdf.index = material.conductorIndex;
+    bsdf.extinction = material.conductorExtinction;
+    bsdf.reflectance = material.albedo;
+    bsdf.eta = eta;
+    bsdf.tint = vec3(1.0);
+    bsdf.multiScatter = vec3(0.0);
+    bsdf.diffuseBase = vec3(0.0);
+    bsdf.plasticReflectance = 0.0;
+    bsdf.clearcoat = 0.0;
+    bsdf.clearcoatRoughness = 0.0;
+    bsdf.clearcoatEnergy = 0.0;
+    bsdf.weight = 1.0;
+    bsdf.specularProbability = 0.0;
+    if ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled)
+        return makePrincipled(bsdf, material, isBehind, choice);
+    if ((scattering & scattersAtRoughConductors) != 0u && kindOf(material) == materialConductor) {
+        bsdf.isConductor = true;
+        return addOpaqueLobes(bsdf, 1.0, 0.0, vec3(0.0), material.averageReflectance);
+    }
+    if ((scattering & scattersAtRoughGlass) != 0u && kindOf(material) == materialDielectric) {
+        bsdf.kind = bsdfGlass;
+        return bsdf;
+    }
+    bsdf.kind = bsdfDiffuse;
+    return bsdf;
+}
+
+// A direction wi in the frame, or 0 where a facet sends light to the wrong side; `choice`, in [0, 1), is another random
+// number. Its pdf is evalBsdf(bsdf, wi).pdf.
+vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
+    if (bsdf.kind == bsdfDiffuse || bsdf.kind == bsdfOpaque && choice >= bsdf.specularProbability)
+        return sampleDiffuse(u);
+    vec3 facet = sampleGgxVndf(bsdf.wo, bsdf.alpha, u);
+    if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass) {
+        DielectricFresnel glass = fresnelDielectric(-bsdf.wo, facet, bsdf.eta);
+        if (choice >= glass.reflectance)
+            return glass.refracted.z < 0.0 ? glass.refracted : vec3(0.0);
+    }
+    vec3 reflected = unitVector(mirrorDirection(-bsdf.wo, facet));
+    return reflected.z > 0.0 ? reflected : vec3(0.0);
+}
+
+// What the surface does with light from `wi`, a unit vector in the frame.
+BsdfEval evalBsdf(Bsdf bsdf, vec3 wi) {
+    if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass && wi.z != 0.0)
+        return evalGlass(bsdf, wi);
+    if (wi.z <= 0.0)
+        return BsdfEval(vec3(0.0), 0.0);
+    if (bsdf.kind == bsdfDiffuse)
+        return evalDiffuse(bsdf, wi);
+    BsdfEval opaque = evalOpaque(bsdf, wi);
+    if ((scattering & scattersAtPrincipled) != 0u) {
+        float below = bsdf.weight;
+        if (bsdf.clearcoat > 0.0)
+            below = below * clearcoatTransmittance(bsdf, wi);
+        opaque.value = opaque.value * below;
+    }
+    return opaque;
+}

@@ -1,0 +1,57 @@
+// The opaque lobe: GGX facets of metal or of a plastic's surface, what they scatter more than once, and the diffuse base below
+// plastic (Kulla and Conty 2017, see energy.glsl).
+
+const float minEnergyLoss = 1e-6; // of energy, where it is divided by
+
+float mean(vec3 colour) {
+    float sum = colour.x + colour.y + colour.z;
+    return sum * (1.0 / 3.0);
+}
+
+// (1 - E(o)) / (pi (1 - average E)), the part of a lobe of what is not reflected at once that depends on the viewer.
+float lossShare(float energy, float average) {
+    float loss = 1.0 - energy;
+    float averageLoss = greater(1.0 - average, minEnergyLoss);
+    return inversePi * divide(loss, averageLoss);
+}
+
+vec3 fresnelReflectance(Bsdf bsdf, float cosine) {
+    if ((scattering & scattersAtRoughConductors) != 0u && bsdf.isConductor)
+        return conductorReflectance(lesser(cosine, 1.0), bsdf.index, bsdf.extinction);
+    return schlickReflectance(cosine, bsdf.reflectance);
+}
+
+// `bsdf` with the lobes of metal and plastic; `metal` and `plastic` are their shares of the surface, and `metalAverage` is
+// the reflectance of metal, averaged over the hemisphere by the cosine.
+Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 metalAverage) {
+    Energy energy = energyOf(bsdf.wo.z, bsdf.roughness);
+    Energy average = averageEnergy(bsdf.roughness);
+    vec3 multiScatterColour = multiScatterReflectance(metalAverage, average.white) * metal;
+    bsdf.multiScatter = multiScatterColour * lossShare(energy.white, average.white);
+    float plasticEnergy = energyAt(energy, bsdf.plasticReflectance);
+    vec3 diffuseBaseColour = colour * plastic;
+    bsdf.diffuseBase = diffuseBaseColour * lossShare(plasticEnergy, energyAt(average, bsdf.plasticReflectance));
+    float facets = mean(fresnelReflectance(bsdf, bsdf.wo.z)) * energy.white;
+    float others = mean(multiScatterColour) * (1.0 - energy.white) + mean(diffuseBaseColour) * (1.0 - plasticEnergy);
+    float sum = greater(facets + others, 1e-20);
+    bsdf.specularProbability = divide(facets, sum);
+    return bsdf;
+}
+
+BsdfEval evalOpaque(Bsdf bsdf, vec3 wi) {
+    vec3 facet = halfVector(bsdf.wo, wi);
+    float cosinePdf = pdfCosine(wi.z);
+    float cosine = dotProduct(bsdf.wo, facet);
+    float reflected = pdfReflection(ggxD(facet, bsdf.alpha), bsdf.wo, bsdf.stretchWo);
+    float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, wi.z, stretchOf(wi, bsdf.alpha));
+    float once = reflected * lit;
+    vec3 value = fresnelReflectance(bsdf, cosine) * once;
+    float pdf = bsdf.specularProbability * reflected + (1.0 - bsdf.specularProbability) * cosinePdf;
+    if (bsdf.specularProbability < 1.0) {
+        Energy energy = energyOf(wi.z, bsdf.roughness);
+        float multiScatterShare = (1.0 - energy.white) * wi.z;
+        float diffuseBaseShare = (1.0 - energyAt(energy, bsdf.plasticReflectance)) * wi.z;
+        value = value + bsdf.multiScatter * multiScatterShare + bsdf.diffuseBase * diffuseBaseShare;
+    }
+    return BsdfEval(value, pdf);
+}

@@ -1,0 +1,35 @@
+// The principled material: a clear coat over a mixture of metal, plastic and glass, after Burley, "Physically Based Shading at
+// Disney", SIGGRAPH 2012 courses.
+//
+// At each hit one of coat, glass, and metal with plastic is chosen with a probability that follows its share; emitters and
+// scattered rays then meet that one alone, which is unbiased and never mixes pdfs of what was not chosen.
+
+Bsdf makePrincipled(Bsdf bsdf, MaterialRecord material, bool isBehind, float choice) {
+    float left = choice;
+    if (material.clearcoat > 0.0 && !isBehind) {
+        bsdf.clearcoat = material.clearcoat;
+        bsdf.clearcoatRoughness = squareRoot(material.clearcoatAlpha);
+        bsdf.clearcoatEnergy = clearcoatAlbedo(bsdf.wo.z, bsdf.clearcoatRoughness);
+        float clearcoatShare = bsdf.clearcoat * bsdf.clearcoatEnergy;
+        if (left < clearcoatShare)
+            return makeClearcoat(bsdf, material, clearcoatShare);
+        float rest = 1.0 - clearcoatShare;
+        float above = left - clearcoatShare;
+        left = divide(above, rest);
+        bsdf.weight = divide(1.0, rest);
+    }
+    float dielectric = 1.0 - material.metallic;
+    float glass = isBehind && material.transmission > 0.0 ? 1.0 : dielectric * material.transmission;
+    if ((scattering & scattersAtRoughGlass) != 0u && left < glass) {
+        bsdf.kind = bsdfGlass;
+        bsdf.tint = vec3(squareRoot(material.albedo.x), squareRoot(material.albedo.y), squareRoot(material.albedo.z));
+        return bsdf;
+    }
+    float opaque = 1.0 - glass;
+    float metal = divide(material.metallic, opaque);
+    float plastic = 1.0 - metal;
+    bsdf.plasticReflectance = material.normalReflectance;
+    bsdf.reflectance = material.albedo * metal + material.normalReflectance * plastic;
+    vec3 average = material.albedo + (1.0 - material.albedo) * (1.0 / 21.0);
+    return addOpaqueLobes(bsdf, metal, plastic, material.albedo, average);
+}
