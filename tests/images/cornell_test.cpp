@@ -1,5 +1,5 @@
 // The Cornell box: its mean radiance is what paths find that are clever about nothing (plain_paths.h).
-#include "tests/images/plain_paths.h"
+#include "tests/images/plain_comparison.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -11,26 +11,9 @@ namespace {
 
 using testing::Estimate;
 
-/// Of the film's columns [x0, x1) and rows [y0, y1). Samples of a pixel are stratified: they vary less than this says.
-Estimate meanOf(const Film &film, int x0, int x1, int y0, int y1) {
-    Estimate estimate;
-    const double pixelCount = static_cast<double>(x1 - x0) * (y1 - y0);
-    for (int y = y0; y < y1; ++y) {
-        for (int x = x0; x < x1; ++x) {
-            const layout::FilmPixel &pixel = film.pixels[static_cast<std::size_t>(y * film.crop.width() + x)];
-            const double count = pixel.sampleCount;
-            const glm::dvec3 mean = glm::dvec3(pixel.sum) / count;
-            estimate.mean += mean / pixelCount;
-            estimate.variance += (glm::dvec3(pixel.sumOfSquares) / count - mean * mean) / (count - 1.0) /
-                                 (pixelCount * pixelCount);
-        }
-    }
-    return estimate;
-}
-
 void expectSameMean(const Scene &scene, const Film &film, int x0, int x1, int y0, int y1, int pathCount,
                     double relativeError) {
-    const Estimate ours = meanOf(film, x0, x1, y0, y1);
+    const Estimate ours = testing::meanOf(film, {x0, x1, y0, y1});
     const Estimate plain = testing::estimatePlainly(scene, x0, x1, y0, y1, pathCount, 1);
     for (int channel = 0; channel < 3; ++channel) {
         const double error = std::sqrt(ours.variance[channel] + plain.variance[channel]);

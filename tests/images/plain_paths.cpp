@@ -1,161 +1,244 @@
 #include "tests/images/plain_paths.h"
 
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
+#include "tests/images/plain_bsdf.h"
+#include "tests/images/plain_cameras.h"
+#include "tests/images/plain_lights.h"
+#include "tests/images/plain_media.h"
 
-#include <algorithm>
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
-#include <random>
 #include <vector>
 
 namespace hyalite::testing {
 
 namespace {
 
-using Vec = glm::dvec3;
-using Generator = std::mt19937_64;
+using namespace plain;
 
 constexpr int chunkCount = 64; ///< of paths, each with a generator of its own
 
-struct Facet {
-    Vec corner;
-    Vec side1;
-    Vec side2;
-    Vec normal; ///< unit length
-    Vec albedo;
-    Vec emission;
-    bool isTwoSided;
-};
+/// A scene made ready for paths.
+struct World {
+    World(const Scene &plainScene, Search how)
+        : scene(plainScene), search(how), shapes(shapesOf(plainScene)), substances(plainScene),
+          emitters(plainScene, shapes) {}
 
-struct Meeting {
-    double distance;
-    const Facet *facet;
-};
-
-std::vector<Facet> facetsOf(const Scene &scene) {
-    std::vector<Facet> facets;
-    for (const TriangleMesh &mesh : scene.meshes) {
-        const Material &material = scene.materials[mesh.materialIndex];
-        for (const MeshTriangle &triangle : mesh.triangles) {
-            const Vec a = mesh.positions[triangle.positions.x];
-            const Vec b = mesh.positions[triangle.positions.y];
-            const Vec c = mesh.positions[triangle.positions.z];
-            facets.push_back({a, b - a, c - a, glm::normalize(glm::cross(b - a, c - a)), material.albedo,
-                              material.emission, material.twoSided});
-        }
-    }
-    return facets;
-}
-
-/// Cramer's rule.
-std::optional<Meeting> nearest(const std::vector<Facet> &facets, const Vec &origin, const Vec &direction,
-                               const Facet *left) {
-    Meeting best{std::numeric_limits<double>::infinity(), nullptr};
-    for (const Facet &facet : facets) {
-        const Vec p = glm::cross(direction, facet.side2);
-        const double determinant = glm::dot(facet.side1, p);
-        const Vec s = origin - facet.corner;
-        const Vec q = glm::cross(s, facet.side1);
-        const double u = glm::dot(s, p) / determinant;
-        const double v = glm::dot(direction, q) / determinant;
-        const double distance = glm::dot(facet.side2, q) / determinant;
-        if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 1e-9 && distance < best.distance &&
-            &facet != left)
-            best = {distance, &facet};
-    }
-    return best.facet != nullptr ? std::optional(best) : std::nullopt;
-}
-
-/// Malley: a point of the disk, lifted to the hemisphere.
-Vec cosineDirection(const Vec &normal, Generator &generator) {
-    std::uniform_real_distribution<double> uniform;
-    const double radius = std::sqrt(uniform(generator));
-    const double turn = 2.0 * std::numbers::pi * uniform(generator);
-    const Vec other = std::abs(normal.x) < 0.6 ? Vec(1.0, 0.0, 0.0) : Vec(0.0, 1.0, 0.0);
-    const Vec right = glm::normalize(glm::cross(other, normal));
-    return radius * std::cos(turn) * right + radius * std::sin(turn) * glm::cross(normal, right) +
-           std::sqrt(std::max(0.0, 1.0 - radius * radius)) * normal;
-}
-
-/// The facets that shine, and where each ends on a line as long as all of them are large.
-struct Lights {
-    std::vector<const Facet *> facets;
-    std::vector<double> ends;
-
-    explicit Lights(const std::vector<Facet> &all) {
-        double end = 0.0;
-        for (const Facet &facet : all) {
-            if (facet.emission == Vec(0.0))
+    [[nodiscard]] std::optional<Meeting> nearest(const Vec &origin, const Vec &direction,
+                                                 const Shape *left) const {
+        std::optional<Meeting> best;
+        for (const Shape &shape : shapes) {
+            const std::optional<Meeting> meeting = meet(shape, origin, direction, left);
+            if (!meeting || (best && meeting->distance >= best->distance))
                 continue;
-            end += glm::length(glm::cross(facet.side1, facet.side2)) / 2.0;
-            facets.push_back(&facet);
-            ends.push_back(end);
+            if (shape.isCutOut && substances.isCutAway(shape.materialIndex, uvOf(*meeting, Vec(0.0))))
+                continue;
+            best = meeting;
         }
+        return best;
     }
+
+    /// Shadow rays pass no glass.
+    [[nodiscard]] bool isVisible(const Vec &origin, const Vec &direction, double distance,
+                                 const Shape *left) const {
+        const std::optional<Meeting> meeting = nearest(origin, direction, left);
+        return !meeting || meeting->distance >= distance;
+    }
+
+    const Scene &scene;
+    Search search;
+    std::vector<Shape> shapes;
+    Substances substances;
+    Emitters emitters;
 };
 
-/// What a surface of albedo 1 sends back of the light of one point, evenly distributed over all lights.
-Vec lightFromOnePoint(const std::vector<Facet> &facets, const Lights &lights, const Vec &origin,
-                      const Vec &normal, const Facet *left, Generator &generator) {
-    std::uniform_real_distribution<double> uniform;
-    const double area = lights.ends.back();
-    const auto end = std::upper_bound(lights.ends.begin(), lights.ends.end() - 1, area * uniform(generator));
-    const Facet &light = *lights.facets[static_cast<std::size_t>(end - lights.ends.begin())];
-    const double fold = std::sqrt(uniform(generator));
-    const double v = uniform(generator) * fold;
-    const Vec point = light.corner + (1.0 - fold) * light.side1 + v * light.side2;
-    const double distance = glm::length(point - origin);
-    const Vec direction = (point - origin) / distance;
-    const double towards = -glm::dot(direction, light.normal);
-    const double cosine = glm::dot(direction, normal);
-    if (&light == left || cosine <= 0.0 || (towards <= 0.0 && !light.isTwoSided))
-        return Vec(0.0);
-    const std::optional<Meeting> meeting = nearest(facets, origin, direction, left);
-    if (!meeting || meeting->facet != &light)
-        return Vec(0.0);
-    return light.emission * (cosine * std::abs(towards) * area / (distance * distance) / std::numbers::pi);
+/// Radiance that the point emits against `direction`.
+Vec emitted(const Substance &substance, const SurfacePoint &point, const Vec &direction) {
+    const bool isSeen = glm::dot(direction, point.geometricNormal) < 0.0 || substance.material->twoSided;
+    return isSeen ? substance.emission : Vec(0.0);
 }
 
-Vec followPath(const Scene &scene, const std::vector<Facet> &facets, const Lights &lights, Vec origin,
-               Vec direction, Generator &generator) {
-    Vec radiance(0.0);
-    Vec throughput(1.0);
-    const Facet *left = nullptr;
-    for (int segment = 1;; ++segment) {
-        const std::optional<Meeting> meeting = nearest(facets, origin, direction, left);
-        if (!meeting)
-            return radiance + throughput * Vec(scene.background);
-        const Facet &facet = *meeting->facet;
-        const bool isFront = glm::dot(direction, facet.normal) < 0.0;
-        if (!isFront && !facet.isTwoSided)
-            return radiance;
-        if (segment == 1)
-            radiance += facet.emission;
-        if (segment == scene.settings.maxDepth)
-            return radiance;
-        const Vec normal = isFront ? facet.normal : -facet.normal;
-        throughput *= facet.albedo;
-        origin += meeting->distance * direction;
-        left = &facet;
-        radiance += throughput * lightFromOnePoint(facets, lights, origin, normal, left, generator);
-        direction = cosineDirection(normal, generator);
+/// Whether the material is a mirror or clear glass for what meets it.
+bool isSmooth(const Substance &substance, bool isPassable, const std::optional<Crossing> &sides) {
+    if (isPassable && sides->isNothing())
+        return true;
+    switch (substance.material->kind) {
+    case MaterialKind::Mirror:
+        return true;
+    case MaterialKind::Dielectric:
+    case MaterialKind::Conductor:
+        return substance.roughness == 0.0;
+    case MaterialKind::Diffuse:
+    case MaterialKind::Principled:
+        break;
     }
+    return false;
 }
+
+/// One path from the eye.
+class Path {
+  public:
+    Path(const World &world, Generator &generator, const Ray &ray)
+        : world_(world), generator_(generator), origin_(ray.origin), direction_(ray.direction),
+          media_(world.scene) {}
+
+    [[nodiscard]] Vec follow() {
+        for (int segment = 1; advance(segment); ++segment) {
+        }
+        return radiance_;
+    }
+
+  private:
+    /// Follows one segment; whether the path goes on.
+    bool advance(int segment) {
+        const std::optional<Meeting> meeting = world_.nearest(origin_, direction_, left_);
+        throughput_ *=
+            media_.transmittance(meeting ? meeting->distance : std::numeric_limits<double>::infinity());
+        if (!meeting) {
+            radiance_ += throughput_ * surroundings(world_.scene, direction_);
+            return false;
+        }
+        SurfacePoint point = pointAt(*meeting, origin_, direction_);
+        const std::uint32_t materialIndex = meeting->shape->materialIndex;
+        world_.substances.bendNormal(materialIndex, direction_, point);
+        const Substance substance = world_.substances.at(materialIndex, point.uv);
+        if (seesEmitters_)
+            radiance_ += throughput_ * emitted(substance, point, direction_);
+        if (segment == world_.scene.settings.maxDepth)
+            return false;
+
+        const bool isBehind = glm::dot(direction_, point.geometricNormal) > 0.0;
+        const bool isPassable = isGlass(*substance.material);
+        std::optional<Crossing> sides;
+        if (isPassable)
+            sides = crossing(media_, materialIndex, !isBehind);
+        origin_ = point.position;
+        left_ = meeting->shape;
+        if (isSmooth(substance, isPassable, sides)) {
+            seesEmitters_ = true;
+            return isPassable ? passGlass(point, *sides, isBehind) : reflect(point, substance);
+        }
+        if (isBehind && !isPassable && !substance.material->twoSided &&
+            substance.material->kind != MaterialKind::Conductor)
+            return false; // black from behind
+        if (isBehind) {
+            point.normal = -point.normal;
+            point.geometricNormal = -point.geometricNormal;
+        }
+        seesEmitters_ = world_.search == Search::ByScattering;
+        return scatter(point, Bsdf(substance, sides ? sides->indexRatio() : 1.0, isBehind), sides);
+    }
+
+    bool reflect(const SurfacePoint &point, const Substance &substance) {
+        const double cosine = glm::dot(direction_, point.normal);
+        const Material &material = *substance.material;
+        if (material.kind == MaterialKind::Conductor)
+            for (glm::length_t i = 0; i < 3; ++i)
+                throughput_[i] *= conductorFresnel(std::abs(cosine), material.conductorIndex[i],
+                                                   material.conductorExtinction[i]);
+        direction_ = glm::normalize(direction_ - 2.0 * cosine * point.normal);
+        return true;
+    }
+
+    /// One of reflection and refraction, as often as its share says. Radiance goes with the square of the index.
+    bool passGlass(const SurfacePoint &point, const Crossing &sides, bool isBehind) {
+        const double ratio = sides.indexRatio();
+        media_ = sides.beyond;
+        if (sides.isNothing())
+            return true;
+        Vec normal = isBehind ? -point.normal : point.normal;
+        if (glm::dot(direction_, normal) >= 0.0)
+            normal = isBehind ? -point.geometricNormal : point.geometricNormal;
+        const double cosine = -glm::dot(direction_, normal);
+        if (uniform(generator_) < dielectricFresnel(cosine, ratio)) {
+            media_ = sides.before;
+            direction_ = glm::normalize(direction_ + 2.0 * cosine * normal);
+            return true;
+        }
+        const double beyond = std::sqrt(1.0 - ratio * ratio * (1.0 - cosine * cosine));
+        direction_ = glm::normalize(ratio * direction_ + (ratio * cosine - beyond) * normal);
+        throughput_ *= ratio * ratio;
+        return true;
+    }
+
+    /// Normals are on the side that the path comes from.
+    bool scatter(const SurfacePoint &point, const Bsdf &bsdf, const std::optional<Crossing> &sides) {
+        const bool isFacing = glm::dot(direction_, point.normal) < 0.0;
+        const Frame frame(isFacing ? point.normal : point.geometricNormal);
+        const Vec view = frame.toLocal(-direction_);
+        // The BSDF for a direction; 0 where the shading normal has it on the other side than the surface.
+        const auto evaluate = [&](const Vec &direction) {
+            const Vec light = frame.toLocal(direction);
+            const bool isBeyond = glm::dot(direction, point.geometricNormal) <= 0.0;
+            return isBeyond == (light.z <= 0.0) ? bsdf.evaluate(view, light) : Vec(0.0);
+        };
+        const auto mediaTowards = [&](const Vec &direction) {
+            if (!sides)
+                return media_;
+            return glm::dot(direction, point.geometricNormal) <= 0.0 ? sides->beyond : sides->before;
+        };
+        for (const Light &light : world_.scene.lights) {
+            const Arrival arrival = arrivalFrom(light, point.position);
+            const Vec lit = evaluate(arrival.direction) * arrival.irradiance;
+            if (lit != Vec(0.0) &&
+                world_.isVisible(point.position, arrival.direction, arrival.distance, left_))
+                radiance_ +=
+                    throughput_ * mediaTowards(arrival.direction).transmittance(arrival.distance) * lit;
+        }
+        if (world_.search == Search::ByAiming && world_.emitters.area() > 0.0)
+            aim(point, evaluate, mediaTowards);
+        const std::optional<Vec> drawn = bsdf.sample(view, generator_);
+        if (!drawn)
+            return false;
+        const Vec direction = glm::normalize(frame.toWorld(*drawn));
+        const Vec value = evaluate(direction);
+        if (value == Vec(0.0))
+            return false;
+        throughput_ *= value / bsdf.density(view, *drawn);
+        media_ = mediaTowards(direction);
+        direction_ = direction;
+        return true;
+    }
+
+    /// Adds the light of one point of all emitters.
+    template <class Evaluate, class MediaTowards>
+    void aim(const SurfacePoint &point, const Evaluate &evaluate, const MediaTowards &mediaTowards) {
+        const Emitters::Choice choice = world_.emitters.choose(generator_);
+        const double distance = glm::length(choice.position - point.position);
+        const Vec direction = (choice.position - point.position) / distance;
+        const Vec value = evaluate(direction);
+        if (!(distance > 0.0) || value == Vec(0.0))
+            return;
+        const std::optional<Meeting> meeting = world_.nearest(point.position, direction, left_);
+        if (!meeting || meeting->shape != choice.shape ||
+            std::abs(meeting->distance - distance) > 1e-6 * distance)
+            return;
+        const SurfacePoint at = pointAt(*meeting, point.position, direction);
+        const Vec emission = emitted(world_.substances.at(choice.shape->materialIndex, at.uv), at, direction);
+        const double solidAngle = std::abs(glm::dot(direction, at.geometricNormal)) * world_.emitters.area() /
+                                  (distance * distance);
+        radiance_ +=
+            throughput_ * mediaTowards(direction).transmittance(distance) * value * emission * solidAngle;
+    }
+
+    const World &world_;
+    Generator &generator_;
+    Vec origin_;
+    Vec direction_; ///< unit length
+    Media media_;
+    const Shape *left_ = nullptr;
+    Vec radiance_{0.0};
+    Vec throughput_{1.0};
+    bool seesEmitters_ = true; ///< what the path meets next was not aimed at
+};
 
 } // namespace
 
 Estimate estimatePlainly(const Scene &scene, int x0, int x1, int y0, int y1, int pathCount,
-                         std::uint64_t seed) {
-    const std::vector<Facet> facets = facetsOf(scene);
-    const Lights lights(facets);
-    const Camera &camera = scene.camera;
-    const Vec forward = glm::normalize(camera.direction);
-    const Vec right = glm::normalize(glm::cross(forward, camera.up));
-    const Vec up = glm::cross(right, forward);
-    const double pixel = 2.0 * std::tan(glm::radians(camera.horizontalFovDegrees) / 2.0) / camera.width;
+                         std::uint64_t seed, Search search) {
+    const World world(scene, search);
     std::vector<Vec> sums(chunkCount, Vec(0.0));
     std::vector<Vec> squares(chunkCount, Vec(0.0));
     const int perChunk = pathCount / chunkCount;
@@ -163,12 +246,10 @@ Estimate estimatePlainly(const Scene &scene, int x0, int x1, int y0, int y1, int
     for (int chunk = 0; chunk < chunkCount; ++chunk) {
         std::seed_seq seeds{static_cast<std::uint64_t>(chunk), seed};
         Generator generator(seeds);
-        std::uniform_real_distribution<double> uniform;
         for (int i = 0; i < perChunk; ++i) {
-            const double x = x0 + (x1 - x0) * uniform(generator) - camera.width / 2.0;
-            const double y = camera.height / 2.0 - y0 - (y1 - y0) * uniform(generator);
-            const Vec direction = glm::normalize(forward + pixel * x * right + pixel * y * up);
-            const Vec radiance = followPath(scene, facets, lights, camera.position, direction, generator);
+            const double x = x0 + (x1 - x0) * uniform(generator);
+            const double y = y0 + (y1 - y0) * uniform(generator);
+            const Vec radiance = Path(world, generator, primaryRay(scene.camera, x, y, generator)).follow();
             sums[static_cast<std::size_t>(chunk)] += radiance;
             squares[static_cast<std::size_t>(chunk)] += radiance * radiance;
         }

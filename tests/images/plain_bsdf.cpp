@@ -1,0 +1,221 @@
+#include "tests/images/plain_bsdf.h"
+
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hyalite::testing::plain {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double coatReflectance = 0.04; // head on: a refractive index of 1.5
+
+double squared(double x) { return x * x; }
+
+/// D G / (4 view.z), the microfacet BRDF times the cosine of the light, but for Fresnel's term: Walter 2007, equation 20.
+double reflectedByFacets(const Vec &view, const Vec &light, double alpha) {
+    return ggx(glm::normalize(view + light), alpha) * smith(view, light, alpha) / (4.0 * view.z);
+}
+
+/// Density of a direction that randomFacet() reflects to: Walter 2007, equations 13 and 14.
+double reflectionDensity(const Vec &view, const Vec &light, double alpha) {
+    const Vec facet = glm::normalize(view + light);
+    return ggx(facet, alpha) * facet.z / (4.0 * glm::dot(view, facet));
+}
+
+/// The facet that refracts one to the other: Walter 2007, equation 16.
+Vec facetAcross(const Vec &view, const Vec &light, double indexRatio) {
+    const Vec facet = glm::normalize(indexRatio * view + light);
+    return facet.z < 0.0 ? -facet : facet;
+}
+
+/// Snell's law; dielectricFresnel() says where there is no such direction. Walter 2007, equation 40.
+Vec refracted(const Vec &view, const Vec &facet, double indexRatio) {
+    const double cosine = glm::dot(view, facet);
+    const double beyond = std::sqrt(1.0 - squared(indexRatio) * (1.0 - cosine * cosine));
+    return (indexRatio * cosine - beyond) * facet - indexRatio * view;
+}
+
+Vec cosineDirection(Generator &generator) {
+    const double radius = std::sqrt(uniform(generator));
+    const double turn = 2.0 * pi * uniform(generator);
+    return {radius * std::cos(turn), radius * std::sin(turn),
+            std::sqrt(std::max(0.0, 1.0 - radius * radius))};
+}
+
+std::optional<Vec> reflectedByRandomFacet(const Vec &view, double alpha, Generator &generator) {
+    const Vec facet = randomFacet(alpha, generator);
+    const Vec light = 2.0 * glm::dot(view, facet) * facet - view;
+    return glm::dot(view, facet) > 0.0 && light.z > 0.0 ? std::optional(light) : std::nullopt;
+}
+
+/// (1 - E(view)) (1 - E(light)) / (pi (1 - average E)), times the cosine of the light: Kulla and Conty 2017.
+double lost(double ofView, double ofLight, double average, double cosine) {
+    return average < 1.0 ? (1.0 - ofView) * (1.0 - ofLight) / (pi * (1.0 - average)) * cosine : 0.0;
+}
+
+} // namespace
+
+Bsdf::Bsdf(const Substance &substance, double indexRatio, bool isBehind) {
+    const Material &material = *substance.material;
+    colour_ = substance.colour;
+    roughness_ = substance.roughness;
+    indexRatio_ = indexRatio;
+    switch (material.kind) {
+    case MaterialKind::Conductor:
+        metal_ = 1.0;
+        isConductor_ = true;
+        index_ = material.conductorIndex;
+        extinction_ = material.conductorExtinction;
+        averageReflectance_ = substance.averageReflectance;
+        break;
+    case MaterialKind::Dielectric:
+        glass_ = 1.0;
+        break;
+    case MaterialKind::Principled: {
+        const bool isInside = isBehind && material.transmission > 0.0f;
+        glass_ = isInside ? 1.0 : (1.0 - substance.metallic) * material.transmission;
+        metal_ = isInside ? 0.0 : substance.metallic;
+        plastic_ = 1.0 - glass_ - metal_;
+        averageReflectance_ = colour_ + (1.0 - colour_) / 21.0; // 2 times the integral of (1 - x)^5 x is 1/21
+        tint_ = glm::sqrt(colour_);
+        const double n = material.refractiveIndex;
+        plasticReflectance_ = std::min(2.0 * material.specular * squared((n - 1.0) / (n + 1.0)), 1.0);
+        coat_ = isBehind ? 0.0 : material.clearcoat;
+        coatRoughness_ = material.clearcoatRoughness;
+        break;
+    }
+    case MaterialKind::Diffuse:
+    case MaterialKind::Mirror:
+        diffuse_ = 1.0;
+        break;
+    }
+    // Any chances are right where each lobe can be drawn; these follow the lobes roughly.
+    coatChance_ = coat_ > 0.0 ? 0.2 : 0.0;
+    glassChance_ = glass_ * (1.0 - coatChance_);
+    const double opaque = (1.0 - glass_) * (1.0 - coatChance_);
+    facetChance_ = diffuse_ > 0.0 ? 0.0 : (metal_ > 0.5 ? 0.8 : 0.4) * opaque;
+    cosineChance_ = std::max(0.0, 1.0 - coatChance_ - glassChance_ - facetChance_);
+    if (glass_ == 1.0)
+        cosineChance_ = 0.0;
+}
+
+Vec Bsdf::evaluateMetal(const Vec &view, const Vec &light) const {
+    const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
+    Vec fresnel = schlickFresnel(cosine, colour_);
+    if (isConductor_)
+        for (glm::length_t i = 0; i < 3; ++i)
+            fresnel[i] = conductorFresnel(cosine, index_[i], extinction_[i]);
+    const double average = averageEnergy(roughness_).white;
+    // Kulla and Conty's colour with one more factor F, as what comes back late has met two facets at least: Hill, "A
+    // Multi-Faceted Exploration", 2018, part 3.
+    const Vec &f = averageReflectance_;
+    const Vec late = f * f * average / (1.0 - f * (1.0 - average));
+    const double share = lost(directionalEnergy(view.z, roughness_).white,
+                              directionalEnergy(light.z, roughness_).white, average, light.z);
+    return fresnel * reflectedByFacets(view, light, alphaOf(roughness_)) + late * share;
+}
+
+Vec Bsdf::evaluatePlastic(const Vec &view, const Vec &light) const {
+    const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
+    const double r = plasticReflectance_;
+    const double share =
+        lost(directionalEnergy(view.z, roughness_).of(r), directionalEnergy(light.z, roughness_).of(r),
+             averageEnergy(roughness_).of(r), light.z);
+    return schlickFresnel(cosine, Vec(r)) * reflectedByFacets(view, light, alphaOf(roughness_)) +
+           colour_ * share;
+}
+
+/// Walter 2007, equations 20 and 21. Radiance is larger by the square of the index in glass, so that equation 21 has the
+/// index on the side that light goes to: that of the viewer.
+Vec Bsdf::evaluateGlass(const Vec &view, const Vec &light) const {
+    const double alpha = alphaOf(roughness_);
+    if (light.z > 0.0)
+        return Vec(dielectricFresnel(glm::dot(view, glm::normalize(view + light)), indexRatio_) *
+                   reflectedByFacets(view, light, alpha));
+    const Vec facet = facetAcross(view, light, indexRatio_);
+    const double toView = glm::dot(view, facet);
+    const double toLight = glm::dot(light, facet);
+    if (toView <= 0.0 || toLight >= 0.0)
+        return Vec(0.0);
+    const double passing = 1.0 - dielectricFresnel(toView, indexRatio_);
+    return tint_ * (passing * ggx(facet, alpha) * smith(view, light, alpha) * toView * -toLight / view.z *
+                    squared(indexRatio_ / (indexRatio_ * toView + toLight)));
+}
+
+Vec Bsdf::evaluate(const Vec &view, const Vec &light) const {
+    if (light.z == 0.0)
+        return Vec(0.0);
+    Vec sum(0.0);
+    if (glass_ > 0.0)
+        sum += glass_ * evaluateGlass(view, light);
+    if (light.z < 0.0)
+        return sum;
+    if (diffuse_ > 0.0)
+        sum += diffuse_ * colour_ * light.z / pi;
+    if (metal_ > 0.0)
+        sum += metal_ * evaluateMetal(view, light);
+    if (plastic_ > 0.0)
+        sum += plastic_ * evaluatePlastic(view, light);
+    if (coat_ == 0.0)
+        return sum;
+    const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
+    const double energy = std::max(directionalEnergy(view.z, coatRoughness_).of(coatReflectance),
+                                   directionalEnergy(light.z, coatRoughness_).of(coatReflectance));
+    return coat_ * schlickFresnel(cosine, Vec(coatReflectance)) *
+               reflectedByFacets(view, light, alphaOf(coatRoughness_)) +
+           (1.0 - coat_ * energy) * sum;
+}
+
+double Bsdf::density(const Vec &view, const Vec &light) const {
+    double sum = 0.0;
+    if (light.z > 0.0) {
+        sum += cosineChance_ * light.z / pi;
+        if (facetChance_ > 0.0)
+            sum += facetChance_ * reflectionDensity(view, light, alphaOf(roughness_));
+        if (coatChance_ > 0.0)
+            sum += coatChance_ * reflectionDensity(view, light, alphaOf(coatRoughness_));
+        if (glassChance_ > 0.0)
+            sum += glassChance_ *
+                   dielectricFresnel(glm::dot(view, glm::normalize(view + light)), indexRatio_) *
+                   reflectionDensity(view, light, alphaOf(roughness_));
+        return sum;
+    }
+    if (glassChance_ == 0.0 || light.z == 0.0)
+        return sum;
+    const Vec facet = facetAcross(view, light, indexRatio_);
+    const double toView = glm::dot(view, facet);
+    const double toLight = glm::dot(light, facet);
+    if (toView <= 0.0 || toLight >= 0.0)
+        return sum;
+    return glassChance_ * (1.0 - dielectricFresnel(toView, indexRatio_)) * ggx(facet, alphaOf(roughness_)) *
+           facet.z * -toLight / squared(indexRatio_ * toView + toLight); // equation 17
+}
+
+std::optional<Vec> Bsdf::sample(const Vec &view, Generator &generator) const {
+    double choice = uniform(generator);
+    if (choice < cosineChance_)
+        return cosineDirection(generator);
+    choice -= cosineChance_;
+    if (choice < facetChance_)
+        return reflectedByRandomFacet(view, alphaOf(roughness_), generator);
+    choice -= facetChance_;
+    if (choice < coatChance_)
+        return reflectedByRandomFacet(view, alphaOf(coatRoughness_), generator);
+    const Vec facet = randomFacet(alphaOf(roughness_), generator);
+    const double cosine = glm::dot(view, facet);
+    if (cosine <= 0.0 || glassChance_ == 0.0)
+        return {};
+    if (uniform(generator) < dielectricFresnel(cosine, indexRatio_)) {
+        const Vec light = 2.0 * cosine * facet - view;
+        return light.z > 0.0 ? std::optional(light) : std::nullopt;
+    }
+    const Vec light = refracted(view, facet, indexRatio_);
+    return light.z < 0.0 ? std::optional(light) : std::nullopt;
+}
+
+} // namespace hyalite::testing::plain

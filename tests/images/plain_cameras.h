@@ -1,0 +1,16 @@
+// Cameras of the plain path tracer.
+#pragma once
+
+#include "tests/images/plain_geometry.h"
+
+namespace hyalite::testing::plain {
+
+struct Ray {
+    Vec origin;
+    Vec direction; ///< unit length
+};
+
+/// Through the image position (x, y) in pixels, y down; through a random point of the lens, where there is one.
+[[nodiscard]] Ray primaryRay(const Camera &camera, double x, double y, Generator &generator);
+
+} // namespace hyalite::testing::plain

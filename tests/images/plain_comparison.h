@@ -1,0 +1,44 @@
+// Comparison of both renderers with the plain path tracer by z-tests of mean radiance over regions of the image.
+#pragma once
+
+#include "host/image/film.h"
+#include "tests/images/plain_paths.h"
+
+#include <vector>
+
+namespace hyalite::testing {
+
+/// Columns [x0, x1) and rows [y0, y1).
+struct Region {
+    int x0;
+    int x1;
+    int y0;
+    int y1;
+};
+
+/// The mean of a region of a film that shows the whole image. Samples of a pixel are stratified: they vary less than the
+/// variance says, which makes the test careful.
+[[nodiscard]] Estimate meanOf(const Film &film, const Region &region);
+
+struct Comparison {
+    std::vector<Region> regions;
+    int pathCount = 200'000; ///< for each region
+    double errorLimit =
+        0.01; ///< most that one standard error may be of the mean: above, the test could see nothing
+    double allowance =
+        5e-4; ///< share of the mean that may differ beside noise: float32, 2^-32 steps of probabilities
+    Search search = Search::ByScattering;
+};
+
+/// Of what facets send to each other the renderers interpolate tables of 32 by 32 energies, linearly. README.md says that a
+/// white metal then reflects everything within 0.3 %.
+constexpr double energyAllowance = 3e-3;
+
+/// Expects the film to have the same mean radiance in each region and channel.
+void expectPlainRadiance(const char *renderer, const Film &film, const Scene &scene,
+                         const Comparison &comparison);
+
+/// Likewise of the films of both renderers, device and CPU.
+void expectPlainRadiance(const Scene &scene, const Comparison &comparison);
+
+} // namespace hyalite::testing

@@ -1,0 +1,82 @@
+#include "tests/images/plain_lights.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hyalite::testing::plain {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Share of a spot's intensity: the cubic of the cosine that is even where it begins and where it ends.
+double falloff(const Light &spot, double cosine) {
+    const double outer = std::cos(glm::radians(spot.angleDegrees));
+    const double inner = std::cos(glm::radians(spot.angleDegrees * (1.0 - spot.blend)));
+    if (cosine <= outer)
+        return 0.0;
+    if (cosine >= inner)
+        return 1.0;
+    const double t = (cosine - outer) / (inner - outer);
+    return 3.0 * t * t - 2.0 * t * t * t;
+}
+
+} // namespace
+
+Arrival arrivalFrom(const Light &light, const Vec &position) {
+    const Vec axis = glm::normalize(light.direction);
+    if (light.kind == LightKind::Directional)
+        return {-axis, std::numeric_limits<double>::infinity(), light.power};
+    const double distance = glm::length(light.position - position);
+    const Vec direction = (light.position - position) / distance;
+    const double share = light.kind == LightKind::Spot ? falloff(light, -glm::dot(direction, axis)) : 1.0;
+    return {direction, distance, light.power * (share / (4.0 * pi * distance * distance))};
+}
+
+/// Bilinear between the middles of pixels. The image goes around and ends at the poles; it is turned with the world, so
+/// the direction is turned back.
+Vec surroundings(const Scene &scene, const Vec &direction) {
+    const Image &image = scene.environment.radiance;
+    if (image.pixels().empty())
+        return scene.background;
+    const double turn = glm::radians(scene.environment.rotateDegrees);
+    const double right = std::cos(turn) * direction.x - std::sin(turn) * direction.z;
+    const double back = std::sin(turn) * direction.x + std::cos(turn) * direction.z;
+    const double x = (0.5 + std::atan2(right, -back) / (2.0 * pi)) * image.width() - 0.5;
+    const double y = std::acos(std::clamp(direction.y, -1.0, 1.0)) / pi * image.height() - 0.5;
+    Vec sum(0.0);
+    for (const double across : {0.0, 1.0})
+        for (const double down : {0.0, 1.0}) {
+            const double column = std::floor(x) + across;
+            const double row = std::floor(y) + down;
+            const double weight = (1.0 - std::abs(x - column)) * (1.0 - std::abs(y - row));
+            const int width = image.width();
+            sum += weight * Vec(image.at((static_cast<int>(column) + width) % width,
+                                         std::clamp(static_cast<int>(row), 0, image.height() - 1)));
+        }
+    return sum * static_cast<double>(scene.environment.scale);
+}
+
+Emitters::Emitters(const Scene &scene, const std::vector<Shape> &shapes) {
+    double end = 0.0;
+    for (const Shape &shape : shapes) {
+        if (scene.materials[shape.materialIndex].emission == glm::vec3(0.0f))
+            continue;
+        end += shape.area();
+        shapes_.push_back(&shape);
+        ends_.push_back(end);
+    }
+}
+
+Emitters::Choice Emitters::choose(Generator &generator) const {
+    const auto end = std::upper_bound(ends_.begin(), ends_.end() - 1, area() * uniform(generator));
+    const Shape *shape = shapes_[static_cast<std::size_t>(end - ends_.begin())];
+    return {shape, shape->randomPoint(generator)};
+}
+
+} // namespace hyalite::testing::plain

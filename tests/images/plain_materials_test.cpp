@@ -1,0 +1,121 @@
+// Materials: the renderers' mean radiance is that of the plain path tracer.
+#include "tests/images/plain_comparison.h"
+#include "tests/images/plain_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace hyalite {
+namespace {
+
+using testing::Comparison;
+using testing::expectPlainRadiance;
+
+/// A material to look at.
+struct Look {
+    std::string name;
+    Material material;
+    int maxDepth = 2;
+    double allowance = testing::energyAllowance;
+};
+
+void PrintTo(const Look &look, std::ostream *stream) { *stream << look.name; }
+
+Look look(const std::string &name, MaterialKind kind, float roughness = 0.0f) {
+    Look made{name, {}};
+    made.material.kind = kind;
+    made.material.roughness = roughness;
+    return made;
+}
+
+Look metal(const std::string &name, std::size_t index, float roughness) {
+    Look made = look(name, MaterialKind::Conductor, roughness);
+    made.material.conductorIndex = metalNames[index].second.index;
+    made.material.conductorExtinction = metalNames[index].second.extinction;
+    return made;
+}
+
+Look glass(const std::string &name, float index, float roughness) {
+    Look made = look(name, MaterialKind::Dielectric, roughness);
+    made.material.refractiveIndex = index;
+    made.material.absorption = {0.1f, 0.3f, 0.6f};
+    made.maxDepth = 4;
+    return made;
+}
+
+Look principled(const std::string &name, float roughness) {
+    Look made = look(name, MaterialKind::Principled, roughness);
+    made.material.albedo = {0.7f, 0.4f, 0.2f};
+    return made;
+}
+
+std::vector<Look> looks() {
+    std::vector<Look> all;
+    all.push_back(look("Diffuse", MaterialKind::Diffuse));
+    all.back().material.albedo = {0.8f, 0.5f, 0.2f};
+    all.push_back(look("Mirror", MaterialKind::Mirror));
+    all.push_back(metal("SmoothCopper", 1, 0.0f));
+    all.push_back(metal("PolishedGold", 2, 0.15f));
+    all.push_back(metal("RoughCopper", 1, 0.5f));
+    all.push_back(metal("MattAluminium", 0, 1.0f));
+    all.push_back(glass("ClearGlass", 1.5f, 0.0f));
+    all.push_back(glass("FrostedGlass", 1.5f, 0.3f));
+    all.push_back(glass("RoughDenseGlass", 2.2f, 0.7f));
+    all.push_back(principled("GlossyPlastic", 0.2f));
+    all.push_back(principled("RoughPlastic", 0.7f));
+    all.back().material.specular = 1.0f;
+    all.push_back(principled("PlasticOfHighIndex", 0.4f));
+    all.back().material.refractiveIndex = 2.5f;
+    all.push_back(principled("PrincipledMetal", 0.4f));
+    all.back().material.metallic = 1.0f;
+    all.push_back(principled("HalfMetal", 0.6f));
+    all.back().material.metallic = 0.5f;
+    all.push_back(principled("Lacquer", 0.6f));
+    all.back().material.clearcoat = 1.0f;
+    all.push_back(principled("ThinLacquerOnMetal", 0.5f));
+    all.back().material.metallic = 1.0f;
+    all.back().material.clearcoat = 0.5f;
+    all.back().material.clearcoatRoughness = 0.3f;
+    all.push_back(principled("TintedGlass", 0.2f));
+    all.back().material.transmission = 1.0f;
+    all.back().maxDepth = 4;
+    all.push_back(principled("Everything", 0.4f));
+    all.back().material.transmission = 0.5f;
+    all.back().material.metallic = 0.3f;
+    all.back().material.absorption = {0.5f, 0.2f, 0.1f};
+    all.back().maxDepth = 4;
+    return all;
+}
+
+class PlainMaterials : public ::testing::TestWithParam<Look> {};
+
+INSTANTIATE_TEST_SUITE_P(All, PlainMaterials, ::testing::ValuesIn(looks()),
+                         [](const auto &instance) { return instance.param.name; });
+
+// Seen at all angles, lit from all around and by a point.
+TEST_P(PlainMaterials, LookTheSameOnABallInAStudio) {
+    Scene scene = testing::emptyScene(GetParam().maxDepth);
+    scene.environment = testing::studioEnvironment();
+    scene.lights.push_back({{2.0, 3.0, 4.0}, {60.0, 50.0, 40.0}});
+    testing::addBall(scene, {0.0, 0.0, 0.0}, 1.0, GetParam().material);
+    Comparison comparison{.regions = {{4, 12, 4, 12}, {0, 16, 0, 8}, {0, 5, 3, 13}}};
+    comparison.allowance = GetParam().allowance;
+    expectPlainRadiance(scene, comparison);
+}
+
+// A tile that is seen obliquely and shows a large lamp behind it.
+TEST_P(PlainMaterials, LookTheSameOnATileUnderALamp) {
+    Scene scene = testing::emptyScene(GetParam().maxDepth);
+    scene.background = {0.1f, 0.2f, 0.3f};
+    testing::addQuad(scene, {-2.0f, -0.8f, 2.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.4f, -4.0f},
+                     GetParam().material);
+    testing::addQuad(scene, {-2.0f, 2.5f, -3.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, -0.5f, 4.0f},
+                     testing::lamp({4.0f, 3.0f, 2.0f}));
+    Comparison comparison{.regions = {{0, 16, 7, 16}, {4, 12, 8, 11}}};
+    comparison.allowance = GetParam().allowance;
+    expectPlainRadiance(scene, comparison);
+}
+
+} // namespace
+} // namespace hyalite

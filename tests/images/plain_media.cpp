@@ -1,0 +1,40 @@
+#include "tests/images/plain_media.h"
+
+#include <glm/exponential.hpp>
+
+namespace hyalite::testing::plain {
+
+const Material *Media::around() const {
+    const Material *found = nullptr;
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+        if (counts_[i] > 0 && (found == nullptr || scene_->materials[i].priority > found->priority))
+            found = &scene_->materials[i];
+    return found;
+}
+
+double Media::index() const {
+    const Material *const glass = around();
+    return glass != nullptr ? glass->refractiveIndex : 1.0;
+}
+
+Vec Media::transmittance(double distance) const {
+    const Material *const glass = around();
+    if (glass == nullptr || glass->absorption == glm::vec3(0.0f))
+        return Vec(1.0);
+    return glm::exp(-distance * Vec(glass->absorption));
+}
+
+Crossing crossing(const Media &around, std::uint32_t materialIndex, bool isEntering) {
+    Crossing result{around, around};
+    if (isEntering) {
+        result.beyond.enter(materialIndex);
+        return result;
+    }
+    if (around.isIn(materialIndex))
+        result.beyond.leave(materialIndex);
+    else
+        result.before.enter(materialIndex);
+    return result;
+}
+
+} // namespace hyalite::testing::plain

@@ -1,0 +1,47 @@
+// Glass around the plain path tracer's paths, where solids lie in each other or overlap: Schmidt and Budge, "Simple Nested
+// Dielectrics in Ray Traced Images", JGT 7(2), 2002.
+#pragma once
+
+#include "tests/images/plain_geometry.h"
+
+#include <vector>
+
+namespace hyalite::testing::plain {
+
+/// How many surfaces of each material of glass a path has entered and not left.
+class Media {
+  public:
+    explicit Media(const Scene &scene) : scene_(&scene), counts_(scene.materials.size(), 0) {}
+
+    /// The glass of highest priority, of equal ones the first in the scene; or none.
+    [[nodiscard]] const Material *around() const;
+
+    /// Refractive index of what is around.
+    [[nodiscard]] double index() const;
+
+    /// What is left of light after a distance in what is around: Beer's law.
+    [[nodiscard]] Vec transmittance(double distance) const;
+
+    void enter(std::uint32_t materialIndex) { ++counts_[materialIndex]; }
+    void leave(std::uint32_t materialIndex) { --counts_[materialIndex]; }
+    [[nodiscard]] bool isIn(std::uint32_t materialIndex) const { return counts_[materialIndex] > 0; }
+
+  private:
+    const Scene *scene_;
+    std::vector<int> counts_;
+};
+
+/// Both sides of a surface of glass.
+struct Crossing {
+    Media before;
+    Media beyond;
+
+    [[nodiscard]] double indexRatio() const { return before.index() / beyond.index(); }
+    /// Whether glass of higher priority is on both sides, or equal indices: light passes as if nothing were there.
+    [[nodiscard]] bool isNothing() const { return before.around() == beyond.around() || indexRatio() == 1.0; }
+};
+
+/// A path that leaves glass which it has not entered began in it.
+[[nodiscard]] Crossing crossing(const Media &around, std::uint32_t materialIndex, bool isEntering);
+
+} // namespace hyalite::testing::plain

@@ -1,0 +1,167 @@
+#include "tests/images/plain_microfacets.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <mutex>
+#include <numbers>
+
+namespace hyalite::testing::plain {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double leastRoughness = 0.04; // what is rougher than nothing is at least so rough
+
+double squared(double x) { return x * x; }
+
+Vec facetOf(double share, double turn, double alpha) {
+    const double cosine = std::sqrt((1.0 - share) / (1.0 - share + alpha * alpha * share));
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    return {sine * std::cos(turn), sine * std::sin(turn), cosine};
+}
+
+double slopeRoot(const Vec &w, double alpha) { // sqrt(1 + alpha^2 tan^2)
+    return std::sqrt(1.0 + alpha * alpha * (w.x * w.x + w.y * w.y) / (w.z * w.z));
+}
+
+/// Energies at one roughness.
+class Row {
+  public:
+    void fill(double roughness) {
+        const double alpha = roughness * roughness;
+        constexpr double width = 1.0 / (nodeCount - 1);
+        for (std::size_t i = 0; i < nodeCount; ++i)
+            nodes_[i] = integrateEnergy(squared(static_cast<double>(i) * width), alpha, 64);
+        // Twice the integral of E cos over cos: 4 E x^3 over x, the square root of the cosine.
+        average_ = {0.0, 0.0};
+        for (std::size_t i = 0; i + 1 < nodeCount; ++i)
+            for (const double half : {0.25, 0.75}) {
+                const double x = (static_cast<double>(i) + half) * width;
+                const Energy energy = at(x * x);
+                average_.white += 2.0 * width * x * x * x * energy.white;
+                average_.grazing += 2.0 * width * x * x * x * energy.grazing;
+            }
+    }
+
+    [[nodiscard]] Energy at(double cosine) const {
+        const double place = std::sqrt(std::clamp(cosine, 0.0, 1.0)) * (nodeCount - 1);
+        const std::size_t cell = std::min(static_cast<std::size_t>(place), nodeCount - 2);
+        const double share = place - static_cast<double>(cell);
+        return {glm::mix(nodes_[cell].white, nodes_[cell + 1].white, share),
+                glm::mix(nodes_[cell].grazing, nodes_[cell + 1].grazing, share)};
+    }
+
+    [[nodiscard]] Energy average() const { return average_; }
+
+  private:
+    static constexpr std::size_t nodeCount = 129;
+    std::array<Energy, nodeCount> nodes_{};
+    Energy average_;
+};
+
+constexpr std::size_t rowCount = 129;
+
+const Row &rowAt(std::size_t index) {
+    static std::array<Row, rowCount> rows;
+    static std::array<std::once_flag, rowCount> flags;
+    std::call_once(flags[index],
+                   [&] { rows[index].fill(static_cast<double>(index) / static_cast<double>(rowCount - 1)); });
+    return rows[index];
+}
+
+template <class Read> Energy betweenRows(double roughness, const Read &read) {
+    const double place = std::clamp(roughness, leastRoughness, 1.0) * static_cast<double>(rowCount - 1);
+    const std::size_t cell = std::min(static_cast<std::size_t>(place), rowCount - 2);
+    const double share = place - static_cast<double>(cell);
+    const Energy low = read(rowAt(cell));
+    const Energy high = read(rowAt(cell + 1));
+    return {glm::mix(low.white, high.white, share), glm::mix(low.grazing, high.grazing, share)};
+}
+
+} // namespace
+
+double dielectricFresnel(double cosine, double indexRatio) {
+    const double sineBeyond = indexRatio * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    if (sineBeyond >= 1.0)
+        return 1.0;
+    const double beyond = std::sqrt(1.0 - sineBeyond * sineBeyond);
+    const double across = (indexRatio * cosine - beyond) / (indexRatio * cosine + beyond);
+    const double along = (cosine - indexRatio * beyond) / (cosine + indexRatio * beyond);
+    return 0.5 * (across * across + along * along);
+}
+
+double conductorFresnel(double cosine, double n, double k) {
+    const std::complex<double> squaredIndex = std::complex<double>(n, k) * std::complex<double>(n, k);
+    const std::complex<double> beyond = std::sqrt(squaredIndex - (1.0 - cosine * cosine));
+    const std::complex<double> across = (cosine - beyond) / (cosine + beyond);
+    const std::complex<double> along = (squaredIndex * cosine - beyond) / (squaredIndex * cosine + beyond);
+    return 0.5 * (std::norm(across) + std::norm(along));
+}
+
+double averageConductorFresnel(double n, double k) {
+    constexpr int steps = 4000;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i)
+        sum += conductorFresnel(std::sqrt((i + 0.5) / steps), n, k); // squared cosines are evenly spread
+    return sum / steps;
+}
+
+Vec schlickFresnel(double cosine, const Vec &normalReflectance) {
+    return normalReflectance + (1.0 - normalReflectance) * std::pow(1.0 - cosine, 5.0);
+}
+
+double alphaOf(double roughness) { return squared(std::max(roughness, leastRoughness)); }
+
+double ggx(const Vec &facet, double alpha) {
+    const double squaredTangent = (facet.x * facet.x + facet.y * facet.y) / squared(facet.z);
+    return squared(alpha) / (pi * squared(squared(facet.z)) * squared(squared(alpha) + squaredTangent));
+}
+
+double smith(const Vec &view, const Vec &light, double alpha) {
+    const double lambdaView = (slopeRoot(view, alpha) - 1.0) / 2.0;
+    const double lambdaLight = (slopeRoot(light, alpha) - 1.0) / 2.0;
+    return 1.0 / (1.0 + lambdaView + lambdaLight);
+}
+
+Vec randomFacet(double alpha, Generator &generator) {
+    const double share = uniform(generator);
+    return facetOf(share, 2.0 * pi * uniform(generator), alpha);
+}
+
+Energy integrateEnergy(double cosine, double alpha, int steps) {
+    Energy sum{0.0, 0.0};
+    const double height = std::max(cosine, 1e-9);
+    const Vec view(std::sqrt(1.0 - height * height), 0.0, height);
+    for (int i = 0; i < steps; ++i) {
+        const double t = (i + 0.5) / steps;
+        const double share = squared(std::sin(pi * t / 2.0)); // fine at both ends
+        const double weight = pi / 2.0 * std::sin(pi * t) / squared(static_cast<double>(steps));
+        for (int j = 0; j < steps; ++j) {
+            const Vec facet =
+                facetOf(share, pi * (j + 0.5) / steps, alpha); // half a turn: the rest is its mirror image
+            const double toFacet = glm::dot(view, facet);
+            const Vec light = 2.0 * toFacet * facet - view;
+            if (toFacet <= 0.0 || light.z <= 0.0)
+                continue;
+            const double reflected = weight * smith(view, light, alpha) * toFacet / (view.z * facet.z);
+            sum.white += reflected;
+            sum.grazing += reflected * std::pow(1.0 - std::min(toFacet, 1.0), 5.0);
+        }
+    }
+    return sum;
+}
+
+Energy directionalEnergy(double cosine, double roughness) {
+    return betweenRows(roughness, [&](const Row &row) { return row.at(cosine); });
+}
+
+Energy averageEnergy(double roughness) {
+    return betweenRows(roughness, [](const Row &row) { return row.average(); });
+}
+
+} // namespace hyalite::testing::plain
