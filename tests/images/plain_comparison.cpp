@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hyalite::testing {
@@ -31,15 +32,16 @@ void expectEqualMeans(const char *renderer, const Film &film, const Scene &scene
         const Estimate ours = meanOf(film, region);
         for (glm::length_t channel = 0; channel < 3; ++channel) {
             const double expected = plain[i].mean[channel];
-            const double error = std::sqrt(ours.variance[channel] + plain[i].variance[channel]);
+            const double error =
+                std::sqrt(std::max(0.0, ours.variance[channel]) + std::max(0.0, plain[i].variance[channel]));
             const double difference = ours.mean[channel] - expected;
             SCOPED_TRACE(::testing::Message()
                          << renderer << ", channel " << channel << " of columns " << region.x0 << " to "
                          << region.x1 << ", rows " << region.y0 << " to " << region.y1 << ", seeds "
                          << scene.settings.seed << " and " << plainSeed << ": " << ours.mean[channel]
-                         << " instead of " << expected << ", " << difference / expected << " of it, "
-                         << difference / error << " standard errors");
-            EXPECT_LT(error, comparison.errorLimit * expected) << "too few samples to tell";
+                         << " instead of " << expected << ", which differs by " << difference / expected
+                         << " of it; standard error " << error / expected << " of it");
+            EXPECT_LE(error, comparison.errorLimit * expected) << "too few samples to tell";
             EXPECT_LE(std::abs(difference), mostStandardErrors * error + comparison.allowance * expected);
         }
     }

@@ -22,9 +22,9 @@ struct Region {
 
 struct Comparison {
     std::vector<Region> regions;
-    int pathCount = 200'000; ///< for each region
+    int pathCount = 120'000; ///< for each region
     double errorLimit =
-        0.01; ///< most that one standard error may be of the mean: above, the test could see nothing
+        0.012; ///< most that one standard error may be of the mean: above, the test sees too little
     double allowance =
         5e-4; ///< share of the mean that may differ beside noise: float32, 2^-32 steps of probabilities
     Search search = Search::ByScattering;

@@ -19,6 +19,8 @@ constexpr double leastRoughness = 0.04; // what is rougher than nothing is at le
 
 double squared(double x) { return x * x; }
 
+double fifthPower(double x) { return squared(squared(x)) * x; }
+
 Vec facetOf(double share, double turn, double alpha) {
     const double cosine = std::sqrt((1.0 - share) / (1.0 - share + alpha * alpha * share));
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
@@ -36,7 +38,7 @@ class Row {
         const double alpha = roughness * roughness;
         constexpr double width = 1.0 / (nodeCount - 1);
         for (std::size_t i = 0; i < nodeCount; ++i)
-            nodes_[i] = integrateEnergy(squared(static_cast<double>(i) * width), alpha, 64);
+            nodes_[i] = integrateEnergy(squared(static_cast<double>(i) * width), alpha, 96);
         // Twice the integral of E cos over cos: 4 E x^3 over x, the square root of the cosine.
         average_ = {0.0, 0.0};
         for (std::size_t i = 0; i + 1 < nodeCount; ++i)
@@ -59,7 +61,7 @@ class Row {
     [[nodiscard]] Energy average() const { return average_; }
 
   private:
-    static constexpr std::size_t nodeCount = 129;
+    static constexpr std::size_t nodeCount = 65;
     std::array<Energy, nodeCount> nodes_{};
     Energy average_;
 };
@@ -112,7 +114,7 @@ double averageConductorFresnel(double n, double k) {
 }
 
 Vec schlickFresnel(double cosine, const Vec &normalReflectance) {
-    return normalReflectance + (1.0 - normalReflectance) * std::pow(1.0 - cosine, 5.0);
+    return normalReflectance + (1.0 - normalReflectance) * fifthPower(1.0 - cosine);
 }
 
 double alphaOf(double roughness) { return squared(std::max(roughness, leastRoughness)); }
@@ -150,7 +152,7 @@ Energy integrateEnergy(double cosine, double alpha, int steps) {
                 continue;
             const double reflected = weight * smith(view, light, alpha) * toFacet / (view.z * facet.z);
             sum.white += reflected;
-            sum.grazing += reflected * std::pow(1.0 - std::min(toFacet, 1.0), 5.0);
+            sum.grazing += reflected * fifthPower(1.0 - std::min(toFacet, 1.0));
         }
     }
     return sum;

@@ -1,0 +1,144 @@
+// Lights: on matt and on metal surfaces, the renderers' mean radiance is that of the plain path tracer.
+#include "tests/images/plain_comparison.h"
+#include "tests/images/plain_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <tuple>
+
+namespace hyalite {
+namespace {
+
+using testing::Comparison;
+using testing::expectPlainRadiance;
+using testing::lamp;
+using testing::Search;
+
+struct Lighting {
+    std::string name;
+    std::function<void(Scene &)> install;
+    Search search = Search::ByAiming;
+};
+
+void PrintTo(const Lighting &lighting, std::ostream *stream) { *stream << lighting.name; }
+
+Light light(LightKind kind, const glm::dvec3 &position, const glm::dvec3 &power,
+            const glm::dvec3 &direction) {
+    Light made{position, power, kind, direction};
+    made.angleDegrees = 35.0;
+    made.blend = 0.6;
+    return made;
+}
+
+/// Above the floor to the left, facing down to the right.
+void addPanel(Scene &scene, const Material &material) {
+    testing::addQuad(scene, {-2.0f, 0.5f, 1.0f}, {0.0f, 0.0f, -2.0f}, {1.0f, 1.0f, 0.0f}, material);
+}
+
+std::vector<Lighting> lightings() {
+    const Light spot = light(LightKind::Spot, {1.0, 2.0, 1.5}, {90.0, 80.0, 60.0}, {-0.4, -1.0, -0.5});
+    std::vector<Lighting> all;
+    all.push_back({"Point", [](Scene &scene) {
+                       scene.lights.push_back({{-1.0, 2.0, 2.0}, {50.0, 60.0, 70.0}});
+                   }});
+    all.push_back({"Spot", [spot](Scene &scene) { scene.lights.push_back(spot); }});
+    all.push_back({"SharpSpot", [spot](Scene &scene) {
+                       scene.lights.push_back(spot);
+                       scene.lights.back().blend = 0.0;
+                   }});
+    all.push_back(
+        {"Directional", [](Scene &scene) {
+             scene.lights.push_back(light(LightKind::Directional, {}, {1.5, 1.0, 2.0}, {1.0, -1.0, -1.0}));
+         }});
+    all.push_back({"Panel", [](Scene &scene) { addPanel(scene, lamp({6.0f, 5.0f, 4.0f})); }});
+    all.push_back(
+        {"PanelSeenFromBehind", [](Scene &scene) {
+             Material paper = lamp({6.0f, 5.0f, 4.0f});
+             paper.twoSided = true;
+             testing::addQuad(scene, {-2.0f, 0.5f, 1.0f}, {1.0f, 1.0f, 0.0f}, {0.0f, 0.0f, -2.0f}, paper);
+         }});
+    all.push_back({"Bulb", [](Scene &scene) {
+                       testing::addBall(scene, {-1.2, 1.0, 0.5}, 0.5, lamp({8.0f, 6.0f, 4.0f}));
+                   }});
+    all.push_back({"BulbOnTheFloor",
+                   [](Scene &scene) {
+                       testing::addBall(scene, {-1.0, -0.5, 0.4}, 0.5, lamp({3.0f, 4.0f, 5.0f}));
+                   },
+                   Search::ByScattering});
+    all.push_back({"GlowingDome",
+                   [](Scene &scene) {
+                       testing::addBall(scene, {0.0, 0.0, 0.0}, 8.0, lamp({0.4f, 0.5f, 0.6f}), true);
+                   },
+                   Search::ByScattering});
+    all.push_back({"Background", [](Scene &scene) { scene.background = {0.3f, 0.5f, 0.7f}; }});
+    all.push_back({"Environment", [](Scene &scene) { scene.environment = testing::studioEnvironment(); }});
+    all.push_back({"TurnedEnvironment", [](Scene &scene) {
+                       scene.environment = testing::studioEnvironment(75.0);
+                       scene.environment.scale = 1.5f;
+                   }});
+    all.push_back(
+        {"AllOfThem", [spot](Scene &scene) {
+             scene.environment = testing::studioEnvironment(-30.0);
+             scene.lights.push_back({{-1.0, 2.0, 2.0}, {5.0, 6.0, 7.0}});
+             scene.lights.push_back(spot);
+             scene.lights.push_back(light(LightKind::Directional, {}, {0.5, 0.4, 0.3}, {1.0, -1.0, -1.0}));
+             addPanel(scene, lamp({2.0f, 1.0f, 1.0f}));
+             testing::addBall(scene, {1.0, 0.5, -0.5}, 0.2, lamp({4.0f, 6.0f, 4.0f}));
+         }});
+    return all;
+}
+
+class PlainLights : public ::testing::TestWithParam<std::tuple<Lighting, bool>> {};
+
+INSTANTIATE_TEST_SUITE_P(All, PlainLights,
+                         ::testing::Combine(::testing::ValuesIn(lightings()), ::testing::Bool()),
+                         [](const auto &instance) {
+                             return std::get<0>(instance.param).name +
+                                    (std::get<1>(instance.param) ? "OnMetal" : "OnMatt");
+                         });
+
+// A floor and a ball. Matt ones alone and those among others are shaded by different code.
+TEST_P(PlainLights, FallTheSameOnAFloorAndABall) {
+    const auto &[lighting, isMetal] = GetParam();
+    Scene scene = testing::emptyScene(3);
+    scene.camera.position = {0.0, 0.5, 4.0};
+    scene.camera.direction = {0.0, -0.25, -1.0};
+    Material ballMaterial = testing::diffuse({0.7f, 0.6f, 0.5f});
+    if (isMetal) {
+        ballMaterial.kind = MaterialKind::Conductor;
+        ballMaterial.roughness = 0.5f;
+    }
+    testing::addQuad(scene, {-3.0f, -1.0f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f},
+                     testing::diffuse({0.5f, 0.6f, 0.7f}));
+    testing::addBall(scene, {0.3, -0.4, 0.0}, 0.6, ballMaterial);
+    lighting.install(scene);
+    Comparison comparison{.regions = {{0, 16, 4, 16}, {6, 12, 6, 11}, {1, 7, 8, 15}}};
+    comparison.errorLimit = 0.018;
+    comparison.allowance = isMetal ? testing::energyAllowance : comparison.allowance;
+    comparison.search = lighting.search;
+    expectPlainRadiance(scene, comparison);
+}
+
+// A lamp in a ball of rough glass, which shadow rays from outside do not reach, and those from its surface do.
+TEST(PlainLights, PassRoughGlassFromInside) {
+    for (const bool isPoint : {true, false}) {
+        Scene scene = testing::emptyScene(4);
+        Material glass;
+        glass.kind = MaterialKind::Dielectric;
+        glass.roughness = 0.5f;
+        glass.absorption = {0.2f, 0.4f, 0.8f};
+        testing::addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass);
+        scene.background = {0.1f, 0.1f, 0.1f};
+        if (isPoint)
+            scene.lights.push_back({{0.3, 0.2, 0.1}, {10.0, 10.0, 10.0}});
+        else
+            testing::addBall(scene, {0.3, 0.2, 0.1}, 0.4, lamp({1.0f, 1.0f, 1.0f}));
+        expectPlainRadiance(
+            scene, {.regions = {{4, 12, 4, 12}, {0, 16, 0, 16}}, .errorLimit = 0.02, .allowance = 1e-3});
+    }
+}
+
+} // namespace
+} // namespace hyalite
