@@ -48,4 +48,22 @@ Ray primaryRay(const Camera &camera, double x, double y, Generator &generator) {
     return {origin, glm::normalize(camera.position + camera.focusDistance * towards - origin)};
 }
 
+/// The product of two windows of four terms, 3 pixels wide: Harris, "On the Use of Windows for Harmonic Analysis with the
+/// Discrete Fourier Transform", Proc. IEEE 66(1), 1978, equation 33. Drawn by rejection.
+Vec2 randomOffset(FilterKind filter, Generator &generator) {
+    if (filter == FilterKind::Box)
+        return {uniform(generator) - 0.5, uniform(generator) - 0.5};
+    const auto draw = [&] {
+        for (;;) {
+            const double share = uniform(generator);
+            const double turn = 2.0 * pi * share;
+            const double height = 0.35875 - 0.48829 * std::cos(turn) + 0.14128 * std::cos(2.0 * turn) -
+                                  0.01168 * std::cos(3.0 * turn);
+            if (uniform(generator) < height)
+                return 3.0 * share - 1.5;
+        }
+    };
+    return {draw(), draw()};
+}
+
 } // namespace hyalite::testing::plain

@@ -76,5 +76,23 @@ TEST_P(PlainCameras, SeeTheSame) {
     testing::expectPlainRadiance(scene, comparison);
 }
 
+// Thin bars of light, which a filter that reaches into neighbouring pixels spreads.
+TEST(PlainFilter, SpreadsTheSame) {
+    for (const FilterKind filter : {FilterKind::Box, FilterKind::BlackmanHarris}) {
+        Scene scene = testing::emptyScene(1, 4096);
+        scene.camera.width = 6;
+        scene.camera.height = 6;
+        scene.settings.filter = filter;
+        scene.background = glm::vec3(0.5f);
+        testing::addQuad(scene, {-0.15f, -2.0f, 0.0f}, {0.3f, 0.0f, 0.0f}, {0.0f, 4.0f, 0.0f},
+                         testing::lamp(glm::vec3(2.0f)));
+        testing::addQuad(scene, {-2.0f, 0.3f, 0.1f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.1f, 0.0f},
+                         testing::lamp({0.1f, 1.0f, 1.5f}));
+        testing::expectPlainRadiance(
+            scene, {.regions = {{1, 2, 2, 3}, {2, 3, 4, 5}, {3, 4, 2, 3}, {4, 5, 1, 2}, {4, 5, 4, 5}},
+                    .errorLimit = 0.02});
+    }
+}
+
 } // namespace
 } // namespace hyalite

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 namespace hyalite {
 namespace {
@@ -79,7 +79,7 @@ TEST(PlainGlass, IsTheSameWhereRoughIsInSmooth) {
 }
 
 /// A wavy sheet whose normals are those of the wave, seen from the front.
-void addWave(Scene &scene, const Material &material) {
+void addWave(Scene &scene, const Material &material, bool isClockwise = false) {
     TriangleMesh mesh;
     mesh.materialIndex = testing::addMaterial(scene, material);
     const auto index = [](int x, int y) { return static_cast<std::uint32_t>(y * 5 + x); };
@@ -94,28 +94,55 @@ void addWave(Scene &scene, const Material &material) {
         }
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) {
-            const glm::uvec3 lower(index(x, y), index(x + 1, y), index(x + 1, y + 1));
-            const glm::uvec3 upper(index(x, y), index(x + 1, y + 1), index(x, y + 1));
+            glm::uvec3 lower(index(x, y), index(x + 1, y), index(x + 1, y + 1));
+            glm::uvec3 upper(index(x, y), index(x + 1, y + 1), index(x, y + 1));
+            if (isClockwise) {
+                std::swap(lower.y, lower.z);
+                std::swap(upper.y, upper.z);
+            }
             mesh.triangles.push_back({lower, lower});
             mesh.triangles.push_back({upper, upper});
         }
     scene.meshes.push_back(mesh);
 }
 
-class PlainMesh : public ::testing::TestWithParam<MaterialKind> {};
+class PlainMeshes : public ::testing::TestWithParam<MaterialKind> {};
 
-INSTANTIATE_TEST_SUITE_P(All, PlainMesh,
+INSTANTIATE_TEST_SUITE_P(All, PlainMeshes,
                          ::testing::Values(MaterialKind::Diffuse, MaterialKind::Mirror,
                                            MaterialKind::Dielectric, MaterialKind::Conductor,
                                            MaterialKind::Principled));
 
-TEST_P(PlainMesh, IsTheSameWithItsNormals) {
+TEST_P(PlainMeshes, IsTheSameWithItsNormals) {
     Scene scene = studio(3);
     scene.camera.horizontalFovDegrees = 25.0;
     Material material;
     material.kind = GetParam();
     material.roughness = material.kind == MaterialKind::Dielectric ? 0.0f : 0.5f;
     addWave(scene, material);
+    testing::Comparison comparison = wholeAndParts;
+    comparison.allowance = testing::energyAllowance;
+    expectPlainRadiance(scene, comparison);
+}
+
+// Normals, not the order of corners, say where the front is.
+TEST(PlainMesh, FacesWhereItsNormalsPoint) {
+    Scene scene = studio(2);
+    scene.camera.horizontalFovDegrees = 25.0;
+    addWave(scene, testing::diffuse({0.8f, 0.6f, 0.4f}), true);
+    expectPlainRadiance(scene, wholeAndParts);
+}
+
+// A clear coat is on the front only; what is two-sided is lit from where it is seen.
+TEST(PlainMesh, IsTheSameFromBehind) {
+    Scene scene = studio(2);
+    Material paint = testing::diffuse({0.7f, 0.5f, 0.3f});
+    paint.kind = MaterialKind::Principled;
+    paint.roughness = 0.5f;
+    paint.clearcoat = 1.0f;
+    paint.clearcoatRoughness = 0.4f;
+    paint.twoSided = true;
+    testing::addQuad(scene, {-1.0f, -1.0f, 0.0f}, {0.0f, 2.0f, 0.0f}, {2.0f, 0.0f, 0.3f}, paint);
     testing::Comparison comparison = wholeAndParts;
     comparison.allowance = testing::energyAllowance;
     expectPlainRadiance(scene, comparison);

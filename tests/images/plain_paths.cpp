@@ -247,8 +247,9 @@ Estimate estimatePlainly(const Scene &scene, int x0, int x1, int y0, int y1, int
         std::seed_seq seeds{static_cast<std::uint64_t>(chunk), seed};
         Generator generator(seeds);
         for (int i = 0; i < perChunk; ++i) {
-            const double x = x0 + (x1 - x0) * uniform(generator);
-            const double y = y0 + (y1 - y0) * uniform(generator);
+            const Vec2 offset = randomOffset(scene.settings.filter, generator);
+            const double x = std::floor(x0 + (x1 - x0) * uniform(generator)) + 0.5 + offset.x;
+            const double y = std::floor(y0 + (y1 - y0) * uniform(generator)) + 0.5 + offset.y;
             const Vec radiance = Path(world, generator, primaryRay(scene.camera, x, y, generator)).follow();
             sums[static_cast<std::size_t>(chunk)] += radiance;
             squares[static_cast<std::size_t>(chunk)] += radiance * radiance;

@@ -25,8 +25,9 @@ enum class Search {
     ByScattering ///< paths meet them
 };
 
-/// Mean radiance over columns [x0, x1) and rows [y0, y1) of the image, from `pathCount` paths through uniformly
-/// distributed points of it. The result depends on the arguments alone. Of the settings it knows `maxDepth`.
+/// Mean radiance over columns [x0, x1) and rows [y0, y1) of the image, from `pathCount` paths through points of it that
+/// are distributed as the filter says. The result depends on the arguments alone. Of the settings it knows
+/// `maxDepth` and `filter`.
 [[nodiscard]] Estimate estimatePlainly(const Scene &scene, int x0, int x1, int y0, int y1, int pathCount,
                                        std::uint64_t seed, Search search = Search::ByAiming);
 

@@ -123,6 +123,17 @@ TEST_P(PlainTextures, LookTheSameOnABall) {
     testing::expectPlainRadiance(scene, comparison);
 }
 
+// Where u grows to the left green still points along v.
+TEST(PlainTextures, BendTheSameWhereTheyAreMirrored) {
+    Scene scene = room();
+    Material material = grey();
+    testing::wear(scene, material, layout::slotNormal, slopes);
+    testing::addQuad(scene, {-1.0f, -1.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f}, material).uvs = {
+        {1.0f, 0.0f}, {0.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 1.0f}};
+    testing::expectPlainRadiance(scene,
+                                 {.regions = {{1, 8, 1, 8}, {8, 15, 1, 8}, {1, 8, 8, 15}, {8, 15, 8, 15}}});
+}
+
 // Their light on a wall: the tile and the ball are emitters that are aimed at, and are not seen.
 TEST(PlainTextures, ShineTheSame) {
     for (const bool isCutOut : {false, true}) {
