@@ -76,6 +76,19 @@ TEST_P(PlainCameras, SeeTheSame) {
     testing::expectPlainRadiance(scene, comparison);
 }
 
+// A far small ball becomes an evenly bright disc, of which each point shows a point of the lens.
+TEST(PlainLens, IsEvenlyOpen) {
+    Scene scene = testing::emptyScene(1, 4096);
+    scene.camera.width = 9;
+    scene.camera.height = 9;
+    scene.camera.aperture = 0.6;
+    scene.camera.focusDistance = 2.0;
+    scene.background = glm::vec3(0.1f);
+    testing::addBall(scene, {0.0, 0.0, -4.0}, 0.4, testing::lamp({8.0f, 6.0f, 4.0f}));
+    testing::expectPlainRadiance(
+        scene, {.regions = {{4, 5, 4, 5}, {3, 4, 3, 4}, {6, 7, 4, 5}, {4, 5, 1, 2}}, .errorLimit = 0.06});
+}
+
 // Thin bars of light, which a filter that reaches into neighbouring pixels spreads.
 TEST(PlainFilter, SpreadsTheSame) {
     for (const FilterKind filter : {FilterKind::Box, FilterKind::BlackmanHarris}) {

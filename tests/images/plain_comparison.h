@@ -1,7 +1,7 @@
 // Comparison of both renderers with the plain path tracer by z-tests of mean radiance over regions of the image.
 #pragma once
 
-#include "host/image/film.h"
+#include "host/film/film.h"
 #include "tests/images/plain_paths.h"
 
 #include <vector>

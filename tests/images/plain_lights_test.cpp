@@ -59,6 +59,11 @@ std::vector<Lighting> lightings() {
              paper.twoSided = true;
              testing::addQuad(scene, {-2.0f, 0.5f, 1.0f}, {1.0f, 1.0f, 0.0f}, {0.0f, 0.0f, -2.0f}, paper);
          }});
+    all.push_back({"PanelThatFacesAway", [](Scene &scene) {
+                       scene.background = {0.3f, 0.4f, 0.5f};
+                       testing::addQuad(scene, {-2.0f, 0.5f, 1.0f}, {1.0f, 1.0f, 0.0f}, {0.0f, 0.0f, -2.0f},
+                                        lamp({9.0f, 9.0f, 9.0f}));
+                   }});
     all.push_back({"Bulb", [](Scene &scene) {
                        testing::addBall(scene, {-1.2, 1.0, 0.5}, 0.5, lamp({8.0f, 6.0f, 4.0f}));
                    }});

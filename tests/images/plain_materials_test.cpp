@@ -85,6 +85,11 @@ std::vector<Look> looks() {
     all.back().material.metallic = 0.3f;
     all.back().material.absorption = {0.5f, 0.2f, 0.1f};
     all.back().maxDepth = 4;
+    all.push_back(principled("MetalBesideGlass", 0.3f));
+    all.back().material.albedo = {0.9f, 0.3f, 0.05f};
+    all.back().material.transmission = 0.8f;
+    all.back().material.metallic = 0.5f;
+    all.back().maxDepth = 4;
     return all;
 }
 
@@ -117,6 +122,23 @@ TEST_P(PlainMaterials, LookTheSameOnATileUnderALamp) {
     Comparison comparison{.regions = {{0, 16, 7, 16}, {4, 12, 8, 11}}};
     comparison.allowance = GetParam().allowance;
     expectPlainRadiance(scene, comparison);
+}
+
+// In a white world there is little noise: what is left of the light shows small faults of lobes and tables.
+TEST(PlainFurnaces, AreAsBright) {
+    for (const float roughness : {0.3f, 0.65f, 1.0f})
+        for (const float metallic : {0.0f, 1.0f}) {
+            Scene scene = testing::emptyScene(2, 512);
+            scene.background = glm::vec3(1.0f);
+            Look white = principled("White", roughness);
+            white.material.albedo = glm::vec3(1.0f);
+            white.material.metallic = metallic;
+            testing::addBall(scene, {0.0, 0.0, 0.0}, 1.0, white.material);
+            expectPlainRadiance(scene, {.regions = {{4, 12, 4, 12}, {1, 5, 6, 10}},
+                                        .pathCount = 60'000,
+                                        .errorLimit = 3e-3,
+                                        .allowance = testing::energyAllowance});
+        }
 }
 
 } // namespace

@@ -134,6 +134,20 @@ TEST(PlainTextures, BendTheSameWhereTheyAreMirrored) {
                                  {.regions = {{1, 8, 1, 8}, {8, 15, 1, 8}, {1, 8, 8, 15}, {8, 15, 8, 15}}});
 }
 
+// Steep maps that are seen at grazing angles: normals that face away from the eye, and ones that mirror into the surface.
+TEST(PlainTextures, BendTheSameAtGrazingAngles) {
+    Scene scene = room();
+    Material material = grey();
+    makePlastic(material);
+    material.roughness = 0.3f;
+    material.normalStrength = 3.0f;
+    testing::wear(scene, material, layout::slotNormal, slopes);
+    testing::addQuad(scene, {-1.0f, -0.4f, 1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.5f, -3.0f}, material);
+    Comparison comparison{.regions = {{3, 8, 7, 9}, {8, 13, 7, 9}, {2, 14, 9, 11}}};
+    comparison.allowance = testing::energyAllowance;
+    testing::expectPlainRadiance(scene, comparison);
+}
+
 // Their light on a wall: the tile and the ball are emitters that are aimed at, and are not seen.
 TEST(PlainTextures, ShineTheSame) {
     for (const bool isCutOut : {false, true}) {
