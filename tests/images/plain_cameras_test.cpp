@@ -76,6 +76,22 @@ TEST_P(PlainCameras, SeeTheSame) {
     testing::expectPlainRadiance(scene, comparison);
 }
 
+// Meridians of light, each edge inside of a pixel: how much of it is bright tells sine and arc tangent to a tenth of a
+// degree.
+TEST(PlainPanorama, HasItsMeridiansWhereTheyAre) {
+    Scene scene = testing::emptyScene(1, 16384);
+    scene.camera.kind = CameraKind::Panorama;
+    scene.camera.width = 36;
+    scene.camera.height = 1;
+    scene.environment.radiance = Image(720, 1);
+    for (int x = 0; x < 720; ++x)
+        scene.environment.radiance.at(x, 0) = glm::vec3((x + 7) / 20 % 2 == 0 ? 1.0f : 0.1f);
+    testing::Comparison comparison{.regions = {}, .pathCount = 60'000};
+    for (int x = 0; x < 18; x += 2)
+        comparison.regions.push_back({x, x + 1, 0, 1});
+    testing::expectPlainRadiance(scene, comparison);
+}
+
 // A far small ball becomes an evenly bright disc, of which each point shows a point of the lens.
 TEST(PlainLens, IsEvenlyOpen) {
     Scene scene = testing::emptyScene(1, 4096);
