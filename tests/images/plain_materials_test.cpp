@@ -135,8 +135,8 @@ TEST(PlainFurnaces, AreAsBright) {
             white.material.metallic = metallic;
             testing::addBall(scene, {0.0, 0.0, 0.0}, 1.0, white.material);
             expectPlainRadiance(scene, {.regions = {{4, 12, 4, 12}, {2, 6, 6, 10}},
-                                        .pathCount = 60'000,
-                                        .errorLimit = 6e-3,
+                                        .pathCount = 160'000,
+                                        .errorLimit = 6.5e-3,
                                         .allowance = testing::energyAllowance});
         }
 }
