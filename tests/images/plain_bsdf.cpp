@@ -16,7 +16,8 @@ constexpr double coatReflectance = 0.04; // head on: a refractive index of 1.5
 
 double squared(double x) { return x * x; }
 
-/// D G / (4 view.z), the microfacet BRDF times the cosine of the light, but for Fresnel's term: Walter 2007, equation 20.
+/// D G / (4 view.z), the microfacet BRDF times the cosine of the light, but for Fresnel's term: Walter 2007, equation
+/// 20.
 double reflectedByFacets(const Vec &view, const Vec &light, double alpha) {
     return ggx(glm::normalize(view + light), alpha) * smith(view, light, alpha) / (4.0 * view.z);
 }
@@ -130,8 +131,8 @@ Vec Bsdf::evaluatePlastic(const Vec &view, const Vec &light) const {
            colour_ * share;
 }
 
-/// Walter 2007, equations 20 and 21. Radiance is larger by the square of the index in glass, so that equation 21 has the
-/// index on the side that light goes to: that of the viewer.
+/// Walter 2007, equations 20 and 21. Radiance is larger by the square of the index in glass, so that equation 21 has
+/// the index on the side that light goes to: that of the viewer.
 Vec Bsdf::evaluateGlass(const Vec &view, const Vec &light) const {
     const double alpha = alphaOf(roughness_);
     if (light.z > 0.0)

@@ -1,10 +1,11 @@
 // BSDFs of the plain path tracer: textbook lobes, added up. Evaluated as their papers write them, and sampled by the
 // simplest way that follows their shape, so that any direction may be drawn by several lobes.
 //
-// A principled material is Burley's mixture ("Physically Based Shading at Disney", SIGGRAPH 2012 courses) of metal, plastic
-// and glass under a clear coat, with three choices of this program: what facets do not reflect at once comes back as in
-// Kulla and Conty ("Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses); the colour below a plastic
-// surface gets what the surface does not reflect in the same way; and the coat leaves 1 - coat max(E(view), E(light)).
+// A principled material is Burley's mixture ("Physically Based Shading at Disney", SIGGRAPH 2012 courses) of metal,
+// plastic and glass under a clear coat, with three choices of this program: what facets do not reflect at once comes
+// back as in Kulla and Conty ("Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses); the colour
+// below a plastic surface gets what the surface does not reflect in the same way; and the coat leaves 1 - coat
+// max(E(view), E(light)).
 #pragma once
 
 #include "tests/images/plain_microfacets.h"
@@ -18,8 +19,9 @@ namespace hyalite::testing::plain {
 /// viewer: view.z > 0.
 class Bsdf {
   public:
-    /// The substance is diffuse, principled, or a rough conductor or dielectric. `indexRatio`, for glass, is the refractive
-    /// index on the side of the viewer divided by the one beyond; isBehind: seen against the normal of the input.
+    /// The substance is diffuse, principled, or a rough conductor or dielectric. `indexRatio`, for glass, is the
+    /// refractive index on the side of the viewer divided by the one beyond; isBehind: seen against the normal of the
+    /// input.
     Bsdf(const Substance &substance, double indexRatio, bool isBehind);
 
     /// The BSDF times the absolute cosine of `light`, which is below the surface where light passes it.

@@ -230,7 +230,8 @@ TEST(PlainFresnel, HasItsClosedForms) {
                 ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k), 1e-15);
 }
 
-// The area of facets that are seen is that of the surface: Heitz 2014, equation 14, and for the viewer above, equation 5.
+// The area of facets that are seen is that of the surface: Heitz 2014, equation 14, and for the viewer above, equation
+// 5.
 TEST(PlainFacets, CoverTheSurface) {
     for (const double alpha : {0.1, 0.4, 1.0}) {
         const auto distributed = [&](const Vec &m) { return m.z > 0.0 ? ggx(m, alpha) * m.z : 0.0; };

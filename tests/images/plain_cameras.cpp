@@ -48,8 +48,8 @@ Ray primaryRay(const Camera &camera, double x, double y, Generator &generator) {
     return {origin, glm::normalize(camera.position + camera.focusDistance * towards - origin)};
 }
 
-/// The product of two windows of four terms, 3 pixels wide: Harris, "On the Use of Windows for Harmonic Analysis with the
-/// Discrete Fourier Transform", Proc. IEEE 66(1), 1978, equation 33. Drawn by rejection.
+/// The product of two windows of four terms, 3 pixels wide: Harris, "On the Use of Windows for Harmonic Analysis with
+/// the Discrete Fourier Transform", Proc. IEEE 66(1), 1978, equation 33. Drawn by rejection.
 Vec2 randomOffset(FilterKind filter, Generator &generator) {
     if (filter == FilterKind::Box)
         return {uniform(generator) - 0.5, uniform(generator) - 0.5};

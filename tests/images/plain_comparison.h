@@ -16,8 +16,8 @@ struct Region {
     int y1;
 };
 
-/// The mean of a region of a film that shows the whole image. Samples of a pixel are stratified: they vary less than the
-/// variance says, which makes the test careful.
+/// The mean of a region of a film that shows the whole image. Samples of a pixel are stratified: they vary less than
+/// the variance says, which makes the test careful.
 [[nodiscard]] Estimate meanOf(const Film &film, const Region &region);
 
 struct Comparison {
@@ -30,8 +30,8 @@ struct Comparison {
     Search search = Search::ByScattering;
 };
 
-/// Of what facets send to each other the renderers interpolate tables of 32 by 32 energies, linearly. README.md says that a
-/// white metal then reflects everything within 0.3 %.
+/// Of what facets send to each other the renderers interpolate tables of 32 by 32 energies, linearly. README.md says
+/// that a white metal then reflects everything within 0.3 %.
 constexpr double energyAllowance = 3e-3;
 
 /// Expects the film to have the same mean radiance in each region and channel.

@@ -1,4 +1,5 @@
-// Geometry of the plain path tracer: triangles and spheres in double precision, tested one after another without a tree.
+// Geometry of the plain path tracer: triangles and spheres in double precision, tested one after another without a
+// tree.
 #pragma once
 
 #include "host/scene/scene.h"

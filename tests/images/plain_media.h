@@ -1,5 +1,5 @@
-// Glass around the plain path tracer's paths, where solids lie in each other or overlap: Schmidt and Budge, "Simple Nested
-// Dielectrics in Ray Traced Images", JGT 7(2), 2002.
+// Glass around the plain path tracer's paths, where solids lie in each other or overlap: Schmidt and Budge, "Simple
+// Nested Dielectrics in Ray Traced Images", JGT 7(2), 2002.
 #pragma once
 
 #include "tests/images/plain_geometry.h"

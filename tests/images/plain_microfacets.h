@@ -1,13 +1,13 @@
-// Textbook functions of surfaces for the plain path tracer: Fresnel's equations, the GGX distribution, Smith's masking, and
-// the share of light that microfacets reflect, by quadrature.
+// Textbook functions of surfaces for the plain path tracer: Fresnel's equations, the GGX distribution, Smith's masking,
+// and the share of light that microfacets reflect, by quadrature.
 #pragma once
 
 #include "tests/images/plain_geometry.h"
 
 namespace hyalite::testing::plain {
 
-/// Fresnel's equations for unpolarised light between two dielectrics; `indexRatio` is the refractive index on the side of
-/// the light divided by the one beyond. Born and Wolf, "Principles of Optics", section 1.5.2.
+/// Fresnel's equations for unpolarised light between two dielectrics; `indexRatio` is the refractive index on the side
+/// of the light divided by the one beyond. Born and Wolf, "Principles of Optics", section 1.5.2.
 [[nodiscard]] double dielectricFresnel(double cosine, double indexRatio);
 
 /// Likewise from vacuum to the complex index n + i k: Born and Wolf, section 14.2.
@@ -22,11 +22,12 @@ namespace hyalite::testing::plain {
 /// Roughness as an artist gives it to GGX's alpha: its square (Burley 2012, section 5.4), from 0.04 on.
 [[nodiscard]] double alphaOf(double roughness);
 
-/// Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equation 33.
+/// Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equation
+/// 33.
 [[nodiscard]] double ggx(const Vec &facet, double alpha);
 
-/// Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, equations 72 and 99:
-/// 1 / (1 + Lambda(v) + Lambda(l)), for light on either side.
+/// Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, equations 72 and
+/// 99: 1 / (1 + Lambda(v) + Lambda(l)), for light on either side.
 [[nodiscard]] double smith(const Vec &view, const Vec &light, double alpha);
 
 /// A facet drawn with the density ggx(facet) facet.z per solid angle: Walter 2007, equations 35 and 36.
@@ -43,8 +44,8 @@ struct Energy {
     }
 };
 
-/// By quadrature over facets; `cosine` in [0, 1] is that of the direction. Between quadratures at multiples of 1/128 of the
-/// roughness and at 65 cosines it is linear, with an error of 2e-4, and of 2e-3 below a cosine
+/// By quadrature over facets; `cosine` in [0, 1] is that of the direction. Between quadratures at multiples of 1/128 of
+/// the roughness and at 65 cosines it is linear, with an error of 2e-4, and of 2e-3 below a cosine
 /// of 0.1.
 [[nodiscard]] Energy directionalEnergy(double cosine, double roughness);
 

@@ -1,9 +1,9 @@
 // Radiance in a plain way: the oracle of the path integrator.
 //
-// It shares no code with the renderers, and nothing but the scene as plain data: double precision, its own geometry without
-// a tree, its own random numbers, textbook BSDFs (plain_bsdf.h). Of what the renderers are clever about it has nothing: no
-// choice of emitters by power, no multiple importance sampling, no choice of lobes, no Russian roulette, no tables beside
-// those of energies. Where both agree, that cleverness changes no mean.
+// It shares no code with the renderers, and nothing but the scene as plain data: double precision, its own geometry
+// without a tree, its own random numbers, textbook BSDFs (plain_bsdf.h). Of what the renderers are clever about it has
+// nothing: no choice of emitters by power, no multiple importance sampling, no choice of lobes, no Russian roulette, no
+// tables beside those of energies. Where both agree, that cleverness changes no mean.
 #pragma once
 
 #include "host/scene/scene.h"
@@ -17,8 +17,8 @@ struct Estimate {
     glm::dvec3 variance{0.0}; ///< of the mean
 };
 
-/// How paths find surfaces that emit. Lights without size are added up at each surface, and what is infinitely far away is
-/// met by paths that leave the scene, with either.
+/// How paths find surfaces that emit. Lights without size are added up at each surface, and what is infinitely far away
+/// is met by paths that leave the scene, with either.
 enum class Search {
     ByAiming, ///< at one point of all emitters from each rough surface, chosen evenly by area; what a path meets after
               ///< that surface does not shine a second time

@@ -20,8 +20,8 @@ std::uint32_t addMaterial(Scene &scene, const Material &material);
 void addBall(Scene &scene, const glm::dvec3 &centre, double radius, const Material &material,
              bool isInward = false);
 
-/// A parallelogram of two triangles that faces the side from which its corners go counter-clockwise: corner, corner + u,
-/// corner + u + v, corner + v. Its texture coordinates are 0 at the corner and grow to 1 along u and v.
+/// A parallelogram of two triangles that faces the side from which its corners go counter-clockwise: corner, corner +
+/// u, corner + u + v, corner + v. Its texture coordinates are 0 at the corner and grow to 1 along u and v.
 TriangleMesh &addQuad(Scene &scene, const glm::vec3 &corner, const glm::vec3 &u, const glm::vec3 &v,
                       const Material &material);
 

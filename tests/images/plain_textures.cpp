@@ -37,8 +37,8 @@ std::size_t wrapped(double index, int size) {
 constexpr double leastHeight = 0.01; ///< of a mapped normal over the surface, and of what it reflects
 
 /// Keller and others, "The Iray Light Transport Simulation and Rendering System", 2017, appendix A.3: a normal whose
-/// mirror direction dips below the surface is replaced by the one whose mirror direction is lifted just above it. Before,
-/// a normal that faces away from the viewer is tilted until it does not. `up` is on the side of the viewer.
+/// mirror direction dips below the surface is replaced by the one whose mirror direction is lifted just above it.
+/// Before, a normal that faces away from the viewer is tilted until it does not. `up` is on the side of the viewer.
 Vec visibleNormal(const Vec &toViewer, Vec normal, const Vec &up) {
     const double facing = glm::dot(toViewer, normal);
     if (facing < leastHeight)

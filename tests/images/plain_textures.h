@@ -25,7 +25,8 @@ class Substances {
     /// Whether a texture of opacity leaves nothing of the shape at this point.
     [[nodiscard]] bool isCutAway(std::uint32_t materialIndex, const Vec2 &uv) const;
 
-    /// Turns the point's shading normal by the normal map of its material. `direction` is that of the ray that meets it.
+    /// Turns the point's shading normal by the normal map of its material. `direction` is that of the ray that meets
+    /// it.
     void bendNormal(std::uint32_t materialIndex, const Vec &direction, SurfacePoint &point) const;
 
   private:

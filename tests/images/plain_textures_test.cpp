@@ -134,7 +134,8 @@ TEST(PlainTextures, BendTheSameWhereTheyAreMirrored) {
                                  {.regions = {{1, 8, 1, 8}, {8, 15, 1, 8}, {1, 8, 8, 15}, {8, 15, 8, 15}}});
 }
 
-// Steep maps that are seen at grazing angles: normals that face away from the eye, and ones that mirror into the surface.
+// Steep maps that are seen at grazing angles: normals that face away from the eye, and ones that mirror into the
+// surface.
 TEST(PlainTextures, BendTheSameAtGrazingAngles) {
     Scene scene = room();
     Material material = grey();
