@@ -103,36 +103,6 @@ void storeSlot(uint slot) {
         pathRecords[slotIndex[slot]] = path[slot];
 }
 
-// The sum over all lanes of a subgroup, which all of them get, and whether the lane is the one that speaks for it: on
-// lavapipe an atomic operation for each lane would take longer than a sample.
-#if SKIP_LIST
-uint sumOfLanes(uint x) {
-    x += gl_SubgroupSize > 1u ? subgroupShuffleXor(x, 1u) : 0u;
-    x += gl_SubgroupSize > 2u ? subgroupShuffleXor(x, 2u) : 0u;
-    x += gl_SubgroupSize > 4u ? subgroupShuffleXor(x, 4u) : 0u;
-    x += gl_SubgroupSize > 8u ? subgroupShuffleXor(x, 8u) : 0u;
-    x += gl_SubgroupSize > 16u ? subgroupShuffleXor(x, 16u) : 0u;
-    return x;
-}
-
-uint mostOfLanes(uint x) {
-    x = max(x, gl_SubgroupSize > 1u ? subgroupShuffleXor(x, 1u) : 0u);
-    x = max(x, gl_SubgroupSize > 2u ? subgroupShuffleXor(x, 2u) : 0u);
-    x = max(x, gl_SubgroupSize > 4u ? subgroupShuffleXor(x, 4u) : 0u);
-    x = max(x, gl_SubgroupSize > 8u ? subgroupShuffleXor(x, 8u) : 0u);
-    x = max(x, gl_SubgroupSize > 16u ? subgroupShuffleXor(x, 16u) : 0u);
-    return x;
-}
-
-bool subgroupElected() { return gl_SubgroupInvocationID == 0u; }
-#else
-uint sumOfLanes(uint x) { return x; }
-
-uint mostOfLanes(uint x) { return x; }
-
-bool subgroupElected() { return true; }
-#endif
-
 void addProgress() {
     if (isCounting) {
         atomicAdd(progress.nodesVisited, workCounts.x);
@@ -151,7 +121,7 @@ void addProgress() {
     uvec4 rays = uvec4(sumOfLanes(finishedRayCounts.x), sumOfLanes(finishedRayCounts.y),
                        sumOfLanes(finishedRayCounts.z), sumOfLanes(finishedRayCounts.w));
     uint bounces = hasBounces ? sumOfLanes(finishedBounceCount) : 0u;
-    uint work = mostOfLanes(stepsTaken - stepsForfeited + passWork);
+    uint work = maxOfLanes(stepsTaken - stepsForfeited + passWork);
     if (!subgroupElected())
         return;
     atomicAdd(progress.workDone, work);

@@ -2,7 +2,7 @@
 // dispatch, else in a buffer. lavapipe writes buffers lane by lane and word by word, so that a choice among all levels
 // of depth is faster there.
 
-#if SKIP_LIST
+#if MEMORY_TEXELS
 layout(set = 0, binding = bindingPending, rgba32ui) uniform restrict uimageBuffer pendingTexels;
 
 void storePendingRay(uint index, PendingRay ray) {

@@ -1,19 +1,10 @@
 // Entry kernel: rays from a buffer through the tree, with nothing around, to measure traversal by itself. RAYS rays an
-// invocation, over a stack or a skip list (SKIP_LIST=1). Triangles only.
+// invocation, Triangles only.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_control_flow_attributes : require
-#extension GL_KHR_shader_subgroup_basic : require
-#if SKIP_LIST
-#extension GL_KHR_shader_subgroup_shuffle : require
-#endif
 
-#include "shaders/layout/layout.h"
+#include "shaders/kernels/begin_kernel.glsl"
 #include "shaders/layout/ray_records.h"
-
-layout(local_size_x_id = 0) in;
-
-#include "shaders/memory/bindings.glsl"
 
 const bool lightPassesGlass = hasDielectric;
 const bool raysHaveTargets = false;
@@ -22,18 +13,15 @@ const bool hasBounces = false;
 #include "shaders/memory/scene_data.glsl"
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/leaves.glsl"
+#include "shaders/memory/lanes.glsl"
 #include "shaders/integrators/path_slots.glsl"
 #include "shaders/traversal/meet_triangle.glsl"
-#if SKIP_LIST
-#include "shaders/traversal/traverse_skip.glsl"
-#else
-#include "shaders/traversal/traverse_stack.glsl"
-#endif
+#include "shaders/traversal/traverse.glsl"
 
 layout(constant_id = constantIsAnyHit) const bool isAnyHit = false;
 
 // As in scene_data.glsl: texels where lavapipe reads them. It writes to storage buffers faster, by whole rows.
-#if SKIP_LIST
+#if MEMORY_TEXELS
 
 layout(set = 0, binding = bindingRays, rgba32ui) uniform restrict readonly uimageBuffer rayTexels;
 

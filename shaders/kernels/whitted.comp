@@ -1,38 +1,15 @@
-// Entry kernel: the Whitted integrator, RAYS path slots an invocation, over a stack or a skip list
-// (SKIP_LIST=1).
+// Entry kernel: the Whitted integrator.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_control_flow_attributes : require
-#extension GL_KHR_shader_subgroup_basic : require
-#if SKIP_LIST
-#extension GL_KHR_shader_subgroup_shuffle : require
-#endif
 
-#include "shaders/layout/layout.h"
-
-layout(local_size_x_id = 0) in;
-
-#include "shaders/memory/bindings.glsl"
+#include "shaders/kernels/begin_kernel.glsl"
 
 const bool lightPassesGlass = hasDielectric;
 const bool raysHaveTargets = false;
 const bool hasBounces = false;
 
-#include "shaders/memory/scene_data.glsl"
-#include "shaders/math/arithmetic.glsl"
-#include "shaders/leaves.glsl"
-#include "shaders/traversal/preloaded.glsl"
-#include "shaders/integrators/path_slots.glsl"
-#include "shaders/memory/film.glsl"
+#include "shaders/kernels/stages.glsl"
 #include "shaders/integrators/pending_rays.glsl"
-#include "shaders/traversal/meet_triangle.glsl"
-#if SKIP_LIST
-#include "shaders/traversal/traverse_skip.glsl"
-#else
-#include "shaders/traversal/traverse_stack.glsl"
-#endif
-#include "shaders/traversal/rays.glsl"
-#include "shaders/integrators/integrate.glsl"
 #include "shaders/integrators/whitted.glsl"
 
 void main() { integrate(); }

@@ -1,6 +1,6 @@
 // The film, and how samples come there: in the order of their indices, whichever slots they come from.
 
-#if SKIP_LIST
+#if LANES_SHUFFLE
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
 const uint filmPixelWords = 8u;

@@ -2,12 +2,12 @@
 //
 // On a GPU a storage buffer is the natural thing. lavapipe loads each component of a storage buffer in a loop over the
 // lanes, with a bounds check each, but inlines the load of a whole texel: there the arrays are storage texel buffers,
-// which makes traversal several times faster, and the tree is a skip list (SKIP_LIST=1).
+// which makes traversal several times faster (MEMORY_TEXELS=1).
 
 layout(set = 0, binding = bindingSpheres, std140) uniform SphereBuffer { SphereRecord spheres[maxSphereCount]; };
 layout(set = 0, binding = bindingLights, std140) uniform LightBuffer { LightRecord lights[maxLightCount]; };
 
-#if SKIP_LIST
+#if MEMORY_TEXELS
 
 layout(set = 0, binding = bindingMaterials, rgba32ui) uniform restrict readonly uimageBuffer materialTexels;
 layout(set = 0, binding = bindingNodes, rgba32ui) uniform restrict readonly uimageBuffer nodeTexels;
@@ -51,10 +51,22 @@ LookupRow fetchLookupRow(uint index) {
 
 uvec4 fetchTextureRow(uint index) { return imageLoad(textureTexels, int(index)); }
 
+#if TRAVERSAL_SKIP_LIST
 SkipNode fetchSkipNode(uint index) {
     uvec4 words = imageLoad(nodeTexels, int(index));
     return SkipNode(words.x, words.y, words.z, words.w);
 }
+#else
+NodePair fetchNode(uint index) {
+    int row = int(index) * 4;
+    uvec4 a = imageLoad(nodeTexels, row);
+    uvec4 b = imageLoad(nodeTexels, row + 1);
+    uvec4 c = imageLoad(nodeTexels, row + 2);
+    uvec4 d = imageLoad(nodeTexels, row + 3);
+    return NodePair(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w,
+                    uintBitsToFloat(d.xyz), d.w);
+}
+#endif
 
 TriangleRecord fetchTriangle(uint index) {
     int row = int(index) * 3;
@@ -85,7 +97,11 @@ NormalRecord fetchNormals(uint index) {
 #else
 
 layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuffer { MaterialRecord materials[]; };
+#if TRAVERSAL_SKIP_LIST
+layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { SkipNode nodes[]; };
+#else
 layout(set = 0, binding = bindingNodes, std430) readonly buffer NodeBuffer { NodePair nodes[]; };
+#endif
 layout(set = 0, binding = bindingTriangles, std430) readonly buffer TriangleBuffer { TriangleRecord triangles[]; };
 layout(set = 0, binding = bindingNormals, std430) readonly buffer NormalBuffer { NormalRecord normals[]; };
 layout(set = 0, binding = bindingEmitters, std430) readonly buffer EmitterBuffer { EmitterRecord emitters[]; };
@@ -102,7 +118,11 @@ LookupRow fetchLookupRow(uint index) { return texels[index]; }
 
 uvec4 fetchTextureRow(uint index) { return textureRows[index]; }
 
+#if TRAVERSAL_SKIP_LIST
+SkipNode fetchSkipNode(uint index) { return nodes[index]; }
+#else
 NodePair fetchNode(uint index) { return nodes[index]; }
+#endif
 
 TriangleRecord fetchTriangle(uint index) { return triangles[index]; }
 

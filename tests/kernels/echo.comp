@@ -58,7 +58,7 @@ void main() {
     FIELDS_PendingRay(GIVE, pendings[1])
     FIELDS_SkipNode(GIVE, skips[1])
     FIELDS_EmitterRecord(GIVE, emitters[1])
-    FIELDS_TexelRecord(GIVE, texels[1])
+    FIELDS_LookupRow(GIVE, texels[1])
     FIELDS_TextureRow(GIVE, textureRows[1])
     FIELDS_TextureRecord(GIVE, textures[1])
     FIELDS_DispatchConstants(GIVE, dispatch)

@@ -1,0 +1,17 @@
+// How every integrator's kernel begins. Three choices, each by a macro of its own (shaders/CMakeLists.txt has the rows), and
+// RAYS path slots an invocation:
+//
+//   MEMORY_TEXELS        1: the scene is read through texel buffers; 0: through storage buffers
+//   TRAVERSAL_SKIP_LIST  1: the tree is a skip list without a stack; 0: node pairs and a stack
+//   LANES_SHUFFLE        1: lanes of a subgroup exchange values by shuffles; 0: each lane is on its own
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_basic : require
+#if LANES_SHUFFLE
+#extension GL_KHR_shader_subgroup_shuffle : require
+#endif
+
+#include "shaders/layout/layout.h"
+
+layout(local_size_x_id = 0) in;
+
+#include "shaders/memory/bindings.glsl"

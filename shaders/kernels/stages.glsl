@@ -1,0 +1,12 @@
+// What every integrator is written against: leaf functions, memory, path slots, the film, and rays through the tree.
+#include "shaders/memory/scene_data.glsl"
+#include "shaders/math/arithmetic.glsl"
+#include "shaders/leaves.glsl"
+#include "shaders/traversal/preloaded.glsl"
+#include "shaders/memory/lanes.glsl"
+#include "shaders/integrators/path_slots.glsl"
+#include "shaders/memory/film.glsl"
+#include "shaders/traversal/meet_triangle.glsl"
+#include "shaders/traversal/traverse.glsl"
+#include "shaders/traversal/rays.glsl"
+#include "shaders/integrators/integrate.glsl"
