@@ -92,9 +92,8 @@ class JsonObject {
         return read(key, fallback, [](const JsonNode &node) { return node.text(); });
     }
     /// One of a few names, each given with what it stands for.
-    template <class T, std::size_t count>
-    [[nodiscard]] T choice(std::string_view key,
-                           const std::array<std::pair<std::string_view, T>, count> &choices,
+    template <class T>
+    [[nodiscard]] T choice(std::string_view key, std::span<const std::pair<std::string_view, T>> choices,
                            std::optional<std::type_identity_t<T>> fallback = {}) const {
         return read(key, fallback, [&](const JsonNode &node) {
             std::vector<std::string_view> names;
@@ -102,6 +101,12 @@ class JsonObject {
                 names.push_back(name);
             return choices[node.indexOfName(names)].second;
         });
+    }
+    template <class T, std::size_t count>
+    [[nodiscard]] T choice(std::string_view key,
+                           const std::array<std::pair<std::string_view, T>, count> &choices,
+                           std::optional<std::type_identity_t<T>> fallback = {}) const {
+        return choice(key, std::span<const std::pair<std::string_view, T>>(choices), fallback);
     }
 
   private:

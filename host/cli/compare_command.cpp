@@ -13,6 +13,7 @@
 #include "host/reference/divergence.h"
 #include "host/reference/explain.h"
 #include "host/render/backend.h"
+#include "host/scene/settings_table.h"
 
 #include <fmt/format.h>
 
@@ -317,7 +318,7 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
                                                  "render with two seeds, and ask whether both can be "
                                                  "estimates of one picture, as `hyalite diff` does");
     addSignificanceOption(*command, options->zTest)->needs(statistical);
-    addNumber(*command, "--against-seed", options->againstSeed, limits::seed,
+    addNumber(*command, "--against-seed", options->againstSeed, rangeOf(&RenderSettings::seed),
               "of the second render of --statistical; default: one more than the first's")
         ->needs(statistical);
     for (const char *option : {"--tolerance", "--max-outliers", "--diff"})

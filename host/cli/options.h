@@ -18,9 +18,12 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hyalite {
@@ -45,17 +48,25 @@ template <class Number>
 template <class Value> struct NumberIn { using Type = Value; };
 template <class Number> struct NumberIn<std::optional<Number>> { using Type = Number; };
 
-/// An option with one number: Value is a number or optional, and the number is whole if its type is.
-template <class Value>
-CLI::Option *addNumber(CLI::App &command, const std::string &name, Value &value, const Interval &allowed,
-                       const std::string &help) {
-    using Number = typename NumberIn<Value>::Type;
-    const auto read = [name, &value, allowed](const CLI::results_t &words) {
-        value = readAs<Number>(name, words.front(), allowed);
+/// An option with one number, which is whole if its type is, and goes to `take`.
+template <class Number>
+CLI::Option *addNumberFor(CLI::App &command, const std::string &name, const std::function<void(Number)> &take,
+                          const Interval &allowed, const std::string &help) {
+    const auto read = [name, take, allowed](const CLI::results_t &words) {
+        take(readAs<Number>(name, words.front(), allowed));
         return true;
     };
     return command.add_option(name, CLI::callback_t(read), help)
         ->type_name(std::integral<Number> ? "N" : "NUMBER");
+}
+
+/// The same for a variable: Value is a number or optional.
+template <class Value>
+CLI::Option *addNumber(CLI::App &command, const std::string &name, Value &value, const Interval &allowed,
+                       const std::string &help) {
+    using Number = typename NumberIn<Value>::Type;
+    return addNumberFor<Number>(
+        command, name, [&value](Number number) { value = number; }, allowed, help);
 }
 
 /// An option with as many numbers as `typeName` has words: `--up 0,1,0` for "X,Y,Z".
@@ -77,23 +88,30 @@ CLI::Option *addNumbers(CLI::App &command, const std::string &name, std::vector<
         ->type_name(typeName);
 }
 
-/// An option with one of a few words.
+/// An option with one of a few words, whose meaning goes to `take`. `choices` must outlive the command.
+template <class Value>
+CLI::Option *addChoiceFor(CLI::App &command, const std::string &name, const std::function<void(Value)> &take,
+                          std::span<const Name<Value>> choices, const std::string &help) {
+    std::vector<std::string_view> words;
+    for (const auto &[word, meaning] : choices)
+        words.push_back(word);
+    const std::string typeName = fmt::format("{}", fmt::join(words, "|"));
+    const auto read = [name, take, choices, words = std::move(words)](const CLI::results_t &typed) {
+        const auto found = std::ranges::find(words, typed.front());
+        if (found == words.end())
+            refuseValue(name, typed.front(), quotedList(words) + suggestion(typed.front(), words));
+        take(choices[static_cast<std::size_t>(found - words.begin())].second);
+        return true;
+    };
+    return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);
+}
+
+/// The same for a variable.
 template <class Value, std::size_t count>
 CLI::Option *addChoice(CLI::App &command, const std::string &name, std::optional<Value> &value,
                        const std::array<Name<Value>, count> &choices, const std::string &help) {
-    std::array<std::string_view, count> words;
-    for (std::size_t i = 0; i < count; ++i)
-        words[i] = choices[i].first;
-    const auto read = [name, &value, &choices, words](const CLI::results_t &typed) {
-        for (const auto &[word, meaning] : choices)
-            if (word == typed.front())
-                value = meaning;
-        if (!value)
-            refuseValue(name, typed.front(), quotedList(words) + suggestion(typed.front(), words));
-        return true;
-    };
-    return command.add_option(name, CLI::callback_t(read), help)
-        ->type_name(fmt::format("{}", fmt::join(words, "|")));
+    return addChoiceFor<Value>(
+        command, name, [&value](Value chosen) { value = chosen; }, choices, help);
 }
 
 /// An option with the name of a file, which is not empty.

@@ -4,6 +4,7 @@
 #include "host/image/png.h"
 #include "host/image/tone_map.h"
 #include "host/report/provenance.h"
+#include "host/scene/settings_table.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +50,7 @@ void addToneMapCommand(CLI::App &app, CommandContext &context) {
     command->footer("The PNG has the pixels that `hyalite render` would have written with the same options.");
     command->add_option("IN", options->input, "EXR, HDR or PFM")->required();
     command->add_option("OUT", options->output, "the .png to write")->required();
-    addNumber(*command, "--exposure", options->exposureStops, limits::exposureStops,
+    addNumber(*command, "--exposure", options->exposureStops, rangeOf(&RenderSettings::exposureStops),
               "stops: radiance times 2^N")
         ->default_str("0");
     addToneOption(*command, options->tone);

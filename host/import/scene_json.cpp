@@ -7,15 +7,18 @@
 #include "host/scene/framing.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
+#include "host/scene/settings_table.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <iterator>
 #include <span>
 #include <utility>
+#include <variant>
 
 namespace hyalite {
 namespace {
@@ -275,20 +278,28 @@ void addMaterialsOf(ObjMesh &mesh, Scene &scene) {
     std::ranges::move(mesh.materials, std::back_inserter(scene.materials));
 }
 
+template <class Number>
+Number readValue(const JsonObject &object, std::string_view key, const NumberSetting<Number> &number,
+                 Number fallback) {
+    if constexpr (std::integral<Number>)
+        return object.integer(key, number.allowed, fallback);
+    else
+        return object.number(key, number.allowed, fallback);
+}
+
+template <class Value>
+Value readValue(const JsonObject &object, std::string_view key, const ChoiceSetting<Value> &choice,
+                Value fallback) {
+    return object.choice(key, choice.names, fallback);
+}
+
 RenderSettings readSettings(const JsonObject &object) {
     RenderSettings settings;
-    settings.integrator = object.choice("integrator", integratorNames, settings.integrator);
-    settings.samplesPerPixel = object.integer("spp", limits::samplesPerPixel, settings.samplesPerPixel);
-    settings.maxDepth = object.integer("maxDepth", limits::maxDepth, settings.maxDepth);
-    settings.occlusionDistance =
-        object.number("occlusionDistance", limits::occlusionDistance, settings.occlusionDistance);
-    settings.tree = object.choice("bvh", treeNames, settings.tree);
-    settings.leafSize = object.integer("leafSize", limits::leafSize, settings.leafSize);
-    settings.sampler = object.choice("sampler", samplerNames, settings.sampler);
-    settings.filter = object.choice("filter", filterNames, settings.filter);
-    settings.seed = object.integer("seed", limits::seed, settings.seed);
-    settings.radianceLimit = object.number("clamp", limits::radianceLimit, settings.radianceLimit);
-    settings.exposureStops = object.number("exposure", limits::exposureStops, settings.exposureStops);
+    const auto read = [&](std::string_view key, const auto &value) {
+        settings.*value.member = readValue(object, key, value, settings.*value.member);
+    };
+    for (const Setting &setting : settingsTable)
+        std::visit([&](const auto &value) { read(setting.key, value); }, setting.value);
     return settings;
 }
 

@@ -77,18 +77,7 @@
 //       "translate"      vector, default [0, 0, 0]
 //     } ],
 //     "settings": {
-//       "integrator"     "whitted" (default), "path", "ao" (ambient occlusion), or what is seen first: "normal",
-//                        "depth", "albedo", "id" or "uv", or "cost"
-//       "occlusionDistance"  more than 0, default 1e15: for "ao", what is further away hides no sky
-//       "spp"            samples a pixel, from 1 to 65536, default 16
-//       "maxDepth"       segments of a path, from 1 to 32, default 7
-//       "bvh"            "midpoint" (default), "sah" or "none"
-//       "leafSize"       triangles, from 1 to 64, default 8
-//       "sampler"        "sobol" (default) or "centre"
-//       "filter"         of pixels: "box" (default) or "blackman-harris", with "sobol" only
-//       "clamp"          most that a path adds, a channel, behind its first segment, default 0: no limit; "path" only
-//       "seed"           from 0 to 4294967295, default 0
-//       "exposure"       stops from -100 to 100, default 0
+//       each row of settingsTable (settings_table.h) by its key, and
 //       "shadowThroughGlass"  factor on light that comes through glass alone, in [0, 1], default 1
 //     }
 //   }
@@ -99,7 +88,9 @@
 
 #include "host/import/obj.h"
 #include "host/scene/scene.h"
+#include "host/scene/settings_table.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -171,9 +162,13 @@ inline constexpr auto sphere =
     std::to_array<std::string_view>({"centre", "radius", "material", "inwardNormal"});
 inline constexpr auto mesh =
     std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material"});
-inline constexpr auto settings =
-    std::to_array<std::string_view>({"integrator", "occlusionDistance", "spp", "maxDepth", "bvh", "leafSize",
-                                     "sampler", "filter", "seed", "clamp", "exposure", "shadowThroughGlass"});
+/// Those of the table of settings, and one that is the scene's.
+inline constexpr auto settings = [] {
+    std::array<std::string_view, settingsTable.size() + 1> keys;
+    std::ranges::transform(settingsTable, keys.begin(), &Setting::key);
+    keys.back() = "shadowThroughGlass";
+    return keys;
+}();
 
 } // namespace scene_keys
 } // namespace hyalite

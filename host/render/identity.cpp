@@ -1,7 +1,7 @@
 #include "host/render/identity.h"
 
 #include "host/base/hash.h"
-#include "host/report/provenance.h"
+#include "host/scene/settings_table.h"
 
 #include "shaders/embedded_kernels.h"
 
@@ -15,10 +15,12 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend) {
     const Crop &crop = scene.crop;
     identity.emplace_back("image", fmt::format("{}x{}", frame.imageWidth, frame.imageHeight));
     identity.emplace_back("crop", fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1));
-    const nlohmann::ordered_json settings = settingsToJson(scene.loaded.scene.settings);
-    for (const auto &[name, value] : settings.items())
-        if (name != "spp" && name != "bvh" && name != "leafSize" && name != "exposure")
-            identity.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+    for (const Setting &setting : settingsTable) {
+        if (setting.changes != Changes::Samples)
+            continue;
+        const nlohmann::ordered_json value = settingToJson(setting, scene.loaded.scene.settings);
+        identity.emplace_back(setting.key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
     identity.emplace_back("scene and camera", hashText(scene.packed.contentHash()));
     identity.emplace_back("precision", backend.precision());
     identity.emplace_back("kernels of this program", pixelSources());

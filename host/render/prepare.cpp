@@ -51,17 +51,8 @@ void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &
 }
 
 void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
-    settings.samplesPerPixel = options.samplesPerPixel.value_or(settings.samplesPerPixel);
-    settings.integrator = options.integrator.value_or(settings.integrator);
-    settings.occlusionDistance = options.occlusionDistance.value_or(settings.occlusionDistance);
-    settings.maxDepth = options.maxDepth.value_or(settings.maxDepth);
-    settings.tree = options.tree.value_or(settings.tree);
-    settings.leafSize = options.leafSize.value_or(settings.leafSize);
-    settings.sampler = options.sampler.value_or(settings.sampler);
-    settings.filter = options.filter.value_or(settings.filter);
-    settings.seed = options.seed.value_or(settings.seed);
-    settings.radianceLimit = options.radianceLimit.value_or(settings.radianceLimit);
-    settings.exposureStops = options.exposureStops.value_or(settings.exposureStops);
+    for (const auto &change : options.settings)
+        change(settings);
 }
 
 void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {

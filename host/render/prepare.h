@@ -6,6 +6,7 @@
 #include "host/import/scene_json.h"
 #include "host/packing/packed_scene.h"
 #include "host/report/provenance.h"
+#include "host/scene/settings_table.h"
 
 #include <filesystem>
 #include <functional>
@@ -20,17 +21,7 @@ struct SceneOptions {
     std::string scene;
     std::optional<int> width;
     std::optional<int> height;
-    std::optional<int> samplesPerPixel;
-    std::optional<Integrator> integrator;
-    std::optional<double> occlusionDistance;
-    std::optional<int> maxDepth;
-    std::optional<TreeKind> tree;
-    std::optional<int> leafSize;
-    std::optional<SamplerKind> sampler;
-    std::optional<FilterKind> filter;
-    std::optional<std::uint32_t> seed;
-    std::optional<double> radianceLimit;
-    std::optional<double> exposureStops;
+    SettingChanges settings;
     std::optional<double> fovDegrees;
     std::vector<double> cameraPosition;
     std::vector<double> lookAt;

@@ -4,6 +4,7 @@
 #include "host/base/json_document.h"
 #include "host/report/profile_json.h"
 #include "host/report/render_report.h"
+#include "host/scene/settings_table.h"
 
 #include <fmt/format.h>
 

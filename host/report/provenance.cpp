@@ -2,7 +2,7 @@
 
 #include "host/base/hash.h"
 #include "host/base/version.h"
-#include "host/scene/names.h"
+#include "host/scene/settings_table.h"
 
 namespace hyalite {
 
@@ -47,20 +47,6 @@ nlohmann::ordered_json rendererToJson(const RendererIdentity &renderer) {
     if (!renderer.kernel.empty())
         json["kernel"] = {{"name", renderer.kernel}, {"spirvHash", hashText(renderer.kernelHash)}};
     return json;
-}
-
-nlohmann::ordered_json settingsToJson(const RenderSettings &settings) {
-    return {{"integrator", nameOf(settings.integrator)},
-            {"spp", settings.samplesPerPixel},
-            {"maxDepth", settings.maxDepth},
-            {"occlusionDistance", settings.occlusionDistance},
-            {"bvh", nameOf(settings.tree)},
-            {"leafSize", settings.leafSize},
-            {"sampler", nameOf(settings.sampler)},
-            {"filter", nameOf(settings.filter)},
-            {"seed", settings.seed},
-            {"clamp", settings.radianceLimit},
-            {"exposure", settings.exposureStops}};
 }
 
 std::vector<Attribute> attributesOf(const nlohmann::ordered_json &provenance) {

@@ -39,7 +39,6 @@ struct Provenance {
 [[nodiscard]] nlohmann::ordered_json provenanceToJson(const Provenance &provenance,
                                                       const RendererIdentity &device);
 [[nodiscard]] nlohmann::ordered_json rendererToJson(const RendererIdentity &renderer);
-[[nodiscard]] nlohmann::ordered_json settingsToJson(const RenderSettings &settings);
 
 /// The same as attributes of an image file: each value by its path, as "device.driver", and the program as "software".
 [[nodiscard]] std::vector<Attribute> attributesOf(const nlohmann::ordered_json &provenance);

@@ -1,4 +1,5 @@
-// The ranges and counts of scene files and of options on the command line: the one place.
+// The ranges and counts of scene files and of options on the command line, but for those of settings
+// (settings_table.h): the one place.
 #pragma once
 
 #include "host/base/interval.h"
@@ -21,7 +22,6 @@ inline constexpr Interval imageSize{1, 32768}; ///< pixels, width and height ali
 
 inline constexpr Interval spotAngle{0.0, 180.0, false};
 inline constexpr Interval environmentScale{0.0, 1e15};
-inline constexpr Interval radianceLimit{0.0, 1e30};
 inline constexpr Interval power{0.0, 1e30};    ///< per channel
 inline constexpr Interval radiance{0.0, 1e30}; ///< of the background and of surfaces, per channel
 inline constexpr Interval fraction{0.0, 1.0};  ///< albedo, tint, light through glass
@@ -37,13 +37,6 @@ inline constexpr Interval meshScale{-1e15, 1e15}; ///< and not 0
 inline constexpr Interval rotateDegrees{-3600.0, 3600.0};
 inline constexpr double normalLengthTolerance = 1e-3; ///< of a mesh normal's length around 1
 inline constexpr Interval framedExtent{1e-12, 1e12};  ///< box diagonal of a mesh that can be framed
-
-inline constexpr Interval samplesPerPixel{1, 65536};
-inline constexpr Interval maxDepth{1, layout::maxPathDepth};
-inline constexpr Interval leafSize{1, 64};
-inline constexpr Interval occlusionDistance{0.0, 1e15, false};
-inline constexpr Interval seed{0, 4294967295.0};
-inline constexpr Interval exposureStops{-100.0, 100.0};
 
 inline constexpr Interval threadCount{1, 1024};
 inline constexpr Interval inspectedRays{1, 1e6}; ///< each meets all triangles

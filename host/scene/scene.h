@@ -165,14 +165,14 @@ enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 /// its centre, by where they lie.
 enum class FilterKind { Box, BlackmanHarris };
 
-/// What a render does with the scene; the command line may override each of them.
+/// What a render does with the scene; the command line may override each of them. settings_table.h has their ranges.
 struct RenderSettings {
     Integrator integrator = Integrator::Whitted;
-    int samplesPerPixel = 16;        ///< in [1, 65536]
-    double occlusionDistance = 1e15; ///< AmbientOcclusion: what is further away hides no sky; > 0
-    int maxDepth = 7;                ///< segments of a path, the primary ray being the first; in [1, 32]
+    int samplesPerPixel = 16;
+    double occlusionDistance = 1e15; ///< AmbientOcclusion: what is further away hides no sky
+    int maxDepth = 7;                ///< segments of a path, the primary ray being the first
     TreeKind tree = TreeKind::Midpoint;
-    int leafSize = 8; ///< most triangles in a leaf, where they can be separated; in [1, 64]
+    int leafSize = 8; ///< most triangles in a leaf, where they can be separated
     SamplerKind sampler = SamplerKind::Sobol;
     FilterKind filter =
         FilterKind::Box; ///< Sobol only: samples at the centre are at the centre of any filter

@@ -4,6 +4,7 @@
 #include "host/base/error.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
+#include "host/scene/settings_table.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -214,13 +215,20 @@ void checkEnvironment(const Environment &environment, const Checked &checked) {
             checked.within(limits::radiance, scaled, fmt::format("radiance of pixel {}", i));
 }
 
+template <class Number>
+void checkRange(const NumberSetting<Number> &number, const RenderSettings &settings, std::string_view key,
+                const Checked &checked) {
+    checked.within(number.allowed, settings.*number.member, key);
+}
+
+/// Every value has a name.
+template <class Value>
+void checkRange(const ChoiceSetting<Value> &, const RenderSettings &, std::string_view, const Checked &) {}
+
 void checkSettings(const RenderSettings &settings, const Checked &checked) {
-    checked.within(limits::samplesPerPixel, settings.samplesPerPixel, "spp");
-    checked.within(limits::maxDepth, settings.maxDepth, "maxDepth");
-    checked.within(limits::occlusionDistance, settings.occlusionDistance, "occlusionDistance");
-    checked.within(limits::leafSize, settings.leafSize, "leafSize");
-    checked.within(limits::radianceLimit, settings.radianceLimit, "clamp");
-    checked.within(limits::exposureStops, settings.exposureStops, "exposure");
+    for (const Setting &setting : settingsTable)
+        std::visit([&](const auto &value) { checkRange(value, settings, setting.key, checked); },
+                   setting.value);
     if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
         checked.refuse("filter",
                        std::string(nameOf(settings.filter)) + " with all samples at the pixel's centre",

@@ -1,0 +1,127 @@
+// Render settings, one row each. To add a setting: its member in RenderSettings (scene.h), its row here, and its use.
+//
+// Made from the rows: the reader of "settings" in scene files, the options of the command line, validation, the JSON of
+// reports, the identity of checkpoints, and, by tests/scene/settings_table_test.cpp, the
+// schema and the tables of documents.
+#pragma once
+
+#include "host/base/interval.h"
+#include "host/scene/names.h"
+#include "host/scene/scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace hyalite {
+
+/// A setting that is a number in a range; a whole one if its type is.
+template <class Number> struct NumberSetting {
+    Number RenderSettings::*member;
+    Interval allowed;
+};
+
+/// A setting that is one of a few words.
+template <class Value> struct ChoiceSetting {
+    Value RenderSettings::*member;
+    std::span<const Name<Value>> names;
+};
+
+using SettingValue = std::variant<NumberSetting<int>, NumberSetting<double>, NumberSetting<std::uint32_t>,
+                                  ChoiceSetting<Integrator>, ChoiceSetting<TreeKind>,
+                                  ChoiceSetting<SamplerKind>, ChoiceSetting<FilterKind>>;
+
+/// What a setting changes. Checkpoints of other samples are not resumed; more samples, another tree or another exposure
+/// may be asked for.
+enum class Changes {
+    Samples,     ///< the bits of a sample
+    SampleCount, ///< how many there are
+    Picture,     ///< how a PNG shows their means
+    Time         ///< nothing but how long it takes
+};
+
+struct Setting {
+    std::string_view key;    ///< in scene files, reports and messages
+    std::string_view option; ///< on the command line
+    SettingValue value;      ///< its default is that of the member
+    Changes changes;
+    std::string_view group; ///< of options, in --help
+    std::string_view help;
+    std::span<const Integrator> integrators{}; ///< that it is for; none: all
+};
+
+inline constexpr std::string_view imageGroup = "Image";
+inline constexpr std::string_view tracingGroup = "Tracing";
+
+inline constexpr std::array ambientOcclusionOnly{Integrator::AmbientOcclusion};
+inline constexpr std::array pathOnly{Integrator::Path};
+inline constexpr std::array severalBounces{Integrator::Whitted, Integrator::Path, Integrator::Cost};
+
+/// In the order of reports and documents.
+inline constexpr auto settingsTable = std::to_array<Setting>({
+    {"integrator", "--integrator", ChoiceSetting<Integrator>{&RenderSettings::integrator, integratorNames},
+     Changes::Samples, tracingGroup,
+     "whitted: direct light, mirrors and both branches at glass; path: light on all its ways; ao: ambient "
+     "occlusion; normal, depth, albedo, id, uv: views of what is seen first; cost: how many boxes and "
+     "triangles the rays of whitted test, as a PNG in false colours, or as a PFM of nodes, boxes and "
+     "triangles"},
+    {"spp", "--spp", NumberSetting<int>{&RenderSettings::samplesPerPixel, {1, 65536}}, Changes::SampleCount,
+     imageGroup, "samples per pixel"},
+    {"maxDepth", "--max-depth", NumberSetting<int>{&RenderSettings::maxDepth, {1, layout::maxPathDepth}},
+     Changes::Samples, tracingGroup,
+     "most segments of a path, the primary ray included; with whitted, glass splits paths in two, so that "
+     "each level may double the work",
+     severalBounces},
+    {"occlusionDistance", "--ao-distance",
+     NumberSetting<double>{&RenderSettings::occlusionDistance, {0.0, 1e15, false}}, Changes::Samples,
+     tracingGroup, "what is further away hides no sky; by default everything hides it", ambientOcclusionOnly},
+    {"bvh", "--bvh", ChoiceSetting<TreeKind>{&RenderSettings::tree, treeNames}, Changes::Time, tracingGroup,
+     "how the tree over the triangles is built; none: every ray tests every triangle"},
+    {"leafSize", "--leaf-size", NumberSetting<int>{&RenderSettings::leafSize, {1, 64}}, Changes::Time,
+     tracingGroup, "most triangles in a leaf of the tree, where they can be separated"},
+    {"sampler", "--sampler", ChoiceSetting<SamplerKind>{&RenderSettings::sampler, samplerNames},
+     Changes::Samples, imageGroup,
+     "centre: all samples at the pixel's centre; sobol: spread evenly, which smooths edges"},
+    {"filter", "--filter", ChoiceSetting<FilterKind>{&RenderSettings::filter, filterNames}, Changes::Samples,
+     imageGroup,
+     "how a pixel weighs samples, with the sampler sobol. box: all that lie in it, alike; blackman-harris: "
+     "smoothly, out to 1.5 pixels from its centre, which shows fewer steps and less moire"},
+    {"seed", "--seed", NumberSetting<std::uint32_t>{&RenderSettings::seed, {0, 4294967295.0}},
+     Changes::Samples, imageGroup, "another seed gives other samples"},
+    {"clamp", "--clamp", NumberSetting<double>{&RenderSettings::radianceLimit, {0.0, 1e30}}, Changes::Samples,
+     tracingGroup,
+     "most that a path may add, a channel, behind its first segment: less noise, and less light; 0: no limit",
+     pathOnly},
+    {"exposure", "--exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
+     Changes::Picture, imageGroup,
+     "stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG"},
+});
+
+/// The range of a member that is a number.
+template <class Number> [[nodiscard]] constexpr Interval rangeOf(Number RenderSettings::*member) {
+    for (const Setting &setting : settingsTable)
+        if (const auto *number = std::get_if<NumberSetting<Number>>(&setting.value))
+            if (number->member == member)
+                return number->allowed;
+    throw "no such setting"; // which no constant expression survives
+}
+
+/// The help, and the integrators that the setting is for.
+[[nodiscard]] std::string helpText(const Setting &setting);
+
+/// By keys, in the order of the table.
+[[nodiscard]] nlohmann::ordered_json settingsToJson(const RenderSettings &settings);
+[[nodiscard]] nlohmann::ordered_json settingToJson(const Setting &setting, const RenderSettings &settings);
+
+/// The settings that a command line gives, each as what it does to those of the scene file.
+using SettingChanges = std::vector<std::function<void(RenderSettings &)>>;
+
+} // namespace hyalite
