@@ -1,11 +1,11 @@
 // The program's entry: the standard streams, the command line, the one catch, and the exit code.
-#include "host/base/error.h"
 #include "host/base/host_memory.h"
 #include "host/base/json_reader.h"
 #include "host/base/message.h"
 #include "host/base/shell.h"
 #include "host/base/version.h"
 #include "host/cli/commands.h"
+#include "host/cli/failure.h"
 #include "host/cli/help_formatter.h"
 
 #include <fmt/format.h>
@@ -16,10 +16,8 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
-#include <new>
 #include <span>
 #include <sstream>
-#include <system_error>
 #include <vector>
 
 #include <fcntl.h>
@@ -85,7 +83,7 @@ std::string describeMistake(const CLI::App &app, const CLI::ParseError &error) {
     return fmt::format("{}\n`hyalite {} --help` lists the options\n", mistake, command.get_name());
 }
 
-ExitCode run(std::span<char *> arguments) {
+ExitCode run(std::span<char *> arguments, CommandContext &context) {
     CLI::App app(
         "Hyalite renders scenes on any Vulkan device, with compute shaders whose every pixel can be checked "
         "against a reference renderer on the CPU.",
@@ -93,8 +91,6 @@ ExitCode run(std::span<char *> arguments) {
     app.require_subcommand(1);
     app.set_help_flag("-h,--help", "print this page");
     app.formatter(std::make_shared<HelpFormatter>());
-    CommandContext context;
-    context.commandLine = shellLine(arguments);
     addRenderCommand(app, context);
     addCompareCommand(app, context);
     addProfileCommand(app, context);
@@ -106,7 +102,7 @@ ExitCode run(std::span<char *> arguments) {
     app.footer(
         "`hyalite COMMAND --help` explains a command. Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad "
         "input, 4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written, "
-        "129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.");
+        "70 internal error, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.");
     app.set_version_flag("--version", "hyalite " HYALITE_VERSION, "print the version");
     for (CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
         command->set_version_flag("--version", "hyalite " HYALITE_VERSION)->group("");
@@ -121,29 +117,20 @@ ExitCode run(std::span<char *> arguments) {
         printMessage("hyalite: {}", describeMistake(app, error));
         return ExitCode::Usage;
     }
-    return static_cast<ExitCode>(context.exitCode);
+    return context.exitCode;
 }
 
 ExitCode runAndReport(std::span<char *> arguments) {
+    CommandContext context;
+    context.commandLine = shellLine(arguments);
     try {
-        return run(arguments);
-    } catch (const Error &error) {
-        printMessage("hyalite: {}\n", error.what());
-        return error.exitCode;
-    } catch (const std::bad_alloc &) {
-        printMessage("hyalite: out of memory\n");
-        return ExitCode::LimitExceeded;
-    } catch (const std::exception &error) {
-        if (std::ferror(stdout) != 0) // fmt::print throws
-            return ExitCode::Ok;      // which finishOutput corrects
-        const auto *systemError = dynamic_cast<const std::system_error *>(&error);
-        if (systemError != nullptr && systemError->code() == std::errc::resource_unavailable_try_again) {
-            printMessage(
-                "hyalite: no thread can be started; raise the limit (ulimit -u), or end other programs\n");
-            return ExitCode::LimitExceeded;
-        }
-        printMessage("hyalite: internal error: {}\n", error.what());
-        return ExitCode::BadInput;
+        return run(arguments, context);
+    } catch (...) {
+        const Failure failure = describeFailure(std::current_exception(), context.commandLine);
+        if (failure.code == ExitCode::Internal && std::ferror(stdout) != 0) // fmt::print throws
+            return ExitCode::Ok;                                            // which finishOutput corrects
+        printMessage("hyalite: {}\n", failure.message);
+        return failure.code;
     }
 }
 

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path &path, const std::string &reason) {
-    throw Error(ExitCode::OutputNotWritten, fmt::format("cannot write '{}': {}", path.string(), reason));
+    throw Error(ErrorKind::OutputNotWritten, fmt::format("cannot write '{}': {}", path.string(), reason));
 }
 
 std::string remedyFor(int errorNumber) {

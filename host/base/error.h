@@ -1,7 +1,8 @@
-// The one exception type of the program, and the exit codes that it carries to main().
+// The one exception type of the program: what went wrong, in words, of which kind, and what might help.
 //
 // A programmer's error is an assert. Wrong input and a failing environment throw `Error`: its message names
-// the object, the file (and line), the size and the remedy, and is shown to the user as it stands.
+// the object, the file (and line), the size and the remedy, and is shown to the user as it stands. The command line
+// turns kinds into exit codes and remedies into options (host/cli/failure.h).
 #pragma once
 
 #include <stdexcept>
@@ -9,26 +10,36 @@
 
 namespace hyalite {
 
-/// Exit codes of every command.
-enum class ExitCode : int {
-    Ok = 0,
-    AnswerIsNo = 1,       ///< images differ, a gate or a baseline failed
-    Usage = 2,            ///< the command line is wrong
-    BadInput = 3,         ///< a scene, mesh or image cannot be used
-    NoDevice = 4,         ///< no usable Vulkan device
-    LimitExceeded = 5,    ///< memory or a device limit does not suffice
-    DeviceLost = 6,       ///< the device failed or hung while rendering
-    OutputNotWritten = 7, ///< a result could not be stored
-    HungUp = 129,         ///< SIGHUP
-    Interrupted = 130,    ///< SIGINT
-    Terminated = 143,     ///< SIGTERM
+enum class ErrorKind {
+    Usage,            ///< what was asked for does not go together
+    BadInput,         ///< a scene, mesh or image cannot be used
+    NoDevice,         ///< no usable Vulkan device
+    LimitExceeded,    ///< memory or a device limit does not suffice
+    DeviceLost,       ///< the device failed or hung while rendering
+    OutputNotWritten, ///< a result could not be stored
+    HungUp,           ///< SIGHUP, before there was a result
+    Interrupted,      ///< SIGINT, likewise
+    Terminated,       ///< SIGTERM, likewise
+    Internal          ///< a bug of ours, as is every exception that is no Error
+};
+
+/// What might help, where the message alone does not say it: the words for it are the command line's.
+enum class Remedy {
+    None,
+    SmallerImage,     ///< or parts of it
+    SmallerRender,    ///< fewer triangles, parts of the image, or the reference renderer
+    ReferenceInstead, ///< it needs no Vulkan
+    NoKernelChoice,   ///< to leave the kernel open
+    CompareRenders    ///< it tells where two differ
 };
 
 class Error : public std::runtime_error {
   public:
-    Error(ExitCode code, const std::string &message) : std::runtime_error(message), exitCode(code) {}
+    Error(ErrorKind errorKind, const std::string &message, Remedy mayHelp = Remedy::None)
+        : std::runtime_error(message), kind(errorKind), remedy(mayHelp) {}
 
-    const ExitCode exitCode;
+    const ErrorKind kind;
+    const Remedy remedy;
 };
 
 } // namespace hyalite

@@ -79,7 +79,7 @@ std::vector<std::byte> InputFile::head(std::size_t countBytes) const {
 }
 
 Error InputFile::bad(const std::string &found) const {
-    return Error(ExitCode::BadInput, fmt::format("{}: {}", path_.string(), found));
+    return Error(ErrorKind::BadInput, fmt::format("{}: {}", path_.string(), found));
 }
 
 } // namespace hyalite

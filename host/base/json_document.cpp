@@ -65,7 +65,7 @@ class DocumentCheck : public json::json_sax_t {
         const std::string_view before = std::string_view(text_).substr(0, offset);
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
-        throw Error(ExitCode::BadInput,
+        throw Error(ErrorKind::BadInput,
                     fmt::format("{}:{}:{}: {}", fileName_, line, before.size() - lineStart + 1, message));
     }
 
@@ -147,7 +147,7 @@ std::string printable(std::string text, std::size_t maxBytes) {
 
 void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path, std::string_view message) {
     const std::string place = path.empty() ? "the top level" : printable(path.to_string());
-    throw Error(ExitCode::BadInput, fmt::format("{}: {}: {}", fileName, place, message));
+    throw Error(ErrorKind::BadInput, fmt::format("{}: {}: {}", fileName, place, message));
 }
 
 } // namespace hyalite

@@ -247,7 +247,7 @@ std::vector<BuildTriangle> buildTriangles(const Scene &scene) {
     // Ids and leaf references keep one bit for the leaf flag and the first ids for spheres.
     constexpr std::size_t most = layout::leafFlag - layout::firstTriangleId - 1;
     if (count > most)
-        throw Error(ExitCode::LimitExceeded,
+        throw Error(ErrorKind::LimitExceeded,
                     fmt::format("the scene has {} triangles; at most {} can be addressed", count, most));
     std::vector<BuildTriangle> triangles;
     triangles.reserve(count);

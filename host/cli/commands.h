@@ -1,6 +1,8 @@
 // The commands of the program: each adds itself to the command line and runs when it is named there.
 #pragma once
 
+#include "host/cli/failure.h"
+
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -9,8 +11,8 @@ namespace hyalite {
 
 /// What commands share with main().
 struct CommandContext {
-    std::string commandLine; ///< as typed, for reports
-    int exitCode = 0;        ///< what main() returns if nothing is thrown
+    std::string commandLine;          ///< as typed, for reports
+    ExitCode exitCode = ExitCode::Ok; ///< what main() returns if nothing is thrown
 };
 
 void addRenderCommand(CLI::App &app, CommandContext &context);

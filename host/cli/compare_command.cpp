@@ -170,7 +170,7 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     const std::uint32_t secondSeed = options.againstSeed.value_or(firstSeed + 1);
     if (firstSeed == secondSeed)
         throw Error(
-            ExitCode::Usage,
+            ErrorKind::Usage,
             fmt::format("--against-seed {}: the first render has this seed; name another", secondSeed));
     const Contestants contestants = openContestants(options, scene);
     if (!options.isQuiet) {
@@ -206,7 +206,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     std::optional<AtomicFile> reportFile;
     if (!options.heatMap.empty()) {
         if (imageFormatOf(options.heatMap) != ImageFormat::Png)
-            throw Error(ExitCode::Usage, fmt::format("--diff {}: the heat map is a .png", options.heatMap));
+            throw Error(ErrorKind::Usage, fmt::format("--diff {}: the heat map is a .png", options.heatMap));
         heatMapFile.emplace(options.heatMap);
     }
     if (!options.report.empty())
@@ -325,7 +325,7 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
         statistical->excludes(command->get_option(option));
     command->callback([options, &context] {
         const auto run = options->isStatistical ? runStatisticalCompare : runCompare;
-        context.exitCode = static_cast<int>(run(*options, context.commandLine));
+        context.exitCode = run(*options, context.commandLine);
     });
 }
 

@@ -68,7 +68,7 @@ Image displayed(const Image &linear) {
 void requireSameSize(const Image &a, const std::string &pathA, const Image &b, const std::string &pathB) {
     if (a.width() != b.width() || a.height() != b.height())
         throw Error(
-            ExitCode::BadInput,
+            ErrorKind::BadInput,
             fmt::format("'{}' has {} x {} pixels but '{}' has {} x {}; images are compared pixel by pixel",
                         pathA, a.width(), a.height(), pathB, b.width(), b.height()));
 }
@@ -95,7 +95,7 @@ Inputs readInputs(const DiffOptions &options) {
         inputs.mask = maskFromImage(mask);
         if (std::find(inputs.mask.begin(), inputs.mask.end(), 1) == inputs.mask.end())
             throw Error(
-                ExitCode::BadInput,
+                ErrorKind::BadInput,
                 fmt::format("'{}' leaves no pixel to compare; the mask is white where images are compared",
                             options.mask));
     }
@@ -115,7 +115,7 @@ std::vector<Gate> applyGates(const DiffOptions &options, const ImageComparison &
     };
     if (options.minSsim && !comparison.ssim)
         throw Error(
-            ExitCode::BadInput,
+            ErrorKind::BadInput,
             fmt::format("--min-ssim: '{}' and '{}' have no SSIM: it needs finite values, and {} x {} pixels "
                         "around one that is compared; use another gate",
                         options.reference, options.test, ssimWindowSide, ssimWindowSide));
@@ -225,7 +225,7 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
     requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
                          {options.reference, options.test, options.mask});
     if (!options.heatMap.empty() && imageFormatOf(options.heatMap) != ImageFormat::Png)
-        throw Error(ExitCode::Usage, fmt::format("--diff '{}': the heat map is a .png", options.heatMap));
+        throw Error(ErrorKind::Usage, fmt::format("--diff '{}': the heat map is a .png", options.heatMap));
     // Opened before the work begins, so that an output that cannot be written is known now.
     std::optional<AtomicFile> heatMapFile;
     if (!options.heatMap.empty())
@@ -295,7 +295,7 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
         statistical->excludes(command->get_option(option));
     command->callback([options, &context] {
         const auto run = options->isStatistical ? runStatisticalDiff : runDiff;
-        context.exitCode = static_cast<int>(run(*options, context.commandLine));
+        context.exitCode = run(*options, context.commandLine);
     });
 }
 

@@ -158,7 +158,7 @@ void addInspectCommand(CLI::App &app, CommandContext &context) {
     addSceneOptions(*command, options->scene);
     addNumber(*command, "--rays", options->rayCount, limits::inspectedRays,
               "trace so many primary rays through the tree and by brute force, and compare hits and times");
-    command->callback([options, &context] { context.exitCode = static_cast<int>(runInspect(*options)); });
+    command->callback([options, &context] { context.exitCode = runInspect(*options); });
 }
 
 } // namespace hyalite

@@ -43,7 +43,7 @@ bool isSameFile(const std::string &a, const std::string &b) {
 } // namespace
 
 void refuseValue(const std::string &option, std::string_view found, std::string_view allowed) {
-    throw Error(ExitCode::Usage,
+    throw Error(ErrorKind::Usage,
                 fmt::format("{}: found \"{}\"; allowed: {}", option, printable(std::string(found)), allowed));
 }
 
@@ -103,12 +103,12 @@ void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vect
             continue;
         for (const std::string &input : inputs)
             if (!input.empty() && isSameFile(output.path, input))
-                throw Error(ExitCode::Usage,
+                throw Error(ErrorKind::Usage,
                             fmt::format("{} {}: this would replace what is read from {}; name another output",
                                         output.option, output.path, input));
         for (std::size_t j = 0; j < i; ++j)
             if (!outputs[j].path.empty() && isSameFile(output.path, outputs[j].path))
-                throw Error(ExitCode::Usage,
+                throw Error(ErrorKind::Usage,
                             fmt::format("{} {} and {} {} name the same file; name two", outputs[j].option,
                                         outputs[j].path, output.option, output.path));
     }

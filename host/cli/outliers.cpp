@@ -29,7 +29,7 @@ Tolerance parseTolerance(const std::string &text) {
     if (end == 0 || !(value >= 0.0) || !std::isfinite(value) || !(isUlps || unit.empty()) ||
         (isUlps && value > 1e9))
         throw Error(
-            ExitCode::Usage,
+            ErrorKind::Usage,
             fmt::format("--tolerance {}: give a difference of radiance such as 1e-5, or ULPs such as 4ulp",
                         text));
     return isUlps ? Tolerance{0.0, static_cast<std::uint32_t>(value)} : Tolerance{value, 0};

@@ -221,7 +221,7 @@ void printMeasured(const Profile &profile) {
 
 ExitCode runProfile(const ProfileOptions &options, const std::string &commandLine) {
     if (!options.heatMap.empty() && imageFormatOf(options.heatMap) != ImageFormat::Png)
-        throw Error(ExitCode::Usage, fmt::format("--heatmap {}: the heat map is a .png", options.heatMap));
+        throw Error(ErrorKind::Usage, fmt::format("--heatmap {}: the heat map is a .png", options.heatMap));
     const ImageFormat format = options.output.empty() ? ImageFormat::Png : imageFormatOf(options.output);
     const double maxRegression = parsePercent("--max-regression", options.maxRegression);
     std::optional<ProfileFigures> baseline;
@@ -337,9 +337,7 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     addChoice(*command, "--gate", options->gate, gateNames,
               "what fails: times and work counts (all, the default), or one of them; counts do not jitter");
     command->add_flag("--quiet", options->isQuiet, "show no progress");
-    command->callback([options, &context] {
-        context.exitCode = static_cast<int>(runProfile(*options, context.commandLine));
-    });
+    command->callback([options, &context] { context.exitCode = runProfile(*options, context.commandLine); });
 }
 
 } // namespace hyalite

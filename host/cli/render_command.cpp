@@ -127,15 +127,15 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
                                          {"--checkpoint", olderGeneration}};
     requireDistinctFiles(outputs, {resolveScene(options.scene.scene).string()});
     if (options.checkpoint.empty() && options.isResuming)
-        throw Error(ExitCode::Usage, "--resume needs --checkpoint FILE, to go on from");
+        throw Error(ErrorKind::Usage, "--resume needs --checkpoint FILE, to go on from");
     if (options.checkpoint.empty() && options.checkpointSeconds)
-        throw Error(ExitCode::Usage, "--checkpoint-interval needs --checkpoint FILE, to write each time");
+        throw Error(ErrorKind::Usage, "--checkpoint-interval needs --checkpoint FILE, to write each time");
     if (!options.checkpoint.empty() && options.device == "cpu-double")
-        throw Error(ExitCode::Usage,
+        throw Error(ErrorKind::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
                     "not hold; use --device cpu or a Vulkan device");
     if (!options.layers.empty() && format != ImageFormat::Exr)
-        throw Error(ExitCode::Usage,
+        throw Error(ErrorKind::Usage,
                     fmt::format("--layers are for .exr files: --output is {}", options.output));
     // Opened before the work begins, so that an output that cannot be written is known now.
     AtomicFile image(options.output);
@@ -218,7 +218,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
     if (result.failure && report.finished.sampleCount == 0)
         throw Error(*result.failure);
     if (stoppingSignal != 0 && report.finished.sampleCount == 0)
-        throw Error(exitCodeFor(stoppingSignal),
+        throw Error(errorKindOf(stoppingSignal),
                     fmt::format("stopped by {} before the first sample was finished: nothing is written",
                                 signalName(stoppingSignal)));
     if (!report.finished.isComplete)
@@ -254,7 +254,7 @@ ExitCode runRender(const RenderOptions &options, const std::string &commandLine)
         throw *checkpointFailure;
     if (result.failure)
         throw Error(*result.failure);
-    return signals.first() != 0 ? exitCodeFor(signals.first()) : ExitCode::Ok;
+    return signals.first() != 0 ? exitCodeOf(errorKindOf(signals.first())) : ExitCode::Ok;
 }
 
 } // namespace
@@ -304,9 +304,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
         ->type_name("SECONDS")
         ->group(group);
     command->add_flag("--quiet", options->isQuiet, "print errors only");
-    command->callback([options, &context] {
-        context.exitCode = static_cast<int>(runRender(*options, context.commandLine));
-    });
+    command->callback([options, &context] { context.exitCode = runRender(*options, context.commandLine); });
 }
 
 } // namespace hyalite

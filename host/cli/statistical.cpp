@@ -29,7 +29,7 @@ ZTestResult testAndPrint(const Estimate &a, const Estimate &b, const ZTestOption
                          const std::string &names) {
     const ZTestResult result = zTest(a, b, options);
     if (result.testCount == 0)
-        throw Error(ExitCode::BadInput,
+        throw Error(ErrorKind::BadInput,
                     fmt::format("{}: no pixel can be tested: each needs a variance, of {} samples at least",
                                 names, options.leastSampleCount));
     fmt::print("tests        {} of channels of pixels and of the image, {} untested; significance {:g}\n",

@@ -25,13 +25,13 @@ struct ToneMapOptions {
 
 ExitCode runToneMap(const ToneMapOptions &options, const std::string &commandLine) {
     if (imageFormatOf(options.output) != ImageFormat::Png)
-        throw Error(ExitCode::Usage, fmt::format("'{}': what is tone-mapped is a .png", options.output));
+        throw Error(ErrorKind::Usage, fmt::format("'{}': what is tone-mapped is a .png", options.output));
     requireDistinctFiles({{"OUT", options.output}}, {options.input});
     AtomicFile file(options.output);
     const LoadedImage loaded = readImage(options.input);
     if (loaded.encoding != Encoding::Linear)
         throw Error(
-            ExitCode::BadInput,
+            ErrorKind::BadInput,
             fmt::format("cannot use image '{}': a PNG is tone-mapped already; name an EXR, HDR or PFM file",
                         options.input));
     Picture picture(loaded.image);
@@ -54,9 +54,7 @@ void addToneMapCommand(CLI::App &app, CommandContext &context) {
               "stops: radiance times 2^N")
         ->default_str("0");
     addToneOption(*command, options->tone);
-    command->callback([options, &context] {
-        context.exitCode = static_cast<int>(runToneMap(*options, context.commandLine));
-    });
+    command->callback([options, &context] { context.exitCode = runToneMap(*options, context.commandLine); });
 }
 
 } // namespace hyalite

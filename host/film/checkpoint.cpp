@@ -85,7 +85,7 @@ class Reader {
         Header header{};
         std::memcpy(&header, head.data() + magic.size(), sizeof header);
         if (header.version != currentVersion)
-            throw OtherRender(ExitCode::BadInput,
+            throw OtherRender(ErrorKind::BadInput,
                               fmt::format("cannot resume from '{}': its format has version {}, and this "
                                           "program reads version {}; finish it with the program that began "
                                           "it, or remove it",
@@ -153,7 +153,7 @@ class Reader {
 
     [[nodiscard]] OtherRender other(const std::string &difference) const {
         return OtherRender(
-            ExitCode::BadInput,
+            ErrorKind::BadInput,
             fmt::format("cannot resume from '{}': it is of another render: {}; render as before, or begin "
                         "anew without --resume",
                         file_.path().string(), difference));
@@ -245,7 +245,7 @@ std::optional<ResumedCheckpoint> resumeCheckpoint(const std::filesystem::path &p
     try {
         return ResumedCheckpoint{readCheckpoint(older, identity, crop, samplesPerPixel), older, damage};
     } catch (const Error &oldest) {
-        throw Error(ExitCode::BadInput, fmt::format("{}; and {}", damage, oldest.what()));
+        throw Error(ErrorKind::BadInput, fmt::format("{}; and {}", damage, oldest.what()));
     }
 }
 

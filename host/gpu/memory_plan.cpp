@@ -102,11 +102,11 @@ void requireBuffer(const BufferPlan &plan, const DeviceInfo &device) {
     const std::string what =
         fmt::format("the buffer for {}, {} bytes, is too large", plan.name, plan.sizeBytes);
     if (plan.use == BufferUse::Texels)
-        throw Error(ExitCode::LimitExceeded,
+        throw Error(ErrorKind::LimitExceeded,
                     fmt::format("{}: {} allows {} texels of {} bytes", what, device.name,
                                 device.maxTexelBufferElements, bytesPerTexel));
-    throw Error(ExitCode::LimitExceeded, fmt::format("{}: {} allows {} bytes in a storage buffer", what,
-                                                     device.name, device.maxStorageBufferBytes));
+    throw Error(ErrorKind::LimitExceeded, fmt::format("{}: {} allows {} bytes in a storage buffer", what,
+                                                      device.name, device.maxStorageBufferBytes));
 }
 
 ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
@@ -206,20 +206,20 @@ MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStag
         largestBytes = std::max(largestBytes, buffer->sizeBytes);
     }
     memory.hostBytes = scene.hostBytes + (isStaged ? largestBytes : 0);
-    const char *const remedy =
-        "render fewer triangles, smaller parts of the image with --crop, or with --device cpu";
     if (memory.deviceBytes > device.deviceMemoryBytes)
-        throw Error(ExitCode::LimitExceeded,
-                    fmt::format("the render takes {} of the memory of {}, which has {} ({}); {}",
+        throw Error(ErrorKind::LimitExceeded,
+                    fmt::format("the render takes {} of the memory of {}, which has {} ({})",
                                 sizeText(memory.deviceBytes), device.name, sizeText(device.deviceMemoryBytes),
-                                listLargest(buffers), remedy));
+                                listLargest(buffers)),
+                    Remedy::SmallerRender);
     const std::uint64_t neededBytes = memory.hostBytes + (device.isSoftware() ? memory.deviceBytes : 0);
     const std::optional<std::uint64_t> available = availableHostBytes();
     if (available && neededBytes > *available)
-        throw Error(ExitCode::LimitExceeded,
+        throw Error(ErrorKind::LimitExceeded,
                     fmt::format("the render takes {} of memory beside the scene and the image, and {} are "
-                                "available ({}); {}",
-                                sizeText(neededBytes), sizeText(*available), listLargest(buffers), remedy));
+                                "available ({})",
+                                sizeText(neededBytes), sizeText(*available), listLargest(buffers)),
+                    Remedy::SmallerRender);
     return memory;
 }
 

@@ -115,7 +115,7 @@ std::vector<layout::HitRecord> RayTracer::hits() const {
         return hit.primitive == layout::hitUnknown;
     });
     if (unknownCount > 0)
-        throw Error(ExitCode::LimitExceeded,
+        throw Error(ErrorKind::LimitExceeded,
                     fmt::format("{} of {} rays take more than the {} steps of one dispatch", unknownCount,
                                 hits.size(), stepBudget));
     return hits;

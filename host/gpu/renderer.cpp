@@ -81,7 +81,7 @@ struct Renderer::State {
         const Workload workload = workloadOf(scene, integrator);
         if (integrator == Integrator::Cost) {
             if (wanted.traversal == Traversal::SkipList)
-                throw Error(ExitCode::Usage,
+                throw Error(ErrorKind::Usage,
                             fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
                                         "allowed: stack, stack-x2, or auto",
                                         gpu::kernelName(batching)));
@@ -111,7 +111,7 @@ struct Renderer::State {
         } catch (const DeviceFault &) {
             throw;
         } catch (const Error &error) { // it is gone
-            throw DeviceFault(error.exitCode, error.what());
+            throw DeviceFault(error.kind, error.what());
         }
     }
 };
@@ -148,9 +148,9 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
             result.faults.emplace_back(fault.what());
             isBegun = true;
             if (retry == mostRetries) {
-                const bool isGone = fault.exitCode == ExitCode::NoDevice;
+                const bool isGone = fault.kind == ErrorKind::NoDevice;
                 result.failure.emplace(
-                    isGone ? ExitCode::DeviceLost : fault.exitCode,
+                    isGone ? ErrorKind::DeviceLost : fault.kind,
                     fmt::format("{}; the device was opened anew {} times, for half as much at a "
                                 "time each, and failed each time",
                                 fault.what(), mostRetries));

@@ -300,7 +300,7 @@ TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     traceEventCount_ = counters.traceEvents;
     if (counters.stackOverflows > 0)
         throw Error(
-            ExitCode::LimitExceeded,
+            ErrorKind::LimitExceeded,
             fmt::format("the traversal stack of {} entries overflowed: the tree of depth {} is damaged",
                         plan_.stackSize, job_.scene.treeDepth));
     return {counters, times, workSeconds};

@@ -144,7 +144,7 @@ void writeExr(AtomicFile &file, const Picture &picture) {
         throw;
     } catch (const std::exception &error) {
         output.requireSuccess();
-        throw Error(ExitCode::OutputNotWritten,
+        throw Error(ErrorKind::OutputNotWritten,
                     fmt::format("cannot write '{}': OpenEXR says: {}", file.path().string(), error.what()));
     }
     output.requireSuccess();

@@ -33,7 +33,7 @@ ImageFormat imageFormatOf(const std::filesystem::path &path) {
         return ImageFormat::Hdr;
     }
     throw Error(
-        ExitCode::Usage,
+        ErrorKind::Usage,
         fmt::format("'{}': an image is written as .png (8-bit, tone-mapped), .exr (linear float, with "
                     "layers), .hdr (linear, 8 bits and an exponent) or .pfm (linear float); name a file "
                     "with one of these extensions",

@@ -17,7 +17,7 @@ void requireReadingMemory(const InputFile &file, std::uint64_t width, std::uint6
     constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20;
     if (neededBytes > allowedBytes)
         throw Error(
-            ExitCode::LimitExceeded,
+            ErrorKind::LimitExceeded,
             fmt::format("{}: {} x {} pixels take {} MiB to read; for a file of {} bytes {} MiB are allowed "
                         "(256 MiB and 64 times its size); make the image smaller, or write it as PFM",
                         file.path().string(), width, height, (neededBytes + mebibyte - 1) / mebibyte,

@@ -61,8 +61,8 @@ std::vector<std::byte> encode(const std::filesystem::path &name, int width, int 
     std::optional<std::vector<std::byte>> file;
     const int written = stbi_write_png_to_func(appendBytes, &file, width, height, 3, rgb.data(), width * 3);
     if (written == 0 || !file) {
-        throw Error(ExitCode::LimitExceeded, fmt::format("'{}': no memory to pack a PNG of {} x {} pixels",
-                                                         name.string(), width, height));
+        throw Error(ErrorKind::LimitExceeded, fmt::format("'{}': no memory to pack a PNG of {} x {} pixels",
+                                                          name.string(), width, height));
     }
     insertTexts(*file, attributes);
     return std::move(*file);
@@ -136,7 +136,7 @@ void requirePngSize(const std::filesystem::path &name, int width, int height) {
     const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (pixelCount > imagePixelCountMax) { // stb counts bytes with int
         throw Error(
-            ExitCode::LimitExceeded,
+            ErrorKind::LimitExceeded,
             fmt::format("'{}': a PNG of {} x {} pixels is more than {}; write a .pfm, or a smaller image",
                         name.string(), width, height, imagePixelCountMax));
     }

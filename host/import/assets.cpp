@@ -51,7 +51,7 @@ std::filesystem::path resolveScene(const std::string &argument) {
         return argument;
     if (argument.empty() || argument.find_first_of("./") != std::string::npos)
         throw Error(
-            ExitCode::BadInput,
+            ErrorKind::BadInput,
             fmt::format("\"{}\" is no scene: give a file that ends in .json or .obj, or the name of a "
                         "shipped scene{}",
                         argument, listOfScenes()));
@@ -63,8 +63,8 @@ std::filesystem::path resolveScene(const std::string &argument) {
             return file;
         lookedAt.push_back(file.string());
     }
-    throw Error(ExitCode::BadInput, fmt::format("no scene is named \"{}\": looked for {}{}", argument,
-                                                fmt::join(lookedAt, " and "), listOfScenes()));
+    throw Error(ErrorKind::BadInput, fmt::format("no scene is named \"{}\": looked for {}{}", argument,
+                                                 fmt::join(lookedAt, " and "), listOfScenes()));
 }
 
 bool hasExtension(const std::filesystem::path &file, std::string_view extension) {

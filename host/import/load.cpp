@@ -24,7 +24,7 @@ void requireFile(const std::filesystem::path &file) {
     const std::vector<std::string> names = availableScenes();
     const std::string stem = file.stem().string();
     const bool isName = std::find(names.begin(), names.end(), stem) != names.end();
-    throw Error(ExitCode::BadInput,
+    throw Error(ErrorKind::BadInput,
                 fmt::format("{}: there is no such file{}", file.string(),
                             isName ? fmt::format("; did you mean the shipped scene {}?", stem) : ""));
 }

@@ -17,7 +17,7 @@ constexpr std::size_t firstBufferBytes = std::size_t{1} << 18;
 } // namespace
 
 void failAtLine(const std::string &file, std::size_t line, std::string_view message) {
-    throw Error(ExitCode::BadInput, file + ":" + std::to_string(line) + ": " + std::string(message));
+    throw Error(ErrorKind::BadInput, file + ":" + std::to_string(line) + ": " + std::string(message));
 }
 
 std::string quoteInput(std::string_view text) {

@@ -246,10 +246,10 @@ ObjMesh ObjMeshBuilder::finish() {
         cutFace(corners);
     }
     if (result.mesh.triangles.empty())
-        throw Error(ExitCode::BadInput, result.mesh.name + ": no triangle in " +
-                                            std::to_string(report.faceCount) + " faces (" +
-                                            std::to_string(report.degenerateTriangleCount) +
-                                            " dropped for having no area); at least one is needed");
+        throw Error(ErrorKind::BadInput, result.mesh.name + ": no triangle in " +
+                                             std::to_string(report.faceCount) + " faces (" +
+                                             std::to_string(report.degenerateTriangleCount) +
+                                             " dropped for having no area); at least one is needed");
     // Lost normals are used by no triangle; what is left in their place is a unit vector all the same.
     std::replace(result.mesh.normals.begin(), result.mesh.normals.end(), lostNormal,
                  glm::vec3(0.0f, 0.0f, 1.0f));

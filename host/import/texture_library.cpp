@@ -23,7 +23,7 @@ std::uint32_t TextureLibrary::load(const std::filesystem::path &file) {
     sizeBytes_ += bytesOnDevice(textures_.back());
     if (sizeBytes_ > limits::textureBytes) // before the next one takes memory
         throw Error(
-            ExitCode::BadInput,
+            ErrorKind::BadInput,
             fmt::format("{}: {} x {} pixels make it {} bytes of textures; allowed: {}; make images smaller",
                         file.string(), textures_.back().width, textures_.back().height, sizeBytes_,
                         limits::textureBytes));

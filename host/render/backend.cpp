@@ -145,10 +145,10 @@ std::uint64_t filmBytes(const Crop &crop) {
 }
 
 [[noreturn]] void refuseFilm(const Crop &crop, std::uint64_t neededBytes, const std::string &available) {
-    throw Error(ExitCode::LimitExceeded,
-                fmt::format("{}x{} pixels take {} of memory, and {}; render a smaller image, or parts of it "
-                            "with --crop",
-                            crop.width(), crop.height(), sizeText(neededBytes), available));
+    throw Error(ErrorKind::LimitExceeded,
+                fmt::format("{}x{} pixels take {} of memory, and {}", crop.width(), crop.height(),
+                            sizeText(neededBytes), available),
+                Remedy::SmallerImage);
 }
 
 /// The loader unloads drivers with the last instance: this one keeps them until the device that is chosen has its own.
@@ -163,17 +163,17 @@ DeviceList listDevices() {
         auto devices = gpu::listDevices(*instance);
         return {std::move(instance), std::move(devices)};
     } catch (const Error &error) {
-        if (error.exitCode != ExitCode::NoDevice)
+        if (error.kind != ErrorKind::NoDevice)
             throw;
-        throw Error(error.exitCode,
-                    fmt::format("{}; --device cpu renders without Vulkan, to the same bits", error.what()));
+        throw Error(error.kind, error.what(), Remedy::ReferenceInstead);
     }
 }
 
 std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::Batching &batching) {
     if (isReference(name) && batching.traversal != gpu::Traversal::Automatic)
-        throw Error(ExitCode::Usage,
-                    fmt::format("--kernel is for Vulkan devices: --device {} has none to choose from", name));
+        throw Error(ErrorKind::Usage,
+                    fmt::format("kernels are for Vulkan devices: {} has none to choose from", name),
+                    Remedy::NoKernelChoice);
     if (name == "cpu")
         return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
     if (name == "cpu-double")

@@ -41,12 +41,11 @@ void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &
     if (!options.up.empty())
         camera.up = toVector(options.up);
     if (!limits::directionLength.contains(glm::length(camera.up)))
-        throw Error(ExitCode::Usage, "--up: found a vector without length; allowed: any other vector");
+        throw OverrideError("up", "found a vector without length; allowed: any other vector");
     if (const std::optional<glm::dvec3> target = chooseTarget(options, loaded)) {
         camera.direction = *target - camera.position;
         if (!limits::directionLength.contains(glm::length(camera.direction)))
-            throw Error(ExitCode::Usage,
-                        "--look-at: found the camera's own position; allowed: any other point");
+            throw OverrideError("look-at", "found the camera's own position; allowed: any other point");
     }
 }
 
@@ -60,10 +59,9 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     RenderSettings &settings = scene.settings;
     overrideSettings(options, settings);
     if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
-        throw Error(ExitCode::Usage,
-                    fmt::format("--filter {}: all samples are at the pixel's centre; add --sampler sobol, or "
-                                "--filter box",
-                                nameOf(settings.filter)));
+        throw OverrideError("filter", fmt::format("found {} with all samples at the pixel's centre; allowed: "
+                                                  "with the sampler sobol, or the filter box",
+                                                  nameOf(settings.filter)));
     if (!options.background.empty())
         scene.background = glm::vec3(toVector(options.background));
 
@@ -71,10 +69,9 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     camera.width = options.width.value_or(camera.width);
     camera.height = options.height.value_or(camera.height);
     if (options.fovDegrees && camera.kind != CameraKind::Perspective)
-        throw Error(ExitCode::Usage,
-                    fmt::format("--fov: found a camera of the type {}, which has no field of "
-                                "view; allowed: with a perspective one",
-                                nameIn(cameraNames, camera.kind)));
+        throw OverrideError("fov", fmt::format("found a camera of the type {}, which has no field of "
+                                               "view; allowed: with a perspective one",
+                                               nameIn(cameraNames, camera.kind)));
     camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
     if (loaded.autoFramed)
         camera = frameCamera(triangleBounds(scene.meshes.front()), camera.width, camera.height,
@@ -89,9 +86,9 @@ Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
     const bool isInside = 0 <= crop.x0 && crop.x0 < crop.x1 && crop.x1 <= camera.width && 0 <= crop.y0 &&
                           crop.y0 < crop.y1 && crop.y1 <= camera.height;
     if (!isInside)
-        throw Error(
-            ExitCode::Usage,
-            fmt::format("--crop {},{},{},{} is empty or leaves the image of {}x{} pixels: give x0,x1,y0,y1 "
+        throw OverrideError(
+            "crop",
+            fmt::format("{},{},{},{} is empty or leaves the image of {}x{} pixels; allowed: x0,x1,y0,y1 "
                         "with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}",
                         crop.x0, crop.x1, crop.y0, crop.y1, camera.width, camera.height, camera.width,
                         camera.height));
@@ -140,12 +137,11 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     const bool isCameraMoved =
         !options.cameraPosition.empty() || !options.lookAt.empty() || !options.up.empty();
     try {
-        validateScene(scene,
-                      fmt::format("{} with {}", prepared.loaded.file.string(),
-                                  isCameraMoved ? "--camera-position, --look-at, --up" : "these options"));
+        validateScene(scene, fmt::format("{} with {}", prepared.loaded.file.string(),
+                                         isCameraMoved ? "this camera" : "these settings"));
     } catch (const Error &error) {
         // The scene was valid as loaded and each option is in range: they do not go together.
-        throw Error(ExitCode::Usage, error.what());
+        throw Error(ErrorKind::Usage, error.what());
     }
     prepared.crop = chooseCrop(options.crop, scene.camera);
     const Clock::time_point loaded = Clock::now();

@@ -1,6 +1,7 @@
 // From a scene and what overrides it to what both renderers read.
 #pragma once
 
+#include "host/base/error.h"
 #include "host/bvh/bvh.h"
 #include "host/film/film.h"
 #include "host/import/scene_json.h"
@@ -12,6 +13,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hyalite {
@@ -31,6 +33,15 @@ struct SceneOptions {
     std::vector<std::filesystem::path> allowedPaths;
 };
 
+/// An override that does not go together with the scene or the others; `name` is its own: "crop", "look-at".
+class OverrideError : public Error {
+  public:
+    OverrideError(std::string overrideName, const std::string &message)
+        : Error(ErrorKind::Usage, message), name(std::move(overrideName)) {}
+
+    const std::string name;
+};
+
 /// What becomes of a scene's meshes and tree once they are packed. Renderers read the packed scene alone; of a large
 /// mesh the rest takes a sixth of the memory.
 enum class Source { Kept, Dropped };
@@ -45,7 +56,7 @@ struct PreparedScene {
     double buildSeconds = 0.0;
 };
 
-/// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or Error{Usage} for options that do not go
+/// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or OverrideError for overrides that do not go
 /// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet. `onOutline`
 /// is told of the scene, as the options make it, before large files are read.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,

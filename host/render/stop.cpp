@@ -83,6 +83,10 @@ const char *signalName(int signal) {
     return signal == SIGINT ? "SIGINT" : signal == SIGHUP ? "SIGHUP" : "SIGTERM";
 }
 
-ExitCode exitCodeFor(int signal) { return static_cast<ExitCode>(128 + signal); }
+ErrorKind errorKindOf(int signal) {
+    return signal == SIGINT   ? ErrorKind::Interrupted
+           : signal == SIGHUP ? ErrorKind::HungUp
+                              : ErrorKind::Terminated;
+}
 
 } // namespace hyalite

@@ -28,7 +28,7 @@ class CaughtSignals {
 /// "SIGINT", "SIGTERM" or "SIGHUP".
 [[nodiscard]] const char *signalName(int signal);
 
-/// With what a program ends that was stopped by it: as a shell reports those that a signal ended.
-[[nodiscard]] ExitCode exitCodeFor(int signal);
+/// What a render is that the signal ended.
+[[nodiscard]] ErrorKind errorKindOf(int signal);
 
 } // namespace hyalite

@@ -17,6 +17,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -79,11 +80,11 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
             if (!wanted)
                 wanted = std::move(result.film);
             else if (device.areBitsPromised() && differingPixelCount(*wanted, result.film) > 0)
-                throw Error(
-                    ExitCode::DeviceLost,
-                    fmt::format("the kernels {} and {} render {} differently on {}: see `hyalite compare`",
-                                gpu::namedKernels.front().first, gpu::namedKernels[i].first, trial.scene,
-                                device.name));
+                throw Error(ErrorKind::DeviceLost,
+                            fmt::format("the kernels {} and {} render {} differently on {}",
+                                        gpu::namedKernels.front().first, gpu::namedKernels[i].first,
+                                        trial.scene, device.name),
+                            Remedy::CompareRenders);
             rateNow[i] = static_cast<double>(result.rays.total()) * 1e-6 /
                          std::max(result.timing.renderSeconds, std::numeric_limits<double>::min());
         }
@@ -120,9 +121,11 @@ std::string drain(int pipe) {
     try {
         said["result"] = work();
     } catch (const Error &error) {
-        said = {{"exitCode", static_cast<int>(error.exitCode)}, {"error", error.what()}};
+        said = {{"kind", static_cast<int>(error.kind)}, {"error", error.what()}};
+    } catch (const std::bad_alloc &) {
+        said = {{"kind", static_cast<int>(ErrorKind::LimitExceeded)}, {"error", "out of memory"}};
     } catch (const std::exception &error) {
-        said = {{"exitCode", static_cast<int>(ExitCode::LimitExceeded)}, {"error", error.what()}};
+        said = {{"kind", static_cast<int>(ErrorKind::Internal)}, {"error", error.what()}};
     }
     const std::string text = said.dump(); // shorter than what a pipe holds
     const bool isWritten = write(pipe, text.data(), text.size()) == static_cast<ssize_t>(text.size());
@@ -133,7 +136,8 @@ std::string drain(int pipe) {
 Json inOwnProcess(const std::function<Json()> &work) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0)
-        throw Error(ExitCode::LimitExceeded, fmt::format("pipe for a measurement: {}", std::strerror(errno)));
+        throw Error(ErrorKind::LimitExceeded,
+                    fmt::format("pipe for a measurement: {}", std::strerror(errno)));
     const pid_t child = fork();
     if (child == 0)
         answer(ends[1], work);
@@ -142,16 +146,16 @@ Json inOwnProcess(const std::function<Json()> &work) {
     const std::string text = child > 0 ? drain(ends[0]) : std::string();
     close(ends[0]);
     if (child < 0)
-        throw Error(ExitCode::LimitExceeded,
+        throw Error(ErrorKind::LimitExceeded,
                     fmt::format("fork for a measurement: {}", std::strerror(forkError)));
     int status = 0;
     waitpid(child, &status, 0);
     if (WIFSIGNALED(status))
-        throw Error(ExitCode::DeviceLost, fmt::format("a measurement was ended by signal {}: {}",
-                                                      WTERMSIG(status), strsignal(WTERMSIG(status))));
+        throw Error(ErrorKind::DeviceLost, fmt::format("a measurement was ended by signal {}: {}",
+                                                       WTERMSIG(status), strsignal(WTERMSIG(status))));
     const Json said = Json::parse(text);
     if (said.contains("error"))
-        throw Error(static_cast<ExitCode>(said.at("exitCode").get<int>()), said.at("error"));
+        throw Error(static_cast<ErrorKind>(said.at("kind").get<int>()), said.at("error"));
     return said.at("result");
 }
 

@@ -49,7 +49,7 @@ Json readEntries(const fs::path &file) {
     const Json document = readJsonFile(file);
     const auto devices = document.find("devices");
     if (!document.is_object() || devices == document.end() || !devices->is_array())
-        throw Error(ExitCode::BadInput, fmt::format("{}: holds no list of devices", file.string()));
+        throw Error(ErrorKind::BadInput, fmt::format("{}: holds no list of devices", file.string()));
     return *devices;
 }
 
@@ -57,7 +57,7 @@ gpu::KernelChoice kernelNamed(const Json &name) {
     for (const auto &[known, choice] : gpu::kernelNames)
         if (name == known)
             return choice;
-    throw Error(ExitCode::BadInput, "found the kernel " + printable(name.dump()));
+    throw Error(ErrorKind::BadInput, "found the kernel " + printable(name.dump()));
 }
 
 } // namespace
@@ -65,7 +65,7 @@ gpu::KernelChoice kernelNamed(const Json &name) {
 fs::path tuningFile() {
     if (const std::optional<fs::path> file = findFile())
         return *file;
-    throw Error(ExitCode::OutputNotWritten,
+    throw Error(ErrorKind::OutputNotWritten,
                 "there is no place for what is measured: set HYALITE_CACHE to a folder");
 }
 

@@ -25,7 +25,7 @@ template <std::integral Whole> Whole wholeNumber(const Json &json) {
                           ? std::in_range<Whole>(json.get<std::uint64_t>())
                           : json.is_number_integer() && std::in_range<Whole>(json.get<std::int64_t>());
     if (!fits)
-        throw Error(ExitCode::BadInput,
+        throw Error(ErrorKind::BadInput,
                     "found " + printable(json.dump()) + " where a whole number is needed");
     return json.get<Whole>();
 }
@@ -37,7 +37,7 @@ void addCounts(const Json &json, const std::string &path, std::vector<ProfileFig
         return;
     }
     if (!json.is_object())
-        throw Error(ExitCode::BadInput, "what is below \"work\" is no count");
+        throw Error(ErrorKind::BadInput, "what is below \"work\" is no count");
     for (const auto &[key, value] : json.items())
         addCounts(value, path.empty() ? key : path + "." + key, counts);
 }
@@ -46,7 +46,7 @@ ProfileFigures::Times timesOf(const std::string &name, const Json &frameMillis) 
     ProfileFigures::Times times{name, frameMillis.get<std::vector<double>>()};
     if (times.frameMillis.empty() ||
         *std::min_element(times.frameMillis.begin(), times.frameMillis.end()) < 0)
-        throw Error(ExitCode::BadInput, "frameMillis holds no times");
+        throw Error(ErrorKind::BadInput, "frameMillis holds no times");
     return times;
 }
 
@@ -123,13 +123,14 @@ ProfileFigures readFigures(const std::filesystem::path &file) {
         return figuresOf(json);
     } catch (const Json::exception &) { // its words are about the library's own types
         throw Error(
-            ExitCode::BadInput,
+            ErrorKind::BadInput,
             fmt::format("{}: this is no report of `hyalite profile --report`: a value is missing or has "
                         "another type",
                         file.string()));
     } catch (const Error &error) {
-        throw Error(ExitCode::BadInput, fmt::format("{}: this is no report of `hyalite profile --report`: {}",
-                                                    file.string(), error.what()));
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("{}: this is no report of `hyalite profile --report`: {}", file.string(),
+                                error.what()));
     }
 }
 
@@ -137,7 +138,7 @@ void requireSameJob(const ProfileFigures &baseline, const Profile &profile) {
     const std::string job = jobText(profile.origin.scene, profile.origin.width, profile.origin.height,
                                     Json(settingsToJson(profile.origin.settings)));
     if (baseline.job != job)
-        throw Error(ExitCode::BadInput,
+        throw Error(ErrorKind::BadInput,
                     fmt::format("the baseline is of another job: it measured\n  {}\nand this is\n  {}",
                                 printable(baseline.job, 400), job));
 }

@@ -57,10 +57,10 @@ Bounds triangleBounds(const TriangleMesh &mesh) {
             bounds.high = glm::max(bounds.high, position);
         }
     if (mesh.triangles.empty())
-        throw Error(ExitCode::BadInput, fmt::format("{}: has no triangle to look at", mesh.name));
+        throw Error(ErrorKind::BadInput, fmt::format("{}: has no triangle to look at", mesh.name));
     const double extent = 2.0 * halfDiagonal(bounds);
     if (!limits::framedExtent.contains(extent))
-        throw Error(ExitCode::BadInput,
+        throw Error(ErrorKind::BadInput,
                     fmt::format("{}: the mesh is {:g} across, and a camera is placed for meshes {}; write a "
                                 "scene file that scales it",
                                 mesh.name, extent, limits::framedExtent.text()));

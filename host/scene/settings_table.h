@@ -69,7 +69,8 @@ inline constexpr std::array severalBounces{Integrator::Whitted, Integrator::Path
 inline constexpr auto settingsTable = std::to_array<Setting>({
     {"integrator", "--integrator", ChoiceSetting<Integrator>{&RenderSettings::integrator, integratorNames},
      Changes::Samples, tracingGroup,
-     "whitted: direct light, mirrors and both branches at glass; path: light on all its ways; ao: ambient "
+     "whitted: direct light, mirrors and both branches at glass; path: every path that light can take; ao: "
+     "ambient "
      "occlusion; normal, depth, albedo, id, uv: views of what is seen first; cost: how many boxes and "
      "triangles the rays of whitted test, as a PNG in false colours, or as a PFM of nodes, boxes and "
      "triangles"},

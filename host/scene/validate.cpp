@@ -37,7 +37,7 @@ class Checked {
         // Names are those of files: a terminal must not obey them.
         const std::string message =
             cleanText(fmt::format("{}: {}: found {}; allowed: {}", object, property, found, allowed));
-        throw Error(ExitCode::BadInput, fmt::format("{}: {}", sourceName_, message));
+        throw Error(ErrorKind::BadInput, fmt::format("{}: {}", sourceName_, message));
     }
 
     template <class T> void within(const Interval &allowed, T value, std::string_view property) const {

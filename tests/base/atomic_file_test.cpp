@@ -65,7 +65,7 @@ std::optional<std::string> refusalOf(const fs::path &path) {
         AtomicFile file(path);
         return std::nullopt;
     } catch (const Error &error) {
-        EXPECT_EQ(error.exitCode, ExitCode::OutputNotWritten);
+        EXPECT_EQ(error.kind, ErrorKind::OutputNotWritten);
         return error.what();
     }
 }
@@ -243,7 +243,7 @@ TEST_P(AtomicFileTest, AFullDiskIsReportedAndTheOldFileStays) {
         file.write(std::string(10000, 'x'));
         file.commit();
     } catch (const Error &error) {
-        EXPECT_EQ(error.exitCode, ExitCode::OutputNotWritten);
+        EXPECT_EQ(error.kind, ErrorKind::OutputNotWritten);
         message = error.what();
     }
     setrlimit(RLIMIT_FSIZE, &before);
@@ -261,7 +261,7 @@ TEST_P(AtomicFileTest, AFailingRenameSaysWhereWhatIsFinishedIs) {
         file.commit();
         FAIL() << "renamed a file over a folder";
     } catch (const Error &error) {
-        EXPECT_EQ(error.exitCode, ExitCode::OutputNotWritten);
+        EXPECT_EQ(error.kind, ErrorKind::OutputNotWritten);
         for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
             if (entry.is_directory())
                 continue;

@@ -27,7 +27,7 @@ std::filesystem::path meshFile(const std::string &name) {
         return HYALITE_CAT_144K;
     if (name == "cat_1m")
         return HYALITE_CAT_1M;
-    throw Error(ExitCode::Usage, "no file holds a mesh called " + name);
+    throw Error(ErrorKind::Usage, "no file holds a mesh called " + name);
 }
 
 TriangleMesh loadMesh(const std::string &name) {

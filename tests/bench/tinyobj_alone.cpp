@@ -16,7 +16,7 @@ std::size_t countTrianglesByTinyObj(const std::filesystem::path &file) {
     std::string warnings;
     std::string errors;
     if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, file.c_str()))
-        throw Error(ExitCode::BadInput, "tinyobjloader: " + errors);
+        throw Error(ErrorKind::BadInput, "tinyobjloader: " + errors);
     std::size_t count = 0;
     for (const tinyobj::shape_t &shape : shapes)
         count += shape.mesh.num_face_vertices.size();

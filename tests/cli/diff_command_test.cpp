@@ -56,12 +56,12 @@ class DiffTest : public testing::Test {
         try {
             app.parse(arguments);
         } catch (const Error &error) {
-            context.exitCode = static_cast<int>(error.exitCode);
+            context.exitCode = exitCodeOf(error.kind);
         } catch (const CLI::ParseError &) {
-            context.exitCode = static_cast<int>(ExitCode::Usage);
+            context.exitCode = ExitCode::Usage;
         }
         output = testing::internal::GetCapturedStdout();
-        return context.exitCode;
+        return static_cast<int>(context.exitCode);
     }
 
     fs::path folder;

@@ -2,8 +2,10 @@
 
 #include "host/base/error.h"
 #include "host/cli/commands.h"
+#include "host/cli/failure.h"
 #include "tests/faults/fault_layer.h"
 
+#include <exception>
 #include <sstream>
 
 #include <dlfcn.h>
@@ -84,9 +86,10 @@ Outcome FaultyDevice::runHere(const std::string &line, const std::string &faults
     try {
         app.parse(line);
         outcome.exitCode = static_cast<int>(context.exitCode);
-    } catch (const Error &error) {
-        outcome.exitCode = static_cast<int>(error.exitCode);
-        outcome.errors = error.what();
+    } catch (const Error &) {
+        const Failure failure = describeFailure(std::current_exception(), context.commandLine);
+        outcome.exitCode = static_cast<int>(failure.code);
+        outcome.errors = failure.message;
     }
     outcome.output = ::testing::internal::GetCapturedStdout();
     outcome.errors += ::testing::internal::GetCapturedStderr();

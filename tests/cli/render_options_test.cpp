@@ -147,7 +147,7 @@ TEST_F(RenderOptions, TheFilterSpreadsAnEdgeByItsShare) {
         EXPECT_EQ(narrow.pixels()[static_cast<std::size_t>(2 * 8 + x)].x, x < 4 ? 0.0f : 1.0f) << x;
     }
     EXPECT_EQ(renderReport("wall.json --spp 1" + onCpu).at("settings").at("filter"), "blackman-harris");
-    expectFailure("render wall.json -o a.png --sampler centre", 2, {"--filter", "--sampler sobol"});
+    expectFailure("render wall.json -o a.png --sampler centre", 2, {"--filter", "sampler sobol"});
     store("centre.json", R"({ "settings": { "sampler": "centre", "filter": "blackman-harris" } })");
     expectFailure("render centre.json -o a.png", 3, {"centre.json", "filter", "sobol"});
 }

@@ -37,7 +37,7 @@ struct CheckpointTest : testing::Test {
             (void)resumeCheckpoint(path, wanted, crop, samples);
             return {};
         } catch (const Error &error) {
-            EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+            EXPECT_EQ(error.kind, ErrorKind::BadInput);
             return error.what();
         }
     }

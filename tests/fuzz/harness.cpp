@@ -21,7 +21,7 @@ std::optional<std::string> refusalOf(const std::function<void()> &read) {
         read();
         return std::nullopt;
     } catch (const Error &error) {
-        if (error.exitCode != ExitCode::BadInput && error.exitCode != ExitCode::LimitExceeded)
+        if (error.kind != ErrorKind::BadInput && error.kind != ErrorKind::LimitExceeded)
             throw;
         std::string message = error.what();
         const auto isControl = [](char c) {

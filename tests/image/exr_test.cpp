@@ -257,7 +257,7 @@ TEST_F(Exr, DamagedFilesAreRefused) {
     const std::size_t window = good.find("dataWindow\0box2i\0"s);
     ASSERT_NE(window, std::string::npos);
     expectBad(damaged(window + 33, "\xff\x7f"), ": "); // rows that are not there
-    expectRefused(damaged(window + 29, "\xff\x3f\0\0\xff\x3f"s), "MiB to read", ExitCode::LimitExceeded);
+    expectRefused(damaged(window + 29, "\xff\x3f\0\0\xff\x3f"s), "MiB to read", ErrorKind::LimitExceeded);
     std::string padded = good.substr(0, 8) + "x\0y\0\0\0\x20\0"s + std::string(2 << 20, 'x') + good.substr(8);
     expectBad(store("a.exr", padded), "longer than 1048576");
 }
@@ -275,7 +275,7 @@ TEST_F(Exr, AFullDiskIsReportedByTheWriter) {
             writeImage(file, ImageFormat::Exr, image, 0.0);
             ADD_FAILURE() << limit;
         } catch (const Error &error) {
-            EXPECT_EQ(error.exitCode, ExitCode::OutputNotWritten);
+            EXPECT_EQ(error.kind, ErrorKind::OutputNotWritten);
             EXPECT_NE(std::string(error.what()).find("a.exr"), std::string::npos) << error.what();
         }
     }

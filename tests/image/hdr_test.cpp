@@ -152,7 +152,7 @@ TEST_F(Hdr, DamagedFilesAreRefused) {
     refused(head + "-Y 1 +X 32769\n", "a side may have 1 to 32768");
     refused(head + "-Y 32768 +X 32768\n", "an image 268435456");
     expectRefused(store("a.hdr", head + "-Y 8192 +X 8192\n" + std::string(32768, 0)), "772 MiB to read",
-                  ExitCode::LimitExceeded);
+                  ErrorKind::LimitExceeded);
     refused(head + "-Y 8192 +X 8192\n", "cut short");
     refused(head + "-Y 1 +X 8\n\2\2\0\x08\x89z"s, "runs of its row 0");
     refused(head + "-Y 1 +X 8\n\2\2\0\x08\0z"s, "runs of its row 0");

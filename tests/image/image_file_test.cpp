@@ -55,7 +55,7 @@ class ImageFileTest : public testing::Test {
             (void)readImage(path);
             ADD_FAILURE() << "read, but should have said: " << found;
         } catch (const Error &error) {
-            EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+            EXPECT_EQ(error.kind, ErrorKind::BadInput);
             EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
             EXPECT_NE(std::string(error.what()).find(found), std::string::npos) << error.what();
         }
@@ -148,7 +148,7 @@ TEST_F(ImageFileTest, FormatsAreKnownByTheirExtensions) {
             (void)imageFormatOf(path);
             ADD_FAILURE() << path;
         } catch (const Error &error) {
-            EXPECT_EQ(error.exitCode, ExitCode::Usage);
+            EXPECT_EQ(error.kind, ErrorKind::Usage);
             EXPECT_NE(std::string(error.what()).find(".png"), std::string::npos);
             EXPECT_NE(std::string(error.what()).find(".pfm"), std::string::npos);
         }

@@ -66,7 +66,7 @@ class TextureFile : public SceneFolder {
         try {
             static_cast<void>(read("texture", bytes));
         } catch (const Error &error) {
-            EXPECT_TRUE(error.exitCode == ExitCode::BadInput || error.exitCode == ExitCode::LimitExceeded);
+            EXPECT_TRUE(error.kind == ErrorKind::BadInput || error.kind == ErrorKind::LimitExceeded);
             EXPECT_TRUE(std::string(error.what()).starts_with((folder / "texture").string() + ": "))
                 << error.what();
             return error.what();

@@ -57,7 +57,7 @@ TEST(Cost, IsNotThatOfASkipList) {
         (void)testing::renderOnDevice(scene, {.traversal = gpu::Traversal::SkipList});
         ADD_FAILURE() << "rendered";
     } catch (const Error &error) {
-        EXPECT_EQ(error.exitCode, ExitCode::Usage);
+        EXPECT_EQ(error.kind, ErrorKind::Usage);
         EXPECT_NE(std::string(error.what()).find("skip-list"), std::string::npos) << error.what();
     }
 }

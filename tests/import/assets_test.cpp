@@ -54,7 +54,7 @@ std::string refusal(const std::string &argument) {
     try {
         static_cast<void>(resolveScene(argument));
     } catch (const Error &error) {
-        EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+        EXPECT_EQ(error.kind, ErrorKind::BadInput);
         return error.what();
     }
     return {};

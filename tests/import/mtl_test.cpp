@@ -81,7 +81,7 @@ TEST_F(Mtl, RefusesWhatIsNoNumber) {
         try {
             static_cast<void>(loadLibrary("bad.mtl", text));
         } catch (const Error &error) {
-            EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+            EXPECT_EQ(error.kind, ErrorKind::BadInput);
             return error.what();
         }
         return {};

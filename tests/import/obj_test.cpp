@@ -47,7 +47,7 @@ std::string errorOfPath(const std::filesystem::path &path) {
     try {
         (void)loadObj(path);
     } catch (const Error &error) {
-        EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+        EXPECT_EQ(error.kind, ErrorKind::BadInput);
         const std::string message = error.what();
         EXPECT_TRUE(message.starts_with(path.string() + ":")) << message;
         return message.substr(std::min(message.size(), path.string().size()));

@@ -164,7 +164,7 @@ TEST(Baseline, IsReadFromAReport) {
                 static_cast<void>(readFigures(file));
                 EXPECT_TRUE(key == std::string("scene") && value == "text") << key << ": " << value;
             } catch (const Error &error) {
-                EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+                EXPECT_EQ(error.kind, ErrorKind::BadInput);
                 EXPECT_NE(std::string(error.what()).find("baseline_test.json"), std::string::npos);
             }
         }

@@ -139,7 +139,7 @@ TEST(Framing, SizesBeyondReasonAreRefused) {
             static_cast<void>(frameMesh(mesh));
             ADD_FAILURE() << "accepted";
         } catch (const Error &error) {
-            EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+            EXPECT_EQ(error.kind, ErrorKind::BadInput);
         }
 }
 

@@ -48,7 +48,7 @@ TEST_P(Validate, NamesTheObject) {
         validateScene(scene, "source");
         FAIL() << "accepted";
     } catch (const Error &error) {
-        EXPECT_EQ(error.exitCode, ExitCode::BadInput);
+        EXPECT_EQ(error.kind, ErrorKind::BadInput);
         const std::string expected = std::string("source: ") + GetParam().message + "; allowed: ";
         EXPECT_TRUE(std::string(error.what()).starts_with(expected)) << error.what();
     }

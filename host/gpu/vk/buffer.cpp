@@ -70,7 +70,7 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
     vkGetBufferMemoryRequirements(device.get(), buffer, &requirements);
     const std::uint32_t type = chooseMemoryType(device, use, requirements.memoryTypeBits);
     if (type == VK_MAX_MEMORY_TYPES)
-        throw Error(ExitCode::LimitExceeded,
+        throw Error(ErrorKind::LimitExceeded,
                     fmt::format("{} has no memory for {}", device.info().name, what));
     VkMemoryAllocateInfo allocate{};
     allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;

@@ -49,15 +49,15 @@ void check(VkResult result, const std::string &action) {
         return;
     case VK_TIMEOUT:
     case VK_ERROR_DEVICE_LOST:
-        throw DeviceFault(ExitCode::DeviceLost, fmt::format("{}: {}", action, resultName(result)));
+        throw DeviceFault(ErrorKind::DeviceLost, fmt::format("{}: {}", action, resultName(result)));
     case VK_ERROR_OUT_OF_HOST_MEMORY:
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_OUT_OF_POOL_MEMORY:
     case VK_ERROR_TOO_MANY_OBJECTS:
     case VK_ERROR_MEMORY_MAP_FAILED:
-        throw DeviceFault(ExitCode::LimitExceeded, fmt::format("{}: {}", action, resultName(result)));
+        throw DeviceFault(ErrorKind::LimitExceeded, fmt::format("{}: {}", action, resultName(result)));
     default:
-        throw DeviceFault(ExitCode::NoDevice, fmt::format("{}: {}", action, resultName(result)));
+        throw DeviceFault(ErrorKind::NoDevice, fmt::format("{}: {}", action, resultName(result)));
     }
 }
 

@@ -14,7 +14,7 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     : info_(info), isStagingPreferred_(transfers == Transfers::Staged || info.type == DeviceType::Discrete) {
     const std::vector<VkPhysicalDevice> devices = instance_.physicalDevices();
     if (info.index < 0 || static_cast<std::size_t>(info.index) >= devices.size())
-        throw Error(ExitCode::NoDevice, fmt::format("device {} is gone", info.name));
+        throw Error(ErrorKind::NoDevice, fmt::format("device {} is gone", info.name));
     physical_ = devices[static_cast<std::size_t>(info.index)];
 
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);

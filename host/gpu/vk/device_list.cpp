@@ -96,7 +96,7 @@ std::vector<DeviceInfo> listDevices(const Instance &instance) {
         devices.back().index = static_cast<int>(devices.size()) - 1;
     }
     if (devices.empty())
-        throw Error(ExitCode::NoDevice,
+        throw Error(ErrorKind::NoDevice,
                     "the Vulkan loader finds no device: install your GPU's driver, or the "
                     "package mesa-vulkan-drivers, whose lavapipe renders on any CPU");
     return devices;
@@ -104,8 +104,8 @@ std::vector<DeviceInfo> listDevices(const Instance &instance) {
 
 DeviceInfo chooseDevice(const std::vector<DeviceInfo> &devices, const std::string &wanted) {
     const auto fail = [&](const std::string &why) {
-        return Error(ExitCode::NoDevice, fmt::format("{}. There are:{}\n  cpu  the reference renderer", why,
-                                                     describeAll(devices)));
+        return Error(ErrorKind::NoDevice, fmt::format("{}. There are:{}\n  cpu  the reference renderer", why,
+                                                      describeAll(devices)));
     };
     if (wanted == "auto") {
         const DeviceInfo *best = nullptr;

@@ -61,7 +61,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEX
 Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
     const bool isValidated = isValidationWanted();
     if (isValidated && !isLayerPresent(validationLayer))
-        throw Error(ExitCode::NoDevice,
+        throw Error(ErrorKind::NoDevice,
                     fmt::format("HYALITE_VALIDATION is set, but {} is not installed: install "
                                 "the package vulkan-validationlayers",
                                 validationLayer));
@@ -103,7 +103,7 @@ Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-        throw Error(ExitCode::NoDevice,
+        throw Error(ErrorKind::NoDevice,
                     "no Vulkan driver is installed: install your GPU's driver, or the package "
                     "mesa-vulkan-drivers, whose lavapipe renders on any CPU");
     check(result, "vkCreateInstance for hyalite");
@@ -146,7 +146,7 @@ std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
 
 void Instance::throwOnValidationMessage() const {
     if (!firstMessage_->empty())
-        throw Error(ExitCode::DeviceLost, "the validation layer objects: " + *firstMessage_);
+        throw Error(ErrorKind::DeviceLost, "the validation layer objects: " + *firstMessage_);
 }
 
 } // namespace hyalite::gpu
