@@ -117,7 +117,7 @@ class DeviceFaults : public FaultyDevice {
 
 TEST_F(DeviceFaults, TheLayerKnowsEveryCallThatCanFail) {
     std::string sources;
-    for (const auto &entry : std::filesystem::directory_iterator(HYALITE_SOURCE_DIR "/host/gpu"))
+    for (const auto &entry : std::filesystem::recursive_directory_iterator(HYALITE_SOURCE_DIR "/host/gpu"))
         sources += textOf(entry.path());
     const std::set<std::string> called = matches(sources, R"(\b(vk[A-Z]\w+))");
     const std::set<std::string> fallible =
