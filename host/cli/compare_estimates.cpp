@@ -1,0 +1,63 @@
+#include "host/base/atomic_file.h"
+#include "host/base/json_text.h"
+#include "host/cli/compare_options.h"
+#include "host/cli/options.h"
+#include "host/cli/statistical.h"
+#include "host/import/assets.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+namespace hyalite {
+
+namespace {
+
+/// The seeds of the two renders, which must be two.
+std::uint32_t secondSeedOf(const CompareOptions &options, std::uint32_t firstSeed) {
+    const std::uint32_t secondSeed = options.againstSeed.value_or(firstSeed + 1);
+    if (firstSeed == secondSeed)
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("--against-seed {}: the first render has this seed; name another", secondSeed));
+    return secondSeed;
+}
+
+} // namespace
+
+ExitCode runStatisticalCompare(const CompareOptions &options, const std::string &commandLine) {
+    requireDistinctFiles({{"--report", options.report}}, {resolveScene(options.scene.scene).string()});
+    std::optional<AtomicFile> reportFile;
+    if (!options.report.empty())
+        reportFile.emplace(options.report);
+    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    requireDistinctFiles({{"--report", options.report}}, scene.loaded.inputFiles);
+    requireFilmMemory(scene.crop, 4); // two of them become estimates, of about their size
+    RenderSettings &settings = scene.loaded.scene.settings;
+    const std::uint32_t firstSeed = settings.seed;
+    const std::uint32_t secondSeed = secondSeedOf(options, firstSeed);
+    const Contestants contestants = openContestants(options.contest, scene);
+    if (!options.isQuiet) {
+        printContestants(scene, contestants);
+        fmt::print("seeds        {} and {}\n", firstSeed, secondSeed);
+    }
+    const auto render = [&](Backend &backend, std::uint32_t seed) {
+        settings.seed = scene.packed.frame.seed = seed;
+        return estimateOf(renderWithProgress(backend, scene, backend.name(), options.isQuiet).film);
+    };
+    const Estimate a = render(*contestants.first, firstSeed);
+    const Estimate b = render(*contestants.second, secondSeed);
+    const ZTestResult result = testAndPrint(a, b, options.zTest, scene.loaded.file.string());
+    if (reportFile) {
+        settings.seed = scene.packed.frame.seed = firstSeed;
+        nlohmann::ordered_json json = contestToJson(contestants, scene, commandLine);
+        json["seeds"] = {firstSeed, secondSeed};
+        json["statistical"] = zTestToJson(result, options.zTest);
+        json["passed"] = result.isPassed();
+        reportFile->write(jsonText(json));
+        reportFile->commit();
+    }
+    return result.isPassed() ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
+} // namespace hyalite

@@ -1,0 +1,35 @@
+// What `compare` was asked for, by its options.
+#pragma once
+
+#include "host/cli/failure.h"
+#include "host/film/welch_test.h"
+#include "host/render/contest.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace hyalite {
+
+struct CompareOptions {
+    SceneOptions scene;
+    ContestRequest contest;
+    std::string tolerance = "0";
+    double maxOutliers = 0.0;
+    std::string heatMap;
+    std::string report;
+    bool isStatistical = false;
+    ZTestOptions zTest;
+    std::optional<std::uint32_t> againstSeed;
+    bool isQuiet = false;
+};
+
+void printContestants(const PreparedScene &scene, const Contestants &contestants);
+
+/// Two renders with the same samples, pixel by pixel.
+[[nodiscard]] ExitCode runCompare(const CompareOptions &options, const std::string &commandLine);
+
+/// Two renders with different seeds, as estimates of one picture.
+[[nodiscard]] ExitCode runStatisticalCompare(const CompareOptions &options, const std::string &commandLine);
+
+} // namespace hyalite

@@ -1,0 +1,186 @@
+#include "host/base/atomic_file.h"
+#include "host/base/json_text.h"
+#include "host/cli/compare_options.h"
+#include "host/cli/explanations.h"
+#include "host/cli/options.h"
+#include "host/cli/outliers.h"
+#include "host/image/comparison_json.h"
+#include "host/image/heat_map.h"
+#include "host/image/png.h"
+#include "host/import/assets.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+/// Both renders, and how they differ.
+struct Compared {
+    Image imageA;
+    Image imageB;
+    RayCounts raysA;
+    RayCounts raysB;
+    ImageComparison comparison;
+    Pixels outliers;
+
+    [[nodiscard]] double outlierShare() const {
+        return static_cast<double>(outliers.size()) / static_cast<double>(comparison.pixels.pixelCount);
+    }
+};
+
+/// What comes of it.
+struct Verdict {
+    bool isPassed = false;
+    nlohmann::ordered_json reasons = nlohmann::ordered_json::object(); ///< for the report
+};
+
+bool isAgainstOracle(const CompareOptions &options) { return options.contest.against == "cpu-double"; }
+
+bool isDefault(const Tolerance &tolerance) { return tolerance.absolute == 0.0 && tolerance.ulps == 0; }
+
+void printMetrics(const ImageComparison &comparison, const Image &a, const Image &b) {
+    const PixelMetrics &pixels = comparison.pixels;
+    fmt::print("pixels       {} of {} differ\n", pixels.differingPixelCount, pixels.pixelCount);
+    if (!pixels.identical()) {
+        const glm::ivec2 worst = worstPixel(a, b, pixels);
+        const glm::vec3 &x = a.at(worst.x, worst.y);
+        const glm::vec3 &y = b.at(worst.x, worst.y);
+        fmt::print(
+            "largest      {} ULP; {:.6g} at ({}, {}): ({:.9g} {:.9g} {:.9g}) and ({:.9g} {:.9g} {:.9g})\n",
+            pixels.maxUlpDistance, pixels.maxAbsoluteDifference, worst.x, worst.y, x.x, x.y, x.z, y.x, y.y,
+            y.z);
+    }
+    fmt::print("PSNR         {:.2f} dB\n", pixels.psnrDecibels());
+    fmt::print("HDR-FLIP     mean {:.6f}, max {:.6f}\n", comparison.flip.mean, comparison.flip.max);
+}
+
+/// The files that are wanted, opened before the work begins.
+class CompareFiles {
+  public:
+    explicit CompareFiles(const CompareOptions &options) : heatMapPath_(options.heatMap) {
+        if (!options.heatMap.empty()) {
+            if (imageFormatOf(options.heatMap) != ImageFormat::Png)
+                throw Error(ErrorKind::Usage,
+                            fmt::format("--diff {}: the heat map is a .png", options.heatMap));
+            heatMap_.emplace(options.heatMap);
+        }
+        if (!options.report.empty())
+            report_.emplace(options.report);
+    }
+
+    void requireSize(const Crop &crop) const {
+        if (heatMap_)
+            requirePngSize(heatMapPath_, crop.width(), crop.height());
+    }
+
+    void write(const nlohmann::ordered_json &origin, const Compared &compared, const Verdict &verdict) {
+        if (heatMap_) {
+            writePng(*heatMap_, compared.imageA.width(), compared.imageA.height(),
+                     hyalite::heatMap(compared.comparison.flipMap), attributesOf(origin));
+            heatMap_->commit();
+        }
+        if (!report_)
+            return;
+        nlohmann::ordered_json json = origin;
+        json.update(comparisonToJson(compared.comparison, compared.imageB, compared.imageA));
+        json["outliers"] = compared.outliers.size();
+        json["areRayCountsEqual"] = compared.raysA == compared.raysB;
+        json.update(verdict.reasons);
+        json["passed"] = verdict.isPassed;
+        report_->write(jsonText(json));
+        report_->commit();
+    }
+
+  private:
+    std::string heatMapPath_;
+    std::optional<AtomicFile> heatMap_;
+    std::optional<AtomicFile> report_;
+};
+
+Compared compareRenders(const CompareOptions &options, const Tolerance &tolerance,
+                        const Contestants &contestants, const PreparedScene &scene) {
+    const auto render = [&](Backend &backend) {
+        return renderWithProgress(backend, scene, backend.name(), options.isQuiet);
+    };
+    const BackendResult a = render(*contestants.first);
+    const BackendResult b = render(*contestants.second);
+    Compared compared{a.film.toImage(), b.film.toImage(), a.rays, b.rays, {}, {}};
+    compared.comparison = compareImages(compared.imageB, compared.imageA, Encoding::Linear);
+    compared.outliers = isAgainstOracle(options) && isDefault(tolerance)
+                            ? findVisibleOutliers(compared.imageA, compared.imageB)
+                            : findOutliers(compared.imageA, compared.imageB, tolerance);
+    return compared;
+}
+
+/// Against double precision: passed, too, where every outlier is explained.
+Verdict judgeOutliers(const PreparedScene &scene, const Compared &compared, bool isWithinShare) {
+    Verdict verdict;
+    const std::size_t unexplained = explainOutliers(scene, compared.outliers);
+    verdict.reasons["unexplainedOutliers"] = unexplained;
+    verdict.isPassed = isWithinShare || unexplained == 0;
+    fmt::print("{}\n", compared.outliers.empty() ? "no outliers"
+                       : unexplained == 0        ? "every outlier is explained"
+                                                 : fmt::format("{} outliers are not explained", unexplained));
+    return verdict;
+}
+
+/// Of renders that should be equal: where they are not, tells the first step that differs.
+Verdict judgeBits(const Contestants &contestants, const PreparedScene &scene, const Compared &compared,
+                  bool isWithinShare) {
+    Verdict verdict;
+    verdict.isPassed = isWithinShare;
+    const bool areEqual = compared.comparison.pixels.identical();
+    if (!areEqual) {
+        const glm::uvec2 pixel =
+            imagePixel(scene.crop, worstPixel(compared.imageA, compared.imageB, compared.comparison.pixels));
+        const std::optional<Divergence> divergence = findFirstDivergence(contestants, scene, pixel);
+        printDivergence(pixel, divergence);
+        verdict.reasons["divergence"] = divergenceToJson(pixel, divergence);
+    }
+    if (compared.raysA != compared.raysB)
+        fmt::print("rays         {} and {}: the counts differ\n", compared.raysA.total(),
+                   compared.raysB.total());
+    fmt::print("{}\n", areEqual        ? "equal, bit for bit"
+                       : isWithinShare ? "equal within the tolerance"
+                                       : "NOT equal");
+    return verdict;
+}
+
+void printOutliers(const CompareOptions &options, const Tolerance &tolerance, const Compared &compared) {
+    if (!isAgainstOracle(options) && isDefault(tolerance))
+        return;
+    fmt::print("outliers     {} pixels ({:.4f} %) {}\n", compared.outliers.size(),
+               compared.outlierShare() * 100.0,
+               isAgainstOracle(options) && isDefault(tolerance) ? "by more than 2/255 as a PNG shows them"
+                                                                : "beyond the tolerance");
+}
+
+} // namespace
+
+ExitCode runCompare(const CompareOptions &options, const std::string &commandLine) {
+    const Tolerance tolerance = parseTolerance(options.tolerance);
+    const std::vector<NamedFile> outputs{{"--diff", options.heatMap}, {"--report", options.report}};
+    requireDistinctFiles(outputs, {resolveScene(options.scene.scene).string()});
+    CompareFiles files(options);
+    const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    requireDistinctFiles(outputs, scene.loaded.inputFiles);
+    files.requireSize(scene.crop);
+    requireFilmMemory(scene.crop, 2);
+    const Contestants contestants = openContestants(options.contest, scene);
+    if (!options.isQuiet)
+        printContestants(scene, contestants);
+    const Compared compared = compareRenders(options, tolerance, contestants, scene);
+    printMetrics(compared.comparison, compared.imageA, compared.imageB);
+    printOutliers(options, tolerance, compared);
+    const bool isWithinShare = compared.outlierShare() <= options.maxOutliers;
+    const Verdict verdict = isAgainstOracle(options) ? judgeOutliers(scene, compared, isWithinShare)
+                                                     : judgeBits(contestants, scene, compared, isWithinShare);
+    files.write(contestToJson(contestants, scene, commandLine), compared, verdict);
+    return verdict.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
+} // namespace hyalite

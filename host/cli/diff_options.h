@@ -1,0 +1,38 @@
+// What `diff` was asked for, by its options.
+#pragma once
+
+#include "host/cli/failure.h"
+#include "host/film/welch_test.h"
+#include "host/image/image.h"
+
+#include <optional>
+#include <string>
+
+namespace hyalite {
+
+struct DiffOptions {
+    std::string reference;
+    std::string test;
+    std::string mask;
+    std::string heatMap;
+    std::string report;
+    bool isStatistical = false;
+    ZTestOptions zTest;
+    double outlierThreshold = 0.0;
+    std::optional<double> minPsnr;
+    std::optional<double> minSsim;
+    std::optional<double> maxFlip;
+    std::optional<double> maxDifference;
+    std::optional<double> maxOutliers;
+};
+
+/// Throws Error{BadInput}.
+void requireSameSize(const Image &a, const std::string &pathA, const Image &b, const std::string &pathB);
+
+/// Two images as numbers, and the bounds on how they differ.
+[[nodiscard]] ExitCode runDiff(const DiffOptions &options, const std::string &commandLine);
+
+/// Two renders as estimates of one picture, not as numbers.
+[[nodiscard]] ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &commandLine);
+
+} // namespace hyalite

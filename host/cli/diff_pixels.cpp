@@ -1,0 +1,212 @@
+#include "host/base/atomic_file.h"
+#include "host/base/json_text.h"
+#include "host/cli/diff_options.h"
+#include "host/cli/options.h"
+#include "host/image/comparison_json.h"
+#include "host/image/heat_map.h"
+#include "host/image/png.h"
+#include "host/image/ssim.h"
+#include "host/image/tone_map.h"
+#include "host/report/provenance.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+/// A bound that the user set on a metric.
+struct Gate {
+    std::string option;
+    double limit = 0.0;
+    double value = 0.0;
+    bool isPassed = false;
+};
+
+struct Inputs {
+    Image reference;
+    Image test;
+    Encoding encoding = Encoding::Display;
+    std::string toneMapped; ///< the file that was tone-mapped to be compared, if one was
+    Mask mask;
+};
+
+/// The numbers that a PNG of the image would have.
+Image displayed(const Image &linear) {
+    Image image(linear.width(), linear.height());
+    const std::vector<std::uint8_t> levels = toneMap(linear, 0.0);
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+        image.pixels()[i] = glm::vec3(levels[3 * i], levels[3 * i + 1], levels[3 * i + 2]) / 255.0f;
+    return image;
+}
+
+Inputs readInputs(const DiffOptions &options) {
+    LoadedImage reference = readImage(options.reference);
+    LoadedImage test = readImage(options.test);
+    requireSameSize(reference.image, options.reference, test.image, options.test);
+
+    Inputs inputs;
+    if (reference.encoding == test.encoding) {
+        inputs.encoding = reference.encoding;
+    } else {
+        LoadedImage &linear = reference.encoding == Encoding::Linear ? reference : test;
+        linear.image = displayed(linear.image);
+        inputs.toneMapped = &linear == &reference ? options.reference : options.test;
+    }
+    inputs.reference = std::move(reference.image);
+    inputs.test = std::move(test.image);
+
+    if (!options.mask.empty()) {
+        const Image mask = readImage(options.mask).image;
+        requireSameSize(inputs.reference, options.reference, mask, options.mask);
+        inputs.mask = maskFromImage(mask);
+        if (std::find(inputs.mask.begin(), inputs.mask.end(), 1) == inputs.mask.end())
+            throw Error(
+                ErrorKind::BadInput,
+                fmt::format("'{}' leaves no pixel to compare; the mask is white where images are compared",
+                            options.mask));
+    }
+    return inputs;
+}
+
+std::vector<Gate> applyGates(const DiffOptions &options, const ImageComparison &comparison) {
+    std::vector<Gate> gates;
+    // A NaN passes neither kind.
+    const auto atLeast = [&](const char *option, const std::optional<double> &limit, double value) {
+        if (limit)
+            gates.push_back({option, *limit, value, value >= *limit});
+    };
+    const auto atMost = [&](const char *option, const std::optional<double> &limit, double value) {
+        if (limit)
+            gates.push_back({option, *limit, value, value <= *limit});
+    };
+    if (options.minSsim && !comparison.ssim)
+        throw Error(
+            ErrorKind::BadInput,
+            fmt::format("--min-ssim: '{}' and '{}' have no SSIM: it needs finite values, and {} x {} pixels "
+                        "around one that is compared; use another gate",
+                        options.reference, options.test, ssimWindowSide, ssimWindowSide));
+    atLeast("--min-psnr", options.minPsnr, comparison.pixels.psnrDecibels());
+    atLeast("--min-ssim", options.minSsim, comparison.ssim.value_or(0.0));
+    atMost("--max-flip", options.maxFlip, comparison.flip.mean);
+    atMost("--max-diff", options.maxDifference, comparison.pixels.maxAbsoluteDifference);
+    atMost("--max-outliers", options.maxOutliers, comparison.pixels.outlierFraction());
+    return gates;
+}
+
+std::string share(std::uint64_t count, std::uint64_t total) {
+    return fmt::format("{} ({:.4g} %)", count,
+                       100.0 * static_cast<double>(count) / static_cast<double>(total));
+}
+
+void printTable(const DiffOptions &options, const Inputs &inputs, const ImageComparison &comparison) {
+    const PixelMetrics &pixels = comparison.pixels;
+    const bool isLinear = comparison.encoding == Encoding::Linear;
+    fmt::print("reference    {}: {} x {}, {}\n", options.reference, inputs.reference.width(),
+               inputs.reference.height(), isLinear ? "linear" : "display-encoded");
+    fmt::print("test         {}\n", options.test);
+    if (!inputs.toneMapped.empty())
+        fmt::print("             {} is linear and was tone-mapped to 8 bits to be compared\n",
+                   inputs.toneMapped);
+    if (!options.mask.empty())
+        fmt::print("mask         {}: {} pixels compared\n", options.mask, pixels.pixelCount);
+    fmt::print("differing    {} pixels\n", share(pixels.differingPixelCount, pixels.pixelCount));
+    if (options.outlierThreshold > 0.0)
+        fmt::print("outliers     {} pixels by more than {:g}\n",
+                   share(pixels.outlierCount, pixels.pixelCount), options.outlierThreshold);
+    if (pixels.nonFiniteCount > 0)
+        fmt::print("not finite   {} pixels\n", share(pixels.nonFiniteCount, pixels.pixelCount));
+    if (!pixels.identical()) {
+        const glm::vec3 &a = inputs.reference.at(pixels.worstX, pixels.worstY);
+        const glm::vec3 &b = inputs.test.at(pixels.worstX, pixels.worstY);
+        fmt::print("largest      {:.6g} at ({}, {}): ({:.9g} {:.9g} {:.9g}) and ({:.9g} {:.9g} {:.9g})\n",
+                   pixels.maxAbsoluteDifference, pixels.worstX, pixels.worstY, a.x, a.y, a.z, b.x, b.y, b.z);
+    }
+    if (isLinear)
+        fmt::print("ULP          {} at most\n", pixels.maxUlpDistance);
+    fmt::print("mean         {:.6g} absolute, {:.6g} signed\n", pixels.meanAbsoluteDifference,
+               pixels.meanDifference);
+    fmt::print("MSE          {:.6g}\n", pixels.meanSquaredError);
+    fmt::print("PSNR         {:.4f} dB\n", pixels.psnrDecibels());
+    fmt::print("SSIM         {}\n",
+               comparison.ssim ? fmt::format("{:.6f}", *comparison.ssim) : "not available");
+    fmt::print("{}     mean {:.6f}, weighted median {:.6f}, max {:.6f}\n", isLinear ? "HDR-FLIP" : "FLIP    ",
+               comparison.flip.mean, comparison.flip.weightedMedian, comparison.flip.max);
+}
+
+void printVerdict(const std::vector<Gate> &gates, bool isPassed) {
+    for (const Gate &gate : gates)
+        fmt::print("{:<15}{:g}: {}, {:.6g}\n", gate.option, gate.limit, gate.isPassed ? "passed" : "FAILED",
+                   gate.value);
+    if (gates.empty())
+        fmt::print("{}\n", isPassed ? "identical" : "not identical");
+    else
+        fmt::print("{}\n", isPassed ? "passed" : "FAILED");
+}
+
+std::string formatReport(const DiffOptions &options, const std::string &commandLine, const Inputs &inputs,
+                         const ImageComparison &comparison, const std::vector<Gate> &gates, bool isPassed) {
+    nlohmann::ordered_json report = programToJson(commandLine);
+    report["reference"] = options.reference;
+    report["test"] = options.test;
+    if (!options.mask.empty())
+        report["mask"] = options.mask;
+    if (!inputs.toneMapped.empty())
+        report["toneMapped"] = inputs.toneMapped;
+    report["outlierThreshold"] = options.outlierThreshold;
+    report.update(comparisonToJson(comparison, inputs.reference, inputs.test));
+    report["gates"] = nlohmann::ordered_json::array();
+    for (const Gate &gate : gates)
+        report["gates"].push_back({{"option", gate.option},
+                                   {"limit", gate.limit},
+                                   {"value", gate.value},
+                                   {"passed", gate.isPassed}});
+    report["passed"] = isPassed;
+    return jsonText(report);
+}
+
+} // namespace
+
+ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
+    requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
+                         {options.reference, options.test, options.mask});
+    if (!options.heatMap.empty() && imageFormatOf(options.heatMap) != ImageFormat::Png)
+        throw Error(ErrorKind::Usage, fmt::format("--diff '{}': the heat map is a .png", options.heatMap));
+    // Opened before the work begins, so that an output that cannot be written is known now.
+    std::optional<AtomicFile> heatMapFile;
+    if (!options.heatMap.empty())
+        heatMapFile.emplace(options.heatMap);
+    std::optional<AtomicFile> reportFile;
+    if (!options.report.empty())
+        reportFile.emplace(options.report);
+
+    const Inputs inputs = readInputs(options);
+    const ImageComparison comparison =
+        compareImages(inputs.reference, inputs.test, inputs.encoding, options.outlierThreshold, inputs.mask);
+    const std::vector<Gate> gates = applyGates(options, comparison);
+    bool isPassed = !gates.empty() || comparison.pixels.identical();
+    for (const Gate &gate : gates)
+        isPassed = isPassed && gate.isPassed;
+
+    if (heatMapFile) {
+        writePng(*heatMapFile, comparison.flipMap.width, comparison.flipMap.height,
+                 heatMap(comparison.flipMap), attributesOf(programToJson(commandLine)));
+        heatMapFile->commit();
+    }
+    if (reportFile) {
+        reportFile->write(formatReport(options, commandLine, inputs, comparison, gates, isPassed));
+        reportFile->commit();
+    }
+    printTable(options, inputs, comparison);
+    printVerdict(gates, isPassed);
+    return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
+} // namespace hyalite

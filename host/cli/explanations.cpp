@@ -1,0 +1,79 @@
+#include "host/cli/explanations.h"
+
+#include "host/reference/explain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace hyalite {
+
+namespace {
+
+void printExplanation(const glm::uvec2 &pixel, const reference::Explanation &why) {
+    fmt::print("  ({}, {})  {}{}\n", pixel.x, pixel.y, reference::causeName(why.cause),
+               why.marginPixels
+                   ? fmt::format(", sample {}, bounce {}: the oracle decides so {:.2g} pixels away",
+                                 why.sampleIndex, why.rayDepth - 1, *why.marginPixels)
+                   : ", no reason found within a quarter of a pixel");
+}
+
+} // namespace
+
+glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel) {
+    return {static_cast<std::uint32_t>(crop.x0 + pixel.x), static_cast<std::uint32_t>(crop.y0 + pixel.y)};
+}
+
+void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &divergence) {
+    if (!divergence) {
+        fmt::print(
+            "divergence   pixel ({}, {}): the paths agree in every step; what differs is how work is cut or "
+            "summed\n",
+            pixel.x, pixel.y);
+        return;
+    }
+    fmt::print("divergence   pixel ({}, {}), sample {}, bounce {}: {}\n", pixel.x, pixel.y,
+               divergence->sampleIndex, divergence->rayDepth - 1, divergence->quantity);
+    fmt::print("  first      {}\n  second     {}\n", divergence->valueA, divergence->valueB);
+}
+
+nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
+                                        const std::optional<Divergence> &divergence) {
+    nlohmann::ordered_json json;
+    json["pixel"] = {pixel.x, pixel.y};
+    if (!divergence)
+        return json;
+    json["sample"] = divergence->sampleIndex;
+    json["bounce"] = divergence->rayDepth - 1;
+    json["quantity"] = divergence->quantity;
+    json["first"] = divergence->valueA;
+    json["second"] = divergence->valueB;
+    return json;
+}
+
+std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers) {
+    constexpr std::size_t mostExplained = 2000;
+    constexpr std::size_t mostPrinted = 8;
+    std::size_t unexplained = outliers.size() > mostExplained ? outliers.size() - mostExplained : 0;
+    std::array<std::size_t, 5> counts{};
+    for (std::size_t i = 0; i < std::min(outliers.size(), mostExplained); ++i) {
+        const glm::uvec2 pixel = imagePixel(scene.crop, outliers[i]);
+        const reference::Explanation why =
+            reference::explainOutlier(scene.packed, scene.loaded.scene.settings, pixel);
+        ++counts[static_cast<std::size_t>(why.cause)];
+        const bool isExplained = why.cause != reference::Cause::Rounding && why.marginPixels;
+        unexplained += isExplained ? 0u : 1u;
+        if (i < mostPrinted)
+            printExplanation(pixel, why);
+    }
+    if (outliers.size() > mostPrinted)
+        fmt::print("  ...\n");
+    for (std::size_t cause = 0; cause < counts.size(); ++cause)
+        if (counts[cause] > 0)
+            fmt::print("  {:<22} {}\n", reference::causeName(static_cast<reference::Cause>(cause)),
+                       counts[cause]);
+    return unexplained;
+}
+
+} // namespace hyalite

@@ -1,0 +1,26 @@
+// Why two renders differ, for people and reports.
+#pragma once
+
+#include "host/cli/outliers.h"
+#include "host/reference/divergence.h"
+#include "host/render/prepare.h"
+
+#include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <optional>
+
+namespace hyalite {
+
+/// From a pixel of the crop to that of the whole image.
+[[nodiscard]] glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel);
+
+void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &divergence);
+[[nodiscard]] nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
+                                                      const std::optional<Divergence> &divergence);
+
+/// Explains outliers against the oracle, and returns how many are not explained by a decision near its boundary.
+[[nodiscard]] std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers);
+
+} // namespace hyalite

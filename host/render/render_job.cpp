@@ -1,0 +1,186 @@
+#include "host/render/render_job.h"
+
+#include "host/film/film_file.h"
+#include "host/image/png.h"
+#include "host/render/identity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLine)
+    : request_(request), format_(imageFormatOf(request.output)), image_(request.output) {
+    if (!request_.report.empty())
+        reportFile_.emplace(request_.report);
+    if (!request_.checkpoint.empty())
+        const CheckpointWriter writability(request_.checkpoint, {}, false);
+    report_.origin.commandLine = commandLine;
+    report_.output = request_.output;
+}
+
+void RenderJob::prepare() {
+    const auto beginOpening = [this](const SceneOutline &outline) {
+        opening_ = beginOpeningBackend(request_.device, processorsFor(request_.threadCount, outline),
+                                       batchingFor(request_.deviceOptions));
+    };
+    scene_ = prepareScene(request_.scene, Source::Dropped, request_.isQuiet, beginOpening);
+    report_.origin = provenanceOf(*scene_, report_.origin.commandLine);
+    report_.loadSeconds = scene_->loadSeconds;
+    report_.buildSeconds = scene_->buildSeconds;
+}
+
+void RenderJob::requireRoom() const {
+    if (format_ == ImageFormat::Png)
+        requirePngSize(request_.output, scene_->crop.width(), scene_->crop.height());
+    const bool isCopied = !request_.checkpoint.empty() || request_.partialSeconds;
+    requireFilmMemory(scene_->crop, (isCopied ? 2 : 1) + static_cast<unsigned>(request_.layers.size()));
+}
+
+void RenderJob::openDevice() {
+    requireRoom();
+    backend_ = opening_.get();
+    report_.device = backend_->identity(scene_->packed, scene_->loaded.scene.settings.integrator);
+    signals_.emplace(request_.isQuiet);
+}
+
+void RenderJob::resume() {
+    if (request_.checkpoint.empty())
+        return;
+    const RenderIdentity identity = identityOf(*scene_, *backend_);
+    const int samplesPerPixel = scene_->loaded.scene.settings.samplesPerPixel;
+    std::optional<ResumedCheckpoint> resumed;
+    if (request_.isResuming)
+        resumed = resumeCheckpoint(request_.checkpoint, identity, scene_->crop,
+                                   static_cast<std::uint32_t>(samplesPerPixel));
+    // Without a resumed one, what is there is another render's, and may be gone with the second generation.
+    checkpoint_.emplace(request_.checkpoint, identity, !resumed || resumed->damage.empty());
+    if (!resumed)
+        return;
+    checkpointDamage_ = resumed->damage;
+    raysBefore_ = resumed->checkpoint.rays;
+    report_.resumed =
+        ResumedWork{resumed->path.string(),
+                    finishedWork(resumed->checkpoint.film, samplesPerPixel).sampleCount, raysBefore_};
+    filmBefore_ = std::move(resumed->checkpoint.film);
+}
+
+bool RenderJob::shouldStop() const {
+    return signals_->first() != 0 ||
+           (request_.timeLimitSeconds && secondsSince(renderStart_) >= *request_.timeLimitSeconds);
+}
+
+std::vector<PeriodicFile> RenderJob::periodicFiles() {
+    std::vector<PeriodicFile> files;
+    if (checkpoint_)
+        files.push_back(
+            {request_.checkpointSeconds.value_or(10.0), [this](const Film &film, const RayCounts &rays) {
+                 checkpoint_->write(film, raysBefore_ + rays);
+             }});
+    if (request_.partialSeconds)
+        files.push_back({*request_.partialSeconds, [this](const Film &film, const RayCounts &) {
+                             AtomicFile partial(request_.output);
+                             writePicture(partial, film);
+                             partial.commit();
+                         }});
+    return files;
+}
+
+void RenderJob::renderLayers() {
+    snapshots_.emplace(scene_->crop, periodicFiles());
+    renderStart_ = Clock::now();
+    layers_ =
+        renderViews(*backend_, *scene_, request_.layers, request_.isQuiet, [this] { return shouldStop(); });
+}
+
+void RenderJob::render() {
+    Continuation continuation;
+    continuation.film = std::move(filmBefore_);
+    continuation.snapshots = &*snapshots_;
+    BackendResult result = renderWithProgress(
+        *backend_, *scene_, "render", request_.isQuiet, nullptr, [this] { return shouldStop(); },
+        std::move(continuation));
+    snapshots_->finish();
+    takeResult(std::move(result));
+}
+
+void RenderJob::takeResult(BackendResult result) {
+    signalWhileRendering_ = signals_->first();
+    report_.finished = finishedWork(result.film, scene_->loaded.scene.settings.samplesPerPixel);
+    if (result.failure && report_.finished.sampleCount == 0)
+        throw Error(*result.failure);
+    if (signalWhileRendering_ != 0 && report_.finished.sampleCount == 0)
+        throw Error(errorKindOf(signalWhileRendering_),
+                    fmt::format("stopped by {} before the first sample was finished: nothing is written",
+                                signalName(signalWhileRendering_)));
+    if (!report_.finished.isComplete)
+        report_.stoppedBy = result.failure               ? "the device"
+                            : signalWhileRendering_ != 0 ? signalName(signalWhileRendering_)
+                                                         : "the time limit";
+    report_.faults = std::move(result.faults);
+    report_.timing = result.timing;
+    report_.deviceBytes = result.memory.deviceBytes;
+    report_.rays = raysBefore_ + result.rays;
+    if (result.failure)
+        renderFailure_.emplace(*result.failure);
+    film_ = std::move(result.film);
+}
+
+void RenderJob::writePicture(AtomicFile &file, const Film &film) const {
+    const Image image = film.toImage();
+    Picture picture(image);
+    picture.wholeWidth = scene_->loaded.scene.camera.width;
+    picture.wholeHeight = scene_->loaded.scene.camera.height;
+    picture.crop = film.crop;
+    picture.layers = filmLayers(film);
+    std::ranges::move(viewLayers(layers_), std::back_inserter(picture.layers));
+    picture.attributes = attributesOf(provenanceToJson(report_.origin, report_.device));
+    writeFilm(file, format_, film, picture, scene_->loaded.scene.settings,
+              request_.tone.value_or(ToneCurve::Gamma));
+}
+
+void RenderJob::writeImage() {
+    const Clock::time_point writeStart = Clock::now();
+    if (checkpoint_) {
+        try { // first: where there is no room for the picture, nothing is lost
+            checkpoint_->write(*film_, report_.rays);
+        } catch (const Error &error) {
+            checkpointFailure_.emplace(error);
+        }
+    }
+    writePicture(image_, *film_);
+    image_.commit();
+    report_.writeSeconds = secondsSince(writeStart);
+}
+
+void RenderJob::writeReport() {
+    report_.totalSeconds = secondsSince(start_);
+    if (!reportFile_)
+        return;
+    reportFile_->write(formatReport(report_));
+    reportFile_->commit();
+}
+
+void RenderJob::throwFailure() const {
+    if (checkpointFailure_)
+        throw Error(*checkpointFailure_);
+    if (renderFailure_)
+        throw Error(*renderFailure_);
+}
+
+bool RenderJob::isCutByTime() const {
+    return !report_.finished.isComplete && !renderFailure_ && signalWhileRendering_ == 0;
+}
+
+} // namespace hyalite

@@ -1,0 +1,106 @@
+// A render from request to files, in stages. Whoever runs them tells people what happens between them.
+#pragma once
+
+#include "host/base/atomic_file.h"
+#include "host/film/checkpoint.h"
+#include "host/image/image_file.h"
+#include "host/image/tone_map.h"
+#include "host/render/backend.h"
+#include "host/render/layers.h"
+#include "host/render/periodic_files.h"
+#include "host/render/prepare.h"
+#include "host/render/stop.h"
+#include "host/report/render_report.h"
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// What to render, on which device, and into which files; the path of a file that is not wanted is empty.
+struct RenderRequest {
+    SceneOptions scene;
+    std::string output;
+    std::optional<ToneCurve> tone; ///< of a PNG; default: gamma
+    std::vector<Integrator> layers;
+    std::string device = "auto";
+    int threadCount = 0; ///< 0: all
+    DeviceOptions deviceOptions;
+    std::string report;
+    std::optional<double> timeLimitSeconds;
+    std::string checkpoint;
+    std::optional<double> checkpointSeconds; ///< between two; default: 10
+    bool isResuming = false;
+    std::optional<double> partialSeconds; ///< between two outputs of what is finished; default: none
+    bool isQuiet = false;                 ///< no progress
+};
+
+/// The stages are called once each, in the order of their declarations.
+class RenderJob {
+  public:
+    /// Opens the outputs: one that cannot be written is known before the work begins.
+    RenderJob(const RenderRequest &request, const std::string &commandLine);
+
+    /// Loads and builds the scene; opens the device meanwhile, once the outline tells what for.
+    void prepare();
+    /// Waits for the device, and for room for the films. From here on signals only stop the render.
+    void openDevice();
+    /// Opens the checkpoint and reads what is to be resumed, where there is any.
+    void resume();
+    /// Renders what primary rays meet.
+    void renderLayers();
+    /// Renders the samples that are missing, until it is stopped. Throws where not even one is finished.
+    void render();
+    /// Stores the checkpoint, then the image.
+    void writeImage();
+    void writeReport();
+    /// Throws what kept the render from its end, or the checkpoint from being stored.
+    void throwFailure() const;
+
+    [[nodiscard]] const PreparedScene &scene() const { return *scene_; }
+    [[nodiscard]] const Backend &device() const { return *backend_; }
+    [[nodiscard]] const RenderReport &report() const { return report_; }
+    /// Why the newest checkpoint was passed over, or empty.
+    [[nodiscard]] const std::string &checkpointDamage() const { return checkpointDamage_; }
+    /// Whether it ended early, and the time limit, which was asked for, is the only reason.
+    [[nodiscard]] bool isCutByTime() const;
+    /// The signal that came first so far, or 0.
+    [[nodiscard]] int stoppingSignal() const { return signals_->first(); }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    [[nodiscard]] bool shouldStop() const;
+    [[nodiscard]] std::vector<PeriodicFile> periodicFiles();
+    void requireRoom() const;
+    void takeResult(BackendResult result);
+    void writePicture(AtomicFile &file, const Film &film) const;
+
+    const RenderRequest request_;
+    const Clock::time_point start_ = Clock::now();
+    const ImageFormat format_;
+    AtomicFile image_;
+    std::optional<AtomicFile> reportFile_;
+    std::optional<PreparedScene> scene_;
+    std::future<std::unique_ptr<Backend>> opening_;
+    std::unique_ptr<Backend> backend_;
+    std::optional<CaughtSignals> signals_; ///< until all is written: at the last moment, most would be lost
+    std::optional<CheckpointWriter> checkpoint_;
+    std::string checkpointDamage_;
+    RayCounts raysBefore_;
+    std::optional<Film> filmBefore_;
+    std::vector<ViewFilm> layers_;
+    Clock::time_point renderStart_;
+    std::optional<PeriodicFiles> snapshots_; ///< writes with the members above
+    std::optional<Film> film_;
+    int signalWhileRendering_ = 0;
+    std::optional<Error> renderFailure_;
+    std::optional<Error> checkpointFailure_;
+    RenderReport report_;
+};
+
+} // namespace hyalite
