@@ -16,8 +16,9 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release
 target=all
-needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev libtinyobjloader-dev
-        libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev)
+needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
+        libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
+        zlib1g-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
 needed_for_bench=(libbenchmark-dev libembree-dev)
 needed_for_fuzz=(clang-14 libclang-rt-14-dev libomp-14-dev)

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace hyalite {
 
 namespace {
@@ -47,6 +49,16 @@ std::string cleanText(std::string_view text) {
         i += hidden > 0 ? hidden : 1;
     }
     return clean;
+}
+
+std::string excerpt(std::string_view text, std::size_t maxBytes) {
+    std::size_t end = std::min(text.size(), maxBytes);
+    while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+        --end; // never inside a UTF-8 sequence
+    std::string line;
+    for (const char c : cleanText(text.substr(0, end)))
+        line += c == '\n' ? std::string(replacement) : std::string(1, c);
+    return end < text.size() ? line + "..." : line;
 }
 
 } // namespace hyalite

@@ -1,5 +1,6 @@
 #include "host/base/json_document.h"
 
+#include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/base/input_file.h"
 
@@ -57,7 +58,7 @@ class DocumentCheck : public json::json_sax_t {
         // The bytes that it cites need not be UTF-8.
         std::replace_if(
             what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7F; }, '?');
-        failAtByte(std::max<std::size_t>(position, 1) - 1, printable(what, maxSyntaxMessageBytes));
+        failAtByte(std::max<std::size_t>(position, 1) - 1, excerpt(what, maxSyntaxMessageBytes));
     }
 
     /// Throws Error{BadInput} with the line and column of a byte of the text.
@@ -132,21 +133,8 @@ nlohmann::json readJsonFile(const std::filesystem::path &file) {
     return json::parse(text);
 }
 
-std::string printable(std::string text, std::size_t maxBytes) {
-    if (text.size() > maxBytes) {
-        std::size_t end = maxBytes;
-        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
-            --end; // never inside a UTF-8 sequence
-        text = text.substr(0, end) + "...";
-    }
-    for (char &c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-            c = '?';
-    return text;
-}
-
 void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path, std::string_view message) {
-    const std::string place = path.empty() ? "the top level" : printable(path.to_string());
+    const std::string place = path.empty() ? "the top level" : excerpt(path.to_string());
     throw Error(ErrorKind::BadInput, fmt::format("{}: {}: {}", fileName, place, message));
 }
 

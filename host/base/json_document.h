@@ -18,7 +18,4 @@ namespace hyalite {
 [[noreturn]] void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path,
                          std::string_view message);
 
-/// Text from a file, fit for a terminal: no control characters, and cut where it is long.
-[[nodiscard]] std::string printable(std::string text, std::size_t maxBytes = 100);
-
 } // namespace hyalite

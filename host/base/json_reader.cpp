@@ -1,5 +1,6 @@
 #include "host/base/json_reader.h"
 
+#include "host/base/clean_text.h"
 #include "host/base/json_document.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ std::string describe(const json &value) {
         return fmt::format("an array of {}", value.size());
     if (value.is_object())
         return "an object";
-    return printable(value.dump());
+    return excerpt(value.dump());
 }
 
 /// Levenshtein's edit distance, upper and lower case being the same.
@@ -178,14 +179,14 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
             leastDistance = distance;
         }
     }
-    return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", printable(std::string(nearest)));
+    return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", excerpt(nearest));
 }
 
 std::string quotedList(std::span<const std::string_view> words) {
     constexpr std::size_t maxListed = 32; // a scene may define thousands of materials
     std::string list;
     for (const std::string_view word : words.first(std::min(words.size(), maxListed)))
-        list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", printable(std::string(word)));
+        list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", excerpt(word));
     return words.size() > maxListed ? list + ", ..." : list;
 }
 

@@ -1,7 +1,7 @@
 #include "host/cli/options.h"
 
 #include "host/base/atomic_file.h"
-#include "host/base/json_document.h"
+#include "host/base/clean_text.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ bool isSameFile(const std::string &a, const std::string &b) {
 
 void refuseValue(const std::string &option, std::string_view found, std::string_view allowed) {
     throw Error(ErrorKind::Usage,
-                fmt::format("{}: found \"{}\"; allowed: {}", option, printable(std::string(found)), allowed));
+                fmt::format("{}: found \"{}\"; allowed: {}", option, excerpt(found), allowed));
 }
 
 double readNumber(const std::string &option, std::string_view text, const Interval &allowed) {

@@ -1,6 +1,7 @@
 #include "host/film/checkpoint.h"
 
 #include "host/base/atomic_file.h"
+#include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/input_file.h"
@@ -42,20 +43,14 @@ std::string identityText(const RenderIdentity &identity) {
     return text;
 }
 
-/// Whatever the file holds, a terminal must not obey it, and a message stays short.
-std::string printable(std::string_view text) {
-    std::string shown(text.substr(0, 120));
-    std::replace_if(
-        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return shown;
-}
+constexpr std::size_t shownBytes = 120;
 
 /// The value of a name in an identity's text, or "nothing".
 std::string valueOf(std::string_view text, std::string_view name) {
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
         if (line.size() > name.size() + 1 && line.starts_with(name) && line[name.size()] == ':')
-            return printable(line.substr(name.size() + 2));
+            return excerpt(line.substr(name.size() + 2), shownBytes);
         text.remove_prefix(std::min(line.size() + 1, text.size()));
     }
     return "nothing";
@@ -65,9 +60,9 @@ std::string valueOf(std::string_view text, std::string_view name) {
 std::string describeDifferences(std::string_view there, const RenderIdentity &here) {
     std::string differences;
     for (const auto &[name, value] : here)
-        if (const std::string other = valueOf(there, name); other != printable(value))
+        if (const std::string other = valueOf(there, name); other != excerpt(value, shownBytes))
             differences += fmt::format("{}{}: {} there, {} here", differences.empty() ? "" : "; ", name,
-                                       other, printable(value));
+                                       other, excerpt(value, shownBytes));
     return differences.empty() ? "it names settings that this program does not know" : differences;
 }
 

@@ -1,3 +1,4 @@
+#include "host/base/clean_text.h"
 #include "host/image/exr.h"
 #include "host/image/image_file.h"
 
@@ -172,14 +173,6 @@ int linesPackedTogether(Imf::Compression compression) {
     }
 }
 
-/// Whatever the file holds, a terminal must not obey it.
-std::string printable(const std::string &name, std::size_t lengthMax = 40) {
-    std::string text = name.substr(0, lengthMax);
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return text;
-}
-
 std::string prefixOf(const std::string &layer) { return layer.empty() ? "" : layer + "."; }
 
 /// The names of the channels that hold R, G and B of a layer, if there are any.
@@ -204,7 +197,7 @@ std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &c
     std::size_t count = 0;
     for (Imf::ChannelList::ConstIterator i = channels.begin(); i != channels.end(); ++i)
         if (++count <= mostTold)
-            found.push_back(printable(i.name()));
+            found.push_back(excerpt(i.name(), 40));
     throw file.bad(fmt::format("it has no channels {}R, {}G and {}B, but {}{}", prefix, prefix, prefix,
                                found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", ")),
                                count > mostTold ? fmt::format(" and {} more", count - mostTold) : ""));
@@ -222,7 +215,7 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
             throw file.bad(
                 fmt::format("its channel {} has fewer values than pixels (sampling {} x {}); store a "
                             "value for each pixel",
-                            printable(i.name()), i.channel().xSampling, i.channel().ySampling));
+                            excerpt(i.name(), 40), i.channel().xSampling, i.channel().ySampling));
         bytesPerPixel += i.channel().type == Imf::HALF ? 2 : 4;
     }
     // What packed lines become, and the library's room for that: five times as much with DWA, which is the most.
@@ -293,7 +286,7 @@ template <class Read> auto asked(const InputFile &file, const Read &read) {
     } catch (const std::bad_alloc &) {
         throw;
     } catch (const std::exception &error) {
-        throw file.bad(fmt::format("OpenEXR says: {}", printable(error.what(), 200)));
+        throw file.bad(fmt::format("OpenEXR says: {}", excerpt(error.what(), 200)));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "host/image/hdr.h"
 
+#include "host/base/clean_text.h"
 #include "host/image/image_file.h"
 
 #include <glm/common.hpp>
@@ -138,14 +139,6 @@ std::string nextLine(const InputFile &file, ByteStream &stream, std::size_t &hea
     return line;
 }
 
-/// Whatever the file holds, a terminal must not obey it.
-std::string printable(const std::string &text) {
-    std::string shown = text.substr(0, 40);
-    std::replace_if(
-        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return shown;
-}
-
 /// Passes the header, and returns an image of its size.
 Image readHeader(const InputFile &file, ByteStream &stream) {
     std::size_t headerBytes = 0;
@@ -157,7 +150,7 @@ Image readHeader(const InputFile &file, ByteStream &stream) {
             continue;
         if (line != "FORMAT=32-bit_rle_rgbe")
             throw file.bad(
-                fmt::format("its header says {}; FORMAT=32-bit_rle_rgbe is read", printable(line)));
+                fmt::format("its header says {}; FORMAT=32-bit_rle_rgbe is read", excerpt(line, 40)));
         hasFormat = true;
     }
     if (!hasFormat)
@@ -170,7 +163,7 @@ Image readHeader(const InputFile &file, ByteStream &stream) {
     if (std::sscanf(line.c_str(), "-Y %6d +X %6d%n", &height, &width, &length) != 2 ||
         static_cast<std::size_t>(length) != line.size())
         throw file.bad(
-            fmt::format("its size is given as '{}'; allowed: -Y HEIGHT +X WIDTH", printable(line)));
+            fmt::format("its size is given as '{}'; allowed: -Y HEIGHT +X WIDTH", excerpt(line, 40)));
     const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     requireImageSize(file, width, height);
     if (stream.remaining() < 4 * static_cast<std::uint64_t>(height)) // a row's first pixel, or its own head

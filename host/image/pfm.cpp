@@ -1,5 +1,6 @@
 #include "host/image/pfm.h"
 
+#include "host/base/clean_text.h"
 #include "host/image/image_file.h"
 
 #include <fmt/format.h>
@@ -55,7 +56,7 @@ class HeaderWords {
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         if (error != std::errc() || end != digits.data() + digits.size()) {
             throw file_.bad(
-                fmt::format("the {} in its PFM header is '{}', not a number", what, printable(word)));
+                fmt::format("the {} in its PFM header is '{}', not a number", what, excerpt(word, 40)));
         }
         return value;
     }
@@ -63,14 +64,6 @@ class HeaderWords {
     [[nodiscard]] std::size_t position() const { return position_; }
 
   private:
-    /// Whatever the file holds, a terminal must not obey it.
-    [[nodiscard]] static std::string printable(std::string_view word) {
-        std::string text(word.substr(0, 40));
-        std::replace_if(
-            text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-        return text;
-    }
-
     const InputFile &file_;
     std::string_view text_;
     std::size_t position_ = 0;

@@ -3,6 +3,7 @@
 #include "host/image/image_file.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -44,23 +45,9 @@ void appendBigEndian32(std::vector<std::byte> &bytes, std::uint32_t value) {
 }
 
 /// CRC-32 of ISO 3309, as PNG's annex D has it.
-std::uint32_t crc32(std::span<const std::byte> bytes) {
-    static const std::array<std::uint32_t, 256> table = [] {
-        std::array<std::uint32_t, 256> entries{};
-        for (std::uint32_t i = 0; i < entries.size(); ++i) {
-            std::uint32_t remainder = i;
-            for (int bit = 0; bit < 8; ++bit) {
-                remainder = (remainder & 1u) != 0 ? 0xedb88320u ^ (remainder >> 1) : remainder >> 1;
-            }
-            entries[i] = remainder;
-        }
-        return entries;
-    }();
-    std::uint32_t crc = 0xffffffffu;
-    for (const std::byte byte : bytes) {
-        crc = table[(crc ^ std::to_integer<std::uint32_t>(byte)) & 0xffu] ^ (crc >> 8);
-    }
-    return crc ^ 0xffffffffu;
+std::uint32_t checksumOf(std::span<const std::byte> bytes) {
+    return static_cast<std::uint32_t>(
+        crc32_z(0, reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size()));
 }
 
 bool isLegalDepth(int colourType, int bitDepth) {
@@ -198,7 +185,7 @@ class ChunkReader {
         std::vector<std::byte> bytes(std::size_t{frame.sizeBytes} + 8); // type, data, checksum
         file_.read(offsetBytes_ + 4, bytes);
         const auto checked = std::span(bytes).first(bytes.size() - 4);
-        if (crc32(checked) != bigEndian32(std::span(bytes).last(4))) {
+        if (checksumOf(checked) != bigEndian32(std::span(bytes).last(4))) {
             throw file_.bad(
                 fmt::format("the {} chunk at byte {} has a wrong checksum", frame.name(), offsetBytes_));
         }
@@ -315,7 +302,7 @@ void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<
         file.push_back(static_cast<std::byte>(c));
     }
     file.insert(file.end(), data.begin(), data.end());
-    appendBigEndian32(file, crc32(std::span(file).subspan(begin)));
+    appendBigEndian32(file, checksumOf(std::span(file).subspan(begin)));
 }
 
 PngChunks readPngChunks(const InputFile &file) { return ChunkReader(file).read(); }

@@ -1,5 +1,6 @@
 #include "host/import/file_reach.h"
 
+#include "host/base/clean_text.h"
 #include "host/base/json_document.h"
 #include "host/import/assets.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::size_t maxShownPathBytes = 1000;
 
-std::string shown(const std::filesystem::path &path) { return printable(path.string(), maxShownPathBytes); }
+std::string shown(const std::filesystem::path &path) { return excerpt(path.string(), maxShownPathBytes); }
 
 /// Both canonical. A path lies within itself.
 bool isWithin(const std::filesystem::path &path, const std::filesystem::path &folder) {

@@ -1,5 +1,6 @@
 #include "host/import/mtl.h"
 
+#include "host/base/clean_text.h"
 #include "host/image/texture_file.h"
 #include "host/import/obj_lines.h"
 #include "host/scene/limits.h"
@@ -256,13 +257,9 @@ class TextureReader {
         const bool hasWord = option == "-blendu" || option == "-blendv" || option == "-cc" ||
                              option == "-clamp" || option == "-imfchan" || option == "-type";
         const std::string_view value = hasWord ? words.next() : std::string_view();
-        warn(fmt::format("the option {}{}{} is passed over; -s, -o and -bm are not", printable(option),
-                         hasWord ? " " : "", printable(value)));
-    }
-
-    static std::string printable(std::string_view text) {
-        const std::string quoted = quoteInput(text);
-        return quoted.substr(1, quoted.size() - 2);
+        warn(fmt::format("the option {}{}{} is passed over; -s, -o and -bm are not",
+                         excerpt(option, maxExcerptBytes), hasWord ? " " : "",
+                         excerpt(value, maxExcerptBytes)));
     }
 
     std::optional<std::uint32_t> load(std::string_view keyword, std::string_view name, std::uint32_t slot) {

@@ -1,5 +1,6 @@
 #include "host/import/obj_lines.h"
 
+#include "host/base/clean_text.h"
 #include "host/base/error.h"
 
 #include <fmt/format.h>
@@ -20,13 +21,7 @@ void failAtLine(const std::string &file, std::size_t line, std::string_view mess
     throw Error(ErrorKind::BadInput, file + ":" + std::to_string(line) + ": " + std::string(message));
 }
 
-std::string quoteInput(std::string_view text) {
-    constexpr std::size_t maxShown = 40;
-    std::string quoted = "\"";
-    for (const char c : text.substr(0, maxShown))
-        quoted += c >= ' ' && c <= '~' ? c : '?';
-    return quoted + (text.size() > maxShown ? "...\"" : "\"");
-}
+std::string quoteInput(std::string_view text) { return "\"" + excerpt(text, maxExcerptBytes) + "\""; }
 
 ObjLines::ObjLines(const std::filesystem::path &path)
     : file(path), name(path.string()), buffer(firstBufferBytes) {

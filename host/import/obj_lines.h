@@ -16,7 +16,10 @@ namespace hyalite {
 /// Throws Error{BadInput} "file:line: message".
 [[noreturn]] void failAtLine(const std::string &file, std::size_t line, std::string_view message);
 
-/// A piece of the input for a message: in quotes, cut to 40 characters, nothing unprintable.
+/// What messages show of the input at most.
+inline constexpr std::size_t maxExcerptBytes = 40;
+
+/// An excerpt of the input, in quotes.
 [[nodiscard]] std::string quoteInput(std::string_view text);
 
 class ObjLines {

@@ -1,6 +1,7 @@
 #include "host/render/tuning.h"
 
 #include "host/base/atomic_file.h"
+#include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/json_document.h"
@@ -57,7 +58,7 @@ gpu::KernelChoice kernelNamed(const Json &name) {
     for (const auto &[known, choice] : gpu::kernelNames)
         if (name == known)
             return choice;
-    throw Error(ErrorKind::BadInput, "found the kernel " + printable(name.dump()));
+    throw Error(ErrorKind::BadInput, "found the kernel " + excerpt(name.dump()));
 }
 
 } // namespace
@@ -82,7 +83,7 @@ Tuning readTuning(const gpu::DeviceInfo &device) {
             Tuning tuning;
             for (const auto &[name, workload] : gpu::workloadNames)
                 tuning.kernels[static_cast<std::size_t>(workload)] = kernelNamed(entry.value(name, Json()));
-            tuning.date = printable(entry.value("date", std::string("long ago")));
+            tuning.date = excerpt(entry.value("date", std::string("long ago")));
             return tuning;
         }
     } catch (const Error &fault) {

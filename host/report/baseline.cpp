@@ -1,5 +1,6 @@
 #include "host/report/baseline.h"
 
+#include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/base/json_document.h"
 #include "host/report/profile_json.h"
@@ -25,8 +26,7 @@ template <std::integral Whole> Whole wholeNumber(const Json &json) {
                           ? std::in_range<Whole>(json.get<std::uint64_t>())
                           : json.is_number_integer() && std::in_range<Whole>(json.get<std::int64_t>());
     if (!fits)
-        throw Error(ErrorKind::BadInput,
-                    "found " + printable(json.dump()) + " where a whole number is needed");
+        throw Error(ErrorKind::BadInput, "found " + excerpt(json.dump()) + " where a whole number is needed");
     return json.get<Whole>();
 }
 
@@ -140,7 +140,7 @@ void requireSameJob(const ProfileFigures &baseline, const Profile &profile) {
     if (baseline.job != job)
         throw Error(ErrorKind::BadInput,
                     fmt::format("the baseline is of another job: it measured\n  {}\nand this is\n  {}",
-                                printable(baseline.job, 400), job));
+                                excerpt(baseline.job, 400), job));
 }
 
 BaselineComparison compareWithBaseline(const ProfileFigures &baseline, const ProfileFigures &now,
@@ -184,7 +184,7 @@ std::string comparisonTable(const BaselineComparison &comparison, double maxRegr
     text += fmt::format("work         {} of {} counts are equal\n",
                         comparison.comparedCounts - comparison.work.size(), comparison.comparedCounts);
     for (const std::string &name : comparison.unmatched)
-        text += fmt::format("not compared {}\n", printable(name));
+        text += fmt::format("not compared {}\n", excerpt(name));
     if (!comparison.isSameDevice)
         text += "note         the baseline is of another device or driver: times fail nothing\n";
     return text + fmt::format("{} (limit {:g} %, beyond the noise)\n",

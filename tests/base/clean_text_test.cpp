@@ -38,5 +38,18 @@ TEST(CleanText, IsUtf8) {
                   cleanText(std::string(3, static_cast<char>(byte))));
 }
 
+TEST(Excerpt, IsOneCleanLine) {
+    EXPECT_EQ(excerpt("plain \u00A0 text"), "plain \u00A0 text");
+    EXPECT_EQ(excerpt("a\nb\x1b[31m\xff"), "a" + instead + "b" + instead + "[31m" + instead);
+}
+
+TEST(Excerpt, IsCutBetweenCharacters) {
+    EXPECT_EQ(excerpt("abcdef", 6), "abcdef");
+    EXPECT_EQ(excerpt("abcdefg", 6), "abcdef...");
+    EXPECT_EQ(excerpt("abcde\u00FC", 6), "abcde...");
+    EXPECT_EQ(excerpt("abcde\u00FCx", 7), "abcde\u00FC...");
+    EXPECT_EQ(excerpt(std::string(1000, '\x80'), 6), "...");
+}
+
 } // namespace
 } // namespace hyalite

@@ -339,8 +339,8 @@ TEST(Obj, ErrorsNameTheLineWhatWasFoundAndWhatIsAllowed) {
 }
 
 TEST(Obj, MessagesShowNothingUnprintableAndStayShort) {
-    expectError("v 1 2 \x1b[31m\x80\n", ":1: v has \"?[31m?\"");
-    expectError(std::string("v 1 2 3\0", 8), ":1: v has \"3?\"");
+    expectError("v 1 2 \x1b[31m\x80\n", ":1: v has \"\uFFFD[31m\uFFFD\"");
+    expectError(std::string("v 1 2 3\0", 8), ":1: v has \"3\uFFFD\"");
     const std::string message = errorOf("v 1 2 " + std::string(100'000, '3'));
     EXPECT_LT(message.size(), 300u);
 }
