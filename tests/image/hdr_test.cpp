@@ -143,7 +143,7 @@ TEST_F(Hdr, DamagedFilesAreRefused) {
         expectBad(store("a.hdr", text), found);
     };
     refused("#?RADIANCE\n\n-Y 1 +X 1\n\x80\x40\x20\x81", "no line FORMAT");
-    refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\x1b\n\n-Y 1 +X 1\n....", "FORMAT=32-bit_rle_xyze?;");
+    refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\x1b\n\n-Y 1 +X 1\n....", "FORMAT=32-bit_rle_xyze\uFFFD;");
     for (const char *size :
          {"+Y 1 +X 1", "-Y 1 -X 1", "+X 1 -Y 1", "-Y 1 +X", "-Y 1 +X 1 ", "-Y 1234567 +X 1", ""})
         refused(head + size + "\n....", "allowed: -Y HEIGHT +X WIDTH");

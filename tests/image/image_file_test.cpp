@@ -191,7 +191,7 @@ TEST_F(ImageFileTest, DamagedPfmIsRefused) {
     expectBadBytes("Pf\n1 x\n-1\n\0\0\0\0"s, "height in its PFM header is 'x'");
     expectBadBytes("Pf\n1.5 1\n-1\n\0\0\0\0"s, "width in its PFM header is '1.5'");
     expectBadBytes("Pf\n99999999999 1\n-1\n"s, "not a number");
-    expectBadBytes("Pf\n\x1b[31m 1\n-1\n"s, "width in its PFM header is '?[31m'");
+    expectBadBytes("Pf\n\x1b[31m 1\n-1\n"s, "width in its PFM header is '\uFFFD[31m'");
     expectBadBytes("Pf\n1 1\n0\n\0\0\0\0"s, "no byte order");
     expectBadBytes("Pf\n1 1\nnan\n\0\0\0\0"s, "no byte order");
     expectBadBytes("Pf\n0 1\n-1\n"s, "its size is 0 x 1");

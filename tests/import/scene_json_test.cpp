@@ -253,13 +253,13 @@ INSTANTIATE_TEST_SUITE_P(
                 " /spheres/0/material: ", "did you mean \"glass\"?"},
         Refusal{R"({"materials": {"\u001b[31m": {"type": "mirror"}},
                     "spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "[31m"}]})",
-                " /spheres/0/material: ", "in /materials: \"?[31m\"; did you mean \"?[31m\"?"},
+                " /spheres/0/material: ", "in /materials: \"\uFFFD[31m\"; did you mean \"\uFFFD[31m\"?"},
         Refusal{
             R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "no.obj", "material": "m"}]})",
             " /meshes/0/file: ", "no.obj"},
         Refusal{
             R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "\u001b[31m", "material": "m"}]})",
-            " /meshes/0/file: ", "/?[31m: there is no such file"},
+            " /meshes/0/file: ", "/\uFFFD[31m: there is no such file"},
         Refusal{R"({"materials": {"m": {"type": "mirror"}},
                     "meshes": [{"file": "triangle.obj\u0000x", "material": "m"}]})",
                 " /meshes/0/file: ", "NUL"}));
