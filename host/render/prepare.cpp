@@ -79,6 +79,28 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     moveCamera(options, loaded, camera);
 }
 
+/// The override that decides how the camera stands, if one does.
+std::string cameraOverride(const SceneOptions &options) {
+    if (!options.up.empty())
+        return "up";
+    if (!options.lookAt.empty())
+        return "look-at";
+    return options.cameraPosition.empty() ? "" : "camera-position";
+}
+
+/// The scene was valid as loaded, and each override is in range: where it is refused now, they do not go together.
+void validateWithOverrides(const SceneOptions &options, const Scene &scene, const std::string &file) {
+    const std::string name = cameraOverride(options);
+    try {
+        validateScene(scene,
+                      fmt::format("{} with {}", file, name.empty() ? "these settings" : "this camera"));
+    } catch (const Error &error) {
+        if (name.empty())
+            throw Error(ErrorKind::Usage, error.what());
+        throw OverrideError(name, error.what());
+    }
+}
+
 Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
     if (wanted.empty())
         return {0, camera.width, 0, camera.height};
@@ -134,15 +156,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
             printMessage("hyalite: warning: {}\n", warning);
     applyOverrides(options, prepared.loaded);
     Scene &scene = prepared.loaded.scene;
-    const bool isCameraMoved =
-        !options.cameraPosition.empty() || !options.lookAt.empty() || !options.up.empty();
-    try {
-        validateScene(scene, fmt::format("{} with {}", prepared.loaded.file.string(),
-                                         isCameraMoved ? "this camera" : "these settings"));
-    } catch (const Error &error) {
-        // The scene was valid as loaded and each option is in range: they do not go together.
-        throw Error(ErrorKind::Usage, error.what());
-    }
+    validateWithOverrides(options, scene, prepared.loaded.file.string());
     prepared.crop = chooseCrop(options.crop, scene.camera);
     const Clock::time_point loaded = Clock::now();
     prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);

@@ -187,7 +187,8 @@ TEST_F(RenderOptions, ABareMeshIsLookedAtFromWhereTheCameraIsPut) {
         EXPECT_EQ(renderPfm(line), renderPfm(line + " --look-at 0,0,0")) << position;
     }
     expectFailure("render square.obj -o a.png --camera-position 0,0,0", 2, {"--look-at"});
-    expectFailure("render square.obj -o a.png --camera-position 0,5,0", 2, {"--up"});
+    expectFailure("render square.obj -o a.png --camera-position 0,5,0", 2,
+                  {"--camera-position", "up: found the view direction's own axis"});
 }
 
 TEST_F(RenderOptions, UpsideDownIsTheImageTurned) {
