@@ -6,6 +6,7 @@
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it
 #   cmake/run.sh sanitize            builds with the address and undefined behaviour sanitizers, and runs all tests
+#   cmake/run.sh check               checks the format of all C++ by clang-format
 #   cmake/run.sh fuzz SECONDS        feeds each reader of files with inputs made up by libFuzzer, for so many seconds
 #   cmake/run.sh ARGUMENT...         hyalite ARGUMENT..., for instance: render cat -o cat.png
 #
@@ -21,6 +22,7 @@ needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-t
         zlib1g-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
 needed_for_bench=(libbenchmark-dev libembree-dev)
+needed_for_check=(clang-format-14)
 needed_for_fuzz=(clang-14 libclang-rt-14-dev libomp-14-dev)
 
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
@@ -74,6 +76,13 @@ tests_as_before() { grep -qs '^HYALITE_TESTS:BOOL=ON' "$build/CMakeCache.txt" &&
 if [ $# -eq 0 ]; then
     usage
     exit 2
+fi
+if [ "$1" = check ]; then
+    install_missing "${needed_for_check[@]}"
+    cd "$root"
+    git ls-files 'assets/*.cpp' 'assets/*.h' 'cmake/*.cpp' 'host/*.cpp' 'host/*.h' 'shaders/*.cpp' 'tests/*.cpp' 'tests/*.h' |
+        xargs clang-format-14 --dry-run -Werror
+    exit
 fi
 install_missing "${needed[@]}"
 case $1 in
