@@ -1,4 +1,4 @@
-// The figures as Markdown, in the form in which the README holds them.
+// The figures as Markdown, in the form in which tests/bench/README.md holds them.
 #pragma once
 
 #include "host/gpu/vk/device_list.h"

@@ -51,7 +51,7 @@ std::string bilevelPng(std::uint32_t width, std::uint32_t height, int packedByte
 }
 
 struct HostileFiles : CommandLine {
-    /// Runs a command that reads `file`, which it stores first, and expects it to end with an exit code of the README
+    /// Runs a command that reads `file`, which it stores first, and expects it to end with an exit code of the user guide
     /// and without taking memory out of proportion.
     Outcome expectBounded(const std::string &command, const std::string &file,
                           const std::string &content) const {

@@ -30,8 +30,8 @@ struct Comparison {
     Search search = Search::ByScattering;
 };
 
-/// Of what facets send to each other the renderers interpolate tables of 32 by 32 energies, linearly. README.md says
-/// that a white metal then reflects everything within 0.3 %.
+/// Of what facets send to each other the renderers interpolate tables of 32 by 32 energies, linearly. A white metal
+/// then reflects everything within 0.3 % (assets/README.md).
 constexpr double energyAllowance = 3e-3;
 
 /// Expects the film to have the same mean radiance in each region and channel.
