@@ -273,6 +273,25 @@ class Translator {
         return out;
     }
 
+    /// Whether the statements assign to a variable or to a part of it.
+    static bool isAssigned(const std::string &name, const Tokens &statements) {
+        for (std::size_t i = 0; i < statements.size(); ++i) {
+            if (statements[i].text != name || isMember(statements, i))
+                continue;
+            std::size_t at = i + 1;
+            while (statements[at].text == ".")
+                at += 2;
+            at = afterBlanks(statements, at);
+            const bool isCombined =
+                std::string_view("+-*/%^|&").find(statements[at].text) != std::string_view::npos;
+            at += isCombined ? 1 : 0;
+            if (statements[at].text == "=" && statements[at + 1].text != "=")
+                return true;
+        }
+        return false;
+    }
+
+    /// A struct that a function does not change it gets by reference.
     [[nodiscard]] std::string parametersOf(const Declaration &function) const {
         std::string out = function.usesScene ? "const SceneView<Real> &scene" : "";
         Tokens one;
@@ -283,7 +302,10 @@ class Translator {
             const bool isOut = one[type].text == "inout" || one[type].text == "out";
             const std::size_t at = isOut ? afterBlanks(one, type + 1) : type;
             const std::string &name = one[afterBlanks(one, at + 1)].text;
-            out += (out.empty() ? "" : ", ") + typeText(one[at].text) + (isOut ? " &" : " ") + name;
+            const bool isStruct = find(one[at]) != nullptr;
+            const bool isByValue = !isStruct || isAssigned(name, function.body);
+            out += (out.empty() ? "" : ", ") + std::string(isOut || isByValue ? "" : "const ") +
+                   typeText(one[at].text) + (isOut || !isByValue ? " &" : " ") + name;
         };
         for (const Token &token : function.parameters) {
             if (token.text == ",") {
@@ -313,15 +335,19 @@ class Translator {
             plain(one.head) + templateText(one) + "struct " + one.name + " " + translated(one.body, true);
         if (!one.isRecord)
             return out + ";\n";
-        // A record of the host becomes one in this precision.
+        // A record of the host becomes one in this precision: of floats, it is the same bytes.
         std::string fields;
         for (std::size_t i = 0; i + 1 < one.body.size(); ++i)
-            if (one.body[i].kind == Token::Word && one.body[i + 1].text == ";")
-                fields +=
-                    (fields.empty() ? "" : ", ") + one.body[i].text + "(record." + one.body[i].text + ")";
+            if (one.body[i].kind == Token::Word && one.body[i + 1].text == ";") {
+                const std::string &field = one.body[i].text;
+                fields += "            " + field + " = decltype(" + field + ")(from." + field + ");\n";
+            }
         out.pop_back();
         return out + "\n    " + one.name + "() = default;\n    " + one.name + "(const layout::" + one.name +
-               " &record) : " + fields + " {}\n};\n";
+               " &from) {\n        if constexpr (std::is_same_v<Real, float>) {\n"
+               "            std::memcpy(static_cast<void *>(this), &from, sizeof(from));\n        } else "
+               "{\n" +
+               fields + "        }\n    }\n};\n";
     }
 
     [[nodiscard]] std::string constantText(const Declaration &one) const {

@@ -18,8 +18,10 @@ template <class Real>
 template <class Real>
 [[nodiscard]] MaterialRecord<Real> hitMaterial(const SceneView<Real> &scene, const Hit<Real> &hit,
                                                std::uint32_t materialIndex, const Vec3<Real> &position) {
-    const MaterialRecord<Real> material = scene.fetchMaterial(materialIndex);
-    return material.textures == 0 ? material : texturedMaterial(scene, material, hitUv(scene, hit, position));
+    MaterialRecord<Real> material = scene.fetchMaterial(materialIndex);
+    if (material.textures != 0)
+        material = texturedMaterial(scene, material, hitUv(scene, hit, position));
+    return material;
 }
 
 /// Turns the surface's normal by the normal map of its material, if it has one; tangent() is asked only then.

@@ -16,7 +16,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <type_traits>
+#include <vector>
 
 namespace hyalite::reference {
 
@@ -89,7 +92,10 @@ template <class Real> struct SceneView {
           scattering(packedScene.scattering), texturing(packedScene.texturing),
           lighting(packedScene.lighting), camera(packedScene.camera),
           emitterCount(static_cast<uint>(packedScene.emitters.size())),
-          hasTriangles(packedScene.hasTriangles), hasEmission(packedScene.hasEmission) {}
+          hasTriangles(packedScene.hasTriangles), hasEmission(packedScene.hasEmission) {
+        for (const SphereRecord<Real> sphere : packedScene.spheres)
+            sphereShapes.push_back(makeSphereShape<Real>(sphere.centre, sphere.radius));
+    }
 
     [[nodiscard]] SphereRecord<Real> fetchSphere(uint index) const { return packed.spheres[index]; }
     [[nodiscard]] TriangleRecord<Real> fetchTriangle(uint index) const { return packed.triangles[index]; }
@@ -112,6 +118,7 @@ template <class Real> struct SceneView {
     uint emitterCount;
     bool hasTriangles;
     bool hasEmission;
+    std::vector<SphereShape<Real>> sphereShapes; ///< of all spheres, for the loops over them
 };
 
 } // namespace hyalite::reference
