@@ -1,8 +1,8 @@
 #include "tests/bench/ray_sets.h"
 
 #include "host/reference/closest_hit.h"
-#include "host/reference/scene_view.h"
 #include "tests/bench/parallel.h"
+#include "tests/fixtures/leaves.h"
 
 #include <cmath>
 #include <cstring>
@@ -31,7 +31,7 @@ std::vector<layout::RayRecord> primaryRays(const PackedScene &scene, const glm::
     std::vector<layout::RayRecord> rays(std::size_t{scene.frame.imageWidth} * scene.frame.imageHeight);
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
         const glm::uvec2 pixel = pixelOf(i, scene.frame.imageWidth);
-        rays[i] = {scene.frame.eye, unbounded, reference::primaryDirection(scene.frame, pixel, offset),
+        rays[i] = {scene.frame.eye, unbounded, reference::primaryDirection<float>(scene.frame, pixel, offset),
                    layout::noPrimitive};
     }
     return rays;
@@ -53,8 +53,8 @@ std::vector<Arrival> arrivals(const PackedScene &scene) {
                 reference::closestHit(scene, reference::Ray<float>{ray.origin, ray.direction, ray.excluded});
             if (hit.primitive == layout::noPrimitive)
                 continue;
-            reference::Surface<float> surface =
-                reference::triangleSurface(scene.triangles[hit.record], layout::NormalRecord{}, hit.u, hit.v);
+            reference::Surface<float> surface = reference::triangleSurface<float>(
+                scene.triangles[hit.record], layout::NormalRecord{}, hit.u, hit.v);
             if (reference::dotProduct(ray.direction, surface.geometricNormal) > 0.0f)
                 surface.geometricNormal = -surface.geometricNormal;
             arrivals.push_back({surface, hit.primitive});
