@@ -18,7 +18,7 @@ void addStatisticalOptions(CLI::App &command, CompareOptions &options) {
     CLI::Option *statistical = command.add_flag("--statistical", options.isStatistical,
                                                 "render with two seeds, and ask whether both can be "
                                                 "estimates of one picture, as `hyalite diff` does");
-    addSignificanceOption(command, options.zTest)->needs(statistical);
+    addSignificanceOption(command, options.welch)->needs(statistical);
     addNumber(command, "--against-seed", options.againstSeed, rangeOf(&RenderSettings::seed),
               "of the second render of --statistical; default: one more than the first's")
         ->needs(statistical);

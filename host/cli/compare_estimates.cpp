@@ -47,12 +47,12 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     };
     const Estimate a = render(*contestants.first, firstSeed);
     const Estimate b = render(*contestants.second, secondSeed);
-    const ZTestResult result = testAndPrint(a, b, options.zTest, scene.loaded.file.string());
+    const WelchResult result = testAndPrint(a, b, options.welch, scene.loaded.file.string());
     if (reportFile) {
         settings.seed = scene.packed.frame.seed = firstSeed;
         nlohmann::ordered_json json = contestToJson(contestants, scene, commandLine);
         json["seeds"] = {firstSeed, secondSeed};
-        json["statistical"] = zTestToJson(result, options.zTest);
+        json["statistical"] = welchToJson(result, options.welch);
         json["passed"] = result.isPassed();
         reportFile->write(jsonText(json));
         reportFile->commit();

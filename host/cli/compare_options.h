@@ -19,7 +19,7 @@ struct CompareOptions {
     std::string heatMap;
     std::string report;
     bool isStatistical = false;
-    ZTestOptions zTest;
+    WelchOptions welch;
     std::optional<std::uint32_t> againstSeed;
     bool isQuiet = false;
 };

@@ -3,7 +3,7 @@
 #include "host/base/version.h"
 #include "host/cli/commands.h"
 #include "host/gpu/arithmetic.h"
-#include "host/gpu/batching.h"
+#include "host/gpu/render_config.h"
 #include "host/gpu/vk/device_list.h"
 #include "host/render/tune.h"
 #include "host/scene/names.h"

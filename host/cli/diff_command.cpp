@@ -22,7 +22,7 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
         "--statistical", options->isStatistical,
         "ask whether two EXR renders can be estimates of one picture, by their variances: Welch's t "
         "of each pixel and channel, and of the image, with Sidak's correction; 1 if not");
-    addSignificanceOption(*command, options->zTest)->needs(statistical);
+    addSignificanceOption(*command, options->welch)->needs(statistical);
     addFile(*command, "--mask", options->mask, "FILE", "compare only where this image is white");
     addFile(*command, "--diff", options->heatMap, "FILE.png",
             "write the FLIP error of each pixel as a heat map");

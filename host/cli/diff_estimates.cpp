@@ -27,13 +27,13 @@ ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &comma
     const Estimate reference = readEstimate(options.reference);
     const Estimate test = readEstimate(options.test);
     requireSameSize(reference.mean, options.reference, test.mean, options.test);
-    const ZTestResult result = testAndPrint(reference, test, options.zTest,
+    const WelchResult result = testAndPrint(reference, test, options.welch,
                                             fmt::format("'{}' and '{}'", options.reference, options.test));
     if (reportFile) {
         nlohmann::ordered_json report = programToJson(commandLine);
         report["reference"] = options.reference;
         report["test"] = options.test;
-        report["statistical"] = zTestToJson(result, options.zTest);
+        report["statistical"] = welchToJson(result, options.welch);
         report["passed"] = result.isPassed();
         reportFile->write(jsonText(report));
         reportFile->commit();

@@ -17,7 +17,7 @@ struct DiffOptions {
     std::string heatMap;
     std::string report;
     bool isStatistical = false;
-    ZTestOptions zTest;
+    WelchOptions welch;
     double outlierThreshold = 0.0;
     std::optional<double> minPsnr;
     std::optional<double> minSsim;

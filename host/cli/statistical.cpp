@@ -9,7 +9,7 @@
 
 namespace hyalite {
 
-CLI::Option *addSignificanceOption(CLI::App &command, ZTestOptions &options) {
+CLI::Option *addSignificanceOption(CLI::App &command, WelchOptions &options) {
     return addNumber(command, "--significance", options.significance, Interval{0.0, 1.0, false, false},
                      "how often --statistical may fail on equal pictures")
         ->default_str("0.01");
@@ -25,9 +25,9 @@ Estimate readEstimate(const std::string &path) {
     return estimate;
 }
 
-ZTestResult testAndPrint(const Estimate &a, const Estimate &b, const ZTestOptions &options,
+WelchResult testAndPrint(const Estimate &a, const Estimate &b, const WelchOptions &options,
                          const std::string &names) {
-    const ZTestResult result = zTest(a, b, options);
+    const WelchResult result = welchTest(a, b, options);
     if (result.testCount == 0)
         throw Error(ErrorKind::BadInput,
                     fmt::format("{}: no pixel can be tested: each needs a variance, of {} samples at least",
@@ -49,7 +49,7 @@ ZTestResult testAndPrint(const Estimate &a, const Estimate &b, const ZTestOption
     return result;
 }
 
-nlohmann::ordered_json zTestToJson(const ZTestResult &result, const ZTestOptions &options) {
+nlohmann::ordered_json welchToJson(const WelchResult &result, const WelchOptions &options) {
     nlohmann::ordered_json json{
         {"significance", options.significance},
         {"leastSamples", options.leastSampleCount},

@@ -11,17 +11,17 @@
 namespace hyalite {
 
 /// Adds --significance. `options` must outlive the command.
-CLI::Option *addSignificanceOption(CLI::App &command, ZTestOptions &options);
+CLI::Option *addSignificanceOption(CLI::App &command, WelchOptions &options);
 
 /// Reads colours, "variance" and, where it is there, "samples" of an EXR file. Throws Error{BadInput} for other files.
 [[nodiscard]] Estimate readEstimate(const std::string &path);
 
 /// Tests, prints the result, and returns it. Throws Error{BadInput} where no pixel can be tested; `names` is for the
 /// message.
-[[nodiscard]] ZTestResult testAndPrint(const Estimate &a, const Estimate &b, const ZTestOptions &options,
+[[nodiscard]] WelchResult testAndPrint(const Estimate &a, const Estimate &b, const WelchOptions &options,
                                        const std::string &names);
 
 /// As reports write it.
-[[nodiscard]] nlohmann::ordered_json zTestToJson(const ZTestResult &result, const ZTestOptions &options);
+[[nodiscard]] nlohmann::ordered_json welchToJson(const WelchResult &result, const WelchOptions &options);
 
 } // namespace hyalite

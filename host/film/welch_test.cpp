@@ -88,11 +88,11 @@ double sidakThreshold(double significance, std::uint64_t testCount) {
     return high;
 }
 
-ZTestResult zTest(const Estimate &a, const Estimate &b, const ZTestOptions &options) {
+WelchResult welchTest(const Estimate &a, const Estimate &b, const WelchOptions &options) {
     const std::size_t pixelCount = a.mean.pixels().size();
     assert(a.variance.pixels().size() == pixelCount && b.mean.pixels().size() == pixelCount &&
            b.variance.pixels().size() == pixelCount);
-    ZTestResult result;
+    WelchResult result;
     std::vector<double> deviates(3 * pixelCount, std::numeric_limits<double>::quiet_NaN());
     for (int channel = 0; channel < 3; ++channel) {
         double difference = 0.0; // of the whole image

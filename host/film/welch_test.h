@@ -22,12 +22,12 @@ struct Estimate {
 
 [[nodiscard]] Estimate estimateOf(const Film &film);
 
-struct ZTestOptions {
+struct WelchOptions {
     double significance = 0.01; ///< in (0, 1): how often all tests together fail on equal pictures, at most
     int leastSampleCount = 16;  ///< pixels of fewer are left out: their t is far from Student's
 };
 
-struct ZTestResult {
+struct WelchResult {
     std::uint64_t testCount = 0;     ///< of channels of pixels, and three of the whole image
     std::uint64_t untestedCount = 0; ///< channels of pixels that have no variance, or too few samples
     std::uint64_t failureCount = 0;
@@ -46,7 +46,7 @@ struct ZTestResult {
 /// which is what a film of float32 cannot resolve. Samples within a pixel may be better spread than independent ones:
 /// then fewer tests fail than may. Where the mean is finite on one side alone, the test fails. Both estimates are of
 /// one size.
-[[nodiscard]] ZTestResult zTest(const Estimate &a, const Estimate &b, const ZTestOptions &options = {});
+[[nodiscard]] WelchResult welchTest(const Estimate &a, const Estimate &b, const WelchOptions &options = {});
 
 /// The normal deviate that is exceeded as often as `t` of Student's distribution, to 0.5 % from 15 degrees of freedom on
 /// (D. L. Wallace, "Bounds on Normal Approximations to Student's and the Chi-Square Distributions", 1959).

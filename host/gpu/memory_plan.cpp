@@ -131,23 +131,23 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
     return planned;
 }
 
-JobPlan planJob(const Job &job, const Batching &batching, const DeviceInfo &device) {
-    const bool isSkipList = batching.traversal == Traversal::SkipList;
+JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &device) {
+    const bool isSkipList = config.traversal == Traversal::SkipList;
     const std::uint64_t filmPixels =
         static_cast<std::uint64_t>(job.crop.width()) * static_cast<std::uint64_t>(job.crop.height());
     JobPlan planned;
-    planned.samplesAbreast = fitSamplesAbreast(batching.samplesAbreast, job.sampleEnd - job.sampleBegin);
+    planned.samplesAbreast = fitSamplesAbreast(config.samplesAbreast, job.sampleEnd - job.sampleBegin);
     // One subtree waits for each level at most; kernels of a few sizes are enough.
     planned.stackSize =
         std::bit_ceil(std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth));
     // What is dropped and done again would be counted twice, and traced twice.
-    planned.isDirect = isSkipList && !job.isTraced && !batching.isCounting;
+    planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
     planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     planned.trace =
         plan("the trace", BufferUse::Storage, job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0);
-    planned.largestTile = {0, 0, fitTile(job.crop.width(), batching.tileWidth),
-                           fitTile(job.crop.height(), batching.tileHeight)};
+    planned.largestTile = {0, 0, fitTile(job.crop.width(), config.tileWidth),
+                           fitTile(job.crop.height(), config.tileHeight)};
     const auto planSlots = [&] {
         const std::uint64_t slots = planned.largestTile.pixelCount() * planned.samplesAbreast;
         planned.stacks = plan(

@@ -1,9 +1,9 @@
 // All memory that a render takes, known before any of it is allocated: buffers are made from these plans.
 #pragma once
 
-#include "host/gpu/batching.h"
 #include "host/gpu/buffer_plan.h"
 #include "host/gpu/job.h"
+#include "host/gpu/render_config.h"
 #include "host/gpu/tile.h"
 
 #include <cstddef>
@@ -51,9 +51,9 @@ struct JobPlan {
     WaitingPlan helperWaiting; ///< of 0 bytes unless isDirect
 };
 
-/// `batching` is complete. Tiles are smaller than it says where slots would take more than a quarter of the device's
+/// `config` is complete. Tiles are smaller than it says where slots would take more than a quarter of the device's
 /// memory, or 256 MiB, or more than it allows in a buffer.
-[[nodiscard]] JobPlan planJob(const Job &job, const Batching &batching, const DeviceInfo &device);
+[[nodiscard]] JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &device);
 
 constexpr std::uint32_t traceCapacity = 1u << 17; // events of a job that is traced
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t workgroupSize = 64;
 
-// As many as lavapipe allows (batching.cpp tells of its limit): the one loop of the kernel runs on lanes together.
+// As many as lavapipe allows (render_config.cpp tells of its limit): the one loop of the kernel runs on lanes together.
 constexpr std::uint32_t stepBudget = 60'000;
 
 std::uint32_t stackSizeFor(const PackedScene &scene) {

@@ -57,24 +57,24 @@ class FilmKeeper {
 struct Renderer::State {
     DeviceInfo info;
     std::optional<Device> device; ///< none where it failed, and could not be opened again
-    Batching wanted;
+    RenderConfig wanted;
     KernelChoices preferred;
-    Batching batching;
+    RenderConfig config;
     ArithmeticChoice arithmetic;
 
-    State(const DeviceInfo &deviceInfo, const Batching &asked, const KernelChoices &choices)
+    State(const DeviceInfo &deviceInfo, const RenderConfig &asked, const KernelChoices &choices)
         : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked), preferred(choices),
-          batching(completed(asked, info)), arithmetic(chooseArithmetic(*device, asked.arithmetic)) {
-        batching.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
+          config(completed(asked, info)), arithmetic(chooseArithmetic(*device, asked.arithmetic)) {
+        config.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
     }
 
-    static Transfers transfers(const Batching &batching) {
-        return batching.isStaged ? Transfers::Staged : Transfers::Automatic;
+    static Transfers transfers(const RenderConfig &config) {
+        return config.isStaged ? Transfers::Staged : Transfers::Automatic;
     }
 
     /// How an integrator renders a scene.
-    [[nodiscard]] Batching batchingFor(const PackedScene &scene, Integrator integrator) const {
-        Batching used = batching;
+    [[nodiscard]] RenderConfig configFor(const PackedScene &scene, Integrator integrator) const {
+        RenderConfig used = config;
         used.traversal = wanted.traversal;
         used.slotsPerInvocation = wanted.slotsPerInvocation;
         used.samplesAbreast = wanted.samplesAbreast;
@@ -84,7 +84,7 @@ struct Renderer::State {
                 throw Error(ErrorKind::Usage,
                             fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
                                         "allowed: stack, stack-x2, or auto",
-                                        gpu::kernelName(batching)));
+                                        gpu::kernelName(config)));
             used.isCounting = true;
             used.traversal = Traversal::Stack;
         } else if (used.traversal == Traversal::Automatic && used.slotsPerInvocation == 0 &&
@@ -103,11 +103,11 @@ struct Renderer::State {
     /// The same device anew, for half as much at a time. Throws DeviceFault.
     void reopen() {
         device.reset();
-        batching.tileHeight = std::max(batching.tileHeight / 2 / 8 * 8, 8);
-        batching.steps = std::max(batching.steps / 2, std::min(batching.steps, leastSteps));
-        batching.dispatchSeconds /= 2.0;
+        config.tileHeight = std::max(config.tileHeight / 2 / 8 * 8, 8);
+        config.steps = std::max(config.steps / 2, std::min(config.steps, leastSteps));
+        config.dispatchSeconds /= 2.0;
         try {
-            device.emplace(info, transfers(batching));
+            device.emplace(info, transfers(config));
         } catch (const DeviceFault &) {
             throw;
         } catch (const Error &error) { // it is gone
@@ -116,8 +116,8 @@ struct Renderer::State {
     }
 };
 
-Renderer::Renderer(const DeviceInfo &device, const Batching &batching, const KernelChoices &preferred)
-    : state_(std::make_unique<State>(device, batching, preferred)) {}
+Renderer::Renderer(const DeviceInfo &device, const RenderConfig &config, const KernelChoices &preferred)
+    : state_(std::make_unique<State>(device, config, preferred)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer &&) noexcept = default;
 Renderer &Renderer::operator=(Renderer &&) noexcept = default;
@@ -125,11 +125,11 @@ Renderer &Renderer::operator=(Renderer &&) noexcept = default;
 const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
 
 std::string_view Renderer::kernelName(const PackedScene &scene, Integrator integrator) const {
-    return gpu::kernelName(state_->batchingFor(scene, integrator));
+    return gpu::kernelName(state_->configFor(scene, integrator));
 }
 
 std::uint64_t Renderer::kernelHash(const PackedScene &scene, Integrator integrator) const {
-    return hashBytes(std::as_bytes(kernelWords(state_->batchingFor(scene, integrator), integrator)));
+    return hashBytes(std::as_bytes(kernelWords(state_->configFor(scene, integrator), integrator)));
 }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
@@ -177,8 +177,8 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     };
     if (timeline != nullptr)
         timeline->clock = state_->device->timestamps().describe();
-    const Batching batching = state_->batchingFor(scene, settings.integrator);
-    const bool isSkipList = batching.traversal == Traversal::SkipList;
+    const RenderConfig config = state_->configFor(scene, settings.integrator);
+    const bool isSkipList = config.traversal == Traversal::SkipList;
     const auto jobOf = [&](const Crop &band) {
         return Job{scene,
                    band,
@@ -191,11 +191,11 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     const std::vector<Crop> bands = cutIntoBands(crop, state_->info);
     const ScenePlan scenePlan = planScene(scene, isSkipList);
     const Job firstJob = jobOf(bands.front());
-    const JobPlan firstPlan = planJob(firstJob, batching, state_->info);
+    const JobPlan firstPlan = planJob(firstJob, config, state_->info);
     result.memory = state_->requireMemory(scenePlan, firstPlan);
     // Drivers make a pipeline on one processor: meanwhile the others prepare what it works on.
     std::future<Pipeline> firstPipeline = std::async(std::launch::async, [&] {
-        return TileRenderer::makePipeline(*state_->device, batching, firstJob, scenePlan, firstPlan);
+        return TileRenderer::makePipeline(*state_->device, config, firstJob, scenePlan, firstPlan);
     });
     const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
     result.timing.uploadSeconds = endStage("upload");
@@ -210,8 +210,8 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         if (isBegun)
             job.film = bandPixels;
         const RayCounts raysBefore = result.rays;
-        TileRenderer tiles(*state_->device, buffers, batching, job, scenePlan,
-                           planJob(job, batching, state_->info));
+        TileRenderer tiles(*state_->device, buffers, config, job, scenePlan,
+                           planJob(job, config, state_->info));
         result.timing.pipelineSeconds += endStage("buffers");
         if (firstPipeline.valid())
             tiles.makeKernel(firstPipeline.get());
@@ -231,7 +231,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
             [&](const RayCounts &rays) {
                 const RayCounts raysSoFar = raysBefore + rays;
                 // Of lost dispatches work cannot be counted: a frame that counts begins anew.
-                if (!batching.isCounting && keeper.isDue()) {
+                if (!config.isCounting && keeper.isDue()) {
                     keeper.keep([&] { tiles.readFilm(bandPixels); });
                     result.rays = raysSoFar;
                 }
@@ -269,13 +269,13 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
         true};
     if (!state_->device)
         state_->reopen();
-    const Batching batching = state_->batchingFor(scene, settings.integrator);
-    const bool isSkipList = batching.traversal == Traversal::SkipList;
+    const RenderConfig config = state_->configFor(scene, settings.integrator);
+    const bool isSkipList = config.traversal == Traversal::SkipList;
     const ScenePlan scenePlan = planScene(scene, isSkipList);
-    const JobPlan jobPlan = planJob(job, batching, state_->info);
+    const JobPlan jobPlan = planJob(job, config, state_->info);
     (void)state_->requireMemory(scenePlan, jobPlan);
     const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
-    TileRenderer tiles(*state_->device, buffers, batching, job, scenePlan, jobPlan);
+    TileRenderer tiles(*state_->device, buffers, config, job, scenePlan, jobPlan);
     tiles.makeKernel();
     (void)tiles.run({});
     return tiles.readTrace();

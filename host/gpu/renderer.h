@@ -8,8 +8,8 @@
 #include "host/film/render_timing.h"
 #include "host/film/timeline.h"
 #include "host/film/work_counts.h"
-#include "host/gpu/batching.h"
 #include "host/gpu/memory_plan.h"
+#include "host/gpu/render_config.h"
 #include "host/packing/packed_scene.h"
 
 #include <functional>
@@ -25,7 +25,7 @@ struct Result {
     Film film;
     RayCounts rays; ///< of the samples that were added to the film
     RenderTiming timing;
-    WorkCounts work;     ///< all 0 unless the batching asks for counting, or the integrator is the cost
+    WorkCounts work;     ///< all 0 unless the render config asks for counting, or the integrator is the cost
     LaneCounts lanes{};  ///< likewise
     MemoryPlan memory{}; ///< what it takes at most
     std::vector<std::string>
@@ -37,8 +37,8 @@ struct Result {
 /// Renders scenes on one device, opened once, and again where it fails.
 class Renderer {
   public:
-    /// `preferred` kernels run where `batching` names none.
-    explicit Renderer(const DeviceInfo &device, const Batching &batching = {},
+    /// `preferred` kernels run where `config` names none.
+    explicit Renderer(const DeviceInfo &device, const RenderConfig &config = {},
                       const KernelChoices &preferred = {});
     ~Renderer();
     Renderer(Renderer &&) noexcept;

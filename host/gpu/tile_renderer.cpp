@@ -50,12 +50,12 @@ inBindingOrder(const Scene &scene, const T &film, const T &progress, const T &pa
 
 } // namespace
 
-TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching,
+TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const RenderConfig &config,
                            const Job &job, const ScenePlan &scenePlan, const JobPlan &plan)
-    : device_(device), buffers_(buffers), batching_(batching), job_(job), scenePlan_(scenePlan), plan_(plan),
+    : device_(device), buffers_(buffers), config_(config), job_(job), scenePlan_(scenePlan), plan_(plan),
       film_(device, plan.film), progress_(device, plan.progress), stacks_(device, plan.stacks),
       trace_(device, plan.trace),
-      pace_(batching.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount()) {
+      sizer_(config.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount()) {
     if (job.film.empty())
         film_.clear();
     else
@@ -72,7 +72,7 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Ba
     dispatch_.filmWidth = static_cast<std::uint32_t>(job.crop.width());
     dispatch_.filmHeight = static_cast<std::uint32_t>(job.crop.height());
     dispatch_.sampleBegin = job.sampleBegin;
-    dispatch_.stepBudget = batching.steps;
+    dispatch_.stepBudget = config.steps;
     dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
     // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
     dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
@@ -90,7 +90,7 @@ void TileRenderer::moveTo(const Tile &tile) {
     dispatch_.tileWidth = tile.width;
     dispatch_.tileHeight = tile.height;
     const std::uint32_t slotsPerRound =
-        workgroupSize * static_cast<std::uint32_t>(batching_.slotsPerInvocation) * dispatch_.interleave;
+        workgroupSize * static_cast<std::uint32_t>(config_.slotsPerInvocation) * dispatch_.interleave;
     groupCount_ = (slotCount(tile) + slotsPerRound - 1) / slotsPerRound * dispatch_.interleave;
 }
 
@@ -98,7 +98,7 @@ void TileRenderer::makeKernel(Pipeline pipeline) {
     (plan_.isDirect ? direct_ : resumable_).emplace(makeProgram(std::move(pipeline), !plan_.isDirect));
 }
 
-void TileRenderer::makeKernel() { makeKernel(makePipeline(device_, batching_, job_, scenePlan_, plan_)); }
+void TileRenderer::makeKernel() { makeKernel(makePipeline(device_, config_, job_, scenePlan_, plan_)); }
 
 void TileRenderer::warmUp() { warmUp(direct_ ? direct_->kernel : resumable_->kernel); }
 
@@ -110,12 +110,12 @@ void TileRenderer::warmUp(Kernel &kernel) {
     dispatch_.sampleEnd = sampleEnd;
 }
 
-Pipeline TileRenderer::makePipeline(Device &device, const Batching &batching, const Job &job,
+Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, const Job &job,
                                     const ScenePlan &scenePlan, const JobPlan &plan) {
-    return makePipeline(device, batching, job, scenePlan, plan, !plan.isDirect);
+    return makePipeline(device, config, job, scenePlan, plan, !plan.isDirect);
 }
 
-Pipeline TileRenderer::makePipeline(Device &device, const Batching &batching, const Job &job,
+Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, const Job &job,
                                     const ScenePlan &scenePlan, const JobPlan &plan, bool isResumable) {
     const PackedScene &scene = job.scene;
     const WaitingPlan &waiting = waitingPlan(plan, isResumable);
@@ -136,21 +136,20 @@ Pipeline TileRenderer::makePipeline(Device &device, const Batching &batching, co
     constants[layout::constantSampler] = job.sampler;
     constants[layout::constantStackSize] = plan.stackSize;
     constants[layout::constantIsTracing] = job.isTraced;
-    constants[layout::constantExactDivision] = batching.arithmetic == Arithmetic::Native;
+    constants[layout::constantExactDivision] = config.arithmetic == Arithmetic::Native;
     constants[layout::constantSamplesAbreast] = plan.samplesAbreast;
     constants[layout::constantIsResumable] = isResumable;
-    constants[layout::constantIsCounting] = batching.isCounting;
+    constants[layout::constantIsCounting] = config.isCounting;
     constants[layout::constantShowsCost] = job.integrator == Integrator::Cost;
     constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;
     std::array<BufferUse, layout::bindingCount> uses{};
     std::ranges::transform(inBindingOrder(scenePlan, plan.film, plan.progress, waiting.paths, waiting.pending,
                                           plan.stacks, plan.trace),
                            uses.begin(), [](const BufferPlan *buffer) { return buffer->use; });
-    return Pipeline(
-        device,
-        fmt::format("{} {}{}", nameOf(job.integrator), kernelName(batching),
-                    isResumable && batching.traversal == Traversal::SkipList ? ", resumable" : ""),
-        kernelWords(batching, job.integrator), constants, uses);
+    return Pipeline(device,
+                    fmt::format("{} {}{}", nameOf(job.integrator), kernelName(config),
+                                isResumable && config.traversal == Traversal::SkipList ? ", resumable" : ""),
+                    kernelWords(config, job.integrator), constants, uses);
 }
 
 TileRenderer::Program TileRenderer::makeProgram(Pipeline pipeline, bool isResumable) {
@@ -165,8 +164,7 @@ TileRenderer::Program TileRenderer::makeProgram(Pipeline pipeline, bool isResuma
 Kernel &TileRenderer::resumableKernel(Timeline *timeline) {
     if (!resumable_) {
         Stopwatch watch;
-        resumable_.emplace(
-            makeProgram(makePipeline(device_, batching_, job_, scenePlan_, plan_, true), true));
+        resumable_.emplace(makeProgram(makePipeline(device_, config_, job_, scenePlan_, plan_, true), true));
         warmUp(resumable_->kernel);
         const Span span = watch.lap();
         lateBuildSeconds_ += span.seconds();
@@ -184,12 +182,12 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     TileTotals totals;
     const auto dispatch = [&](Kernel &kernel, bool isResumed) {
         const Step step = runOnce(kernel);
-        pace_.learnWork(step.workSeconds, step.counters.workDone);
+        sizer_.learnWork(step.workSeconds, step.counters.workDone);
         samplesFinished += step.counters.finishedSamples;
         totals.rays += raysOf(step.counters);
         totals.work += workOf(step.counters);
         totals.lanes += lanesOf(step.counters, device_.info().subgroupSize *
-                                                   static_cast<std::uint32_t>(batching_.slotsPerInvocation));
+                                                   static_cast<std::uint32_t>(config_.slotsPerInvocation));
         if (timeline != nullptr)
             timeline->dispatches.push_back(describe(kernel, step, isResumed));
         ++totals.dispatchCount;
@@ -200,53 +198,53 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
             onPause(totals.rays);
         return step;
     };
-    // The film says where each pixel stands, so that a part can be halved at any time but inside of long samples.
-    const auto addSamples = [&](Part &part, std::uint32_t end) {
-        moveTo(part.tile);
-        const std::uint64_t pixels = part.tile.pixelCount();
-        dispatch_.sampleEnd = part.begin + std::min(pace_.samples(pixels), end - part.begin);
+    // The film says where each pixel stands, so that an item can be halved at any time but inside of long samples.
+    const auto addSamples = [&](WorkItem &item, std::uint32_t end) {
+        moveTo(item.tile);
+        const std::uint64_t pixels = item.tile.pixelCount();
+        dispatch_.sampleEnd = item.begin + std::min(sizer_.samples(pixels), end - item.begin);
         dispatch_.isResumed = 0;
         double seconds = 0.0;
         std::uint64_t finished = 0;
         bool isResumed = false;
         bool isUnfinished = true;
         while (isUnfinished && !totals.isStopped) {
-            const bool isDirect = direct_ && !part.isLong;
+            const bool isDirect = direct_ && !item.isLong;
             const Step step = dispatch(isDirect ? direct_->kernel : resumableKernel(timeline), isResumed);
             isResumed = true;
             isUnfinished = step.counters.unfinishedSlots > 0;
             seconds += step.workSeconds;
             finished += step.counters.finishedSamples;
             // What is there already is quickly given.
-            pace_.learnSamples(seconds,
-                               isUnfinished ? finished : pixels * (dispatch_.sampleEnd - part.begin));
+            sizer_.learnSamples(seconds,
+                                isUnfinished ? finished : pixels * (dispatch_.sampleEnd - item.begin));
             if (!isDirect) {
                 dispatch_.isResumed = 1;
                 continue;
             }
-            part.isLong = isUnfinished && step.counters.finishedSamples == 0;
-            if (isUnfinished && mustHalve(part, end))
+            item.isLong = isUnfinished && step.counters.finishedSamples == 0;
+            if (isUnfinished && mustHalve(item, end))
                 return;
         }
-        part.begin = dispatch_.sampleEnd;
-        part.isLong = false;
+        item.begin = dispatch_.sampleEnd;
+        item.isLong = false;
     };
     // Pass after pass over the whole image, so that one that is stopped early has samples everywhere.
     for (std::uint32_t begin = job_.sampleBegin + fewestInFilm_;
          begin < job_.sampleEnd && !totals.isStopped;) {
         const std::uint32_t end = begin + std::min(samplesInPass, job_.sampleEnd - begin);
-        std::vector<Part> waiting = cutFilm(begin);
+        std::vector<WorkItem> waiting = cutFilm(begin);
         while (!waiting.empty() && !totals.isStopped) {
-            Part &part = waiting.back();
-            if (part.begin == end || part.tile.x >= dispatch_.filmWidth ||
-                part.tile.y >= dispatch_.filmHeight) {
+            WorkItem &item = waiting.back();
+            if (item.begin == end || item.tile.x >= dispatch_.filmWidth ||
+                item.tile.y >= dispatch_.filmHeight) {
                 waiting.pop_back();
-            } else if (mustHalve(part, end)) {
-                Part half = part;
-                std::tie(half.tile, part.tile) = part.tile.halves();
+            } else if (mustHalve(item, end)) {
+                WorkItem half = item;
+                std::tie(half.tile, item.tile) = item.tile.halves();
                 waiting.push_back(half);
             } else {
-                addSamples(part, end);
+                addSamples(item, end);
             }
         }
         begin = end;
@@ -254,19 +252,19 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     return totals;
 }
 
-std::vector<TileRenderer::Part> TileRenderer::cutFilm(std::uint32_t begin) const {
-    std::vector<Part> parts;
+std::vector<TileRenderer::WorkItem> TileRenderer::cutFilm(std::uint32_t begin) const {
+    std::vector<WorkItem> items;
     for (std::uint32_t y = 0; y < dispatch_.filmHeight; y += plan_.largestTile.height)
         for (std::uint32_t x = 0; x < dispatch_.filmWidth; x += plan_.largestTile.width)
-            parts.push_back({{x, y, plan_.largestTile.width, plan_.largestTile.height}, begin, false});
-    std::ranges::reverse(parts);
-    return parts;
+            items.push_back({{x, y, plan_.largestTile.width, plan_.largestTile.height}, begin, false});
+    std::ranges::reverse(items);
+    return items;
 }
 
-bool TileRenderer::mustHalve(const Part &part, std::uint32_t end) const {
-    const std::uint64_t most = pace_.pixels(end - part.begin);
-    return part.tile.canBeHalved() &&
-           part.tile.pixelCount() > (part.isLong ? std::min(most, plan_.mostHelperPixels) : most);
+bool TileRenderer::mustHalve(const WorkItem &item, std::uint32_t end) const {
+    const std::uint64_t most = sizer_.pixels(end - item.begin);
+    return item.tile.canBeHalved() &&
+           item.tile.pixelCount() > (item.isLong ? std::min(most, plan_.mostHelperPixels) : most);
 }
 
 void TileRenderer::readFilm(std::span<layout::FilmPixel> pixels) const {
@@ -286,7 +284,7 @@ std::size_t TileRenderer::filmPixelCount() const {
 TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     layout::DispatchProgress counters{};
     counters.traceEvents = traceEventCount_;
-    dispatch_.workBudget = pace_.work();
+    dispatch_.workBudget = sizer_.work();
     progress_.upload(std::as_bytes(std::span(&counters, 1)));
     const std::clock_t begin = std::clock();
     const RunTimes times = kernel.run(dispatch_, groupCount_);

@@ -5,11 +5,11 @@
 #include "host/film/ray_counts.h"
 #include "host/film/timeline.h"
 #include "host/film/work_counts.h"
-#include "host/gpu/batching.h"
+#include "host/gpu/dispatch_sizer.h"
 #include "host/gpu/job.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/memory_plan.h"
-#include "host/gpu/pace.h"
+#include "host/gpu/render_config.h"
 #include "host/gpu/scene_buffers.h"
 #include "host/gpu/tile.h"
 
@@ -37,12 +37,12 @@ struct TileTotals {
 class TileRenderer {
   public:
     /// The pipeline of a job's kernel, which takes drivers as long as many samples: it can be made before there are
-    /// buffers. `batching` is complete, and the plans were made for it and the job. Throws as Pipeline does.
-    [[nodiscard]] static Pipeline makePipeline(Device &device, const Batching &batching, const Job &job,
+    /// buffers. `config` is complete, and the plans were made for it and the job. Throws as Pipeline does.
+    [[nodiscard]] static Pipeline makePipeline(Device &device, const RenderConfig &config, const Job &job,
                                                const ScenePlan &scenePlan, const JobPlan &plan);
 
     /// As above. Throws as Buffer does.
-    TileRenderer(Device &device, const SceneBuffers &buffers, const Batching &batching, const Job &job,
+    TileRenderer(Device &device, const SceneBuffers &buffers, const RenderConfig &config, const Job &job,
                  const ScenePlan &scenePlan, const JobPlan &plan);
 
     /// Puts the kernel together, with what makePipeline made or makes now. Throws as Kernel does.
@@ -81,8 +81,8 @@ class TileRenderer {
         double workSeconds; ///< what it took beside the others, without what it waited for processors
     };
 
-    /// A part of the film whose pixels want more samples.
-    struct Part {
+    /// A tile of the film whose pixels want more samples.
+    struct WorkItem {
         Tile tile;
         std::uint32_t begin; ///< all samples before it are in the film
         bool isLong;         ///< a sample takes more than the steps of a slot in one dispatch
@@ -91,11 +91,11 @@ class TileRenderer {
     [[nodiscard]] std::size_t filmPixelCount() const;
     [[nodiscard]] std::uint32_t slotCount(const Tile &tile) const;
     /// The largest tiles, the first one last.
-    [[nodiscard]] std::vector<Part> cutFilm(std::uint32_t begin) const;
-    /// Whether a part that wants samples up to `end` is too large for one dispatch.
-    [[nodiscard]] bool mustHalve(const Part &part, std::uint32_t end) const;
+    [[nodiscard]] std::vector<WorkItem> cutFilm(std::uint32_t begin) const;
+    /// Whether an item that wants samples up to `end` is too large for one dispatch.
+    [[nodiscard]] bool mustHalve(const WorkItem &item, std::uint32_t end) const;
     void moveTo(const Tile &tile);
-    [[nodiscard]] static Pipeline makePipeline(Device &device, const Batching &batching, const Job &job,
+    [[nodiscard]] static Pipeline makePipeline(Device &device, const RenderConfig &config, const Job &job,
                                                const ScenePlan &scenePlan, const JobPlan &plan,
                                                bool isResumable);
     [[nodiscard]] Program makeProgram(Pipeline pipeline, bool isResumable);
@@ -107,7 +107,7 @@ class TileRenderer {
 
     Device &device_;
     const SceneBuffers &buffers_;
-    Batching batching_;
+    RenderConfig config_;
     Job job_;
     ScenePlan scenePlan_;
     JobPlan plan_;
@@ -120,7 +120,7 @@ class TileRenderer {
     std::uint32_t traceEventCount_ = 0;
     std::uint64_t samplesInFilm_ = 0; ///< at the beginning, of all pixels
     std::uint32_t fewestInFilm_ = 0;  ///< of any pixel
-    Pace pace_;
+    DispatchSizer sizer_;
     double lateBuildSeconds_ = 0.0;
     std::optional<Program> direct_; ///< drops what is unfinished at its end
     std::optional<Program> resumable_;

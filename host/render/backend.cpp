@@ -98,8 +98,8 @@ class CpuBackend : public Backend {
 
 class DeviceBackend : public Backend {
   public:
-    DeviceBackend(const gpu::DeviceInfo &device, const gpu::Batching &batching)
-        : device_(device), renderer_(device, batching, readTuning(device).kernels) {}
+    DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config)
+        : device_(device), renderer_(device, config, readTuning(device).kernels) {}
 
     [[nodiscard]] std::string name() const override { return device_.name; }
     [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
@@ -169,8 +169,8 @@ DeviceList listDevices() {
     }
 }
 
-std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::Batching &batching) {
-    if (isReference(name) && batching.traversal != gpu::Traversal::Automatic)
+std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::RenderConfig &config) {
+    if (isReference(name) && config.traversal != gpu::Traversal::Automatic)
         throw Error(ErrorKind::Usage,
                     fmt::format("kernels are for Vulkan devices: {} has none to choose from", name),
                     Remedy::NoKernelChoice);
@@ -179,7 +179,7 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
     if (name == "cpu-double")
         return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
     const DeviceList list = listDevices();
-    return std::make_unique<DeviceBackend>(gpu::chooseDevice(list.devices, name), batching);
+    return std::make_unique<DeviceBackend>(gpu::chooseDevice(list.devices, name), config);
 }
 
 } // namespace
@@ -212,14 +212,14 @@ BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, c
 
 bool isReference(const std::string &name) { return name == "cpu" || name == "cpu-double"; }
 
-gpu::Batching batchingFor(const DeviceOptions &options) {
-    gpu::Batching batching;
-    batching.dispatchSeconds = options.maxDispatchMillis * 1e-3;
+gpu::RenderConfig renderConfigFor(const DeviceOptions &options) {
+    gpu::RenderConfig config;
+    config.dispatchSeconds = options.maxDispatchMillis * 1e-3;
     if (options.kernel) {
-        batching.traversal = options.kernel->traversal;
-        batching.slotsPerInvocation = options.kernel->slotsPerInvocation;
+        config.traversal = options.kernel->traversal;
+        config.slotsPerInvocation = options.kernel->slotsPerInvocation;
     }
-    return batching;
+    return config;
 }
 
 gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline) {
@@ -231,16 +231,16 @@ gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene) {
 }
 
 std::unique_ptr<Backend> openBackend(const std::string &name, const gpu::ProcessorUse &processors,
-                                     const gpu::Batching &batching) {
+                                     const gpu::RenderConfig &config) {
     gpu::tellLavapipe(processors);
-    return open(name, processors.threadCount, batching);
+    return open(name, processors.threadCount, config);
 }
 
 std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name,
                                                           const gpu::ProcessorUse &processors,
-                                                          const gpu::Batching &batching) {
+                                                          const gpu::RenderConfig &config) {
     gpu::tellLavapipe(processors); // here, as other threads may read the environment from now on
-    return std::async(std::launch::async, [=] { return open(name, processors.threadCount, batching); });
+    return std::async(std::launch::async, [=] { return open(name, processors.threadCount, config); });
 }
 
 } // namespace hyalite

@@ -73,11 +73,11 @@ void requireFilmMemory(const Crop &crop, unsigned filmCount);
 /// How a Vulkan device is to work; the image does not depend on it.
 struct DeviceOptions {
     std::optional<gpu::KernelChoice> kernel;
-    double maxDispatchMillis = gpu::Batching{}.dispatchSeconds * 1e3;
+    double maxDispatchMillis = gpu::RenderConfig{}.dispatchSeconds * 1e3;
 };
 
 /// What openBackend takes of them.
-[[nodiscard]] gpu::Batching batchingFor(const DeviceOptions &options);
+[[nodiscard]] gpu::RenderConfig renderConfigFor(const DeviceOptions &options);
 
 /// How a scene is best rendered on the processors, by so many threads; 0: all.
 [[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline);
@@ -88,11 +88,11 @@ struct DeviceOptions {
 /// is asked for a kernel.
 [[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name,
                                                    const gpu::ProcessorUse &processors = {},
-                                                   const gpu::Batching &batching = {});
+                                                   const gpu::RenderConfig &config = {});
 
-/// The same, while the caller does something else. A batching's kernel must outlive the opening.
+/// The same, while the caller does something else. A render config's kernel must outlive the opening.
 [[nodiscard]] std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name,
                                                                         const gpu::ProcessorUse &processors,
-                                                                        const gpu::Batching &batching = {});
+                                                                        const gpu::RenderConfig &config = {});
 
 } // namespace hyalite

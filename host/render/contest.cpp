@@ -6,10 +6,10 @@ namespace hyalite {
 
 Contestants openContestants(const ContestRequest &request, const PreparedScene &scene) {
     const gpu::ProcessorUse processors = processorsFor(request.threadCount, scene);
-    const gpu::Batching batching = batchingFor(request.deviceOptions);
-    std::unique_ptr<Backend> first = openBackend(request.device, processors, batching);
+    const gpu::RenderConfig config = renderConfigFor(request.deviceOptions);
+    std::unique_ptr<Backend> first = openBackend(request.device, processors, config);
     return {std::move(first), openBackend(request.against, processors,
-                                          isReference(request.against) ? gpu::Batching{} : batching)};
+                                          isReference(request.against) ? gpu::RenderConfig{} : config)};
 }
 
 std::optional<Divergence> findFirstDivergence(const Contestants &contestants, const PreparedScene &scene,

@@ -41,7 +41,7 @@ void Measurement::openDevice() {
     requireFilmMemory(scene_.crop, 2);
     watch_ = {};
     backend_ = openBackend(request_.device, processorsFor(request_.threadCount, scene_),
-                           batchingFor(request_.deviceOptions));
+                           renderConfigFor(request_.deviceOptions));
     profile_.hostStages.push_back({"open the device", watch_.lap()});
     profile_.device = backend_->identity(scene_.packed, profile_.origin.settings.integrator);
 }
@@ -99,10 +99,10 @@ void Measurement::countWork() {
 void Measurement::countKernelWork() {
     if (!isVerifiable())
         return;
-    gpu::Batching batching = batchingFor(request_.deviceOptions);
-    batching.isCounting = true;
+    gpu::RenderConfig config = renderConfigFor(request_.deviceOptions);
+    config.isCounting = true;
     const std::unique_ptr<Backend> counter =
-        openBackend(request_.device, processorsFor(request_.threadCount, scene_), batching);
+        openBackend(request_.device, processorsFor(request_.threadCount, scene_), config);
     const BackendResult result =
         renderWithProgress(*counter, scene_, "counting the kernel's work", request_.isQuiet);
     profile_.kernelWork =

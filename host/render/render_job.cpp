@@ -33,7 +33,7 @@ RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLin
 void RenderJob::prepare() {
     const auto beginOpening = [this](const SceneOutline &outline) {
         opening_ = beginOpeningBackend(request_.device, processorsFor(request_.threadCount, outline),
-                                       batchingFor(request_.deviceOptions));
+                                       renderConfigFor(request_.deviceOptions));
     };
     scene_ = prepareScene(request_.scene, Source::Dropped, request_.isQuiet, beginOpening);
     report_.origin = provenanceOf(*scene_, report_.origin.commandLine);

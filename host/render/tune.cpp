@@ -59,12 +59,12 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
     KernelRates rates{trial.workload, trial.scene, std::vector<double>(gpu::namedKernels.size(), 0.0), 0};
     std::vector<gpu::Renderer> renderers;
     for (const auto &[name, choice] : gpu::namedKernels) {
-        gpu::Batching batching;
-        batching.traversal = choice.traversal;
-        batching.slotsPerInvocation = choice.slotsPerInvocation;
+        gpu::RenderConfig config;
+        config.traversal = choice.traversal;
+        config.slotsPerInvocation = choice.slotsPerInvocation;
         if (name == usual)
             rates.best = renderers.size();
-        renderers.emplace_back(device, batching);
+        renderers.emplace_back(device, config);
     }
     std::vector<double> leastGain(renderers.size(), std::numeric_limits<double>::max()); // over the usual one
     std::optional<Film> wanted;

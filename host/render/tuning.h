@@ -1,7 +1,7 @@
 // Which kernels were measured to be fast on a device, kept between runs of the program.
 #pragma once
 
-#include "host/gpu/batching.h"
+#include "host/gpu/render_config.h"
 #include "host/gpu/vk/device_list.h"
 
 #include <filesystem>

@@ -35,7 +35,7 @@ const uint firstTriangleId = maxSphereCount; // id of the triangle with input in
 
 // Most shading reads the first row alone: lavapipe takes as long for a row as for a test of a sphere.
 struct SphereRecord {
-    vec3 centre; // world space
+    vec3 centre;          // world space
     uint materialAndSide; // see materialIndexOf, normalSignOf
     float radius;
     uint isTransmissive; // 1 for a dielectric: light passes, dimmed
@@ -45,7 +45,9 @@ struct SphereRecord {
 
 const uint sphereFacesInward = 0x80000000u;
 
-HYALITE_INLINE uint materialIndexOf(SphereRecord sphere) { return sphere.materialAndSide & ~sphereFacesInward; }
+HYALITE_INLINE uint materialIndexOf(SphereRecord sphere) {
+    return sphere.materialAndSide & ~sphereFacesInward;
+}
 
 // +1: the normal points outward, -1: towards the centre.
 HYALITE_INLINE float normalSignOf(SphereRecord sphere) {
@@ -121,9 +123,9 @@ const uint noMaterial = 0xFFFFFFFFu;
 const uint maxMedia = 8u; // dielectrics that the path integrator tells apart
 
 struct MaterialRecord {
-    vec3 albedo; // of a conductor its reflectance seen head on, of a principled material its colour
+    vec3 albedo;       // of a conductor its reflectance seen head on, of a principled material its colour
     uint kindAndSides; // see kindOf, isTwoSided
-    vec3 segmentTint; // Whitted: factor on all that a segment inside this dielectric returns
+    vec3 segmentTint;  // Whitted: factor on all that a segment inside this dielectric returns
     float refractiveIndex;
     vec3 emission; // radiance on the side of the normal, on both where it is two-sided
     // path: with which density, per unit of area, a light sample lies at a point that emits
@@ -148,7 +150,9 @@ const uint materialIsTwoSided = 0x80000000u;
 
 HYALITE_INLINE uint kindOf(MaterialRecord material) { return material.kindAndSides & ~materialIsTwoSided; }
 
-HYALITE_INLINE bool isTwoSided(MaterialRecord material) { return (material.kindAndSides & materialIsTwoSided) != 0u; }
+HYALITE_INLINE bool isTwoSided(MaterialRecord material) {
+    return (material.kindAndSides & materialIsTwoSided) != 0u;
+}
 
 // What the materials of a scene need of the path integrator: bits of constantScattering.
 const uint scattersAtConductors = 1u; // conductors, smooth or rough
@@ -253,7 +257,7 @@ struct EmitterRecord {
     float probability;
     uint cumulative; // of 2^32 numbers, so many choose this emitter or one before it
     uint record;     // index among the sphere or the triangle records
-    float pdf;   // probability per unit of area of a triangle or a sphere; falloffScale of a spot
+    float pdf;       // probability per unit of area of a triangle or a sphere; falloffScale of a spot
     uint isTwoSided;
     vec3 axis;         // of a spot or a directional light
     float cosineOuter; // of a spot
@@ -461,7 +465,7 @@ struct PathRecord {
     uint isLightDimmed;  // 1: the shadow ray has passed glass
     // Of the path integrator:
     vec3 scatterDirection; // of the ray that goes on from the surface
-    float scatterPdf;  // of the direction of the current ray, per solid angle; 0: it had no choice
+    float scatterPdf;      // of the direction of the current ray, per solid angle; 0: it had no choice
     uint rayTarget;        // the primitive that the shadow ray is aimed at
     uint mediaInside;      // the glass around the current ray, see media.glsl
     // Rays of the samples that are not in the film:

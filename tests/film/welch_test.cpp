@@ -28,7 +28,7 @@ Film filmOf(int side, std::uint32_t sampleCount, std::uint32_t seed, const Draw 
     return film;
 }
 
-ZTestResult test(const Film &a, const Film &b) { return zTest(estimateOf(a), estimateOf(b)); }
+WelchResult test(const Film &a, const Film &b) { return welchTest(estimateOf(a), estimateOf(b)); }
 
 float uniform(std::mt19937 &random) { return std::uniform_real_distribution<float>(0.5f, 1.5f)(random); }
 float normal(std::mt19937 &random) { return std::normal_distribution<float>(1.0f, 0.1f)(random); }
@@ -58,7 +58,7 @@ TEST(ZTest, TheThresholdIsSidaks) {
 TEST(ZTest, EqualDistributionsPass) {
     for (const Draw &draw : {Draw(uniform), Draw(normal), Draw(rare), Draw(exponential)})
         for (const std::uint32_t count : {16u, 64u}) {
-            const ZTestResult result = test(filmOf(48, count, 1, draw), filmOf(48, count, 2, draw));
+            const WelchResult result = test(filmOf(48, count, 1, draw), filmOf(48, count, 2, draw));
             EXPECT_TRUE(result.isPassed()) << count << ": " << result.largest;
             EXPECT_EQ(result.testCount, 48u * 48u * 3u + 3u);
             EXPECT_EQ(result.untestedCount, 0u);
@@ -89,7 +89,7 @@ TEST(ZTest, DeviatesAreNormal) {
 TEST(ZTest, ABiasOfOnePercentIsCaught) {
     // Noise of 10 %: of the mean of 64 samples 1.25 %, over 1,024 pixels 0.04 %. No pixel shows it, the image does.
     const Film a = filmOf(32, 64, 1, normal);
-    const ZTestResult result = test(a, filmOf(32, 64, 2, normal, 1.01f));
+    const WelchResult result = test(a, filmOf(32, 64, 2, normal, 1.01f));
     EXPECT_FALSE(result.isPassed());
     for (const double z : result.ofImage)
         EXPECT_LT(z, -10.0);
@@ -103,7 +103,7 @@ TEST(ZTest, ABiasOfOnePercentInOnePixelIsCaught) {
     EXPECT_TRUE(test(a, b).isPassed());
     b.pixels[6].sum.y *= 1.01f;
     b.pixels[6].sumOfSquares.y *= 1.01f * 1.01f;
-    const ZTestResult result = test(a, b);
+    const WelchResult result = test(a, b);
     EXPECT_FALSE(result.isPassed());
     EXPECT_EQ(result.x, 2);
     EXPECT_EQ(result.y, 1);
@@ -125,7 +125,7 @@ TEST(ZTest, PixelsWithoutVarianceOrOfFewSamplesAreLeftOut) {
     a.pixels[1].sampleCount = 1;
     b.pixels[2].sampleCount = 15;
     b.pixels[2].sum *= 100.0f;
-    const ZTestResult result = test(a, b);
+    const WelchResult result = test(a, b);
     EXPECT_EQ(result.untestedCount, 9u);
     EXPECT_EQ(result.testCount, 13u * 3u + 3u);
     EXPECT_TRUE(result.isPassed());
@@ -140,20 +140,20 @@ TEST(ZTest, WithoutCountsVariancesAreExact) {
     for (Estimate *estimate : {&a, &b})
         for (glm::vec3 &variance : estimate->variance.pixels())
             variance = glm::vec3(0.01f / 4.0f);
-    EXPECT_TRUE(zTest(a, b).isPassed());
-    EXPECT_EQ(zTest(a, b).untestedCount, 0u);
+    EXPECT_TRUE(welchTest(a, b).isPassed());
+    EXPECT_EQ(welchTest(a, b).untestedCount, 0u);
 }
 
 TEST(ZTest, NotANumberOnOneSideFails) {
     const Estimate a = estimateOf(filmOf(4, 16, 1, uniform));
     Estimate b = estimateOf(filmOf(4, 16, 2, uniform));
     b.mean.at(1, 2).z = std::numeric_limits<float>::quiet_NaN();
-    const ZTestResult result = zTest(a, b);
+    const WelchResult result = welchTest(a, b);
     EXPECT_EQ(result.failureCount, 1u);
     EXPECT_EQ(result.x, 1);
     EXPECT_EQ(result.y, 2);
     EXPECT_EQ(result.channel, 2);
-    EXPECT_TRUE(zTest(b, b).isPassed());
+    EXPECT_TRUE(welchTest(b, b).isPassed());
 }
 
 } // namespace

@@ -68,7 +68,7 @@ TEST(MemoryPlan, HasAllThatASceneTakes) {
 
 TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
     const PackedScene scene = sceneOf(1000);
-    const Batching stack = completed({.traversal = Traversal::Stack}, device());
+    const RenderConfig stack = completed({.traversal = Traversal::Stack}, device());
     const JobPlan plan = planJob(jobOf(scene, 100), stack, device());
     EXPECT_FALSE(plan.isDirect);
     EXPECT_EQ(plan.largestTile, (Tile{0, 0, 104, 104}));
@@ -82,7 +82,7 @@ TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
 
 TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
     const PackedScene scene = sceneOf(1000);
-    const Batching skip =
+    const RenderConfig skip =
         completed({.tileWidth = 256, .tileHeight = 256, .traversal = Traversal::SkipList}, device());
     const JobPlan plan = planJob(jobOf(scene, 300), skip, device());
     EXPECT_TRUE(plan.isDirect);
@@ -99,7 +99,7 @@ TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
 TEST(MemoryPlan, TilesAreSmallerWhereSlotsWouldTakeTooMuch) {
     PackedScene scene = sceneOf(1000);
     scene.frame.maxDepth = 32;
-    const Batching stack =
+    const RenderConfig stack =
         completed({.tileWidth = 512, .tileHeight = 512, .traversal = Traversal::Stack}, device());
     DeviceInfo small = device();
     small.deviceMemoryBytes = 256u << 20;
@@ -131,7 +131,7 @@ TEST(MemoryPlan, TheHelperIsSmallerWhereItsSlotsWouldTakeTooMuch) {
 
 TEST(MemoryPlan, IsTheSumOfAllBuffers) {
     const PackedScene scene = sceneOf(1000);
-    const Batching stack = completed({.traversal = Traversal::Stack}, device());
+    const RenderConfig stack = completed({.traversal = Traversal::Stack}, device());
     const ScenePlan scenePlan = planScene(scene, false);
     const JobPlan job = planJob(jobOf(scene, 100), stack, device());
     const MemoryPlan memory = requireMemory(scenePlan, job, false, device());

@@ -49,8 +49,9 @@ struct Continuations : ::testing::Test {
         options.threadCount = threadCount;
         return reference::render(packed, scene.settings, crop, options, std::move(continuation));
     }
-    [[nodiscard]] gpu::Result onDevice(Continuation continuation, const gpu::Batching &batching = {}) const {
-        gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), batching);
+    [[nodiscard]] gpu::Result onDevice(Continuation continuation,
+                                       const gpu::RenderConfig &config = {}) const {
+        gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), config);
         return renderer.render(packed, scene.settings, crop, {}, nullptr, {}, std::move(continuation));
     }
     template <class Result>
@@ -88,9 +89,9 @@ TEST_F(Continuations, OfADeviceGoOnAnywhere) {
     for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
         for (const std::uint32_t steps : {0u, 9u}) {
             Collector collector(crop, steps == 0 ? 1 : 5);
-            const gpu::Batching batching{
+            const gpu::RenderConfig config{
                 .tileWidth = 16, .tileHeight = 16, .steps = steps, .traversal = traversal};
-            EXPECT_EQ(differingPixels(onDevice({{}, &collector}, batching).film, whole.film), 0u);
+            EXPECT_EQ(differingPixels(onDevice({{}, &collector}, config).film, whole.film), 0u);
             ASSERT_GE(collector.parts.size(), 5u);
             for (std::size_t i = 0; i < collector.parts.size(); i += 4) {
                 const Part &part = collector.parts[i];

@@ -19,9 +19,10 @@ TEST(Cost, IsEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
     for (const char *name : {"cat", "spheres-nested"}) {
         const Scene scene = costOf(name, 3);
         const reference::Result onCpu = testing::renderOnCpu(scene);
-        for (const gpu::Batching &batching : {gpu::Batching{}, gpu::Batching{.slotsPerInvocation = 1},
-                                              gpu::Batching{.steps = 100, .slotsPerInvocation = 2}}) {
-            const gpu::Result onDevice = testing::renderOnDevice(scene, batching);
+        for (const gpu::RenderConfig &config :
+             {gpu::RenderConfig{}, gpu::RenderConfig{.slotsPerInvocation = 1},
+              gpu::RenderConfig{.steps = 100, .slotsPerInvocation = 2}}) {
+            const gpu::Result onDevice = testing::renderOnDevice(scene, config);
             EXPECT_EQ(testing::differingPixels(onDevice.film, onCpu.film), 0u) << name;
             EXPECT_EQ(onDevice.work, onCpu.work) << name;
             EXPECT_EQ(onDevice.rays, onCpu.rays) << name;

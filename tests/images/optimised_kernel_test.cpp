@@ -44,14 +44,14 @@ Words optimise(std::span<const std::uint32_t> kernel) {
 }
 
 /// On mirrors, nested glass and triangles.
-void expectSameBits(std::span<const std::uint32_t> kernel, gpu::Batching batching) {
+void expectSameBits(std::span<const std::uint32_t> kernel, gpu::RenderConfig config) {
     const Words optimised = optimise(kernel);
     ASSERT_GT(optimised.size(), 1000u);
     ASSERT_NE(optimised, Words(kernel.begin(), kernel.end())) << "nothing was optimised";
-    batching.kernel = optimised;
+    config.kernel = optimised;
     for (const char *name : {"spheres-nested", "cat"}) {
         const Scene scene = testing::shippedScene(name, 96, 64, 2);
-        const gpu::Result device = testing::renderOnDevice(scene, batching);
+        const gpu::Result device = testing::renderOnDevice(scene, config);
         const reference::Result cpu = testing::renderOnCpu(scene);
         EXPECT_EQ(testing::differingPixels(device.film, cpu.film), 0u) << name;
         EXPECT_EQ(device.rays, cpu.rays) << name;

@@ -34,8 +34,8 @@ PackedScene pack(const Scene &scene, std::size_t maxDecoded) {
                      maxDecoded);
 }
 
-gpu::Result renderOnDevice(const Scene &scene, const gpu::Batching &batching, std::size_t maxDecoded) {
-    return gpu::Renderer(softwareDevice(), batching)
+gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config, std::size_t maxDecoded) {
+    return gpu::Renderer(softwareDevice(), config)
         .render(pack(scene, maxDecoded), scene.settings, wholeImage(scene));
 }
 

@@ -18,7 +18,7 @@ namespace hyalite::testing {
 [[nodiscard]] PackedScene pack(const Scene &scene, std::size_t maxDecoded = maxDecodedBytes);
 
 /// Renders all of the image on the software device of the machine, which every test run must have.
-[[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::Batching &batching = {},
+[[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config = {},
                                          std::size_t maxDecoded = maxDecodedBytes);
 
 [[nodiscard]] reference::Result renderOnCpu(const Scene &scene,

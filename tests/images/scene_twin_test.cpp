@@ -1,4 +1,4 @@
-// The device's image and the CPU twin's are equal bit for bit, whatever the batching.
+// The device's image and the CPU twin's are equal bit for bit, whatever the render config.
 #include "tests/fixtures/texture_fixture.h"
 #include "tests/images/rendering.h"
 
@@ -12,8 +12,8 @@ using testing::renderOnCpu;
 using testing::renderOnDevice;
 using testing::shippedScene;
 
-void expectTwins(const Scene &scene, const gpu::Batching &batching = {}) {
-    const gpu::Result device = renderOnDevice(scene, batching);
+void expectTwins(const Scene &scene, const gpu::RenderConfig &config = {}) {
+    const gpu::Result device = renderOnDevice(scene, config);
     const reference::Result cpu = renderOnCpu(scene);
     EXPECT_EQ(differingPixels(device.film, cpu.film), 0u);
     EXPECT_EQ(device.rays, cpu.rays);
@@ -381,7 +381,7 @@ TEST(Twins, AgreeOnWhittedEmission) {
     expectTwins(scene);
 }
 
-TEST(Batching, ResumesInsidePaths) {
+TEST(RenderConfig, ResumesInsidePaths) {
     const Scene scene = pathScene(24, 24, 3);
     const Film expected = renderOnCpu(scene).film;
     for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
@@ -400,11 +400,11 @@ TEST(Twins, AgreeOnAnEmptyScene) {
     EXPECT_EQ(renderOnDevice(scene).film.toImage().at(7, 3), scene.background);
 }
 
-TEST(Batching, ChangesNoBit) {
+TEST(RenderConfig, ChangesNoBit) {
     const Scene scene = shippedScene("spheres", 70, 50, 3);
     const Film expected = renderOnCpu(scene).film;
-    const auto expectSame = [&](const gpu::Batching &batching) {
-        EXPECT_EQ(differingPixels(renderOnDevice(scene, batching).film, expected), 0u);
+    const auto expectSame = [&](const gpu::RenderConfig &config) {
+        EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, expected), 0u);
     };
     expectSame({.tileWidth = 8, .tileHeight = 8});
     expectSame({.tileWidth = 64, .tileHeight = 16, .slotsPerInvocation = 1});
@@ -416,7 +416,7 @@ TEST(Batching, ChangesNoBit) {
 }
 
 // Whatever runs side by side, and also where a dispatch ends before the round and the round is done again.
-TEST(Batching, AddsSamplesAbreastInTheirOrder) {
+TEST(RenderConfig, AddsSamplesAbreastInTheirOrder) {
     for (const int samples : {1, 2, 5, 8, 13, 16}) {
         const Scene scene = shippedScene("spheres", 20, 12, samples);
         for (const int abreast : {1, 2, 4, 8})
@@ -428,7 +428,7 @@ TEST(Batching, AddsSamplesAbreastInTheirOrder) {
 }
 
 // With a budget of a few steps every ray of the cat stops in the middle of the tree, many times.
-TEST(Batching, ResumesInsideTheTree) {
+TEST(RenderConfig, ResumesInsideTheTree) {
     const Scene scene = shippedScene("cat", 24, 24, 2);
     const Film expected = renderOnCpu(scene).film;
     for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
@@ -442,7 +442,7 @@ TEST(Batching, ResumesInsideTheTree) {
 }
 
 // One ray meets more triangles than a subgroup of lavapipe may take loop iterations in a dispatch.
-TEST(Batching, ResumesInsideBruteForce) {
+TEST(RenderConfig, ResumesInsideBruteForce) {
     Scene scene = shippedScene("cat", 8, 4, 1);
     const Film expected = renderOnCpu(scene).film;
     scene.settings.tree = TreeKind::None;
@@ -454,7 +454,7 @@ TEST(Batching, ResumesInsideBruteForce) {
 }
 
 // Films larger than a device's largest storage buffer are rendered in bands.
-TEST(Batching, CutsTheFilmIntoBands) {
+TEST(RenderConfig, CutsTheFilmIntoBands) {
     const Scene scene = shippedScene("spheres", 70, 50, 2);
     gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), "llvmpipe");
     device.maxStorageBufferBytes = 32 * 1024;

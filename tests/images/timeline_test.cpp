@@ -17,8 +17,8 @@ struct Recorded {
     Span frame; ///< the whole call
 };
 
-Recorded record(const Scene &scene, const Crop &crop, const gpu::Batching &batching = {}) {
-    gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), batching);
+Recorded record(const Scene &scene, const Crop &crop, const gpu::RenderConfig &config = {}) {
+    gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), config);
     const PackedScene packed = testing::pack(scene);
     Timeline timeline;
     Stopwatch watch;

@@ -13,13 +13,13 @@ WorkCounts countOnCpu(const Scene &scene) {
     return reference::render(testing::pack(scene), scene.settings, crop, options).work;
 }
 
-gpu::Batching counting(gpu::Traversal traversal, int slotsPerInvocation, std::uint32_t steps = 0) {
-    gpu::Batching batching;
-    batching.traversal = traversal;
-    batching.slotsPerInvocation = slotsPerInvocation;
-    batching.steps = steps;
-    batching.isCounting = true;
-    return batching;
+gpu::RenderConfig counting(gpu::Traversal traversal, int slotsPerInvocation, std::uint32_t steps = 0) {
+    gpu::RenderConfig config;
+    config.traversal = traversal;
+    config.slotsPerInvocation = slotsPerInvocation;
+    config.steps = steps;
+    config.isCounting = true;
+    return config;
 }
 
 TEST(WorkCounts, AreEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
@@ -46,7 +46,7 @@ TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
         EXPECT_EQ(whole.work.boxesTested, whole.work.nodesVisited) << name;
         EXPECT_GT(whole.work.trianglesTested, 0u) << name;
         EXPECT_EQ(whole.work.deepestStack, 0u) << name;
-        gpu::Batching cut = counting(gpu::Traversal::SkipList, 2, 100);
+        gpu::RenderConfig cut = counting(gpu::Traversal::SkipList, 2, 100);
         cut.tileWidth = 16;
         cut.samplesAbreast = 2;
         EXPECT_EQ(testing::renderOnDevice(scene, cut).work, whole.work) << name;

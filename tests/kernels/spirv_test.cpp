@@ -1,6 +1,6 @@
 // What our kernels may consist of, so that every device computes the same bits; and the float controls that the host
 // adds to them.
-#include "host/gpu/batching.h"
+#include "host/gpu/render_config.h"
 #include "host/gpu/vk/float_controls.h"
 #include "shaders/layout/layout.h"
 #include "tests/kernels/all_kernels.h"
@@ -72,12 +72,12 @@ TEST(EmbeddedKernels, KnowTheConstantsOfTheirDuties) {
     for (const Integrator integrator : {Integrator::Whitted, Integrator::Path, Integrator::Cost}) {
         for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
             for (const int slots : {1, 2}) {
-                gpu::Batching batching;
-                batching.traversal = traversal;
-                batching.slotsPerInvocation = slots;
+                gpu::RenderConfig config;
+                config.traversal = traversal;
+                config.slotsPerInvocation = slots;
                 std::set<std::uint32_t> known;
                 for (const Instruction &instruction :
-                     SpirvModule(gpu::kernelWords(batching, integrator)).instructions)
+                     SpirvModule(gpu::kernelWords(config, integrator)).instructions)
                     if (instruction.opcode == spv::Op::OpDecorate &&
                         instruction.operands[1] == static_cast<std::uint32_t>(spv::Decoration::SpecId))
                         known.insert(instruction.operands[2]);

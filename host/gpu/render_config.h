@@ -20,7 +20,7 @@ namespace hyalite::gpu {
 enum class Traversal { Automatic, Stack, SkipList };
 
 /// How work is cut into dispatches, and what for. The image does not depend on any of it.
-struct Batching {
+struct RenderConfig {
     int tileWidth = 0;            ///< pixels, a multiple of 8; 0: by the device
     int tileHeight = 0;           ///< pixels, a multiple of 8; 0: by the device
     std::uint32_t steps = 0;      ///< loop iterations of a path slot in one dispatch; 0: by the device
@@ -48,12 +48,12 @@ inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNa
 
 [[nodiscard]] Workload workloadOf(const PackedScene &scene, Integrator integrator);
 
-/// `batching` with everything filled in that was left to the device.
-[[nodiscard]] Batching completed(Batching batching, const DeviceInfo &device,
-                                 Workload workload = Workload::Triangles);
+/// `config` with everything filled in that was left to the device.
+[[nodiscard]] RenderConfig completed(RenderConfig config, const DeviceInfo &device,
+                                     Workload workload = Workload::Triangles);
 
-/// The kernel of `integrator` that a complete `batching` names, as SPIR-V.
-[[nodiscard]] std::span<const std::uint32_t> kernelWords(const Batching &batching, Integrator integrator);
+/// The kernel of `integrator` that a complete `config` names, as SPIR-V.
+[[nodiscard]] std::span<const std::uint32_t> kernelWords(const RenderConfig &config, Integrator integrator);
 
 /// Of all kernels together: what was measured of others does not hold.
 [[nodiscard]] std::uint64_t hashOfKernels();
@@ -80,7 +80,7 @@ inline constexpr std::span namedKernels = std::span(kernelNames).subspan<1>();
 
 /// The word for a kernel.
 [[nodiscard]] std::string_view kernelName(const KernelChoice &choice);
-/// The word for the kernel of a complete `batching`.
-[[nodiscard]] std::string_view kernelName(const Batching &batching);
+/// The word for the kernel of a complete `config`.
+[[nodiscard]] std::string_view kernelName(const RenderConfig &config);
 
 } // namespace hyalite::gpu

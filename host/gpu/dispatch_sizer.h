@@ -13,13 +13,13 @@ namespace hyalite::gpu {
 ///   before, the dispatch ends soon after that time, and another one does the rest.
 ///
 /// The first dispatches are small, as nothing is known yet.
-class Pace {
+class DispatchSizer {
   public:
     static constexpr std::uint64_t leastPixels = 256; ///< of a tile that is cut: enough for a few processors
 
     /// `seconds` > 0 is how long a dispatch should take. Samples are given in whole rounds of `samplesAbreast`, and tiles
     /// have `mostPixels` at most.
-    Pace(double seconds, std::uint32_t samplesAbreast, std::uint64_t mostPixels)
+    DispatchSizer(double seconds, std::uint32_t samplesAbreast, std::uint64_t mostPixels)
         : seconds_(seconds), samplesAbreast_(samplesAbreast), mostPixels_(mostPixels) {}
 
     /// The size that a tile should not exceed of whose pixels each wants so many samples. Slots are set up once for all
