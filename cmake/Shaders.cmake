@@ -26,8 +26,20 @@ target_include_directories(kernel_tool PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers)
 hyalite_warnings(kernel_tool)
 
-add_executable(glsl_to_cpp ${PROJECT_SOURCE_DIR}/cmake/glsl_to_cpp.cpp)
-hyalite_warnings(glsl_to_cpp)
+foreach(tool IN ITEMS glsl_to_cpp layout_macros)
+    add_executable(${tool} ${PROJECT_SOURCE_DIR}/cmake/${tool}.cpp ${PROJECT_SOURCE_DIR}/cmake/glsl_reader.cpp)
+    target_include_directories(${tool} PRIVATE ${PROJECT_SOURCE_DIR})
+    hyalite_warnings(${tool})
+endforeach()
+
+# The fields of the records, for kernels and tests.
+add_custom_command(
+    OUTPUT ${PROJECT_BINARY_DIR}/kernels/layout_macros.h
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/kernels
+    COMMAND layout_macros ${PROJECT_SOURCE_DIR}/shaders/layout/layout.h ${PROJECT_BINARY_DIR}/kernels/layout_macros.h
+    DEPENDS layout_macros ${PROJECT_SOURCE_DIR}/shaders/layout/layout.h
+    VERBATIM)
+add_custom_target(layout_macros_header DEPENDS ${PROJECT_BINARY_DIR}/kernels/layout_macros.h)
 
 # hyalite_kernel(TARGET VARIABLE SOURCE [UNOPTIMISED] [INCLUDES FOLDER] [DEFINITIONS NAME=VALUE...])
 #
@@ -50,7 +62,7 @@ function(hyalite_kernel target variable source)
         OUTPUT ${base}.glslang.spv
         COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.1 ${kernel_DEFINITIONS} ${includes}
                 --depfile ${base}.d -o ${base}.glslang.spv ${source}
-        DEPENDS ${source}
+        DEPENDS ${source} layout_macros_header
         DEPFILE ${base}.d
         COMMENT "Compiling ${variable}"
         VERBATIM)

@@ -12,14 +12,13 @@
 //
 // Leaves keep to this part of GLSL: functions, structs and constants at the top level, every function defined before it is
 // used, no swizzles (vec2(v) takes the first two components), no arrays and no preprocessor.
-#include <algorithm>
-#include <cctype>
+#include "cmake/glsl_reader.h"
+
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -27,147 +26,12 @@
 
 namespace {
 
-// ---- Tokens
-
-struct Token {
-    enum Kind { Blank, Word, Number, Mark } kind;
-    std::string text;
-};
-
-using Tokens = std::vector<Token>;
-
-bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-/// Comments are blanks; lines for the preprocessor are left out.
-Tokens tokensOf(const std::string &text) {
-    Tokens tokens;
-    for (std::size_t at = 0; at < text.size();) {
-        std::size_t end = at + 1;
-        Token::Kind kind = Token::Mark;
-        if (text.compare(at, 2, "//") == 0) {
-            end = text.find('\n', at);
-            kind = Token::Blank;
-        } else if (text[at] == '#') {
-            at = text.find('\n', at);
-            continue;
-        } else if (std::isspace(static_cast<unsigned char>(text[at])) != 0) {
-            kind = Token::Blank;
-        } else if (std::isdigit(static_cast<unsigned char>(text[at])) != 0) {
-            kind = Token::Number;
-            while (isWordLetter(text[end]) || text[end] == '.' ||
-                   ((text[end] == '-' || text[end] == '+') && text[end - 1] == 'e'))
-                ++end;
-        } else if (isWordLetter(text[at])) {
-            kind = Token::Word;
-            while (isWordLetter(text[end]))
-                ++end;
-        }
-        tokens.push_back({kind, text.substr(at, end - at)});
-        at = end;
-    }
-    return tokens;
-}
-
-/// Without the parts that are for C++ alone.
-std::string glslPartOf(const std::string &text) {
-    std::istringstream lines(text);
-    std::string part;
-    int depth = 0; // in #ifdef __cplusplus, before its #else
-    for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("#ifdef __cplusplus"))
-            depth = 1;
-        else if (line.starts_with("#else") || line.starts_with("#endif"))
-            depth = 0;
-        else if (depth == 0)
-            part += line + "\n";
-    }
-    return part;
-}
-
-// ---- Declarations
-
-struct Declaration {
-    enum Kind { Struct, Constant, Function } kind;
-    std::string name;
-    std::string type; ///< of a constant or a result
-    Tokens head;      ///< blanks and comments before it
-    Tokens parameters;
-    Tokens body;            ///< of a struct and a function with braces; of a constant its value
+/// A declaration, and what its C++ depends on.
+struct Translated : Declaration {
     bool isRecord = false;  ///< of layout.h
-    bool usesReal = false;  ///< has to do with floats: a template
+    bool usesReal = false;  ///< has to do with floats, or is a record: a template
     bool usesScene = false; ///< a function that reads the scene
 };
-
-/// From an opening bracket to after the one that closes it.
-std::size_t endOfBrackets(const Tokens &tokens, std::size_t begin) {
-    int depth = 0;
-    for (std::size_t i = begin; i < tokens.size(); ++i) {
-        const std::string &text = tokens[i].text;
-        depth += text == "(" || text == "{" ? 1 : text == ")" || text == "}" ? -1 : 0;
-        if (depth == 0)
-            return i + 1;
-    }
-    throw std::runtime_error("a bracket is not closed after " + tokens[begin].text);
-}
-
-std::size_t afterBlanks(const Tokens &tokens, std::size_t at) {
-    while (at < tokens.size() && tokens[at].kind == Token::Blank)
-        ++at;
-    return at;
-}
-
-Tokens part(const Tokens &tokens, std::size_t begin, std::size_t end) {
-    return {tokens.begin() + static_cast<std::ptrdiff_t>(begin),
-            tokens.begin() + static_cast<std::ptrdiff_t>(end)};
-}
-
-std::vector<Declaration> declarationsOf(const Tokens &tokens) {
-    std::vector<Declaration> declarations;
-    for (std::size_t begin = 0; begin < tokens.size();) {
-        Declaration one{};
-        std::size_t at = afterBlanks(tokens, begin);
-        one.head = part(tokens, begin, at);
-        if (at == tokens.size())
-            break;
-        if (tokens[at].text == "HYALITE_INLINE")
-            at = afterBlanks(tokens, at + 1);
-        const bool isConstant = tokens[at].text == "const";
-        const bool isStruct = tokens[at].text == "struct";
-        if (isConstant)
-            at = afterBlanks(tokens, at + 1);
-        one.type = tokens[at].text;
-        at = afterBlanks(tokens, at + 1);
-        one.name = tokens.at(at).text;
-        at = afterBlanks(tokens, at + 1);
-        if (isStruct) {
-            one.kind = Declaration::Struct;
-            const std::size_t end = endOfBrackets(tokens, at);
-            one.body = part(tokens, at, end);
-            begin = end + 1; // the semicolon
-        } else if (isConstant) {
-            one.kind = Declaration::Constant;
-            std::size_t end = at;
-            while (tokens.at(end).text != ";")
-                ++end;
-            one.body = part(tokens, afterBlanks(tokens, at + 1), end);
-            begin = end + 1;
-        } else if (tokens.at(at).text == "(") {
-            one.kind = Declaration::Function;
-            const std::size_t end = endOfBrackets(tokens, at);
-            one.parameters = part(tokens, at + 1, end - 1);
-            at = afterBlanks(tokens, end);
-            const std::size_t last = endOfBrackets(tokens, at);
-            one.body = part(tokens, at, last);
-            begin = last;
-        } else {
-            throw std::runtime_error(one.name + " is no struct, constant or function");
-        }
-        declarations.push_back(one);
-    }
-    return declarations;
-}
-
-// ---- Translation
 
 const std::set<std::string> sceneWords{"frame",  "scattering",   "texturing",    "lighting",   "samplerKind",
                                        "camera", "emitterCount", "hasTriangles", "hasEmission"};
@@ -176,13 +40,13 @@ const std::map<std::string, std::string> types{
 
 class Translator {
   public:
-    void add(const Declaration &added) {
-        Declaration one = added;
+    void add(const Declaration &added, bool isRecord = false) {
+        Translated one{added, isRecord, isRecord};
         const auto look = [&](const Tokens &tokens) {
             for (std::size_t i = 0; i < tokens.size(); ++i) {
                 if (isMember(tokens, i))
                     continue;
-                const Declaration *known = find(tokens[i]);
+                const Translated *known = find(tokens[i]);
                 one.usesScene |= one.kind == Declaration::Function &&
                                  (isSceneWord(tokens[i]) || (known != nullptr && known->usesScene));
                 one.usesReal |= isReal(tokens[i]) || (known != nullptr && known->usesReal);
@@ -200,7 +64,7 @@ class Translator {
 
     [[nodiscard]] std::string text() const {
         std::string out;
-        for (const Declaration &one : declarations_)
+        for (const Translated &one : declarations_)
             out += one.kind == Declaration::Struct     ? structText(one)
                    : one.kind == Declaration::Constant ? constantText(one)
                                                        : functionText(one);
@@ -208,7 +72,7 @@ class Translator {
     }
 
   private:
-    [[nodiscard]] const Declaration *find(const Token &token) const {
+    [[nodiscard]] const Translated *find(const Token &token) const {
         const auto found = names_.find(token.text);
         return token.kind == Token::Word && found != names_.end() ? &declarations_[found->second] : nullptr;
     }
@@ -228,7 +92,7 @@ class Translator {
     [[nodiscard]] std::string typeText(const std::string &type) const {
         if (const auto found = types.find(type); found != types.end())
             return found->second;
-        const Declaration *known = find({Token::Word, type});
+        const Translated *known = find({Token::Word, type});
         return known != nullptr && known->kind == Declaration::Struct && known->usesReal ? type + "<Real>"
                                                                                          : type;
     }
@@ -241,7 +105,7 @@ class Translator {
         for (std::size_t i = 0; i < tokens.size(); ++i) {
             const Token &token = tokens[i];
             const bool isCalled = i + 1 < tokens.size() && tokens[i + 1].text == "(";
-            const Declaration *known = isMember(tokens, i) ? nullptr : find(token);
+            const Translated *known = isMember(tokens, i) ? nullptr : find(token);
             if (known != nullptr && known->kind == Declaration::Function && !isCalled)
                 known = nullptr; // a field or a variable of the same name
             if (token.text == "(") {
@@ -292,7 +156,7 @@ class Translator {
     }
 
     /// A struct that a function does not change it gets by reference.
-    [[nodiscard]] std::string parametersOf(const Declaration &function) const {
+    [[nodiscard]] std::string parametersOf(const Translated &function) const {
         std::string out = function.usesScene ? "const SceneView<Real> &scene" : "";
         Tokens one;
         const auto addOne = [&] {
@@ -326,11 +190,11 @@ class Translator {
         return out;
     }
 
-    static std::string templateText(const Declaration &one) {
+    static std::string templateText(const Translated &one) {
         return one.usesReal ? "template <class Real> " : "";
     }
 
-    [[nodiscard]] std::string structText(const Declaration &one) const {
+    [[nodiscard]] std::string structText(const Translated &one) const {
         std::string out =
             plain(one.head) + templateText(one) + "struct " + one.name + " " + translated(one.body, true);
         if (!one.isRecord)
@@ -350,28 +214,19 @@ class Translator {
                fields + "        }\n    }\n};\n";
     }
 
-    [[nodiscard]] std::string constantText(const Declaration &one) const {
+    [[nodiscard]] std::string constantText(const Translated &one) const {
         return plain(one.head) + templateText(one) + "inline constexpr " + typeText(one.type) + " " +
                one.name + " = " + translated(one.body) + ";";
     }
 
-    [[nodiscard]] std::string functionText(const Declaration &one) const {
+    [[nodiscard]] std::string functionText(const Translated &one) const {
         return plain(one.head) + templateText(one) + "[[nodiscard]] inline " + typeText(one.type) + " " +
                one.name + "(" + parametersOf(one) + ") " + translated(one.body);
     }
 
-    std::vector<Declaration> declarations_;
+    std::vector<Translated> declarations_;
     std::map<std::string, std::size_t> names_; ///< of the first overload
 };
-
-std::string read(const std::string &path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file)
-        throw std::runtime_error("it cannot be read");
-    return text.str() + "\n";
-}
 
 } // namespace
 
@@ -386,21 +241,19 @@ int main(int argumentCount, char **arguments) {
         std::string leaves;
         for (int i = 2; i < argumentCount - 1; ++i) {
             file = arguments[i];
-            leaves += read(file);
+            leaves += readText(file);
         }
         file = arguments[1];
         std::set<std::string> words;
         for (const Token &token : tokensOf(leaves))
             words.insert(token.text);
         words.insert("FrameRecord");
-        for (Declaration one : declarationsOf(tokensOf(glslPartOf(read(file)))))
-            if (one.kind != Declaration::Constant && words.contains(one.name)) {
-                one.isRecord = one.kind == Declaration::Struct;
-                translator.add(one);
-            }
+        for (const Declaration &one : declarationsOf(tokensOf(glslPartOf(readText(file)))))
+            if (one.kind != Declaration::Constant && words.contains(one.name))
+                translator.add(one, one.kind == Declaration::Struct);
         for (int i = 2; i < argumentCount - 1; ++i) {
             file = arguments[i];
-            for (const Declaration &one : declarationsOf(tokensOf(read(file))))
+            for (const Declaration &one : declarationsOf(tokensOf(readText(file))))
                 translator.add(one);
         }
         file = arguments[argumentCount - 1];

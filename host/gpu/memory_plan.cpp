@@ -29,13 +29,8 @@ constexpr std::uint64_t mostHelperPixels = 64 * 64;
 constexpr std::uint64_t leastHelperPixels = 8 * 8; // a tile that cannot be halved
 
 /// A binding needs some memory.
-BufferPlan plan(const char *name, BufferUse use, std::uint64_t sizeBytes) {
-    return {name, use, std::max<std::uint64_t>(sizeBytes, 16)};
-}
-
-template <class Record>
-BufferPlan planArray(const char *name, BufferUse use, const std::vector<Record> &records) {
-    return plan(name, use, records.size() * sizeof(Record));
+BufferPlan plan(std::string name, BufferUse use, std::uint64_t sizeBytes) {
+    return {std::move(name), use, std::max<std::uint64_t>(sizeBytes, 16)};
 }
 
 BufferUse bulkUse(bool isSkipList) { return isSkipList ? BufferUse::Texels : BufferUse::Storage; }
@@ -111,22 +106,21 @@ void requireBuffer(const BufferPlan &plan, const DeviceInfo &device) {
 
 ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
     const BufferUse use = bulkUse(isSkipList);
-    ScenePlan planned{
-        plan("the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord)),
-        plan("the spheres", BufferUse::Uniform, sizeof(layout::SphereRecord) * layout::maxSphereCount),
-        planArray("the spheres", use, scene.spheres),
-        plan("the lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxLightCount),
-        planArray("the materials", use, scene.materials),
-        planArray("the nodes", use, scene.nodes),
-        planArray("the triangles", use, scene.triangles),
-        planArray("the normals", use, scene.normals),
-        planArray("the emitters", use, scene.emitters),
-        planArray("the texels", use, scene.texels),
-        planArray("the textures", use, scene.textures)};
+    ScenePlan planned;
+    planned.buffers[layout::bindingFrame] =
+        plan("the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord));
+    planned.buffers[layout::bindingSphereConstants] =
+        plan("the spheres", BufferUse::Uniform, sizeof(layout::SphereRecord) * layout::maxSphereCount);
+    planned.buffers[layout::bindingLights] =
+        plan("the lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxLightCount);
+    for (const SceneArray &array : scene.arrays())
+        planned.buffers[array.binding] = plan(fmt::format("the {}", array.name), use, array.bytes.size());
     if (isSkipList) {
-        const std::uint64_t listBytes = mostSkipListBytes(scene.nodes.size());
-        planned.nodes = plan("the skip lists", use, scene.hasTriangles ? listBytes : 0);
+        const std::uint64_t listBytes = scene.hasTriangles ? mostSkipListBytes(scene.nodes.size()) : 0;
+        planned.buffers[layout::bindingNodes] = plan("the skip lists", use, listBytes);
         planned.hostBytes = scene.hasTriangles ? listBytes + skipListWorkBytes(scene.nodes.size()) : 0;
+    } else {
+        planned.buffers[layout::bindingNodes] = plan("the nodes", use, std::span(scene.nodes).size_bytes());
     }
     return planned;
 }
@@ -179,25 +173,16 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
 
 MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged,
                          const DeviceInfo &device) {
-    const std::vector<const BufferPlan *> buffers{&scene.frame,
-                                                  &scene.spheres,
-                                                  &scene.sphereArray,
-                                                  &scene.lights,
-                                                  &scene.materials,
-                                                  &scene.nodes,
-                                                  &scene.triangles,
-                                                  &scene.normals,
-                                                  &scene.emitters,
-                                                  &scene.texels,
-                                                  &scene.textures,
-                                                  &job.film,
-                                                  &job.progress,
-                                                  &job.stacks,
-                                                  &job.trace,
-                                                  &job.waiting.paths,
-                                                  &job.waiting.pending,
-                                                  &job.helperWaiting.paths,
-                                                  &job.helperWaiting.pending};
+    std::vector<const BufferPlan *> buffers{&job.film,
+                                            &job.progress,
+                                            &job.stacks,
+                                            &job.trace,
+                                            &job.waiting.paths,
+                                            &job.waiting.pending,
+                                            &job.helperWaiting.paths,
+                                            &job.helperWaiting.pending};
+    for (const BufferPlan &buffer : scene.buffers)
+        buffers.push_back(&buffer);
     MemoryPlan memory;
     std::uint64_t largestBytes = 0;
     for (const BufferPlan *buffer : buffers) {

@@ -6,6 +6,7 @@
 #include "host/gpu/render_config.h"
 #include "host/gpu/tile.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -13,17 +14,8 @@ namespace hyalite::gpu {
 
 /// A scene on a device.
 struct ScenePlan {
-    BufferPlan frame;
-    BufferPlan spheres;     ///< room for layout::maxSphereCount
-    BufferPlan sphereArray; ///< again, as a kernel's array
-    BufferPlan lights;      ///< room for layout::maxLightCount
-    BufferPlan materials;
-    BufferPlan nodes; ///< node pairs, or skip lists, which may become smaller than this
-    BufferPlan triangles;
-    BufferPlan normals;
-    BufferPlan emitters;
-    BufferPlan texels;
-    BufferPlan textures;
+    /// By binding. Skip lists may become smaller than their plan.
+    std::array<BufferPlan, layout::sceneBufferCount> buffers;
     std::uint64_t hostBytes = 0; ///< that making skip lists takes
 };
 

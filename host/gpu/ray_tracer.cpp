@@ -85,13 +85,7 @@ struct RayTracer::State {
         constants[layout::constantIsAnyHit] = goal == RayGoal::AnyHit;
         std::array<const Buffer *, layout::rayBindingCount> bound{};
         bound.fill(&unused);
-        bound[layout::bindingFrame] = &scene.buffers.frame;
-        bound[layout::bindingSpheres] = &scene.buffers.spheres;
-        bound[layout::bindingLights] = &scene.buffers.lights;
-        bound[layout::bindingMaterials] = &scene.buffers.materials;
-        bound[layout::bindingNodes] = &scene.buffers.nodes;
-        bound[layout::bindingTriangles] = &scene.buffers.triangles;
-        bound[layout::bindingNormals] = &scene.buffers.normals;
+        std::ranges::transform(scene.buffers.buffers, bound.begin(), [](const Buffer &one) { return &one; });
         bound[layout::bindingStacks] = &stacks;
         bound[layout::bindingRays] = &rays;
         bound[layout::bindingHits] = &hits;

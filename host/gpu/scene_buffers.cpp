@@ -2,6 +2,7 @@
 
 #include "host/packing/skip_list.h"
 
+#include <array>
 #include <cassert>
 #include <span>
 #include <utility>
@@ -9,10 +10,6 @@
 namespace hyalite::gpu {
 
 namespace {
-
-template <class Record> std::span<const std::byte> bytesOf(const std::vector<Record> &records) {
-    return std::as_bytes(std::span(records));
-}
 
 Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byte> bytes) {
     Buffer buffer(device, plan);
@@ -28,35 +25,35 @@ struct Tree {
 /// Uploads the tree, and adds to the frame constants what kernels need to know of skip lists. The lists on the host are
 /// gone when this returns: they are the largest part of a large scene.
 Tree uploadTree(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
+    const BufferPlan &planned = plan.buffers[layout::bindingNodes];
     if (!isSkipList)
-        return {uploaded(device, plan.nodes, bytesOf(scene.nodes)), scene.frame};
+        return {uploaded(device, planned, std::as_bytes(std::span(scene.nodes))), scene.frame};
     const SkipList list = makeSkipList(scene);
     layout::FrameRecord frame = scene.frame;
     frame.gridMiddle = list.gridMiddle;
     frame.gridScale = list.gridScale;
     frame.skipListLength = list.length;
-    BufferPlan nodes = plan.nodes;
-    nodes.sizeBytes = bytesOf(list.nodes).size();
-    assert(nodes.sizeBytes <= plan.nodes.sizeBytes);
-    return {uploaded(device, nodes, bytesOf(list.nodes)), frame};
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(list.nodes));
+    BufferPlan nodes = planned;
+    nodes.sizeBytes = bytes.size();
+    assert(nodes.sizeBytes <= planned.sizeBytes);
+    return {uploaded(device, nodes, bytes), frame};
 }
 
 } // namespace
 
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList)
-    : SceneBuffers(device, scene, plan, uploadTree(device, scene, plan, isSkipList)) {}
-
-template <class Tree>
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, Tree tree)
-    : frame(uploaded(device, plan.frame, std::as_bytes(std::span(&tree.frame, 1)))),
-      spheres(uploaded(device, plan.spheres, bytesOf(scene.spheres))),
-      sphereArray(uploaded(device, plan.sphereArray, bytesOf(scene.spheres))),
-      lights(uploaded(device, plan.lights, bytesOf(scene.lights))),
-      materials(uploaded(device, plan.materials, bytesOf(scene.materials))), nodes(std::move(tree.nodes)),
-      triangles(uploaded(device, plan.triangles, bytesOf(scene.triangles))),
-      normals(uploaded(device, plan.normals, bytesOf(scene.normals))),
-      emitters(uploaded(device, plan.emitters, bytesOf(scene.emitters))),
-      texels(uploaded(device, plan.texels, bytesOf(scene.texels))),
-      textures(uploaded(device, plan.textures, bytesOf(scene.textures))) {}
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
+    Tree tree = uploadTree(device, scene, plan, isSkipList);
+    std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
+    bytes[layout::bindingFrame] = std::as_bytes(std::span(&tree.frame, 1));
+    bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.spheres));
+    bytes[layout::bindingLights] = std::as_bytes(std::span(scene.lights));
+    for (const SceneArray &array : scene.arrays())
+        bytes[array.binding] = array.bytes;
+    for (std::size_t binding = 0; binding < plan.buffers.size(); ++binding)
+        buffers.push_back(binding == layout::bindingNodes
+                              ? std::move(tree.nodes)
+                              : uploaded(device, plan.buffers[binding], bytes[binding]));
+}
 
 } // namespace hyalite::gpu

@@ -5,6 +5,8 @@
 #include "host/gpu/vk/buffer.h"
 #include "host/packing/packed_scene.h"
 
+#include <vector>
+
 namespace hyalite::gpu {
 
 struct SceneBuffers {
@@ -12,21 +14,7 @@ struct SceneBuffers {
     /// planned for that. Throws as Buffer does.
     SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList);
 
-    Buffer frame;
-    Buffer spheres;     ///< room for layout::maxSphereCount
-    Buffer sphereArray; ///< again, as a kernel's array
-    Buffer lights;      ///< room for layout::maxLightCount
-    Buffer materials;
-    Buffer nodes; ///< node pairs or skip lists
-    Buffer triangles;
-    Buffer normals;
-    Buffer emitters;
-    Buffer texels;
-    Buffer textures;
-
-  private:
-    template <class Tree>
-    SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, Tree tree);
+    std::vector<Buffer> buffers; ///< by binding
 };
 
 } // namespace hyalite::gpu

@@ -37,15 +37,20 @@ const WaitingPlan &waitingPlan(const JobPlan &plan, bool isResumable) {
     return isResumable && plan.isDirect ? plan.helperWaiting : plan.waiting;
 }
 
-/// The buffers at bindings 0, 1, ..., or their plans.
-template <class Scene, class T>
-std::array<const T *, layout::bindingCount>
-inBindingOrder(const Scene &scene, const T &film, const T &progress, const T &paths, const T &pending,
-               const T &stacks, const T &trace) {
-    return {&scene.frame,     &scene.spheres, &scene.lights, &scene.materials,   &scene.nodes,
-            &scene.triangles, &scene.normals, &film,         &progress,          &paths,
-            &pending,         &stacks,        &trace,        &scene.sphereArray, &scene.emitters,
-            &scene.texels,    &scene.textures};
+/// Buffers or their plans, by binding. `scene` are those of the scene.
+template <class T, class Scene>
+std::array<const T *, layout::bindingCount> byBinding(const Scene &scene, const T &film, const T &progress,
+                                                      const T &paths, const T &pending, const T &stacks,
+                                                      const T &trace) {
+    std::array<const T *, layout::bindingCount> all{};
+    std::ranges::transform(scene, all.begin(), [](const T &one) { return &one; });
+    all[layout::bindingFilm] = &film;
+    all[layout::bindingProgress] = &progress;
+    all[layout::bindingPaths] = &paths;
+    all[layout::bindingPending] = &pending;
+    all[layout::bindingStacks] = &stacks;
+    all[layout::bindingTrace] = &trace;
+    return all;
 }
 
 } // namespace
@@ -143,8 +148,8 @@ Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, 
     constants[layout::constantShowsCost] = job.integrator == Integrator::Cost;
     constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;
     std::array<BufferUse, layout::bindingCount> uses{};
-    std::ranges::transform(inBindingOrder(scenePlan, plan.film, plan.progress, waiting.paths, waiting.pending,
-                                          plan.stacks, plan.trace),
+    std::ranges::transform(byBinding(scenePlan.buffers, plan.film, plan.progress, waiting.paths,
+                                     waiting.pending, plan.stacks, plan.trace),
                            uses.begin(), [](const BufferPlan *buffer) { return buffer->use; });
     return Pipeline(device,
                     fmt::format("{} {}{}", nameOf(job.integrator), kernelName(config),
@@ -156,7 +161,7 @@ TileRenderer::Program TileRenderer::makeProgram(Pipeline pipeline, bool isResuma
     const WaitingPlan &waiting = waitingPlan(plan_, isResumable);
     Buffer paths(device_, waiting.paths);
     Buffer pending(device_, waiting.pending);
-    const auto bound = inBindingOrder(buffers_, film_, progress_, paths, pending, stacks_, trace_);
+    const auto bound = byBinding(buffers_.buffers, film_, progress_, paths, pending, stacks_, trace_);
     Kernel kernel(device_, std::move(pipeline), bound);
     return {std::move(paths), std::move(pending), std::move(kernel)};
 }

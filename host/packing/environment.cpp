@@ -49,7 +49,7 @@ bool packEnvironment(const Scene &scene, PackedScene &packed) {
     const std::size_t width = static_cast<std::size_t>(image.width());
     const std::size_t height = static_cast<std::size_t>(image.height());
     packed.lighting |= layout::lightsByEnvironment;
-    packed.frame.environmentTexels = static_cast<std::uint32_t>(packed.texels.size());
+    packed.frame.environmentTexels = static_cast<std::uint32_t>(packed.lookups.size());
     packed.frame.environmentWidth = static_cast<std::uint32_t>(width);
     packed.frame.environmentHeight = static_cast<std::uint32_t>(height);
     const double turns = scene.environment.rotateDegrees / 360.0;
@@ -63,14 +63,14 @@ bool packEnvironment(const Scene &scene, PackedScene &packed) {
             rowTotals[y] += weights[y * width + x];
         total += rowTotals[y];
     }
-    packed.texels.reserve(packed.texels.size() + width * height + height);
+    packed.lookups.reserve(packed.lookups.size() + width * height + height);
     for (std::size_t y = 0; y < height; ++y) {
         double before = 0.0;
         for (std::size_t x = 0; x < width; ++x) {
             before += weights[y * width + x];
             const double share = rowTotals[y] > 0.0 ? before / rowTotals[y] : 0.0;
-            packed.texels.push_back({image.pixels()[y * width + x] * scene.environment.scale,
-                                     x + 1 == width ? numbersBelow(1.0) : numbersBelow(share)});
+            packed.lookups.push_back({image.pixels()[y * width + x] * scene.environment.scale,
+                                      x + 1 == width ? numbersBelow(1.0) : numbersBelow(share)});
         }
     }
     double before = 0.0;
@@ -80,7 +80,7 @@ bool packEnvironment(const Scene &scene, PackedScene &packed) {
         const std::uint32_t numbers =
             y + 1 == height ? numbersBelow(1.0) : numbersBelow(total > 0.0 ? before / total : 0.0);
         const double chance = static_cast<double>(numbers - numbersBefore) / all;
-        packed.texels.push_back({glm::vec3(static_cast<float>(chance), 0.0f, 0.0f), numbers});
+        packed.lookups.push_back({glm::vec3(static_cast<float>(chance), 0.0f, 0.0f), numbers});
         numbersBefore = numbers;
     }
     return total > 0.0 && scene.environment.scale > 0.0f;

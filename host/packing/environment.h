@@ -5,7 +5,7 @@
 
 namespace hyalite {
 
-/// Appends the environment of `scene`, which has one, to packed.texels, and describes it in packed.frame.
+/// Appends the environment of `scene`, which has one, to packed.lookups, and describes it in packed.frame.
 /// Returns whether any of it shines, so that it can be aimed at.
 bool packEnvironment(const Scene &scene, PackedScene &packed);
 

@@ -244,12 +244,18 @@ void packNodes(const Bvh &bvh, PackedScene &packed) {
 
 } // namespace
 
+std::array<SceneArray, layout::sceneArrayCount> PackedScene::arrays() const {
+#define HYALITE_ARRAY(number, value, name, Record, fetch)                                                    \
+    SceneArray{layout::number, #name, std::as_bytes(std::span(name))},
+    return {HYALITE_SCENE_ARRAYS(HYALITE_ARRAY)};
+#undef HYALITE_ARRAY
+}
+
 std::size_t PackedScene::sizeBytes() const {
-    return sizeof(frame) + spheres.size() * sizeof(spheres[0]) + lights.size() * sizeof(lights[0]) +
-           materials.size() * sizeof(materials[0]) + emitters.size() * sizeof(emitters[0]) +
-           texels.size() * sizeof(texels[0]) + textures.size() * sizeof(textures[0]) +
-           nodes.size() * sizeof(nodes[0]) + triangles.size() * sizeof(triangles[0]) +
-           normals.size() * sizeof(normals[0]);
+    std::size_t bytes = sizeof(frame) + std::span(lights).size_bytes() + std::span(nodes).size_bytes();
+    for (const SceneArray &array : arrays())
+        bytes += array.bytes.size();
+    return bytes;
 }
 
 std::uint64_t PackedScene::contentHash() const {
@@ -271,7 +277,7 @@ std::uint64_t PackedScene::contentHash() const {
     hash = hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
     if ((lighting & layout::lightsByEnvironment) != 0)
         hash =
-            hashBytes(std::as_bytes(std::span(texels).subspan(
+            hashBytes(std::as_bytes(std::span(lookups).subspan(
                           frame.environmentTexels, (frame.environmentWidth + 1) * frame.environmentHeight)),
                       hash);
     const std::size_t texelBegin = layout::firstCoordinateRow + layout::rowsPerCoordinates * triangles.size();
@@ -384,7 +390,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     packTextures(scene, order, maxDecoded, packed);
     const bool isPath = scene.settings.integrator == Integrator::Path;
     if (isPath && (packed.scattering & layout::scattersAtRough) != 0)
-        packed.texels = makeEnergyTexels();
+        packed.lookups = makeEnergyTexels();
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
     if (scene.settings.filter != FilterKind::Box)
         packFilter(packed);

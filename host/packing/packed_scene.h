@@ -3,22 +3,33 @@
 
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
-#include "shaders/layout/layout.h"
+#include "shaders/layout/buffers.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
 
 namespace hyalite {
 
+/// The bytes of an array of records.
+struct SceneArray {
+    std::uint32_t binding;
+    std::string_view name; ///< in plural: "materials"
+    std::span<const std::byte> bytes;
+};
+
 struct PackedScene {
     layout::FrameRecord frame{};
-    std::vector<layout::SphereRecord> spheres;
     std::vector<layout::LightRecord> lights;
-    std::vector<layout::MaterialRecord> materials; ///< what light passes first, by falling priority
-    std::vector<layout::EmitterRecord> emitters;   ///< for the path integrator only
-    std::vector<layout::LookupRow> texels;         ///< what is looked up by index
-    std::vector<layout::TextureRow> textures;      ///< see layout.h; empty where nothing reads them
-    std::vector<layout::NodePair> nodes;           ///< never empty
-    std::vector<layout::TriangleRecord> triangles; ///< leaf by leaf
-    std::vector<layout::NormalRecord> normals;     ///< one for each triangle record
+    std::vector<layout::NodePair> nodes; ///< never empty
     int treeDepth = 0;
+
+    // The scene arrays, by the names that shaders/layout/buffers.h gives them.
+#define HYALITE_MEMBER(number, value, name, Record, fetch) std::vector<layout::Record> name;
+    HYALITE_SCENE_ARRAYS(HYALITE_MEMBER)
+#undef HYALITE_MEMBER
 
     // Features that some kernels can leave out.
     bool hasTriangles = false;
@@ -31,7 +42,10 @@ struct PackedScene {
     std::uint32_t texturing = 0; ///< bits of layout::textures...
     std::uint32_t camera = layout::cameraPinhole;
 
-    /// Of all arrays together: what a device has to hold of the scene.
+    /// A view of each scene array, in the order of the bindings.
+    [[nodiscard]] std::array<SceneArray, layout::sceneArrayCount> arrays() const;
+
+    /// Bytes of all that a device has to hold of the scene.
     [[nodiscard]] std::size_t sizeBytes() const;
 
     /// A hash of what there is to see: camera and image size, background, lights, materials and primitives. It does not

@@ -33,13 +33,13 @@ double filterShareBelow(double x) {
 }
 
 void packFilter(PackedScene &packed) {
-    packed.frame.filterTexels = static_cast<std::uint32_t>(packed.texels.size());
+    packed.frame.filterTexels = static_cast<std::uint32_t>(packed.lookups.size());
     double begin = -filterRadius;
     for (std::uint32_t cell = 0; cell < layout::filterCellCount; ++cell) {
         const double end = cell + 1 == layout::filterCellCount
                                ? filterRadius
                                : filterQuantile((cell + 1.0) / layout::filterCellCount);
-        packed.texels.push_back(
+        packed.lookups.push_back(
             {glm::vec3(static_cast<float>(0.5 + begin), static_cast<float>(end - begin), 0.0f), 0});
         begin = end;
     }

@@ -13,7 +13,7 @@ inline constexpr double filterRadius = 1.5;
 /// Fourier Transform", Proc. IEEE 66(1), 1978, table 1; integrated.
 [[nodiscard]] double filterShareBelow(double x);
 
-/// Appends the filter's quantiles to packed.texels, and says in packed.frame where.
+/// Appends the filter's quantiles to packed.lookups, and says in packed.frame where.
 void packFilter(PackedScene &packed);
 
 } // namespace hyalite

@@ -97,16 +97,10 @@ template <class Real> struct SceneView {
             sphereShapes.push_back(makeSphereShape<Real>(sphere.centre, sphere.radius));
     }
 
-    [[nodiscard]] SphereRecord<Real> fetchSphere(uint index) const { return packed.spheres[index]; }
-    [[nodiscard]] TriangleRecord<Real> fetchTriangle(uint index) const { return packed.triangles[index]; }
-    [[nodiscard]] NormalRecord<Real> fetchNormals(uint index) const { return packed.normals[index]; }
-    [[nodiscard]] MaterialRecord<Real> fetchMaterial(uint index) const { return packed.materials[index]; }
-    [[nodiscard]] EmitterRecord<Real> fetchEmitter(uint index) const { return packed.emitters[index]; }
-    [[nodiscard]] LookupRow<Real> fetchLookupRow(uint index) const { return packed.texels[index]; }
-    [[nodiscard]] uvec4 fetchTextureRow(uint index) const {
-        const layout::TextureRow &row = packed.textures[index];
-        return {row.x, row.y, row.z, row.w};
-    }
+#define HYALITE_FETCH(number, value, name, Record, fetch)                                                    \
+    [[nodiscard]] Record<Real> fetch(uint index) const { return packed.name[index]; }
+    HYALITE_SCENE_ARRAYS(HYALITE_FETCH)
+#undef HYALITE_FETCH
 
     const PackedScene &packed;
     FrameRecord<Real> frame;

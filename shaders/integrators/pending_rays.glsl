@@ -5,20 +5,9 @@
 #if MEMORY_TEXELS
 layout(set = 0, binding = bindingPending, rgba32ui) uniform restrict uimageBuffer pendingTexels;
 
-void storePendingRay(uint index, PendingRay ray) {
-    int row = int(index) * 3;
-    imageStore(pendingTexels, row, uvec4(floatBitsToUint(ray.origin), ray.excluded));
-    imageStore(pendingTexels, row + 1, uvec4(floatBitsToUint(ray.direction), ray.depth));
-    imageStore(pendingTexels, row + 2, uvec4(floatBitsToUint(ray.throughput), ray.medium));
-}
+void storePendingRay(uint index, PendingRay ray) { STORE_PendingRay(pendingTexels, index, ray) }
 
-PendingRay loadPendingRay(uint index) {
-    int row = int(index) * 3;
-    uvec4 a = imageLoad(pendingTexels, row);
-    uvec4 b = imageLoad(pendingTexels, row + 1);
-    uvec4 c = imageLoad(pendingTexels, row + 2);
-    return PendingRay(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w);
-}
+PendingRay loadPendingRay(uint index) { LOAD_PendingRay(pendingTexels, index) }
 #else
 layout(set = 0, binding = bindingPending, std430) buffer PendingBuffer { PendingRay pendingRays[]; };
 

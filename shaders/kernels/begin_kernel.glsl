@@ -11,6 +11,8 @@
 #endif
 
 #include "shaders/layout/layout.h"
+#include "shaders/layout/buffers.h"
+#include "layout_macros.h"
 
 layout(local_size_x_id = 0) in;
 

@@ -489,27 +489,6 @@ struct PendingRay {
 
 const uint maxPendingInRegisters = 8u;
 
-// ---- Bindings, all in set 0. The first three are uniform buffers, the others storage buffers.
-
-const uint bindingFrame = 0u;
-const uint bindingSpheres = 1u; // maxSphereCount records
-const uint bindingLights = 2u;  // maxLightCount records
-const uint bindingMaterials = 3u;
-const uint bindingNodes = 4u;
-const uint bindingTriangles = 5u;
-const uint bindingNormals = 6u;
-const uint bindingFilm = 7u;
-const uint bindingProgress = 8u;
-const uint bindingPaths = 9u;
-const uint bindingPending = 10u; // maxDepth rays a slot
-const uint bindingStacks = 11u;  // stackSize references a slot
-const uint bindingTrace = 12u;
-const uint bindingSphereArray = 13u; // the spheres again, as texels
-const uint bindingEmitters = 14u;
-const uint bindingLookups = 15u;
-const uint bindingTextures = 16u;
-const uint bindingCount = 17u;
-
 // ---- Specialization constants: what a scene does not use costs nothing
 
 const uint constantWorkgroupSize = 0u;

@@ -3,7 +3,7 @@
 #define HYALITE_RAY_RECORDS_H
 
 #ifdef __cplusplus
-#include "shaders/layout/layout.h"
+#include "shaders/layout/buffers.h"
 
 namespace hyalite::layout {
 #endif

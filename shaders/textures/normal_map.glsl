@@ -48,7 +48,7 @@ vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     vec3 x = unitVector(flatU);
     vec3 left = crossProduct(normal, x);
     vec3 y = dotProduct(left, tangent.alongV) < 0.0 ? -left : left;
-    float strength = uintBitsToFloat(fetchTextureRow(row).w);
+    float strength = uintBitsToFloat(textureWords(row).w);
     vec3 texel = lookUpTexture(row, uv);
     vec3 turned = 2.0 * texel - 1.0;
     vec2 sideways = vec2(turned) * strength;

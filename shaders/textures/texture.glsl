@@ -9,10 +9,15 @@ struct Coordinates {
     vec2 uv2;
 };
 
+uvec4 textureWords(uint row) {
+    TextureRow words = fetchTextureRow(row);
+    return uvec4(words.x, words.y, words.z, words.w);
+}
+
 Coordinates fetchCoordinates(uint triangleRecord) {
     uint row = firstCoordinateRow + rowsPerCoordinates * triangleRecord;
-    vec4 first = uintBitsToFloat(fetchTextureRow(row));
-    return Coordinates(vec2(first), vec2(first.z, first.w), uintBitsToFloat(uvec2(fetchTextureRow(row + 1u))));
+    vec4 first = uintBitsToFloat(textureWords(row));
+    return Coordinates(vec2(first), vec2(first.z, first.w), uintBitsToFloat(uvec2(textureWords(row + 1u))));
 }
 
 // As trianglePoint.
@@ -44,14 +49,14 @@ uint wordOf(uvec4 words, uint index) {
 }
 
 float decodeLevel(uint tableRow, uint level) {
-    return uintBitsToFloat(wordOf(fetchTextureRow(tableRow + (level >> 2u)), level));
+    return uintBitsToFloat(wordOf(textureWords(tableRow + (level >> 2u)), level));
 }
 
 vec3 textureTexel(uvec4 description, uint x, uint y) {
     uint index = y * (description.y & 0xFFFFu) + x;
     if ((texturing & texturesLevels) == 0u || (description.z & textureIsFloat) != 0u)
-        return uintBitsToFloat(uvec3(fetchTextureRow(description.x + index)));
-    uint levels = wordOf(fetchTextureRow(description.x + (index >> 2u)), index);
+        return uintBitsToFloat(uvec3(textureWords(description.x + index)));
+    uint levels = wordOf(textureWords(description.x + (index >> 2u)), index);
     if ((description.z & textureIsAlpha) != 0u)
         levels = (levels >> 24u) * 0x010101u;
     uint table = (description.z & textureIsSrgb) != 0u ? srgbTableRow : linearTableRow;
@@ -61,8 +66,8 @@ vec3 textureTexel(uvec4 description, uint x, uint y) {
 
 // Between the middles of texels it is linear both ways, and the image repeats. `row` is that of a TextureRecord.
 vec3 lookUpTexture(uint row, vec2 uv) {
-    uvec4 description = fetchTextureRow(row);
-    vec4 placement = uintBitsToFloat(fetchTextureRow(row + 1u));
+    uvec4 description = textureWords(row);
+    vec4 placement = uintBitsToFloat(textureWords(row + 1u));
     uint width = description.y & 0xFFFFu;
     uint height = description.y >> 16u;
     vec2 placed = uv * vec2(placement) + vec2(placement.z, placement.w);
@@ -84,11 +89,11 @@ vec3 lookUpTexture(uint row, vec2 uv) {
 uint textureRow(uint textures, uint slot) { return textures + rowsPerTexture * slot; }
 
 // Whether a material with textures has one in that slot.
-bool hasTexture(uint textures, uint slot) { return fetchTextureRow(textureRow(textures, slot)).y != 0u; }
+bool hasTexture(uint textures, uint slot) { return textureWords(textureRow(textures, slot)).y != 0u; }
 
 // What a texture says where one number is wanted, times its factor.
 float lookUpNumber(uint row, vec2 uv) {
-    return lookUpTexture(row, uv).x * uintBitsToFloat(fetchTextureRow(row).w);
+    return lookUpTexture(row, uv).x * uintBitsToFloat(textureWords(row).w);
 }
 
 // GGX's alpha: what is rougher than nothing is at least so rough that float32 resolves the peak of the reflection.

@@ -7,19 +7,19 @@ SphereShape sphereShapes[unrolledSphereCount];
 uint transmissiveSpheres = 0u; // a bit each
 LightRecord firstLight;
 
-SphereShape sphereShape(uint index) { return makeSphereShape(spheres[index].centre, spheres[index].radius); }
+SphereShape sphereShape(uint index) { return makeSphereShape(sphereConstants[index].centre, sphereConstants[index].radius); }
 
 void preload() {
     [[unroll]] for (uint i = 0u; i < min(sphereCount, unrolledSphereCount); ++i) {
         sphereShapes[i] = sphereShape(i);
-        transmissiveSpheres |= spheres[i].isTransmissive << i;
+        transmissiveSpheres |= sphereConstants[i].isTransmissive << i;
     }
     firstLight = lights[0];
 }
 
 bool isSphereTransmissive(uint index) {
     return sphereCount <= unrolledSphereCount ? (transmissiveSpheres >> index & 1u) != 0u
-                                              : spheres[index].isTransmissive != 0u;
+                                              : sphereConstants[index].isTransmissive != 0u;
 }
 
 LightRecord lightAt(uint index) {

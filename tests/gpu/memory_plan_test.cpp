@@ -53,17 +53,18 @@ std::string refusal(const ScenePlan &scene, const JobPlan &job, const DeviceInfo
 TEST(MemoryPlan, HasAllThatASceneTakes) {
     const PackedScene scene = sceneOf(1000);
     const ScenePlan plan = planScene(scene, false);
-    EXPECT_EQ(plan.triangles.sizeBytes, 48'000u);
-    EXPECT_EQ(plan.normals.sizeBytes, 48'000u);
-    EXPECT_EQ(plan.nodes.sizeBytes, 251u * 64u);
-    EXPECT_EQ(plan.nodes.use, BufferUse::Storage);
-    EXPECT_EQ(plan.emitters.sizeBytes, 16u) << "a binding needs some memory";
+    EXPECT_EQ(plan.buffers[layout::bindingTriangles].sizeBytes, 48'000u);
+    EXPECT_EQ(plan.buffers[layout::bindingNormals].sizeBytes, 48'000u);
+    EXPECT_EQ(plan.buffers[layout::bindingNodes].sizeBytes, 251u * 64u);
+    EXPECT_EQ(plan.buffers[layout::bindingNodes].use, BufferUse::Storage);
+    EXPECT_EQ(plan.buffers[layout::bindingEmitters].sizeBytes, 16u) << "a binding needs some memory";
     EXPECT_EQ(plan.hostBytes, 0u);
     const ScenePlan listed = planScene(scene, true);
-    EXPECT_EQ(listed.nodes.sizeBytes, (251u * 2u * 2u + 1u) * 16u)
+    EXPECT_EQ(listed.buffers[layout::bindingNodes].sizeBytes, (251u * 2u * 2u + 1u) * 16u)
         << "two lists with both children of each pair, and what rays at their end read";
-    EXPECT_EQ(listed.triangles.use, BufferUse::Texels);
-    EXPECT_GT(listed.hostBytes, listed.nodes.sizeBytes) << "they are made on the host";
+    EXPECT_EQ(listed.buffers[layout::bindingTriangles].use, BufferUse::Texels);
+    EXPECT_GT(listed.hostBytes, listed.buffers[layout::bindingNodes].sizeBytes)
+        << "they are made on the host";
 }
 
 TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
@@ -135,9 +136,11 @@ TEST(MemoryPlan, IsTheSumOfAllBuffers) {
     const ScenePlan scenePlan = planScene(scene, false);
     const JobPlan job = planJob(jobOf(scene, 100), stack, device());
     const MemoryPlan memory = requireMemory(scenePlan, job, false, device());
-    EXPECT_GT(memory.deviceBytes, scenePlan.triangles.sizeBytes + scenePlan.normals.sizeBytes +
-                                      scenePlan.nodes.sizeBytes + job.film.sizeBytes + job.stacks.sizeBytes +
-                                      job.waiting.paths.sizeBytes + job.waiting.pending.sizeBytes);
+    EXPECT_GT(memory.deviceBytes, scenePlan.buffers[layout::bindingTriangles].sizeBytes +
+                                      scenePlan.buffers[layout::bindingNormals].sizeBytes +
+                                      scenePlan.buffers[layout::bindingNodes].sizeBytes + job.film.sizeBytes +
+                                      job.stacks.sizeBytes + job.waiting.paths.sizeBytes +
+                                      job.waiting.pending.sizeBytes);
     EXPECT_EQ(memory.hostBytes, 0u);
     EXPECT_EQ(requireMemory(scenePlan, job, true, device()).hostBytes, job.waiting.paths.sizeBytes)
         << "staging: the largest buffer";
@@ -167,7 +170,7 @@ TEST(MemoryPlan, ADeviceOfSoftwareTakesTheHostsMemory) {
     info.maxStorageBufferBytes = info.deviceMemoryBytes = std::uint64_t{1} << 60;
     ScenePlan scenePlan = planScene(scene, false);
     const JobPlan job = planJob(jobOf(scene, 8), completed({.traversal = Traversal::Stack}, info), info);
-    scenePlan.triangles.sizeBytes = std::uint64_t{1} << 50;
+    scenePlan.buffers[layout::bindingTriangles].sizeBytes = std::uint64_t{1} << 50;
     EXPECT_EQ(refusal(scenePlan, job, info), "");
     info.type = DeviceType::Cpu;
     EXPECT_NE(refusal(scenePlan, job, info).find("are available"), std::string::npos);

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/layout/layout.h"
-#include "layout_fields.h"
+#include "layout_macros.h"
 
 layout(local_size_x = 1) in;
 

@@ -14,7 +14,7 @@ namespace hyalite::testing {
 namespace {
 
 using layout::uint;
-#include "layout_fields.h"
+#include "layout_macros.h"
 
 /// What the kernel is to write: the words of all fields as this compiler finds them, and their names.
 struct Expected {

@@ -541,7 +541,7 @@ TEST(EnvironmentTwin, FromADirection) {
         input << direction;
         expected << light.radiance << light.pdf;
     };
-    expectTwin(probeEnvironmentFrom, call, {.frame = packed.frame, .texels = packed.texels});
+    expectTwin(probeEnvironmentFrom, call, {.frame = packed.frame, .lookups = packed.lookups});
 }
 
 TEST(EnvironmentTwin, Sampled) {
@@ -553,7 +553,7 @@ TEST(EnvironmentTwin, Sampled) {
         input << bits;
         expected << light.direction << light.radiance << light.pdf;
     };
-    expectTwin(probeSampleEnvironment, call, {.frame = packed.frame, .texels = packed.texels});
+    expectTwin(probeSampleEnvironment, call, {.frame = packed.frame, .lookups = packed.lookups});
 }
 
 // ---- Textures
@@ -706,7 +706,7 @@ TEST(CameraTwin, PrimaryRayThroughTheFilterOfPixels) {
         packed.frame.imagePlane = views.direction();
         packed.frame.pixelRight = views.direction();
         packed.frame.pixelUp = views.direction();
-        packed.texels.resize(3);
+        packed.lookups.resize(3);
         packFilter(packed);
         const auto call = [&](Draw &draw, Words &input, Words &expected) {
             const std::uint32_t x = draw.index(packed.frame.imageWidth);
@@ -720,7 +720,7 @@ TEST(CameraTwin, PrimaryRayThroughTheFilterOfPixels) {
         expectTwin(probePrimaryRay, call,
                    {.frame = packed.frame,
                     .samplerKind = layout::samplerFiltered,
-                    .texels = packed.texels,
+                    .lookups = packed.lookups,
                     .camera = camera});
     }
 }
@@ -798,7 +798,7 @@ TEST(EnergyTwin, OfTheTable) {
                  << reference::energyAt(energy, colour.x)
                  << reference::multiScatterReflectance(colour, average.white);
     };
-    expectTwin(probeEnergy, call, {.texels = packed.texels});
+    expectTwin(probeEnergy, call, {.lookups = packed.lookups});
 }
 
 TEST(BsdfTwin, DrawnAndEvaluated) {
@@ -841,7 +841,7 @@ TEST(BsdfTwin, DrawnAndEvaluated) {
         const auto lit = reference::evalBsdf(scene, rough, light);
         expected << drawn << scattered.value << scattered.pdf << lit.value << lit.pdf;
     };
-    expectTwin(probeBsdf, call, {.texels = packed.texels, .scattering = 15u});
+    expectTwin(probeBsdf, call, {.lookups = packed.lookups, .scattering = 15u});
 }
 
 TEST(EmitterTwin, SolidAngleDensity) {

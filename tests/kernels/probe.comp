@@ -4,12 +4,16 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
+#define MEMORY_TEXELS 0
+#define TRAVERSAL_SKIP_LIST 0
 #include "shaders/layout/layout.h"
+#include "shaders/layout/buffers.h"
 #include "tests/kernels/probe.h"
 
 layout(local_size_x_id = 0) in;
 
 #include "shaders/memory/bindings.glsl"
+#include "shaders/memory/scene_data.glsl"
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/math/vector.glsl"
 #include "shaders/math/random.glsl"
@@ -22,18 +26,6 @@ layout(local_size_x_id = 0) in;
 #include "shaders/math/sampling.glsl"
 #include "shaders/geometry/surface.glsl"
 #include "shaders/lights/emitter_pdf.glsl"
-
-layout(set = 0, binding = bindingLookups, std430) readonly buffer TexelBuffer { LookupRow texels[]; };
-
-LookupRow fetchLookupRow(uint index) { return texels[index]; }
-
-layout(set = 0, binding = bindingTextures, std430) readonly buffer TextureBuffer { uvec4 textureRows[]; };
-
-uvec4 fetchTextureRow(uint index) { return textureRows[index]; }
-
-layout(set = 0, binding = bindingMaterials, std430) readonly buffer MaterialBuffer { MaterialRecord materials[]; };
-
-MaterialRecord fetchMaterial(uint index) { return materials[index]; }
 
 #include "shaders/camera/camera.glsl"
 #include "shaders/textures/texture.glsl"

@@ -3,7 +3,7 @@
 #define HYALITE_PROBE_H
 
 #ifdef __cplusplus
-#include "shaders/layout/layout.h"
+#include "shaders/layout/buffers.h"
 
 namespace hyalite::testing {
 using layout::bindingCount;

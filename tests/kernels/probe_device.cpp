@@ -35,7 +35,7 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
     for (std::uint32_t binding = 0; binding < probeBindingCount; ++binding) {
         gpu::BufferUse use = gpu::BufferUse::Storage;
         std::size_t sizeBytes = 256; // of the scene's buffers, which nothing reads
-        if (binding < layout::bindingMaterials) {
+        if (binding < layout::uniformBufferCount) {
             use = gpu::BufferUse::Uniform;
             sizeBytes = sizeof(layout::SphereRecord) * layout::maxSphereCount;
         } else if (binding == bindingProbeInputs) {
@@ -43,15 +43,15 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
         } else if (binding == bindingProbeOutputs) {
             sizeBytes = probeInputCount * outputWords * sizeof(std::uint32_t);
         } else if (binding == layout::bindingLookups) {
-            sizeBytes = std::max(sizeBytes, std::span(scene.texels).size_bytes());
+            sizeBytes = std::max(sizeBytes, std::span(scene.lookups).size_bytes());
         } else if (binding == layout::bindingTextures) {
             sizeBytes = std::max(sizeBytes, std::span(scene.textures).size_bytes());
         }
         buffers_.push_back(
             std::make_unique<gpu::Buffer>(probeDevice(), fmt::format("binding {}", binding), use, sizeBytes));
     }
-    if (!scene.texels.empty())
-        buffers_[layout::bindingLookups]->upload(std::as_bytes(std::span(scene.texels)));
+    if (!scene.lookups.empty())
+        buffers_[layout::bindingLookups]->upload(std::as_bytes(std::span(scene.lookups)));
     if (!scene.textures.empty())
         buffers_[layout::bindingTextures]->upload(std::as_bytes(std::span(scene.textures)));
     buffers_[layout::bindingFrame]->upload(std::as_bytes(std::span(&scene.frame, 1)));

@@ -22,7 +22,7 @@ namespace hyalite::testing {
 struct ProbeScene {
     layout::FrameRecord frame{};
     std::uint32_t samplerKind = layout::samplerSobol;
-    std::vector<layout::LookupRow> texels{};
+    std::vector<layout::LookupRow> lookups{};
     std::vector<layout::TextureRow> textures{};
     std::uint32_t scattering = 0;
     std::uint32_t camera = layout::cameraPinhole;

@@ -21,7 +21,7 @@ double window(double x) {
 /// A scene with nothing but the filter.
 PackedScene filterAlone() {
     PackedScene packed;
-    packed.texels.resize(5); // what comes before it
+    packed.lookups.resize(5); // what comes before it
     packFilter(packed);
     return packed;
 }
@@ -42,7 +42,7 @@ TEST(PixelFilter, ItsShareIsTheIntegralOfTheWindow) {
 TEST(PixelFilter, QuantilesAreTheInverseOfTheShare) {
     const PackedScene packed = filterAlone();
     ASSERT_EQ(packed.frame.filterTexels, 5u);
-    ASSERT_EQ(packed.texels.size(), 5u + layout::filterCellCount);
+    ASSERT_EQ(packed.lookups.size(), 5u + layout::filterCellCount);
     for (int i = 0; i < 10'000; ++i) {
         const double u = i / 10'000.0;
         const double x = reference::filterQuantile(reference::SceneView<double>(packed), u) - 0.5;

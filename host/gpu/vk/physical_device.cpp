@@ -2,7 +2,7 @@
 
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/vk/check.h"
-#include "shaders/layout/layout.h"
+#include "shaders/layout/buffers.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace hyalite::gpu {
 
 namespace {
 
-constexpr std::uint32_t storageBuffersNeeded = layout::bindingCount - layout::bindingMaterials;
+constexpr std::uint32_t storageBuffersNeeded = layout::bindingCount - layout::uniformBufferCount;
 constexpr std::uint32_t workgroupInvocationsNeeded = 64;
 
 std::string versionText(std::uint32_t version) {

@@ -1,0 +1,51 @@
+// The buffers of the integrators' kernels, all in set 0: three uniform buffers, then storage buffers. Those of the scene come
+// first. Compiled as C++ and as GLSL.
+#ifndef HYALITE_BUFFERS_H
+#define HYALITE_BUFFERS_H
+
+#ifdef __cplusplus
+#include "shaders/layout/layout.h"
+
+namespace hyalite::layout {
+#endif
+
+const uint bindingFrame = 0u;
+const uint bindingSphereConstants = 1u; // the spheres again, room for maxSphereCount
+const uint bindingLights = 2u;          // room for maxLightCount
+const uint uniformBufferCount = 3u;
+const uint bindingNodes = 3u; // node pairs, or skip nodes
+
+// Scene arrays: a row each, in the order of their bindings. A row is all that there is to say: PackedScene gets a vector of
+// the name, which is planned, counted, uploaded and bound, and both renderers read a record of it by the fetch function.
+// clang-format off
+#define HYALITE_SCENE_ARRAYS(ARRAY) \
+    ARRAY(bindingSpheres,   4u,  spheres,   SphereRecord,   fetchSphere) \
+    ARRAY(bindingTriangles, 5u,  triangles, TriangleRecord, fetchTriangle) \
+    ARRAY(bindingNormals,   6u,  normals,   NormalRecord,   fetchNormals) \
+    ARRAY(bindingMaterials, 7u,  materials, MaterialRecord, fetchMaterial) \
+    ARRAY(bindingEmitters,  8u,  emitters,  EmitterRecord,  fetchEmitter) \
+    ARRAY(bindingLookups,   9u,  lookups,   LookupRow,      fetchLookupRow) \
+    ARRAY(bindingTextures,  10u, textures,  TextureRow,     fetchTextureRow)
+// clang-format on
+
+#define HYALITE_BINDING(number, value, name, Record, fetch) const uint number = value;
+HYALITE_SCENE_ARRAYS(HYALITE_BINDING)
+#undef HYALITE_BINDING
+#define HYALITE_ONE_MORE(number, value, name, Record, fetch) +1u
+const uint sceneArrayCount = 0u HYALITE_SCENE_ARRAYS(HYALITE_ONE_MORE);
+#undef HYALITE_ONE_MORE
+const uint sceneBufferCount = bindingNodes + 1u + sceneArrayCount;
+
+// Buffers of a job.
+const uint bindingFilm = sceneBufferCount;
+const uint bindingProgress = sceneBufferCount + 1u;
+const uint bindingPaths = sceneBufferCount + 2u;
+const uint bindingPending = sceneBufferCount + 3u; // maxDepth rays a slot
+const uint bindingStacks = sceneBufferCount + 4u;  // stackSize references a slot
+const uint bindingTrace = sceneBufferCount + 5u;
+const uint bindingCount = sceneBufferCount + 6u;
+
+#ifdef __cplusplus
+} // namespace hyalite::layout
+#endif
+#endif
