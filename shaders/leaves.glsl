@@ -4,6 +4,7 @@
 #include "shaders/math/functions.glsl"
 #include "shaders/math/random.glsl"
 #include "shaders/math/sampling.glsl"
+#include "shaders/math/colours.glsl"
 #include "shaders/geometry/box.glsl"
 #include "shaders/geometry/triangle.glsl"
 #include "shaders/geometry/sphere.glsl"

@@ -50,7 +50,7 @@ std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
 
 /// Of a kernel whose dispatches have so many slots. `isResumable`: it can stop inside of a sample.
 WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::uint64_t slots) {
-    const bool isSplitting = isWhitted(job.integrator) && job.scene.hasDielectric;
+    const bool isSplitting = rowOf(job.integrator).splitsAtGlass && job.scene.hasDielectric;
     const std::uint32_t mostPending = isSplitting ? job.scene.frame.maxDepth - 1 : 0;
     const bool keepsPending = !isResumable && mostPending <= layout::maxPendingInRegisters;
     WaitingPlan waiting;

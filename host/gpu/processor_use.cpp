@@ -23,10 +23,11 @@ constexpr int mostDepthInTree = 5;
 constexpr int mostDepthOfSpheres = 10;
 
 bool areRaysTogether(const ProcessorUse &use) {
-    if (use.integrator == Integrator::Path)
-        return !use.hasTriangles;
-    if (isWhitted(use.integrator))
+    const IntegratorRow &row = rowOf(use.integrator);
+    if (row.splitsAtGlass)
         return use.maxDepth <= (use.hasTriangles ? mostDepthInTree : mostDepthOfSpheres);
+    if (row.followsPaths)
+        return !use.hasTriangles;
     return true;
 }
 

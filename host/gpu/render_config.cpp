@@ -13,7 +13,7 @@
 namespace hyalite::gpu {
 
 Workload workloadOf(const PackedScene &scene, Integrator integrator) {
-    if (integrator == Integrator::Path &&
+    if (rowOf(integrator).aimsAtEmitters &&
         (scene.scattering != 0 || (scene.lighting & layout::lightsByEnvironment) != 0))
         return Workload::Shading;
     return scene.hasTriangles ? Workload::Triangles : Workload::Spheres;
@@ -55,11 +55,9 @@ RenderConfig completed(RenderConfig config, const DeviceInfo &device, Workload w
 std::span<const std::uint32_t> kernelWords(const RenderConfig &config, Integrator integrator) {
     if (!config.kernel.empty())
         return config.kernel;
-    const bool isView = !isWhitted(integrator) && integrator != Integrator::Path;
-    const std::string name =
-        fmt::format("{}{}{}", isView ? "view" : (isWhitted(integrator) ? "whitted" : "path"),
-                    config.traversal == Traversal::SkipList ? "Skip" : "Stack",
-                    config.slotsPerInvocation == 2 ? "TwoSlots" : "OneSlot");
+    const std::string name = fmt::format("{}{}{}", rowOf(integrator).kernel,
+                                         config.traversal == Traversal::SkipList ? "Skip" : "Stack",
+                                         config.slotsPerInvocation == 2 ? "TwoSlots" : "OneSlot");
     return embeddedKernel(name);
 }
 

@@ -311,27 +311,6 @@ std::uint32_t samplerOf(const RenderSettings &settings) {
     return settings.filter == FilterKind::Box ? layout::samplerSobol : layout::samplerFiltered;
 }
 
-std::uint32_t viewOf(Integrator integrator) {
-    switch (integrator) {
-    case Integrator::AmbientOcclusion:
-        return layout::viewOcclusion;
-    case Integrator::Depth:
-        return layout::viewDepth;
-    case Integrator::Albedo:
-        return layout::viewAlbedo;
-    case Integrator::Id:
-        return layout::viewId;
-    case Integrator::Uv:
-        return layout::viewCoordinates;
-    case Integrator::Normal:
-    case Integrator::Whitted:
-    case Integrator::Path:
-    case Integrator::Cost:
-        break;
-    }
-    return layout::viewNormal;
-}
-
 PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded) {
     assert(bvh.order.size() <= triangleCount(scene));
     PackedScene packed;
@@ -388,13 +367,13 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     packTriangles(scene, bvh, packedMaterial, packed);
     packNodes(bvh, packed);
     packTextures(scene, order, maxDecoded, packed);
-    const bool isPath = scene.settings.integrator == Integrator::Path;
-    if (isPath && (packed.scattering & layout::scattersAtRough) != 0)
+    const bool aimsAtEmitters = rowOf(scene.settings.integrator).aimsAtEmitters;
+    if (aimsAtEmitters && (packed.scattering & layout::scattersAtRough) != 0)
         packed.lookups = makeEnergyTexels();
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
     if (scene.settings.filter != FilterKind::Box)
         packFilter(packed);
-    if (isPath)
+    if (aimsAtEmitters)
         packEmitters(scene, isLitAround, packed);
     if (packed.hasTriangles) {
         packed.frame.boundsLower = bvh.nodes.front().box.lower;

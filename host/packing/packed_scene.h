@@ -56,9 +56,6 @@ struct PackedScene {
 /// Where the samples of a pixel lie, as kernels call it: layout::sampler...
 [[nodiscard]] std::uint32_t samplerOf(const RenderSettings &settings);
 
-/// What a kernel shows of the first hit for an integrator that is a view; 0 for others.
-[[nodiscard]] std::uint32_t viewOf(Integrator integrator);
-
 /// As much as textures of 8 bits may take when they are decoded: 16 bytes a pixel.
 inline constexpr std::size_t maxDecodedBytes = std::size_t{64} << 20;
 

@@ -1,7 +1,7 @@
 // The path integrator: one path a sample, with next-event estimation at diffuse and rough surfaces, combined with what
 // scattered rays find by multiple importance sampling, and Russian roulette. Kajiya, "The Rendering Equation", SIGGRAPH
 // 1986; Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 9 and 10. Twin:
-// shaders/integrators/path.glsl. Here a path is followed vertex by vertex; the order of all sums is the same.
+// shaders/integrators/path.comp. Here a path is followed vertex by vertex; the order of all sums is the same.
 //
 // `maxDepth` bounds the segments of a path from the eye to the light, so that neither technique finds longer paths than
 // the other. Each vertex has three pairs of random numbers.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -166,11 +167,13 @@ auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, co
     if constexpr (std::is_same_v<Counter, WorkCounter>)
         if (settings.integrator == Integrator::Cost)
             return use([&] { return CostIntegrator<Real>(scene, sampler); });
-    if (settings.integrator == Integrator::Whitted || settings.integrator == Integrator::Cost)
+    const IntegratorRow &row = rowOf(settings.integrator);
+    if (row.kernel == "whitted")
         return use([&] { return WhittedIntegrator<Real, Counter>(scene, sampler); });
-    if (settings.integrator == Integrator::Path)
+    if (row.kernel == "path")
         return use([&] { return PathIntegrator<Real, Counter>(scene, sampler); });
-    return use([&] { return ViewIntegrator<Real, Counter>(scene, sampler, viewOf(settings.integrator)); });
+    assert(row.kernel == "view");
+    return use([&] { return ViewIntegrator<Real, Counter>(scene, sampler, row.view); });
 }
 
 template <class Real>

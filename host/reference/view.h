@@ -1,4 +1,4 @@
-// Views of what primary rays meet, and ambient occlusion. Twin: shaders/integrators/view.glsl.
+// Views of what primary rays meet, and ambient occlusion. Twin: shaders/integrators/view.comp.
 //
 // Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with everything
 // further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", 1998.
@@ -11,18 +11,6 @@
 #include <vector>
 
 namespace hyalite::reference {
-
-/// A colour for each number, in [0.2, 1).
-template <class Real> [[nodiscard]] Vec3<Real> idColour(std::uint32_t id) {
-    const glm::uvec3 bits = hashKeys({id, 1, 2});
-    return Real(0.2) +
-           Real(0.8) * Vec3<Real>(unitFloat<Real>(bits.x), unitFloat<Real>(bits.y), unitFloat<Real>(bits.z));
-}
-
-/// From [-1, 1] to [0, 1], as normal maps do.
-template <class Real> [[nodiscard]] Vec3<Real> normalColour(const Vec3<Real> &normal) {
-    return Real(0.5) + Real(0.5) * normal;
-}
 
 /// Looks at what camera samples meet. One instance a thread: it keeps the counts.
 template <class Real, class Counter = NoCounter> class ViewIntegrator {

@@ -1,6 +1,6 @@
 // The classic integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
 // deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
-// Twin: shaders/integrators/whitted.glsl. Here a path is followed ray by ray; the order of all sums is the same.
+// Twin: shaders/integrators/whitted.comp. Here a path is followed ray by ray; the order of all sums is the same.
 #pragma once
 
 #include "host/film/ray_counts.h"

@@ -3,6 +3,7 @@
 
 #include "host/scene/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -16,15 +17,13 @@ inline constexpr std::array<Name<MaterialKind>, 5> materialNames{{{"diffuse", Ma
                                                                   {"dielectric", MaterialKind::Dielectric},
                                                                   {"conductor", MaterialKind::Conductor},
                                                                   {"principled", MaterialKind::Principled}}};
-inline constexpr std::array<Name<Integrator>, 9> integratorNames{{{"whitted", Integrator::Whitted},
-                                                                  {"path", Integrator::Path},
-                                                                  {"ao", Integrator::AmbientOcclusion},
-                                                                  {"normal", Integrator::Normal},
-                                                                  {"depth", Integrator::Depth},
-                                                                  {"albedo", Integrator::Albedo},
-                                                                  {"id", Integrator::Id},
-                                                                  {"uv", Integrator::Uv},
-                                                                  {"cost", Integrator::Cost}}};
+inline constexpr auto integratorNames = [] {
+    std::array<Name<Integrator>, integratorTable.size()> names{};
+    std::ranges::transform(integratorTable, names.begin(), [](const IntegratorRow &row) {
+        return Name<Integrator>{row.name, row.integrator};
+    });
+    return names;
+}();
 inline constexpr std::array<Name<CameraKind>, 3> cameraNames{{{"perspective", CameraKind::Perspective},
                                                               {"orthographic", CameraKind::Orthographic},
                                                               {"panorama", CameraKind::Panorama}}};
@@ -45,9 +44,7 @@ template <class Value, std::size_t count>
     return {};
 }
 
-[[nodiscard]] constexpr std::string_view nameOf(Integrator integrator) {
-    return nameIn(integratorNames, integrator);
-}
+[[nodiscard]] constexpr std::string_view nameOf(Integrator integrator) { return rowOf(integrator).name; }
 [[nodiscard]] constexpr std::string_view nameOf(TreeKind tree) { return nameIn(treeNames, tree); }
 [[nodiscard]] constexpr std::string_view nameOf(SamplerKind sampler) { return nameIn(samplerNames, sampler); }
 [[nodiscard]] constexpr std::string_view nameOf(FilterKind filter) { return nameIn(filterNames, filter); }

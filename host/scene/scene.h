@@ -6,6 +6,7 @@
 
 #include "host/image/image.h"
 #include "host/image/texture.h"
+#include "host/scene/integrators.h"
 #include "host/scene/metals.h"
 #include "shaders/layout/layout.h"
 
@@ -141,22 +142,6 @@ struct TriangleMesh {
         return triangleMaterials.empty() ? materialIndex : triangleMaterials[triangle];
     }
 };
-
-enum class Integrator {
-    Whitted,
-    Path,
-    AmbientOcclusion,
-    Normal,
-    Depth,
-    Albedo,
-    Id,
-    Uv,  ///< u and v of textures, less their whole parts, as red and green
-    Cost ///< the work of Whitted's rays: inner nodes, boxes and triangles as red, green and blue
-};
-/// Whether it sends the rays of Whitted's integrator.
-[[nodiscard]] constexpr bool isWhitted(Integrator integrator) {
-    return integrator == Integrator::Whitted || integrator == Integrator::Cost;
-}
 
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };

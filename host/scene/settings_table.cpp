@@ -20,6 +20,12 @@ nlohmann::ordered_json toJson(const ChoiceSetting<Value> &choice, const RenderSe
 } // namespace
 
 std::string helpText(const Setting &setting) {
+    if (std::holds_alternative<ChoiceSetting<Integrator>>(setting.value)) {
+        std::vector<std::string> rows;
+        for (const IntegratorRow &row : integratorTable)
+            rows.push_back(fmt::format("{}: {}", row.name, row.help));
+        return fmt::format("{}. {}", setting.help, fmt::join(rows, "; "));
+    }
     if (setting.integrators.empty())
         return std::string(setting.help);
     std::vector<std::string_view> names;

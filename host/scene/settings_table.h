@@ -63,17 +63,12 @@ inline constexpr std::string_view tracingGroup = "Tracing";
 
 inline constexpr std::array ambientOcclusionOnly{Integrator::AmbientOcclusion};
 inline constexpr std::array pathOnly{Integrator::Path};
-inline constexpr std::array severalBounces{Integrator::Whitted, Integrator::Path, Integrator::Cost};
+inline constexpr auto severalBounces = integratorsThat<&IntegratorRow::followsPaths>();
 
 /// In the order of reports and documents.
 inline constexpr auto settingsTable = std::to_array<Setting>({
     {"integrator", "--integrator", ChoiceSetting<Integrator>{&RenderSettings::integrator, integratorNames},
-     Changes::Samples, tracingGroup,
-     "whitted: direct light, mirrors and both branches at glass; path: every path that light can take; ao: "
-     "ambient "
-     "occlusion; normal, depth, albedo, id, uv: views of what is seen first; cost: how many boxes and "
-     "triangles the rays of whitted test, as a PNG in false colours, or as a PFM of nodes, boxes and "
-     "triangles"},
+     Changes::Samples, tracingGroup, "what a sample estimates"},
     {"spp", "--spp", NumberSetting<int>{&RenderSettings::samplesPerPixel, {1, 65536}}, Changes::SampleCount,
      imageGroup, "samples per pixel"},
     {"maxDepth", "--max-depth", NumberSetting<int>{&RenderSettings::maxDepth, {1, layout::maxPathDepth}},

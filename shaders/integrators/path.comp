@@ -5,6 +5,16 @@
 //
 // `maxDepth` bounds the segments of a path from the eye to the light, so that neither technique finds longer paths than
 // the other. Each vertex has three pairs of random numbers.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/kernels/begin_kernel.glsl"
+
+const bool lightPassesGlass = false;
+const bool raysHaveTargets = hasEmission;
+const bool hasBounces = true;
+
+#include "shaders/kernels/stages.glsl"
 
 const uint pairChoice = 0u; // an emitter, or a side of an interface; and whether the path survives
 const uint pairLight = 1u;
@@ -334,3 +344,5 @@ void advancePaths() {
         stepsTaken += 1u + searchIterations();
     } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }
+
+void main() { integrate(); }

@@ -3,7 +3,17 @@
 // Twin: host/reference/whitted.h, where the same happens ray by ray.
 //
 // A path slot works through the samples of one pixel and, for each, through the tree of rays that glass makes of it.
+#version 450
+#extension GL_GOOGLE_include_directive : require
 
+#include "shaders/kernels/begin_kernel.glsl"
+
+const bool lightPassesGlass = hasDielectric;
+const bool raysHaveTargets = false;
+const bool hasBounces = false;
+
+#include "shaders/kernels/stages.glsl"
+#include "shaders/integrators/pending_rays.glsl"
 
 void beginSample(uint slot) { sendPrimaryRay(slot); }
 
@@ -200,3 +210,5 @@ void advancePaths() {
         stepsTaken += 1u;
     } while (!takesOnePass && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }
+
+void main() { integrate(); }

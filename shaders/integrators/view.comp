@@ -2,6 +2,16 @@
 //
 // Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with everything
 // further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", 1998.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/kernels/begin_kernel.glsl"
+
+const bool lightPassesGlass = false;
+const bool raysHaveTargets = false;
+const bool hasBounces = false;
+
+#include "shaders/kernels/stages.glsl"
 
 layout(constant_id = constantView) const uint view = viewNormal;
 
@@ -10,17 +20,6 @@ void beginSample(uint slot) { sendPrimaryRay(slot); }
 void show(uint slot, vec3 value) {
     path[slot].sampleRadiance = value;
     traceEvent(slot, traceRadiance, 0u, value);
-}
-
-// A colour for each number, in [0.2, 1).
-vec3 idColour(uint id) {
-    uvec3 bits = hashKeys(uvec3(id, 1u, 2u));
-    return 0.2 + 0.8 * vec3(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z));
-}
-
-// From [-1, 1] to [0, 1], as normal maps do.
-vec3 normalColour(vec3 normal) {
-    return 0.5 + 0.5 * normal;
 }
 
 // Stage: the nearest hit is known.
@@ -82,3 +81,5 @@ void advancePaths() {
     if (view == viewOcclusion)
         lightSurfaces();
 }
+
+void main() { integrate(); }

@@ -1,0 +1,94 @@
+// Integrators, one row each. To add one: its enumerator and row here, its kernel shaders/integrators/NAME.comp, and its
+// twin in host/reference, which host/reference/renderer.cpp calls.
+#pragma once
+
+#include "shaders/layout/layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace hyalite {
+
+enum class Integrator { Whitted, Path, AmbientOcclusion, Normal, Depth, Albedo, Id, Uv, Cost };
+
+struct IntegratorRow {
+    Integrator integrator;
+    std::string_view name; ///< in scene files, options and reports
+    std::string_view help;
+    std::string_view kernel;                 ///< shaders/integrators/KERNEL.comp
+    std::uint32_t view = layout::viewNormal; ///< what the kernel "view" shows
+    bool followsPaths = false;               ///< over several segments: maxDepth bounds them
+    bool splitsAtGlass = false;              ///< both branches: rays wait
+    bool aimsAtEmitters = false; ///< needs the scene's emitters, and the energy tables of microfacets
+};
+
+/// In the order of help texts and documents.
+inline constexpr auto integratorTable = std::to_array<IntegratorRow>({
+    {.integrator = Integrator::Whitted,
+     .name = "whitted",
+     .help = "direct light, mirrors and both branches at glass",
+     .kernel = "whitted",
+     .followsPaths = true,
+     .splitsAtGlass = true},
+    {.integrator = Integrator::Path,
+     .name = "path",
+     .help = "global illumination: every path that light can take",
+     .kernel = "path",
+     .followsPaths = true,
+     .aimsAtEmitters = true},
+    {.integrator = Integrator::AmbientOcclusion,
+     .name = "ao",
+     .help = "ambient occlusion",
+     .kernel = "view",
+     .view = layout::viewOcclusion},
+    {.integrator = Integrator::Normal,
+     .name = "normal",
+     .help = "shading normal of the first hit",
+     .kernel = "view",
+     .view = layout::viewNormal},
+    {.integrator = Integrator::Depth,
+     .name = "depth",
+     .help = "distance of the first hit",
+     .kernel = "view",
+     .view = layout::viewDepth},
+    {.integrator = Integrator::Albedo,
+     .name = "albedo",
+     .help = "albedo of the first hit",
+     .kernel = "view",
+     .view = layout::viewAlbedo},
+    {.integrator = Integrator::Id,
+     .name = "id",
+     .help = "a colour for each primitive",
+     .kernel = "view",
+     .view = layout::viewId},
+    {.integrator = Integrator::Uv,
+     .name = "uv",
+     .help = "texture coordinates, without their whole parts, as red and green",
+     .kernel = "view",
+     .view = layout::viewCoordinates},
+    {.integrator = Integrator::Cost,
+     .name = "cost",
+     .help =
+         "nodes, boxes and triangles that the rays of whitted test: false colours in a PNG, counts in a PFM",
+     .kernel = "whitted",
+     .followsPaths = true,
+     .splitsAtGlass = true},
+});
+
+[[nodiscard]] constexpr const IntegratorRow &rowOf(Integrator integrator) {
+    return *std::ranges::find(integratorTable, integrator, &IntegratorRow::integrator);
+}
+
+/// The integrators whose row has a true `member`.
+template <bool IntegratorRow::*member> [[nodiscard]] constexpr auto integratorsThat() {
+    std::array<Integrator, std::ranges::count(integratorTable, true, member)> found{};
+    std::size_t count = 0;
+    for (const IntegratorRow &row : integratorTable)
+        if (row.*member)
+            found[count++] = row.integrator;
+    return found;
+}
+
+} // namespace hyalite
