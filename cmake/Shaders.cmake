@@ -110,17 +110,17 @@ function(hyalite_pixel_sources target header)
     target_sources(${target} PRIVATE ${output})
 endfunction()
 
-# hyalite_leaves(TARGET HEADER LEAVES...)
+# hyalite_leaves(TARGET HEADER LEAVES)
 #
-# Compiles leaf functions of the shaders to C++ for TARGET, in the order in which they include each other
-# (cmake/glsl_to_cpp.cpp).
-function(hyalite_leaves target header)
+# Compiles the leaf functions that the shader LEAVES includes to C++ for TARGET (cmake/glsl_to_cpp.cpp).
+function(hyalite_leaves target header leaves)
     set(output ${PROJECT_BINARY_DIR}/kernels/${header})
     set(layout ${PROJECT_SOURCE_DIR}/shaders/layout/layout.h)
+    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.glsl)
     add_custom_command(
         OUTPUT ${output}
-        COMMAND glsl_to_cpp ${layout} ${ARGN} ${output}
-        DEPENDS glsl_to_cpp ${layout} ${ARGN}
+        COMMAND glsl_to_cpp ${PROJECT_SOURCE_DIR} ${layout} ${leaves} ${output}
+        DEPENDS glsl_to_cpp ${layout} ${shaders}
         COMMENT "Compiling leaf functions to C++"
         VERBATIM)
     add_custom_target(${target}_leaves DEPENDS ${output})

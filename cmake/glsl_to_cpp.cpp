@@ -1,6 +1,8 @@
 // From the leaf functions of the shaders to C++, so that they are written once:
 //
-//   glsl_to_cpp LAYOUT.h LEAF.glsl... OUT.h
+//   glsl_to_cpp ROOT LAYOUT.h LEAVES.glsl OUT.h
+//
+// LEAVES.glsl includes the leaf files, by paths below ROOT, and they may include others.
 //
 // GLSL and C++ differ in little that leaves use. Each struct and each function that has to do with floats becomes a
 // template over `Real`, float or double; literals become `Real(0.5)`, so that no sum is taken in another precision. What a
@@ -19,6 +21,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -228,35 +231,46 @@ class Translator {
     std::map<std::string, std::size_t> names_; ///< of the first overload
 };
 
+/// Adds the texts of the files that a file includes, each after those that it includes itself, and then its own. `file` is the
+/// one that was read last.
+void addLeaves(const std::string &root, const std::string &path, std::string &file,
+               std::vector<std::string> &texts) {
+    file = path;
+    const std::string text = readText(path);
+    std::istringstream lines(text);
+    constexpr std::string_view include = "#include \"";
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with(include))
+            addLeaves(root, root + "/" + line.substr(include.size(), line.rfind('"') - include.size()), file,
+                      texts);
+    texts.push_back(text);
+}
+
 } // namespace
 
 int main(int argumentCount, char **arguments) {
-    if (argumentCount < 4) {
-        std::fputs("glsl_to_cpp LAYOUT.h LEAF.glsl... OUT.h\n", stderr);
+    if (argumentCount != 5) {
+        std::fputs("glsl_to_cpp ROOT LAYOUT.h LEAVES.glsl OUT.h\n", stderr);
         return 2;
     }
     Translator translator;
     std::string file;
     try {
-        std::string leaves;
-        for (int i = 2; i < argumentCount - 1; ++i) {
-            file = arguments[i];
-            leaves += readText(file);
-        }
-        file = arguments[1];
-        std::set<std::string> words;
-        for (const Token &token : tokensOf(leaves))
-            words.insert(token.text);
-        words.insert("FrameRecord");
+        std::vector<std::string> texts;
+        addLeaves(arguments[1], arguments[3], file, texts);
+        std::set<std::string> words{"FrameRecord"};
+        for (const std::string &text : texts)
+            for (const Token &token : tokensOf(text))
+                words.insert(token.text);
+        file = arguments[2];
         for (const Declaration &one : declarationsOf(tokensOf(glslPartOf(readText(file)))))
             if (one.kind != Declaration::Constant && words.contains(one.name))
                 translator.add(one, one.kind == Declaration::Struct);
-        for (int i = 2; i < argumentCount - 1; ++i) {
-            file = arguments[i];
-            for (const Declaration &one : declarationsOf(tokensOf(readText(file))))
+        file = arguments[3];
+        for (const std::string &text : texts)
+            for (const Declaration &one : declarationsOf(tokensOf(text)))
                 translator.add(one);
-        }
-        file = arguments[argumentCount - 1];
+        file = arguments[4];
         std::ofstream out(file);
         out << "// Made by cmake/glsl_to_cpp.cpp from the leaf functions of shaders/.\n"
             << translator.text() << "\n";

@@ -1,5 +1,5 @@
-// All leaf functions, each family after those that it calls. host/reference/CMakeLists.txt compiles them to C++ in the order
-// of this file.
+// All leaf functions, each family after those that it calls; the lobes of BSDFs are included by their dispatch. The CPU's
+// are compiled from this file, too (cmake/glsl_to_cpp.cpp).
 #include "shaders/math/vector.glsl"
 #include "shaders/math/functions.glsl"
 #include "shaders/math/random.glsl"
@@ -14,14 +14,7 @@
 #include "shaders/bsdf/conductor.glsl"
 #include "shaders/bsdf/microfacet.glsl"
 #include "shaders/bsdf/energy.glsl"
-#include "shaders/bsdf/bsdf_record.glsl"
-#include "shaders/bsdf/diffuse.glsl"
-#include "shaders/bsdf/opaque_ggx.glsl"
-#include "shaders/bsdf/glass_ggx.glsl"
-#include "shaders/bsdf/clearcoat.glsl"
-#include "shaders/bsdf/principled.glsl"
 #include "shaders/bsdf/bsdf.glsl"
-#include "shaders/bsdf/material_class.glsl"
 #include "shaders/bsdf/media.glsl"
 #include "shaders/textures/texture.glsl"
 #include "shaders/textures/normal_map.glsl"

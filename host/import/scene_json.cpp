@@ -114,20 +114,13 @@ struct TextureSource {
     TextureLibrary &library;
 };
 
-/// The textures of a material whose kind allows `keys`. The numbers that they are factors on become 1.
-void readTextures(const JsonObject &object, std::span<const std::string_view> keys,
-                  const TextureSource &source, Material &material) {
-    constexpr std::array<Name<std::uint32_t>, layout::textureSlotCount> slots{
-        {{"baseColour", layout::slotBaseColour},
-         {"emission", layout::slotEmission},
-         {"roughness", layout::slotRoughness},
-         {"metallic", layout::slotMetallic},
-         {"normal", layout::slotNormal},
-         {"opacity", layout::slotOpacity}}};
-    const std::optional<JsonObject> textures = object.object("textures", keys);
+/// The textures of a material. The numbers that they are factors on become 1.
+void readTextures(const JsonObject &object, const MaterialRow &row, const TextureSource &source,
+                  Material &material) {
+    const std::optional<JsonObject> textures = object.object("textures", scene_keys::textures(row));
     if (!textures)
         return;
-    for (const auto &[key, slot] : slots) {
+    for (const auto &[key, slot, help] : textureSlots) {
         const std::optional<JsonNode> node = textures->find(key);
         if (!node)
             continue;
@@ -160,68 +153,38 @@ void readTextures(const JsonObject &object, std::span<const std::string_view> ke
         material.metallic = 1.0f;
 }
 
+// One function for each kind of key; without the key the member keeps its value.
+void readKey(const JsonObject &object, std::string_view key, const NumberKey &number, Material &material) {
+    float &value = material.*number.member;
+    value = static_cast<float>(object.number(key, number.allowed, value));
+}
+void readKey(const JsonObject &object, std::string_view key, const ColourKey &colour, Material &material) {
+    glm::vec3 &value = material.*colour.member;
+    value = glm::vec3(object.colour(key, colour.allowed, glm::dvec3(value)));
+}
+void readKey(const JsonObject &object, std::string_view key, const WholeKey &whole, Material &material) {
+    material.*whole.member = object.integer(key, whole.allowed, material.*whole.member);
+}
+void readKey(const JsonObject &object, std::string_view key, const FlagKey &flag, Material &material) {
+    material.*flag.member = object.boolean(key, material.*flag.member);
+}
+void readKey(const JsonObject &object, std::string_view key, const MetalKey & /*metal*/, Material &material) {
+    const Metal metal = object.choice(key, metalNames, metalNames[0].second);
+    material.conductorIndex = metal.index;
+    material.conductorExtinction = metal.extinction;
+}
+
 Material readMaterial(const std::string &name, const JsonObject &object, const TextureSource &source) {
     Material material;
     material.name = name;
     material.kind = object.choice("type", materialNames);
-    const auto fraction = [&](std::string_view key, float fallback) {
-        return static_cast<float>(object.number(key, limits::fraction, fallback));
-    };
-    switch (material.kind) {
-    case MaterialKind::Diffuse:
-        object.allowOnly(scene_keys::diffuse);
-        readTextures(object, scene_keys::diffuseTextures, source, material);
-        material.albedo = glm::vec3(object.colour("albedo", limits::fraction, glm::dvec3(material.albedo)));
-        material.twoSided = object.boolean("twoSided", material.twoSided);
-        material.emission =
-            glm::vec3(object.colour("emission", limits::radiance, glm::dvec3(material.emission)));
-        break;
-    case MaterialKind::Mirror:
-        object.allowOnly(scene_keys::mirror);
-        break;
-    case MaterialKind::Dielectric:
-        object.allowOnly(scene_keys::dielectric);
-        material.refractiveIndex =
-            static_cast<float>(object.number("index", limits::refractiveIndex, material.refractiveIndex));
-        material.segmentTint =
-            glm::vec3(object.colour("segmentTint", limits::fraction, glm::dvec3(material.segmentTint)));
-        material.absorption =
-            glm::vec3(object.colour("absorption", limits::absorption, glm::dvec3(material.absorption)));
-        material.priority = object.integer("priority", limits::priority, material.priority);
-        material.roughness = fraction("roughness", material.roughness);
-        break;
-    case MaterialKind::Conductor: {
-        object.allowOnly(scene_keys::conductor);
-        const Metal metal = object.choice("metal", metalNames, metalNames[0].second);
-        material.conductorIndex =
-            glm::vec3(object.colour("index", limits::conductorIndex, glm::dvec3(metal.index)));
-        material.conductorExtinction =
-            glm::vec3(object.colour("extinction", limits::conductorIndex, glm::dvec3(metal.extinction)));
-        material.roughness = fraction("roughness", material.roughness);
-        break;
-    }
-    case MaterialKind::Principled:
-        object.allowOnly(scene_keys::principled);
-        material.roughness = 0.5f;
-        readTextures(object, scene_keys::principledTextures, source, material);
-        material.albedo =
-            glm::vec3(object.colour("baseColour", limits::fraction, glm::dvec3(material.albedo)));
-        material.metallic = fraction("metallic", material.metallic);
-        material.roughness = fraction("roughness", material.roughness);
-        material.specular = fraction("specular", material.specular);
-        material.refractiveIndex =
-            static_cast<float>(object.number("index", limits::refractiveIndex, material.refractiveIndex));
-        material.transmission = fraction("transmission", material.transmission);
-        material.absorption =
-            glm::vec3(object.colour("absorption", limits::absorption, glm::dvec3(material.absorption)));
-        material.priority = object.integer("priority", limits::priority, material.priority);
-        material.clearcoat = fraction("clearcoat", material.clearcoat);
-        material.clearcoatRoughness = fraction("clearcoatRoughness", material.clearcoatRoughness);
-        material.twoSided = object.boolean("twoSided", material.twoSided);
-        material.emission =
-            glm::vec3(object.colour("emission", limits::radiance, glm::dvec3(material.emission)));
-        break;
-    }
+    const MaterialRow &row = rowOf(material.kind);
+    object.allowOnly(scene_keys::material(row));
+    material.roughness = row.defaultRoughness;
+    if (row.textures != 0)
+        readTextures(object, row, source, material);
+    for (const MaterialKey &key : row.keys)
+        std::visit([&](const auto &value) { readKey(object, key.key, value, material); }, key.value);
     return material;
 }
 
@@ -362,4 +325,24 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
     return loaded;
 }
 
+namespace scene_keys {
+
+std::vector<std::string_view> material(const MaterialRow &row) {
+    std::vector<std::string_view> keys{"type"};
+    for (const MaterialKey &key : row.keys)
+        keys.push_back(key.key);
+    if (row.textures != 0)
+        keys.push_back("textures");
+    return keys;
+}
+
+std::vector<std::string_view> textures(const MaterialRow &row) {
+    std::vector<std::string_view> keys;
+    for (const auto &[key, slot, help] : textureSlots)
+        if ((row.textures >> slot & 1u) != 0)
+            keys.push_back(key);
+    return keys;
+}
+
+} // namespace scene_keys
 } // namespace hyalite

@@ -31,29 +31,7 @@
 //                                "irradiance": colour, of a surface that faces it }
 //     ],
 //     "materials": { NAME: one of
-//       { "type": "diffuse", "albedo": colour in [0, 1], default 0.5;
-//                            "twoSided": true turns the normal to the viewer, default false;
-//                            "emission": colour, default 0: radiance on the side of the normal, on both where twoSided;
-//                            "textures": see below, without "roughness" and "metallic" }
-//       { "type": "mirror" }
-//       { "type": "dielectric", "index": from 1 to 10, default 1.5;
-//                               "segmentTint": colour in [0, 1], default 1: a factor on all that a segment
-//                                              inside returns, whatever its length; integrator "whitted" only;
-//                               "absorption": colour per unit of length, at least 0, default 0; "path" only;
-//                               "priority": from -1000 to 1000, default 0: where several dielectrics overlap,
-//                                           the one of the highest is there; "path" only;
-//                               "roughness": in [0, 1], default 0: of microfacets; "path" only }
-//       { "type": "conductor", "metal": "aluminium" (default), "copper", "gold" or "silver";
-//                              "index", "extinction": colours from 0 to 20, real and imaginary part of the refractive
-//                                                     index in place of the metal's;
-//                              "roughness": in [0, 1], default 0; "path" only }
-//       { "type": "principled", "baseColour": colour in [0, 1], default 0.5;
-//                               "metallic", "specular", "transmission", "clearcoat": in [0, 1], default 0, but
-//                                                     specular 0.5; one of the last two must be 0;
-//                               "roughness", "clearcoatRoughness": in [0, 1], default 0.5 and 0.1;
-//                               "index", "absorption", "priority": as of a dielectric;
-//                               "twoSided", "emission": as of a diffuse material;
-//                               "textures": each of them at most once, and none is needed:
+//       { "type": a row of materialTable (material.h), and its keys; "textures": where it wears any,
 //          { "baseColour": IMAGE, a factor on the albedo or base colour, which then is 1 by default,
 //            "emission": IMAGE, likewise, and so "roughness" and "metallic": of their red channel;
 //            "normal": IMAGE in the space of the surface, with "strength", from 0 to 100, default 1;
@@ -142,20 +120,6 @@ inline constexpr auto pointLight = std::to_array<std::string_view>({"type", "pos
 inline constexpr auto spotLight =
     std::to_array<std::string_view>({"type", "position", "power", "direction", "angle", "blend"});
 inline constexpr auto directionalLight = std::to_array<std::string_view>({"type", "direction", "irradiance"});
-inline constexpr auto diffuse =
-    std::to_array<std::string_view>({"type", "albedo", "twoSided", "emission", "textures"});
-inline constexpr auto mirror = std::to_array<std::string_view>({"type"});
-inline constexpr auto dielectric =
-    std::to_array<std::string_view>({"type", "index", "segmentTint", "absorption", "priority", "roughness"});
-inline constexpr auto conductor =
-    std::to_array<std::string_view>({"type", "metal", "index", "extinction", "roughness"});
-inline constexpr auto principled = std::to_array<std::string_view>(
-    {"type", "baseColour", "metallic", "roughness", "specular", "transmission", "index", "absorption",
-     "priority", "clearcoat", "clearcoatRoughness", "twoSided", "emission", "textures"});
-inline constexpr auto diffuseTextures =
-    std::to_array<std::string_view>({"baseColour", "emission", "normal", "opacity"});
-inline constexpr auto principledTextures =
-    std::to_array<std::string_view>({"baseColour", "emission", "roughness", "metallic", "normal", "opacity"});
 inline constexpr auto texture = std::to_array<std::string_view>({"file", "scale", "offset"});
 inline constexpr auto normalMap = std::to_array<std::string_view>({"file", "scale", "offset", "strength"});
 inline constexpr auto sphere =
@@ -169,6 +133,10 @@ inline constexpr auto settings = [] {
     keys.back() = "shadowThroughGlass";
     return keys;
 }();
+
+/// Of a material of that kind, and of its textures.
+[[nodiscard]] std::vector<std::string_view> material(const MaterialRow &row);
+[[nodiscard]] std::vector<std::string_view> textures(const MaterialRow &row);
 
 } // namespace scene_keys
 } // namespace hyalite

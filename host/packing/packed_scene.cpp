@@ -95,32 +95,20 @@ float alphaOf(float roughness) {
     return used * used;
 }
 
-/// What a material needs of the path integrator.
-std::uint32_t scatteringOf(const Material &material) {
-    const bool isRough = material.roughness > 0.0f;
-    switch (material.kind) {
-    case MaterialKind::Dielectric:
-        return isRough ? layout::scattersAtRoughGlass : 0u;
-    case MaterialKind::Conductor:
-        return layout::scattersAtConductors | (isRough ? layout::scattersAtRoughConductors : 0u);
-    case MaterialKind::Principled:
-        return layout::scattersAtPrincipled | (isGlass(material) ? layout::scattersAtRoughGlass : 0u);
-    case MaterialKind::Diffuse:
-    case MaterialKind::Mirror:
-        break;
-    }
-    return 0;
+template <class Packed>
+void packKey(const Packed &key, const Material &material, layout::MaterialRecord &record) {
+    if constexpr (requires { key.packed; })
+        if (key.packed != nullptr)
+            record.*key.packed = material.*key.member;
 }
 
 layout::MaterialRecord packMaterial(const Material &material) {
     layout::MaterialRecord record{};
-    record.albedo = material.albedo;
+    for (const MaterialRow &row : materialTable)
+        for (const MaterialKey &key : row.keys)
+            std::visit([&](const auto &value) { packKey(value, material, record); }, key.value);
     record.kindAndSides =
         static_cast<std::uint32_t>(material.kind) | (material.twoSided ? layout::materialIsTwoSided : 0u);
-    record.segmentTint = material.segmentTint;
-    record.refractiveIndex = material.refractiveIndex;
-    record.emission = material.emission;
-    record.absorption = material.absorption;
     const bool isPrincipled = material.kind == MaterialKind::Principled;
     record.alpha = material.roughness > 0.0f || isPrincipled ? alphaOf(material.roughness) : 0.0f;
     if (material.kind == MaterialKind::Conductor) {
@@ -134,9 +122,6 @@ layout::MaterialRecord packMaterial(const Material &material) {
     if (isPrincipled) {
         const float ratio = (material.refractiveIndex - 1.0f) / (material.refractiveIndex + 1.0f);
         record.normalReflectance = std::min(2.0f * material.specular * (ratio * ratio), 1.0f);
-        record.metallic = material.metallic;
-        record.transmission = material.transmission;
-        record.clearcoat = material.clearcoat;
         record.clearcoatAlpha = alphaOf(material.clearcoatRoughness);
     }
     return record;
@@ -326,14 +311,12 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
         packed.materials.push_back(packMaterial(scene.materials[order[i]]));
     }
     const auto useMaterial = [&](std::uint32_t index) {
-        const MaterialKind kind = scene.materials[index].kind;
+        const MaterialRow &row = rowOf(scene.materials[index].kind);
         packed.hasEmission = packed.hasEmission || scene.materials[index].emission != glm::vec3(0.0f);
         const bool isOpaque = !isGlass(scene.materials[index]);
-        const bool isDiffuse =
-            kind == MaterialKind::Diffuse || (kind == MaterialKind::Principled && isOpaque);
-        packed.hasSpecular = packed.hasSpecular || !isDiffuse;
+        packed.hasSpecular = packed.hasSpecular || !(row.scattersDiffusely && isOpaque);
         packed.hasDielectric = packed.hasDielectric || !isOpaque;
-        packed.scattering |= scatteringOf(scene.materials[index]);
+        packed.scattering |= row.scattering(scene.materials[index]);
         for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
             packed.texturing |= scene.materials[index].textures[slot] ? 1u << slot : 0u;
     };

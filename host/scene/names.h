@@ -12,18 +12,18 @@ namespace hyalite {
 
 template <class Value> using Name = std::pair<std::string_view, Value>;
 
-inline constexpr std::array<Name<MaterialKind>, 5> materialNames{{{"diffuse", MaterialKind::Diffuse},
-                                                                  {"mirror", MaterialKind::Mirror},
-                                                                  {"dielectric", MaterialKind::Dielectric},
-                                                                  {"conductor", MaterialKind::Conductor},
-                                                                  {"principled", MaterialKind::Principled}}};
-inline constexpr auto integratorNames = [] {
-    std::array<Name<Integrator>, integratorTable.size()> names{};
-    std::ranges::transform(integratorTable, names.begin(), [](const IntegratorRow &row) {
-        return Name<Integrator>{row.name, row.integrator};
+/// The words of a table whose rows have a name: the value that each stands for is a member of the row.
+template <class Value, class Row, std::size_t count>
+[[nodiscard]] constexpr auto namesOf(const std::array<Row, count> &table, Value Row::*value) {
+    std::array<Name<Value>, count> names{};
+    std::ranges::transform(table, names.begin(), [&](const Row &row) {
+        return Name<Value>{row.name, row.*value};
     });
     return names;
-}();
+}
+
+inline constexpr auto materialNames = namesOf(materialTable, &MaterialRow::kind);
+inline constexpr auto integratorNames = namesOf(integratorTable, &IntegratorRow::integrator);
 inline constexpr std::array<Name<CameraKind>, 3> cameraNames{{{"perspective", CameraKind::Perspective},
                                                               {"orthographic", CameraKind::Orthographic},
                                                               {"panorama", CameraKind::Panorama}}};

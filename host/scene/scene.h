@@ -7,7 +7,7 @@
 #include "host/image/image.h"
 #include "host/image/texture.h"
 #include "host/scene/integrators.h"
-#include "host/scene/metals.h"
+#include "host/scene/material.h"
 #include "shaders/layout/layout.h"
 
 #include <glm/vec2.hpp>
@@ -58,56 +58,6 @@ struct Environment {
     double rotateDegrees = 0.0; ///< about +y
     float scale = 1.0f;         ///< factor on the image
 };
-
-enum class MaterialKind : std::uint32_t {
-    Diffuse = 0,
-    Mirror = 1,
-    Dielectric = 2,
-    Conductor = 3,
-    Principled = 4
-};
-
-/// How a material wears one of the scene's textures: at (u, v) it shows what the image has at scale * (u, v) + offset,
-/// and repeats. Images begin at the bottom left, v = 0, and end at the top, v = 1.
-struct TextureUse {
-    std::uint32_t textureIndex = 0;
-    glm::vec2 scale{1.0f};
-    glm::vec2 offset{0.0f};
-};
-
-/// What textures can be worn for, by layout::slot...
-using TextureSlots = std::array<std::optional<TextureUse>, layout::textureSlotCount>;
-
-struct Material {
-    std::string name;
-    MaterialKind kind = MaterialKind::Diffuse;
-    glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]; Principled: its base colour
-    bool twoSided = false;        ///< Diffuse, Principled: turn the normal towards the viewer before shading
-    float refractiveIndex = 1.5f; ///< Dielectric, Principled: relative to the surroundings, in [1, 10]
-    glm::vec3 segmentTint{
-        1.0f}; ///< Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only
-    glm::vec3 absorption{0.0f}; ///< Dielectric: per unit of length, >= 0; path only
-    int priority = 0; ///< Dielectric: where several overlap, the glass of the highest is there; path only
-    glm::vec3 emission{
-        0.0f}; ///< Diffuse, Principled: radiance on the side of the normal, on both where twoSided; >= 0
-    glm::vec3 conductorIndex =
-        metalNames[0].second.index; ///< Conductor: real part of the refractive index, in [0, 20]
-    glm::vec3 conductorExtinction = metalNames[0].second.extinction; ///< and its imaginary part, in [0, 20]
-    float roughness = 0.0f;    ///< Dielectric, Conductor, Principled: in [0, 1]
-    float metallic = 0.0f;     ///< Principled: in [0, 1], as are those that follow
-    float specular = 0.5f;     ///< reflectance seen head on, 0.5 being that of the refractive index
-    float transmission = 0.0f; ///< share of what is no metal that is glass
-    float clearcoat = 0.0f;    ///< and then transmission is 0
-    float clearcoatRoughness = 0.1f;
-    TextureSlots textures{};     ///< Diffuse, Principled; factors on albedo, emission, roughness and metallic
-    float normalStrength = 1.0f; ///< how far a normal map turns normals; in [0, 100]
-};
-
-/// Whether light passes the material.
-[[nodiscard]] inline bool isGlass(const Material &material) {
-    return material.kind == MaterialKind::Dielectric ||
-           (material.kind == MaterialKind::Principled && material.transmission > 0.0f);
-}
 
 struct Sphere {
     glm::dvec3 centre{0.0};

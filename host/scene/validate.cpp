@@ -96,26 +96,28 @@ void checkCamera(const Camera &camera, const Checked &checked) {
     checked.within(limits::imageSize, camera.height, "height");
 }
 
+template <class Ranged>
+void checkKey(const Checked &checked, std::string_view key, const Ranged &value, const Material &material) {
+    checked.within(value.allowed, material.*value.member, key);
+}
+void checkKey(const Checked & /*checked*/, std::string_view /*key*/, const FlagKey & /*value*/,
+              const Material & /*material*/) {}
+void checkKey(const Checked & /*checked*/, std::string_view /*key*/, const MetalKey & /*value*/,
+              const Material & /*material*/) {}
+
 void checkMaterial(const Material &material, const std::vector<Texture> &textures, const Checked &checked) {
-    checked.within(limits::fraction, material.albedo, "albedo");
-    checked.within(limits::refractiveIndex, material.refractiveIndex, "index");
-    checked.within(limits::fraction, material.segmentTint, "segmentTint");
-    checked.within(limits::absorption, material.absorption, "absorption");
-    checked.within(limits::priority, material.priority, "priority");
-    checked.within(limits::radiance, material.emission, "emission");
-    checked.within(limits::conductorIndex, material.conductorIndex, "index");
-    checked.within(limits::conductorIndex, material.conductorExtinction, "extinction");
-    checked.within(limits::fraction, material.roughness, "roughness");
-    checked.within(limits::fraction, material.metallic, "metallic");
-    checked.within(limits::fraction, material.specular, "specular");
-    checked.within(limits::fraction, material.transmission, "transmission");
-    checked.within(limits::fraction, material.clearcoat, "clearcoat");
-    checked.within(limits::fraction, material.clearcoatRoughness, "clearcoatRoughness");
+    const auto checkKeys = [&](const MaterialRow &row) {
+        for (const MaterialKey &key : row.keys)
+            std::visit([&](const auto &value) { checkKey(checked, key.key, value, material); }, key.value);
+    };
+    checkKeys(rowOf(material.kind));
+    for (const MaterialRow &row : materialTable) // members that nothing reads have their ranges, too
+        checkKeys(row);
     checked.within(limits::normalStrength, material.normalStrength, "strength of the normal map");
     for (const std::optional<TextureUse> &use : material.textures) {
         if (!use)
             continue;
-        if (material.kind != MaterialKind::Diffuse && material.kind != MaterialKind::Principled)
+        if (rowOf(material.kind).textures == 0)
             checked.refuse("textures", "some", "on a diffuse or a principled material");
         checked.indexBelow(textures.size(), use->textureIndex, "texture");
         for (const float number : {use->scale.x, use->scale.y, use->offset.x, use->offset.y})

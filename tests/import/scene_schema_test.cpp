@@ -23,33 +23,35 @@ json schema() {
 /// An object of the grammar: its definition in the schema, its keys in the loader, its place in completeScene().
 struct GrammarObject {
     Pointer definition;
-    std::span<const std::string_view> keys;
+    std::vector<std::string_view> keys;
     Pointer place;
 };
 
 std::vector<GrammarObject> grammar() {
     const Pointer defs("/$defs");
+    const auto ofKind = [](MaterialKind kind) { return scene_keys::material(rowOf(kind)); };
+    const auto all = [](const auto &keys) { return std::vector<std::string_view>(keys.begin(), keys.end()); };
     return {
-        {Pointer(), scene_keys::top, Pointer()},
-        {defs / "camera", scene_keys::camera, Pointer("/camera")},
-        {defs / "environment", scene_keys::environment, Pointer("/environment")},
-        {defs / "point light", scene_keys::pointLight, Pointer("/lights/0")},
-        {defs / "spot light", scene_keys::spotLight, Pointer("/lights/1")},
-        {defs / "directional light", scene_keys::directionalLight, Pointer("/lights/2")},
-        {defs / "diffuse", scene_keys::diffuse, Pointer("/materials/paper")},
-        {defs / "mirror", scene_keys::mirror, Pointer("/materials/chrome")},
-        {defs / "dielectric", scene_keys::dielectric, Pointer("/materials/ice")},
-        {defs / "conductor", scene_keys::conductor, Pointer("/materials/brass")},
-        {defs / "principled", scene_keys::principled, Pointer("/materials/varnish")},
-        {defs / "diffuse" / "properties" / "textures", scene_keys::diffuseTextures,
+        {Pointer(), all(scene_keys::top), Pointer()},
+        {defs / "camera", all(scene_keys::camera), Pointer("/camera")},
+        {defs / "environment", all(scene_keys::environment), Pointer("/environment")},
+        {defs / "point light", all(scene_keys::pointLight), Pointer("/lights/0")},
+        {defs / "spot light", all(scene_keys::spotLight), Pointer("/lights/1")},
+        {defs / "directional light", all(scene_keys::directionalLight), Pointer("/lights/2")},
+        {defs / "diffuse", ofKind(MaterialKind::Diffuse), Pointer("/materials/paper")},
+        {defs / "mirror", ofKind(MaterialKind::Mirror), Pointer("/materials/chrome")},
+        {defs / "dielectric", ofKind(MaterialKind::Dielectric), Pointer("/materials/ice")},
+        {defs / "conductor", ofKind(MaterialKind::Conductor), Pointer("/materials/brass")},
+        {defs / "principled", ofKind(MaterialKind::Principled), Pointer("/materials/varnish")},
+        {defs / "diffuse" / "properties" / "textures", scene_keys::textures(rowOf(MaterialKind::Diffuse)),
          Pointer("/materials/paper/textures")},
-        {defs / "principled" / "properties" / "textures", scene_keys::principledTextures,
-         Pointer("/materials/varnish/textures")},
-        {defs / "texture", scene_keys::texture, Pointer("/materials/paper/textures/baseColour")},
-        {defs / "normalMap", scene_keys::normalMap, Pointer("/materials/paper/textures/normal")},
-        {defs / "sphere", scene_keys::sphere, Pointer("/spheres/0")},
-        {defs / "mesh", scene_keys::mesh, Pointer("/meshes/0")},
-        {defs / "settings", scene_keys::settings, Pointer("/settings")},
+        {defs / "principled" / "properties" / "textures",
+         scene_keys::textures(rowOf(MaterialKind::Principled)), Pointer("/materials/varnish/textures")},
+        {defs / "texture", all(scene_keys::texture), Pointer("/materials/paper/textures/baseColour")},
+        {defs / "normalMap", all(scene_keys::normalMap), Pointer("/materials/paper/textures/normal")},
+        {defs / "sphere", all(scene_keys::sphere), Pointer("/spheres/0")},
+        {defs / "mesh", all(scene_keys::mesh), Pointer("/meshes/0")},
+        {defs / "settings", all(scene_keys::settings), Pointer("/settings")},
     };
 }
 
@@ -135,8 +137,8 @@ TEST_F(SceneSchema, SchemaAndLoaderHaveTheSameLimits) {
         {"/environment/properties/rotateDegrees", limits::rotateDegrees},
         {"/spot light/properties/angle", limits::spotAngle},
         {"/fraction", limits::fraction},
-        {"/conductorIndex", limits::conductorIndex},
-        {"/conductorIndex/items", limits::conductorIndex},
+        {"/conductor/properties/index", limits::conductorIndex},
+        {"/conductor/properties/index/items", limits::conductorIndex},
         {"/principled/properties/index", limits::refractiveIndex},
         {"/imageSize", limits::imageSize},
         {"/dielectric/properties/index", limits::refractiveIndex},
@@ -145,8 +147,8 @@ TEST_F(SceneSchema, SchemaAndLoaderHaveTheSameLimits) {
         {"/mesh/properties/rotateDegrees/items", limits::rotateDegrees},
         {"/settings/properties/shadowThroughGlass", limits::fraction},
         {"/point/items", limits::coordinate},
-        {"/fractionColour", limits::fraction},
-        {"/fractionColour/items", limits::fraction},
+        {"/diffuse/properties/albedo", limits::fraction},
+        {"/diffuse/properties/albedo/items", limits::fraction},
         {"/texturePlacement", limits::texturePlacement},
         {"/texturePlacement/items", limits::texturePlacement},
         {"/normalMap/properties/strength", limits::normalStrength},
@@ -190,7 +192,8 @@ TEST_F(SceneSchema, TheDefaultsOfTheSchemaAreThoseOfTheScene) {
         file["materials"][kind]["type"] = kind;
     }
     const json principled = defaultsOf("principled");
-    EXPECT_EQ(principled.size(), scene_keys::principled.size() - 2); // all but type and textures
+    EXPECT_EQ(principled.size(),
+              scene_keys::material(rowOf(MaterialKind::Principled)).size() - 2); // all but type and textures
     file["materials"]["given"] = principled;
     file["materials"]["given"]["type"] = "principled";
     file["materials"]["left out"]["type"] = "principled";

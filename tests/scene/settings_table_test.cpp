@@ -1,16 +1,12 @@
-// The table of settings, and what is made from it: the schema for editors and the tables of documents. Run with
-// HYALITE_WRITE_TABLES=1 these tests write both anew, into the source tree.
+// The table of settings, and what is made from it: the schema for editors and the tables of documents.
 #include "host/scene/settings_table.h"
+#include "tests/fixtures/made_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <type_traits>
 
@@ -87,40 +83,17 @@ std::string markdownText() {
     return text;
 }
 
-/// A file with text that is made from the table, behind a line that begins with `begin`, up to `end`.
-struct Copy {
-    const char *file;
-    const char *begin;
-    const char *end;
-    std::string (*made)();
-};
+class SettingsTableCopy : public ::testing::TestWithParam<testing::MadeText> {};
 
-class SettingsTableCopy : public testing::TestWithParam<Copy> {};
-
-TEST_P(SettingsTableCopy, IsWhatTheTableSays) {
-    const Copy &copy = GetParam();
-    const std::filesystem::path file = std::filesystem::path(HYALITE_SOURCE_DIR) / copy.file;
-    std::ostringstream content;
-    content << std::ifstream(file).rdbuf();
-    const std::string text = content.str();
-    const std::size_t marker = text.find(copy.begin);
-    ASSERT_NE(marker, std::string::npos) << copy.file << " has no " << copy.begin;
-    const std::size_t begin = text.find('\n', marker) + 1;
-    const std::size_t end = text.find(copy.end, begin);
-    ASSERT_NE(end, std::string::npos) << copy.file << " has no " << copy.end;
-    if (std::getenv("HYALITE_WRITE_TABLES") != nullptr)
-        std::ofstream(file) << text.substr(0, begin) + copy.made() + text.substr(end);
-    else
-        EXPECT_EQ(text.substr(begin, end - begin), copy.made())
-            << copy.file << ": HYALITE_WRITE_TABLES=1 bin/scene_tests writes it anew";
-}
+TEST_P(SettingsTableCopy, IsWhatTheTableSays) { testing::expectMade(GetParam()); }
 
 // The schema's objects begin alike: what tells the one of settings is its first key.
-INSTANTIATE_TEST_SUITE_P(
-    Table, SettingsTableCopy,
-    testing::Values(Copy{"assets/hyalite-scene.schema.json", "\"properties\": {\n        \"integrator\"",
-                         "        \"shadowThroughGlass\"", schemaText},
-                    Copy{"assets/README.md", "<!-- settings: begin", "<!-- settings: end", markdownText}));
+INSTANTIATE_TEST_SUITE_P(Table, SettingsTableCopy,
+                         ::testing::Values(testing::MadeText{"assets/hyalite-scene.schema.json",
+                                                             "\"properties\": {\n        \"integrator\"",
+                                                             "        \"shadowThroughGlass\"", schemaText},
+                                           testing::MadeText{"assets/README.md", "<!-- settings: begin",
+                                                             "<!-- settings: end", markdownText}));
 
 TEST(SettingsTable, KeysAndOptionsAreUnique) {
     std::set<std::string_view> keys;

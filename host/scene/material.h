@@ -1,0 +1,240 @@
+// Materials: what a scene says of a surface, and the tables of their kinds and keys.
+//
+// Made from the tables: the reader of "materials" in scene files, validation, most of the record that kernels read, and, by
+// tests/scene/material_table_test.cpp, the schema and the tables of documents. To add a kind: its members, enumerator, keys and
+// row here, its constant and fields in shaders/layout/layout.h, its lobe and its place in the dispatch in shaders/bsdf.
+#pragma once
+
+#include "host/base/interval.h"
+#include "host/scene/limits.h"
+#include "host/scene/metals.h"
+#include "shaders/layout/layout.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace hyalite {
+
+enum class MaterialKind : std::uint32_t {
+    Diffuse = layout::materialDiffuse,
+    Mirror = layout::materialMirror,
+    Dielectric = layout::materialDielectric,
+    Conductor = layout::materialConductor,
+    Principled = layout::materialPrincipled
+};
+
+/// How a material wears one of the scene's textures: at (u, v) it shows what the image has at scale * (u, v) + offset,
+/// and repeats. Images begin at the bottom left, v = 0, and end at the top, v = 1.
+struct TextureUse {
+    std::uint32_t textureIndex = 0;
+    glm::vec2 scale{1.0f};
+    glm::vec2 offset{0.0f};
+};
+
+/// What textures can be worn for, by layout::slot...
+using TextureSlots = std::array<std::optional<TextureUse>, layout::textureSlotCount>;
+
+struct Material {
+    std::string name;
+    MaterialKind kind = MaterialKind::Diffuse;
+    glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]; Principled: its base colour
+    bool twoSided = false;        ///< Diffuse, Principled: turn the normal towards the viewer before shading
+    float refractiveIndex = 1.5f; ///< Dielectric, Principled: relative to the surroundings, in [1, 10]
+    glm::vec3 segmentTint{
+        1.0f}; ///< Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only
+    glm::vec3 absorption{0.0f}; ///< Dielectric: per unit of length, >= 0; path only
+    int priority = 0; ///< Dielectric: where several overlap, the glass of the highest is there; path only
+    glm::vec3 emission{
+        0.0f}; ///< Diffuse, Principled: radiance on the side of the normal, on both where twoSided; >= 0
+    glm::vec3 conductorIndex =
+        metalNames[0].second.index; ///< Conductor: real part of the refractive index, in [0, 20]
+    glm::vec3 conductorExtinction = metalNames[0].second.extinction; ///< and its imaginary part, in [0, 20]
+    float roughness = 0.0f;    ///< Dielectric, Conductor, Principled: in [0, 1]
+    float metallic = 0.0f;     ///< Principled: in [0, 1], as are those that follow
+    float specular = 0.5f;     ///< reflectance seen head on, 0.5 being that of the refractive index
+    float transmission = 0.0f; ///< share of what is no metal that is glass
+    float clearcoat = 0.0f;    ///< and then transmission is 0
+    float clearcoatRoughness = 0.1f;
+    TextureSlots textures{};     ///< Diffuse, Principled; factors on albedo, emission, roughness and metallic
+    float normalStrength = 1.0f; ///< how far a normal map turns normals; in [0, 100]
+};
+
+/// Whether light passes the material.
+[[nodiscard]] inline bool isGlass(const Material &material) {
+    return material.kind == MaterialKind::Dielectric ||
+           (material.kind == MaterialKind::Principled && material.transmission > 0.0f);
+}
+
+// ---- Keys
+
+struct NumberKey {
+    float Material::*member;
+    Interval allowed;
+    float layout::MaterialRecord::*packed = nullptr; ///< where kernels read it as it is
+};
+
+struct ColourKey {
+    glm::vec3 Material::*member;
+    Interval allowed; ///< of each channel
+    glm::vec3 layout::MaterialRecord::*packed = nullptr;
+};
+
+struct WholeKey {
+    int Material::*member;
+    Interval allowed;
+};
+
+struct FlagKey {
+    bool Material::*member;
+};
+
+/// One of metalNames, for both parts of the refractive index.
+struct MetalKey {};
+
+struct MaterialKey {
+    std::string_view key;                                                  ///< in scene files and messages
+    std::variant<NumberKey, ColourKey, WholeKey, FlagKey, MetalKey> value; ///< its default is the member's
+    std::string_view help;
+};
+
+namespace material_keys {
+
+using Record = layout::MaterialRecord;
+
+inline constexpr FlagKey twoSided{&Material::twoSided};
+inline constexpr ColourKey emission{&Material::emission, limits::radiance, &Record::emission};
+inline constexpr NumberKey refractiveIndex{&Material::refractiveIndex, limits::refractiveIndex,
+                                           &Record::refractiveIndex};
+inline constexpr ColourKey absorption{&Material::absorption, limits::absorption, &Record::absorption};
+inline constexpr WholeKey priority{&Material::priority, limits::priority};
+inline constexpr NumberKey roughness{&Material::roughness, limits::fraction};
+
+inline constexpr auto diffuse = std::to_array<MaterialKey>({
+    {"albedo", ColourKey{&Material::albedo, limits::fraction, &Record::albedo},
+     "share of the light that is reflected"},
+    {"twoSided", twoSided, "turn the normal towards the viewer before shading"},
+    {"emission", emission,
+     "radiance on the side of the normal, on both if `twoSided`; `path` only, except that emitters are seen"},
+});
+inline constexpr auto dielectric = std::to_array<MaterialKey>({
+    {"index", refractiveIndex, "refractive index, relative to the medium around"},
+    {"segmentTint", ColourKey{&Material::segmentTint, limits::fraction, &Record::segmentTint},
+     "factor on everything that a segment inside returns, whatever its length; `whitted` only"},
+    {"absorption", absorption, "absorption per unit of length, by Beer's law; `path` only"},
+    {"priority", priority, "where dielectrics overlap, the highest priority is there; `path` only"},
+    {"roughness", roughness, "0 is smooth; `path` only"},
+});
+inline constexpr auto conductor = std::to_array<MaterialKey>({
+    {"metal", MetalKey{}, "Hagemann, Gudat and Kunz, 1974, at 650, 550 and 450 nm"},
+    {"index", ColourKey{&Material::conductorIndex, limits::conductorIndex},
+     "real part of the refractive index, in place of the metal's"},
+    {"extinction", ColourKey{&Material::conductorExtinction, limits::conductorIndex},
+     "imaginary part of the refractive index, in place of the metal's"},
+    {"roughness", roughness, "0 is smooth; `path` only"},
+});
+inline constexpr auto principled = std::to_array<MaterialKey>({
+    {"baseColour", ColourKey{&Material::albedo, limits::fraction, &Record::albedo},
+     "of metal head on, of what lies below the surface of plastic, of light that passes glass"},
+    {"metallic", NumberKey{&Material::metallic, limits::fraction, &Record::metallic}, "share of metal"},
+    {"roughness", roughness, "at least 0.04 is used"},
+    {"specular", NumberKey{&Material::specular, limits::fraction},
+     "reflectance of the surface of plastic; 0.5 is that of `index`"},
+    {"transmission", NumberKey{&Material::transmission, limits::fraction, &Record::transmission},
+     "share of glass in what is not metal; not with `clearcoat`"},
+    {"index", refractiveIndex, "refractive index"},
+    {"absorption", absorption, "as for a dielectric"},
+    {"priority", priority, "as for a dielectric"},
+    {"clearcoat", NumberKey{&Material::clearcoat, limits::fraction, &Record::clearcoat},
+     "a clear coat above everything"},
+    {"clearcoatRoughness", NumberKey{&Material::clearcoatRoughness, limits::fraction},
+     "at least 0.04 is used"},
+    {"twoSided", twoSided, "as for diffuse"},
+    {"emission", emission, "as for diffuse"},
+});
+
+} // namespace material_keys
+
+/// What a texture is worn for.
+struct TextureSlot {
+    std::string_view name; ///< in scene files
+    std::uint32_t slot;    ///< layout::slot...
+    std::string_view help{};
+};
+
+inline constexpr std::array<TextureSlot, layout::textureSlotCount> textureSlots{
+    {{"baseColour", layout::slotBaseColour},
+     {"emission", layout::slotEmission},
+     {"roughness", layout::slotRoughness, "its red channel"},
+     {"metallic", layout::slotMetallic, "its red channel"},
+     {"normal", layout::slotNormal},
+     {"opacity", layout::slotOpacity,
+      "its alpha, or its red channel where it has none: below a half nothing is there; meshes only"}}};
+
+// ---- Kinds
+
+struct MaterialRow {
+    MaterialKind kind;
+    std::string_view name; ///< "type" in scene files
+    std::string_view help;
+    std::span<const MaterialKey> keys{};
+    std::uint32_t textures = 0; ///< bits 1 << layout::slot...: those that it may wear
+    float defaultRoughness = 0.0f;
+    bool scattersDiffusely = false; ///< unless light passes; otherwise rays go on to what it mirrors
+    /// Bits of layout::scattersAt...: what it needs of the path integrator.
+    std::uint32_t (*scattering)(const Material &) = [](const Material &) { return 0u; };
+};
+
+inline constexpr auto materialTable = std::to_array<MaterialRow>({
+    {.kind = MaterialKind::Diffuse,
+     .name = "diffuse",
+     .help = "a matt surface; its far side is dark unless it is `twoSided`",
+     .keys = material_keys::diffuse,
+     .textures = layout::texturesBaseColour | layout::texturesEmission | layout::texturesNormal |
+                 layout::texturesOpacity,
+     .scattersDiffusely = true},
+    {.kind = MaterialKind::Mirror, .name = "mirror", .help = "a mirror without loss"},
+    {.kind = MaterialKind::Dielectric,
+     .name = "dielectric",
+     .help = "glass and the like, which reflects and refracts by Fresnel's equations",
+     .keys = material_keys::dielectric,
+     .scattering =
+         [](const Material &material) {
+             return material.roughness > 0.0f ? layout::scattersAtRoughGlass : 0u;
+         }},
+    {.kind = MaterialKind::Conductor,
+     .name = "conductor",
+     .help = "a metal, by Fresnel's equations for its complex refractive index",
+     .keys = material_keys::conductor,
+     .scattering =
+         [](const Material &material) {
+             return layout::scattersAtConductors |
+                    (material.roughness > 0.0f ? layout::scattersAtRoughConductors : 0u);
+         }},
+    {.kind = MaterialKind::Principled,
+     .name = "principled",
+     .help = "a mixture of metal, plastic and glass under a clear coat",
+     .keys = material_keys::principled,
+     .textures = (1u << layout::textureSlotCount) - 1u,
+     .defaultRoughness = 0.5f,
+     .scattersDiffusely = true,
+     .scattering =
+         [](const Material &material) {
+             return layout::scattersAtPrincipled | (isGlass(material) ? layout::scattersAtRoughGlass : 0u);
+         }},
+});
+
+[[nodiscard]] constexpr const MaterialRow &rowOf(MaterialKind kind) {
+    return *std::ranges::find(materialTable, kind, &MaterialRow::kind);
+}
+
+} // namespace hyalite
