@@ -23,12 +23,12 @@ namespace {
 constexpr std::uint64_t bytesPerTexel = 16;
 constexpr std::uint64_t mostWaitingBytes = 256u << 20;
 
-/// The largest tiles in which a kernel that ends with whole samples is helped out by one that can be resumed inside of
-/// them, to keep what waits small: dispatches of larger ones would be long.
+/// Maximum tile size for the resumable helper kernel. It keeps the memory of waiting paths small, and its dispatches
+/// short.
 constexpr std::uint64_t mostHelperPixels = 64 * 64;
 constexpr std::uint64_t leastHelperPixels = 8 * 8; // a tile that cannot be halved
 
-/// A binding needs some memory.
+/// At least 16 bytes: Vulkan has no empty buffers.
 BufferPlan plan(std::string name, BufferUse use, std::uint64_t sizeBytes) {
     return {std::move(name), use, std::max<std::uint64_t>(sizeBytes, 16)};
 }
@@ -40,7 +40,7 @@ std::uint32_t fitTile(int pixels, int tile) {
     return static_cast<std::uint32_t>(std::min((pixels + blockSide - 1) / blockSide * blockSide, tile));
 }
 
-/// Samples of a pixel that run side by side: as many as leave few slots idle in the last round.
+/// Samples abreast: the maximum that leaves few slots idle in the last round.
 std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
     std::uint32_t abreast = static_cast<std::uint32_t>(most);
     while (abreast > 1 && samples < 8 * ((samples + abreast - 1) / abreast * abreast - samples))
@@ -48,7 +48,7 @@ std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
     return abreast;
 }
 
-/// Of a kernel whose dispatches have so many slots. `isResumable`: it can stop inside of a sample.
+/// For a kernel with `slots` path slots. `isResumable`: it can stop inside a sample.
 WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::uint64_t slots) {
     const bool isSplitting = rowOf(job.integrator).splitsAtGlass && job.scene.hasDielectric;
     const std::uint32_t mostPending = isSplitting ? job.scene.frame.maxDepth - 1 : 0;
@@ -62,7 +62,7 @@ WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::
     return waiting;
 }
 
-/// Whether a device has room for what slots take, each buffer alone and all together.
+/// Whether the buffers of the slots fit, each alone and all together.
 bool haveRoom(std::initializer_list<const BufferPlan *> buffers, const DeviceInfo &device) {
     std::uint64_t sumBytes = 0;
     for (const BufferPlan *buffer : buffers) {
@@ -131,10 +131,10 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
         static_cast<std::uint64_t>(job.crop.width()) * static_cast<std::uint64_t>(job.crop.height());
     JobPlan planned;
     planned.samplesAbreast = fitSamplesAbreast(config.samplesAbreast, job.sampleEnd - job.sampleBegin);
-    // One subtree waits for each level at most; kernels of a few sizes are enough.
+    // At most one subtree waits per level. Powers of two keep the number of different kernels small.
     planned.stackSize =
         std::bit_ceil(std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth));
-    // What is dropped and done again would be counted twice, and traced twice.
+    // A direct kernel drops unfinished samples and repeats them, so they would be counted and traced twice.
     planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
     planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));

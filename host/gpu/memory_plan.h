@@ -1,4 +1,4 @@
-// All memory that a render takes, known before any of it is allocated: buffers are made from these plans.
+// Memory plans: every buffer of a render and its size, before any is allocated. Buffers are made from them.
 #pragma once
 
 #include "host/gpu/buffer_plan.h"
@@ -16,48 +16,49 @@ namespace hyalite::gpu {
 struct ScenePlan {
     /// By binding. Skip lists may become smaller than their plan.
     std::array<BufferPlan, layout::sceneBufferCount> buffers;
-    std::uint64_t hostBytes = 0; ///< that making skip lists takes
+    std::uint64_t hostBytes = 0; ///< needed while skip lists are made
 };
 
 [[nodiscard]] ScenePlan planScene(const PackedScene &scene, bool isSkipList);
 
-/// What waits between the dispatches of a kernel, or inside of one.
+/// Memory for unfinished paths and rays.
 struct WaitingPlan {
     BufferPlan paths;
     BufferPlan pending;
-    std::uint32_t pendingInRegisters = 0; ///< rays of a slot; 0: they are in the buffer, if any
+    std::uint32_t pendingInRegisters = 0; ///< rays per slot; 0: the buffer holds them, if there are any
 };
 
-/// A job's tiles and what else it has on the device.
+/// The tiles and buffers of a job.
 struct JobPlan {
     std::uint32_t samplesAbreast = 1;
-    std::uint32_t stackSize = 0; ///< subtrees that can wait for one ray
-    bool isDirect = false; ///< dispatches end with whole samples, and a helper does those that are too long
+    std::uint32_t stackSize = 0; ///< entries for each ray
+    bool isDirect =
+        false; ///< dispatches end with whole samples; a resumable helper kernel does samples that are too long
     Tile largestTile;
-    std::uint64_t mostHelperPixels = 0; ///< of a tile that the helper works on
+    std::uint64_t mostHelperPixels = 0; ///< maximum size of a tile for the helper
     BufferPlan film;
     BufferPlan progress;
     BufferPlan stacks;
     BufferPlan trace;
     WaitingPlan waiting;
-    WaitingPlan helperWaiting; ///< of 0 bytes unless isDirect
+    WaitingPlan helperWaiting; ///< 0 bytes unless isDirect
 };
 
-/// `config` is complete. Tiles are smaller than it says where slots would take more than a quarter of the device's
-/// memory, or 256 MiB, or more than it allows in a buffer.
+/// `config` is complete. Tiles are made smaller than it says where their slots would take more than a quarter of the
+/// device memory, more than 256 MiB, or more than the device allows in a buffer.
 [[nodiscard]] JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &device);
 
-constexpr std::uint32_t traceCapacity = 1u << 17; // events of a job that is traced
+constexpr std::uint32_t traceCapacity = 1u << 17; // events of a traced job
 
-/// What a render takes at most at once.
+/// Peak memory of a render.
 struct MemoryPlan {
-    std::uint64_t deviceBytes = 0; ///< of the device, which is the host where it is software
-    std::uint64_t hostBytes = 0;   ///< of the host beside that, without scene and film
+    std::uint64_t deviceBytes = 0; ///< on the device; for a software device that is host memory
+    std::uint64_t hostBytes = 0;   ///< further host memory, without scene and film
 };
 
-/// `isStaged`: transfers go through buffers of the host. Throws Error{LimitExceeded}, with the largest buffers and what
-/// to do, where a buffer is larger than the device allows, or the device has less memory, or the host less to spare.
-/// Drivers would say so in the middle of a render, or take it from what keeps the system alive.
+/// `isStaged`: transfers go through staging buffers. Throws Error{LimitExceeded}, with the largest buffers and the
+/// remedy, if a buffer is larger than the device allows, or device or host have too little memory. Drivers would fail
+/// in the middle of the render, or exhaust the memory of the system.
 MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged, const DeviceInfo &device);
 
 } // namespace hyalite::gpu

@@ -22,8 +22,8 @@ struct Tree {
     layout::FrameRecord frame;
 };
 
-/// Uploads the tree, and adds to the frame constants what kernels need to know of skip lists. The lists on the host are
-/// gone when this returns: they are the largest part of a large scene.
+/// Uploads the tree, and adds the constants of skip lists to the frame. The lists on the host, the largest part of a
+/// large scene, are freed when this returns.
 Tree uploadTree(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
     const BufferPlan &planned = plan.buffers[layout::bindingNodes];
     if (!isSkipList)

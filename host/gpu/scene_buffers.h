@@ -10,8 +10,8 @@
 namespace hyalite::gpu {
 
 struct SceneBuffers {
-    /// Uploads everything, with the tree as node pairs in storage buffers, or as skip lists in texel buffers, as was
-    /// planned for that. Throws as Buffer does.
+    /// Uploads the scene, with the tree as node pairs in storage buffers or as skip lists in texel buffers; `plan` was
+    /// made for the same choice. Throws as Buffer does.
     SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList);
 
     std::vector<Buffer> buffers; ///< by binding

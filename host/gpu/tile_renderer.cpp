@@ -17,7 +17,7 @@ namespace hyalite::gpu {
 namespace {
 
 constexpr std::uint32_t workgroupSize = 64;
-constexpr std::uint32_t samplesInPass = 64; // of each pixel, before any gets more
+constexpr std::uint32_t samplesInPass = 64; // per pixel and pass over the image
 
 RayCounts raysOf(const layout::DispatchProgress &counters) {
     return {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays,
@@ -32,7 +32,7 @@ LaneCounts lanesOf(const layout::DispatchProgress &counters, std::uint32_t slots
     return {counters.traversalPasses, counters.busySlots, slotsPerSubgroup};
 }
 
-/// Of the kernel that can be resumed, or of the other.
+/// The plan for the resumable or for the direct kernel.
 const WaitingPlan &waitingPlan(const JobPlan &plan, bool isResumable) {
     return isResumable && plan.isDirect ? plan.helperWaiting : plan.waiting;
 }
@@ -79,7 +79,7 @@ TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const Re
     dispatch_.sampleBegin = job.sampleBegin;
     dispatch_.stepBudget = config.steps;
     dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
-    // lavapipe cuts the workgroups into one range a thread: 16 suits every number of threads that divides it.
+    // lavapipe gives each thread one range of workgroups: 16 suits every thread count that divides it.
     dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
     dispatch_.sampleEnd = job.sampleEnd;
     moveTo(plan.largestTile);
@@ -109,7 +109,7 @@ void TileRenderer::warmUp() { warmUp(direct_ ? direct_->kernel : resumable_->ker
 
 void TileRenderer::warmUp(Kernel &kernel) {
     const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
-    const std::uint32_t groupCount = std::exchange(groupCount_, dispatch_.interleave); // the fewest there are
+    const std::uint32_t groupCount = std::exchange(groupCount_, dispatch_.interleave); // the minimum
     (void)runOnce(kernel);
     groupCount_ = groupCount;
     dispatch_.sampleEnd = sampleEnd;
@@ -203,7 +203,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
             onPause(totals.rays);
         return step;
     };
-    // The film says where each pixel stands, so that an item can be halved at any time but inside of long samples.
+    // The film knows how far each pixel is, so an item can be halved at any time, except inside a long sample.
     const auto addSamples = [&](WorkItem &item, std::uint32_t end) {
         moveTo(item.tile);
         const std::uint64_t pixels = item.tile.pixelCount();
@@ -220,7 +220,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
             isUnfinished = step.counters.unfinishedSlots > 0;
             seconds += step.workSeconds;
             finished += step.counters.finishedSamples;
-            // What is there already is quickly given.
+            // Samples that were in the film already take no time.
             sizer_.learnSamples(seconds,
                                 isUnfinished ? finished : pixels * (dispatch_.sampleEnd - item.begin));
             if (!isDirect) {
@@ -234,7 +234,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         item.begin = dispatch_.sampleEnd;
         item.isLong = false;
     };
-    // Pass after pass over the whole image, so that one that is stopped early has samples everywhere.
+    // Passes over the whole image: a render that is stopped early has samples everywhere.
     for (std::uint32_t begin = job_.sampleBegin + fewestInFilm_;
          begin < job_.sampleEnd && !totals.isStopped;) {
         const std::uint32_t end = begin + std::min(samplesInPass, job_.sampleEnd - begin);
@@ -293,8 +293,8 @@ TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     progress_.upload(std::as_bytes(std::span(&counters, 1)));
     const std::clock_t begin = std::clock();
     const RunTimes times = kernel.run(dispatch_, groupCount_);
-    // A software device shares its processors with other programs. Smaller dispatches would only wait for them more
-    // often.
+    // A software device shares its processors with other programs. Time spent waiting for them must not make dispatches
+    // smaller, which would wait more often.
     const double processorSeconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     const double workSeconds = device_.info().isSoftware()
                                    ? std::min(times.best().seconds(), processorSeconds)

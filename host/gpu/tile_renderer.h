@@ -20,24 +20,24 @@
 
 namespace hyalite::gpu {
 
-/// What the tiles of a job came to.
+/// Results of all tiles of a job.
 struct TileTotals {
     RayCounts rays;
-    WorkCounts work;    ///< all 0 unless counting was asked for
+    WorkCounts work;    ///< all 0 without RenderConfig::isCounting
     LaneCounts lanes{}; ///< likewise
     std::uint64_t dispatchCount = 0;
-    bool isStopped = false; ///< as was asked for after the last dispatch
+    bool isStopped = false; ///< by shouldStop
 };
 
 /// Everything that a job needs on the device. Scene and buffers must outlive it.
 ///
-/// Where dispatches end with whole samples in the film, as on lavapipe, the kernel that can be resumed inside a sample is
-/// built only when a dispatch does not suffice for one: writing down where it stands costs a slot more than following a
-/// few samples.
+/// On lavapipe dispatches end with whole samples in the film, because saving the state of a slot costs more than
+/// following a few samples. The kernel that can resume inside a sample is built only when a dispatch is too short for
+/// one.
 class TileRenderer {
   public:
-    /// The pipeline of a job's kernel, which takes drivers as long as many samples: it can be made before there are
-    /// buffers. `config` is complete, and the plans were made for it and the job. Throws as Pipeline does.
+    /// The pipeline of a job's kernel. Drivers take as long to compile it as for many samples, so it can be made before
+    /// the buffers exist. `config` is complete, and the plans were made for it and the job. Throws as Pipeline does.
     [[nodiscard]] static Pipeline makePipeline(Device &device, const RenderConfig &config, const Job &job,
                                                const ScenePlan &scenePlan, const JobPlan &plan);
 
@@ -45,17 +45,17 @@ class TileRenderer {
     TileRenderer(Device &device, const SceneBuffers &buffers, const RenderConfig &config, const Job &job,
                  const ScenePlan &scenePlan, const JobPlan &plan);
 
-    /// Puts the kernel together, with what makePipeline made or makes now. Throws as Kernel does.
+    /// Makes the kernel, from a pipeline of makePipeline or a new one. Throws as Kernel does.
     void makeKernel(Pipeline pipeline);
     void makeKernel();
 
-    /// Runs the kernel without samples: drivers that compile at the first dispatch do it now.
+    /// Runs the kernel without samples, for drivers that compile at the first dispatch.
     void warmUp();
 
-    /// Runs until all samples of all tiles are in the film, or until `shouldStop`, which is asked after each dispatch,
-    /// says so: the film then has what is finished. No dispatch adds more than 64 samples to a pixel, so that it is asked
-    /// soon. `onProgress` gets the finished share, in [0, 1], after each dispatch, and so does `onPause` the rays so far:
-    /// the film can then be read. `timeline`, where there is one, gets a record of each. Throws Error{DeviceLost}.
+    /// Runs until all samples of all tiles are in the film, or until `shouldStop` returns true; the film then has the
+    /// finished samples. After each dispatch, which adds at most 64 samples to a pixel, `shouldStop` is asked,
+    /// `onProgress` gets the finished fraction in [0, 1], `onPause` the rays so far (the film can be read then), and
+    /// `timeline`, if not null, a record of the dispatch. Throws Error{DeviceLost}.
     [[nodiscard]] TileTotals run(const std::function<void(double)> &onProgress, Timeline *timeline = nullptr,
                                  const std::function<bool()> &shouldStop = {},
                                  const std::function<void(const RayCounts &)> &onPause = {});
@@ -64,35 +64,35 @@ class TileRenderer {
 
     [[nodiscard]] std::vector<layout::TraceEvent> readTrace() const;
 
-    /// Seconds that went into building kernels during `run`.
+    /// Seconds spent building kernels during `run`.
     [[nodiscard]] double lateBuildSeconds() const { return lateBuildSeconds_; }
 
   private:
-    /// A kernel, and the memory of what waits in it.
+    /// A kernel, and the buffers of its unfinished paths.
     struct Program {
         Buffer paths;
         Buffer pending;
         Kernel kernel;
     };
-    /// What one dispatch came to.
+    /// Results of one dispatch.
     struct Step {
         layout::DispatchProgress counters;
         RunTimes times;
-        double workSeconds; ///< what it took beside the others, without what it waited for processors
+        double workSeconds; ///< without the time spent waiting for processors
     };
 
     /// A tile of the film whose pixels want more samples.
     struct WorkItem {
         Tile tile;
-        std::uint32_t begin; ///< all samples before it are in the film
-        bool isLong;         ///< a sample takes more than the steps of a slot in one dispatch
+        std::uint32_t begin; ///< samples before it are in the film
+        bool isLong;         ///< a sample takes more steps than a slot has in one dispatch
     };
 
     [[nodiscard]] std::size_t filmPixelCount() const;
     [[nodiscard]] std::uint32_t slotCount(const Tile &tile) const;
-    /// The largest tiles, the first one last.
+    /// The film in tiles of the largest size, the first one last.
     [[nodiscard]] std::vector<WorkItem> cutFilm(std::uint32_t begin) const;
-    /// Whether an item that wants samples up to `end` is too large for one dispatch.
+    /// Whether an item with samples up to `end` is too large for one dispatch.
     [[nodiscard]] bool mustHalve(const WorkItem &item, std::uint32_t end) const;
     void moveTo(const Tile &tile);
     [[nodiscard]] static Pipeline makePipeline(Device &device, const RenderConfig &config, const Job &job,
@@ -118,8 +118,8 @@ class TileRenderer {
     layout::DispatchConstants dispatch_{};
     std::uint32_t groupCount_ = 0;
     std::uint32_t traceEventCount_ = 0;
-    std::uint64_t samplesInFilm_ = 0; ///< at the beginning, of all pixels
-    std::uint32_t fewestInFilm_ = 0;  ///< of any pixel
+    std::uint64_t samplesInFilm_ = 0; ///< of all pixels, before run
+    std::uint32_t fewestInFilm_ = 0;  ///< minimum over pixels, before run
     DispatchSizer sizer_;
     double lateBuildSeconds_ = 0.0;
     std::optional<Program> direct_; ///< drops what is unfinished at its end

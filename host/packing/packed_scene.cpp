@@ -28,8 +28,8 @@ layout::FrameRecord packFrame(const Scene &scene) {
     const glm::dvec3 forward = glm::normalize(camera.direction);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const glm::dvec3 up = glm::cross(right, forward);
-    // Pixels in what pixelRight and pixelUp are measured in. In units of the focal length directions stay near unit
-    // length at every resolution.
+    // Pixels per unit of pixelRight and pixelUp. With the focal length as the unit, directions stay near unit length at
+    // every resolution.
     double scale = camera.width / (2.0 * std::tan(glm::radians(camera.horizontalFovDegrees) / 2.0));
     if (camera.kind == CameraKind::Orthographic)
         scale = camera.width / camera.viewWidth;
@@ -82,13 +82,13 @@ layout::LightRecord packLight(const Light &light) {
     }
     const double outer = std::cos(glm::radians(light.angleDegrees));
     const double inner = std::cos(glm::radians(light.angleDegrees * (1.0 - light.blend)));
-    constexpr double leastDifference = 1e-6; // of what fades at once
+    constexpr double leastDifference = 1e-6; // a spot without a soft edge
     record.cosineOuter = static_cast<float>(outer);
     record.falloffScale = static_cast<float>(1.0 / std::max(inner - outer, leastDifference));
     return record;
 }
 
-/// GGX's alpha. Rougher than nothing is at least so rough that float32 resolves the peak of the reflection.
+/// Alpha of GGX. Roughness has a minimum, so that float32 resolves the peak of the reflection.
 float alphaOf(float roughness) {
     constexpr float least = 0.04f;
     const float used = std::max(roughness, least);
@@ -127,7 +127,7 @@ layout::MaterialRecord packMaterial(const Material &material) {
     return record;
 }
 
-/// The input indices of all materials in the order in which they are packed.
+/// The input indices of the materials, in packed order.
 std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials) {
     std::vector<std::uint32_t> order(materials.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -139,12 +139,13 @@ std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials)
     return order;
 }
 
-/// Whether a loop of so many rounds is worth waking other threads.
+/// Whether a loop of `count` iterations is long enough for several threads.
 bool isLong(std::int64_t count) { return count > 8192; }
 
 void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::uint32_t> &packedMaterial,
                    PackedScene &packed) {
-    constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max(); // what the tree dropped
+    constexpr std::uint32_t nowhere =
+        std::numeric_limits<std::uint32_t>::max(); // triangles that the tree dropped
     std::vector<std::uint32_t> positionInTree(triangleCount(scene), nowhere);
     const auto total = static_cast<std::int64_t>(bvh.order.size());
 #pragma omp parallel for schedule(static) if (isLong(total))
@@ -186,7 +187,7 @@ void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::ui
             packed.triangles[node.first + node.count - 1].flags |= layout::triangleEndsLeaf;
 }
 
-/// Inner nodes in the order of their creation, which is depth first: a node's left child follows it closely.
+/// Inner nodes in the order of their creation, which is depth first, so that a left child is close to its parent.
 void packNodes(const Bvh &bvh, PackedScene &packed) {
     const auto emptyPair = [] {
         layout::NodePair pair{};
@@ -249,12 +250,12 @@ std::uint64_t PackedScene::contentHash() const {
     seen.maxDepth = 0;
     seen.occlusionDistance = 0.0f;
     seen.radianceLimit = 0.0f;
-    seen.environmentTexels = 0; // and what follows is for some integrators only
+    seen.environmentTexels = 0; // this and the next are for some integrators only
     seen.environmentProbability = 0.0f;
     seen.filterTexels = 0;
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials)
-        material.emitterPdf = 0.0f; // which only some integrators need
+        material.emitterPdf = 0.0f; // for some integrators only
     std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)));
     hash = hashBytes(std::as_bytes(std::span(spheres)), hash);
     hash = hashBytes(std::as_bytes(std::span(lights)), hash);
@@ -268,7 +269,7 @@ std::uint64_t PackedScene::contentHash() const {
     const std::size_t texelBegin = layout::firstCoordinateRow + layout::rowsPerCoordinates * triangles.size();
     if (texturing != 0)
         hash = hashBytes(std::as_bytes(std::span(textures).subspan(texelBegin)), hash);
-    // Trees put the triangles into orders of their own, and each has its id: their sum is the same in any order.
+    // The order of triangles depends on the tree, but a sum of hashes does not; each hash includes the triangle's id.
     std::uint64_t sum = 0;
     const auto triangleTotal = static_cast<std::int64_t>(triangles.size());
 #pragma omp parallel for schedule(static) reduction(+ : sum) if (isLong(triangleTotal))

@@ -31,12 +31,12 @@ struct PackedScene {
     HYALITE_SCENE_ARRAYS(HYALITE_MEMBER)
 #undef HYALITE_MEMBER
 
-    // Features that some kernels can leave out.
+    // Features of the scene: kernels leave out what it does not use.
     bool hasTriangles = false;
     bool hasSpecular = false;
     bool hasDielectric = false;
     bool hasEmission = false;
-    /// Bits of layout::scattersAt...: what the materials need of the path integrator.
+    /// Bits of layout::scattersAt...: features of the path integrator that the materials need.
     std::uint32_t scattering = 0;
     std::uint32_t lighting = 0;  ///< bits of layout::lightsBy...
     std::uint32_t texturing = 0; ///< bits of layout::textures...
@@ -48,19 +48,19 @@ struct PackedScene {
     /// Bytes of all that a device has to hold of the scene.
     [[nodiscard]] std::size_t sizeBytes() const;
 
-    /// A hash of what there is to see: camera and image size, background, lights, materials and primitives. It does not
-    /// depend on the tree, nor on the seed and the depth of paths, and is the same on every machine.
+    /// Hash of the visible scene: camera and image size, background, lights, materials and primitives. It does not
+    /// depend on the tree, the seed or the maximum depth, and is the same on every machine.
     [[nodiscard]] std::uint64_t contentHash() const;
 };
 
-/// Where the samples of a pixel lie, as kernels call it: layout::sampler...
+/// The sampler of the kernels, layout::sampler...
 [[nodiscard]] std::uint32_t samplerOf(const RenderSettings &settings);
 
-/// As much as textures of 8 bits may take when they are decoded: 16 bytes a pixel.
+/// Maximum size of decoded 8-bit textures, at 16 bytes a pixel.
 inline constexpr std::size_t maxDecodedBytes = std::size_t{64} << 20;
 
-/// `scene` is valid, and `bvh` was built from its triangles. Textures of 8 bits are decoded if all together take no more
-/// than `maxDecoded` bytes so: they look the same, and a lookup reads 4 rows in place of 16.
+/// `scene` is valid, and `bvh` was built from its triangles. 8-bit textures are decoded to floats if all of them then
+/// take at most `maxDecoded` bytes: the image is the same, and a lookup reads 4 rows in place of 16.
 [[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh,
                                     std::size_t maxDecoded = maxDecodedBytes);
 

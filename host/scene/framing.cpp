@@ -19,10 +19,11 @@ namespace hyalite {
 namespace {
 
 constexpr double frameFovDegrees = 40.0;
-constexpr double margin = 0.08; ///< part of half the image that stays free at each edge
+constexpr double margin = 0.08; ///< fraction of half the image that stays free at each edge
 constexpr float neutralAlbedo = 0.8f;
 constexpr float backgroundGrey = 0.05f;
-constexpr double lightDistance = 10.0; ///< in half diagonals: near and far side are lit much alike
+constexpr double lightDistance =
+    10.0; ///< in half diagonals: far enough to light near and far side about equally
 constexpr double keyRadiance = 0.7;
 constexpr double fillRadiance = 0.2;
 
@@ -36,7 +37,7 @@ glm::dvec3 towards(double azimuthDegrees, double elevationDegrees) {
             std::cos(elevation) * std::cos(azimuth)};
 }
 
-/// A light that gives a neutral surface facing it at the box's centre the radiance wanted:
+/// A light under which a neutral surface at the box centre, facing the light, has the given radiance:
 /// radiance = power / (4 pi d^2) * albedo / pi.
 Light lightFrom(const glm::dvec3 &direction, double radiance, const Bounds &bounds) {
     const double distance = lightDistance * halfDiagonal(bounds);
@@ -111,7 +112,7 @@ Scene frameMesh(TriangleMesh mesh) {
     const Bounds bounds = triangleBounds(mesh);
     Scene scene;
     scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
-    // The fill light stands by the camera, so that its shadows fall where the camera does not see them.
+    // The fill light stands beside the camera, so the camera does not see its shadows.
     scene.lights = {lightFrom(towards(-35.0, 45.0), keyRadiance, bounds),
                     lightFrom(towards(40.0, 22.0), fillRadiance, bounds)};
     scene.background = glm::vec3(backgroundGrey);

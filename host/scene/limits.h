@@ -1,5 +1,4 @@
-// The ranges and counts of scene files and of options on the command line, but for those of settings
-// (settings_table.h): the one place.
+// Ranges and counts of scene files and command-line options. Those of settings are in settings_table.h.
 #pragma once
 
 #include "host/base/interval.h"
@@ -12,7 +11,7 @@ namespace hyalite {
 namespace limits {
 
 inline constexpr Interval coordinate{-1e15, 1e15};
-inline constexpr Interval directionLength{1e-100, 1e16}; ///< its square is neither 0 nor infinite
+inline constexpr Interval directionLength{1e-100, 1e16}; ///< its square neither underflows nor overflows
 inline constexpr double leastSineToUp = 1e-6;            ///< of the angle from the view direction to up
 inline constexpr Interval horizontalFovDegrees{0.0, 180.0, false, false};
 inline constexpr Interval aperture{0.0, 1e15};
@@ -39,7 +38,7 @@ inline constexpr double normalLengthTolerance = 1e-3; ///< of a mesh normal's le
 inline constexpr Interval framedExtent{1e-12, 1e12};  ///< box diagonal of a mesh that can be framed
 
 inline constexpr Interval threadCount{1, 1024};
-inline constexpr Interval inspectedRays{1, 1e6}; ///< each meets all triangles
+inline constexpr Interval inspectedRays{1, 1e6}; ///< each is tested against all triangles
 
 inline constexpr std::size_t lightCount = layout::maxLightCount;
 inline constexpr std::size_t sphereCount = layout::maxSphereCount; ///< each ray tests all of them

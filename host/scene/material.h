@@ -1,8 +1,9 @@
 // Materials: what a scene says of a surface, and the tables of their kinds and keys.
 //
-// Made from the tables: the reader of "materials" in scene files, validation, most of the record that kernels read, and, by
-// tests/scene/material_table_test.cpp, the schema and the tables of documents. To add a kind: its members, enumerator, keys and
-// row here, its constant and fields in shaders/layout/layout.h, its lobe and its place in the dispatch in shaders/bsdf.
+// Made from the tables: the reader of "materials" in scene files, validation, most of the record that kernels read,
+// and, by tests/scene/material_table_test.cpp, the schema and the tables of documents. To add a kind: its members,
+// enumerator, keys and row here, its constant and fields in shaders/layout/layout.h, its lobe and its place in the
+// dispatch in shaders/bsdf.
 #pragma once
 
 #include "host/base/interval.h"

@@ -96,24 +96,24 @@ struct TriangleMesh {
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 
-/// How samples are weighed in a pixel. Box: all that lie in it, alike. BlackmanHarris: smoothly, out to 1.5 pixels from
-/// its centre, by where they lie.
+/// Reconstruction filters. Box: all samples of the pixel count the same. BlackmanHarris: weights fall off smoothly to
+/// 1.5 pixels from the centre.
 enum class FilterKind { Box, BlackmanHarris };
 
-/// What a render does with the scene; the command line may override each of them. settings_table.h has their ranges.
+/// How to render the scene. The command line may override each setting; settings_table.h has their ranges.
 struct RenderSettings {
     Integrator integrator = Integrator::Whitted;
     int samplesPerPixel = 16;
-    double occlusionDistance = 1e15; ///< AmbientOcclusion: what is further away hides no sky
+    double occlusionDistance = 1e15; ///< AmbientOcclusion: occluders further away are ignored
     int maxDepth = 7;                ///< segments of a path, the primary ray being the first
     TreeKind tree = TreeKind::Midpoint;
-    int leafSize = 8; ///< most triangles in a leaf, where they can be separated
+    int leafSize = 8; ///< maximum number of triangles in a leaf, where they can be separated
     SamplerKind sampler = SamplerKind::Sobol;
     FilterKind filter =
         FilterKind::Box; ///< Sobol only: samples at the centre are at the centre of any filter
     std::uint32_t seed = 0;
     double radianceLimit =
-        0.0; ///< Path: most that a path adds behind its first segment, a channel; 0: no limit
+        0.0; ///< Path: maximum that indirect light adds to a sample, per channel; 0: no limit
     double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
 };
 

@@ -1,8 +1,7 @@
 // Render settings, one row each. To add a setting: its member in RenderSettings (scene.h), its row here, and its use.
 //
-// Made from the rows: the reader of "settings" in scene files, the options of the command line, validation, the JSON of
-// reports, the identity of checkpoints, and, by tests/scene/settings_table_test.cpp, the
-// schema and the tables of documents.
+// Made from the rows: the reader of "settings" in scene files, command-line options, validation, the JSON of reports,
+// the identity of checkpoints, and, by tests/scene/settings_table_test.cpp, the schema and the tables of documents.
 #pragma once
 
 #include "host/base/interval.h"
@@ -23,13 +22,13 @@
 
 namespace hyalite {
 
-/// A setting that is a number in a range; a whole one if its type is.
+/// A number in a range; `Number` decides whether it is a whole one.
 template <class Number> struct NumberSetting {
     Number RenderSettings::*member;
     Interval allowed;
 };
 
-/// A setting that is one of a few words.
+/// One of a few words.
 template <class Value> struct ChoiceSetting {
     Value RenderSettings::*member;
     std::span<const Name<Value>> names;
@@ -39,13 +38,13 @@ using SettingValue = std::variant<NumberSetting<int>, NumberSetting<double>, Num
                                   ChoiceSetting<Integrator>, ChoiceSetting<TreeKind>,
                                   ChoiceSetting<SamplerKind>, ChoiceSetting<FilterKind>>;
 
-/// What a setting changes. Checkpoints of other samples are not resumed; more samples, another tree or another exposure
-/// may be asked for.
+/// What a setting changes. A checkpoint resumes only with the same samples; their count, the tree and the exposure may
+/// differ.
 enum class Changes {
     Samples,     ///< the bits of a sample
-    SampleCount, ///< how many there are
-    Picture,     ///< how a PNG shows their means
-    Time         ///< nothing but how long it takes
+    SampleCount, ///< the number of samples
+    Picture,     ///< how a PNG shows the film
+    Time         ///< only the time of the render
 };
 
 struct Setting {
@@ -55,7 +54,7 @@ struct Setting {
     Changes changes;
     std::string_view group; ///< of options, in --help
     std::string_view help;
-    std::span<const Integrator> integrators{}; ///< that it is for; none: all
+    std::span<const Integrator> integrators{}; ///< those that use it; empty: all
 };
 
 inline constexpr std::string_view imageGroup = "Image";
@@ -73,32 +72,33 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
      imageGroup, "samples per pixel"},
     {"maxDepth", "--max-depth", NumberSetting<int>{&RenderSettings::maxDepth, {1, layout::maxPathDepth}},
      Changes::Samples, tracingGroup,
-     "most segments of a path, the primary ray included; with whitted, glass splits paths in two, so that "
+     "maximum number of path segments, the primary ray included; with whitted, glass splits paths in two, so "
      "each level may double the work",
      severalBounces},
     {"occlusionDistance", "--ao-distance",
      NumberSetting<double>{&RenderSettings::occlusionDistance, {0.0, 1e15, false}}, Changes::Samples,
-     tracingGroup, "what is further away hides no sky; by default everything hides it", ambientOcclusionOnly},
+     tracingGroup, "occluders further away than this are ignored; by default none is", ambientOcclusionOnly},
     {"bvh", "--bvh", ChoiceSetting<TreeKind>{&RenderSettings::tree, treeNames}, Changes::Time, tracingGroup,
      "how the tree over the triangles is built; none: every ray tests every triangle"},
     {"leafSize", "--leaf-size", NumberSetting<int>{&RenderSettings::leafSize, {1, 64}}, Changes::Time,
-     tracingGroup, "most triangles in a leaf of the tree, where they can be separated"},
+     tracingGroup, "maximum number of triangles in a leaf of the tree, where they can be separated"},
     {"sampler", "--sampler", ChoiceSetting<SamplerKind>{&RenderSettings::sampler, samplerNames},
      Changes::Samples, imageGroup,
-     "centre: all samples at the pixel's centre; sobol: spread evenly, which smooths edges"},
+     "centre: all samples at the pixel centre; sobol: spread evenly over the pixel, which smooths edges"},
     {"filter", "--filter", ChoiceSetting<FilterKind>{&RenderSettings::filter, filterNames}, Changes::Samples,
      imageGroup,
-     "how a pixel weighs samples, with the sampler sobol. box: all that lie in it, alike; blackman-harris: "
-     "smoothly, out to 1.5 pixels from its centre, which shows fewer steps and less moire"},
+     "reconstruction filter, with the sampler sobol. box: all samples of the pixel count the same; "
+     "blackman-harris: weights fall off smoothly to 1.5 pixels from the centre, with less aliasing and "
+     "moire"},
     {"seed", "--seed", NumberSetting<std::uint32_t>{&RenderSettings::seed, {0, 4294967295.0}},
-     Changes::Samples, imageGroup, "another seed gives other samples"},
+     Changes::Samples, imageGroup, "seed of the random numbers: another seed gives other noise"},
     {"clamp", "--clamp", NumberSetting<double>{&RenderSettings::radianceLimit, {0.0, 1e30}}, Changes::Samples,
      tracingGroup,
-     "most that a path may add, a channel, behind its first segment: less noise, and less light; 0: no limit",
+     "maximum that indirect light may add to a sample, per channel: less noise, but less light; 0: no limit",
      pathOnly},
     {"exposure", "--exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
      Changes::Picture, imageGroup,
-     "stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG"},
+     "in stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG"},
 });
 
 /// The range of a member that is a number.
@@ -107,17 +107,17 @@ template <class Number> [[nodiscard]] constexpr Interval rangeOf(Number RenderSe
         if (const auto *number = std::get_if<NumberSetting<Number>>(&setting.value))
             if (number->member == member)
                 return number->allowed;
-    throw "no such setting"; // which no constant expression survives
+    throw "no such setting"; // a compile-time error, as this is a constant expression
 }
 
-/// The help, and the integrators that the setting is for.
+/// The help text, with the integrators that use the setting.
 [[nodiscard]] std::string helpText(const Setting &setting);
 
 /// By keys, in the order of the table.
 [[nodiscard]] nlohmann::ordered_json settingsToJson(const RenderSettings &settings);
 [[nodiscard]] nlohmann::ordered_json settingToJson(const Setting &setting, const RenderSettings &settings);
 
-/// The settings that a command line gives, each as what it does to those of the scene file.
+/// The settings that a command line gives, each as a change to those of the scene file.
 using SettingChanges = std::vector<std::function<void(RenderSettings &)>>;
 
 } // namespace hyalite

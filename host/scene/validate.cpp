@@ -18,7 +18,7 @@
 namespace hyalite {
 namespace {
 
-/// One object of the scene and the words for it, which are put together only for a message.
+/// An object of the scene under check. Its description is put together only when a message needs it.
 class Checked {
   public:
     Checked(const std::string &sourceName, std::string_view kind, std::size_t index,
@@ -34,7 +34,7 @@ class Checked {
             object += fmt::format(" {}", index_);
         if (!name_.empty())
             object += fmt::format(" ({})", name_);
-        // Names are those of files: a terminal must not obey them.
+        // Names come from files and may contain terminal escapes.
         const std::string message =
             cleanText(fmt::format("{}: {}: found {}; allowed: {}", object, property, found, allowed));
         throw Error(ErrorKind::BadInput, fmt::format("{}: {}", sourceName_, message));
@@ -111,7 +111,7 @@ void checkMaterial(const Material &material, const std::vector<Texture> &texture
             std::visit([&](const auto &value) { checkKey(checked, key.key, value, material); }, key.value);
     };
     checkKeys(rowOf(material.kind));
-    for (const MaterialRow &row : materialTable) // members that nothing reads have their ranges, too
+    for (const MaterialRow &row : materialTable) // members that this kind does not use are checked, too
         checkKeys(row);
     checked.within(limits::normalStrength, material.normalStrength, "strength of the normal map");
     for (const std::optional<TextureUse> &use : material.textures) {
@@ -150,7 +150,7 @@ void checkTextures(const std::vector<Texture> &textures, const Checked &checked)
     checked.atMost(limits::textureBytes, sizeBytes, "bytes of textures");
 }
 
-/// A mesh that no image could be put on.
+/// Refuses textures on a mesh without texture coordinates.
 void checkTexturable(const TriangleMesh &mesh, const std::vector<Material> &materials,
                      const Checked &checked) {
     const auto check = [&](const Material &material) {

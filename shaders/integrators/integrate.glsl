@@ -1,18 +1,18 @@
-// What all integrators do: samples begin, their rays are traced, surfaces are lit, and rounds go into the film.
+// The loop of all integrators: samples begin, their rays are traced, surfaces are lit, and rounds go into the film.
 //
-// Stages follow each other so that all slots of a subgroup that are about the same work do it together; each stage
-// does nothing for slots that are elsewhere. An integrator says what happens at its stages:
+// All slots of a subgroup that are in the same stage do its work together; a stage skips the slots that are in another
+// one. An integrator defines what happens at each stage:
 
 void beginSample(uint slot);  // stageNextSample: the primary ray
 void shadeHit(uint slot);     // stageClosest: the nearest hit is known
-void aimAtLight(uint slot);   // stageNextLight: on a surface that is to be lit
+void aimAtLight(uint slot);   // stageNextLight: on a surface, choose a light
 void addLight(uint slot);     // stageShadow: the shadow ray has arrived, or was stopped
 void advancePaths();          // runs samples to their end, or until the step budget is spent
 
-// What a pass does beside traversals, in steps of one: by the time that both take on lavapipe.
+// The work of a pass without its traversals, in traversal steps, by the times of both on lavapipe.
 const uint workPerPass = 32u + sphereCount;
 
-// Traces the rays that are ready, and shades what they meet.
+// Traces the rays that are ready, and shades their hits.
 void traceRays() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageNewRay)
@@ -26,7 +26,7 @@ void traceRays() {
     passWork += workPerPass;
 }
 
-// Lights the surfaces where paths stand.
+// Lights the surfaces that paths are on.
 void lightSurfaces() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageNextLight)

@@ -22,7 +22,7 @@ const uint pairScatter = 2u;
 const uint pairsPerVertex = 3u;
 const uint firstPairOfLobes = 1u + pairsPerVertex * maxPathDepth; // and one more at rough surfaces, which chooses lobes
 
-const uint firstRouletteDepth = 4u; // segments that no path is denied
+const uint firstRouletteDepth = 4u; // segments before Russian roulette begins
 
 uvec2 vertexBits(uint slot, uint pair) {
     uint number = 1u + pairsPerVertex * (path[slot].rayDepth - 1u) + pair;
@@ -50,7 +50,7 @@ void addRadiance(uint slot, vec3 weight, vec3 radiance) {
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
 }
 
-// What a surface that the ray has met emits towards it, weighted against aiming at the same point.
+// Emission of the surface at the hit, with the multiple importance weight against a light sample of the same point.
 void addEmission(uint slot, Surface surface, MaterialRecord material) {
     vec3 direction = path[slot].rayDirection;
     float facing = -dotProduct(direction, surface.geometricNormal);
@@ -60,7 +60,7 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
     float weight = 1.0;
     if (path[slot].scatterPdf > 0.0) {
         float pdf;
-        // A sphere that emits is aimed at, unless its radius is 0 and it is never met.
+        // Every emitting sphere is an emitter, unless its radius is 0, and then nothing hits it.
         if ((lighting & lightsBySpheres) == 0u || isTriangle(path[slot].hitPrimitive)) {
             pdf = solidAnglePdf(material.emitterPdf, path[slot].rayLength, cosine);
         } else {
@@ -73,7 +73,7 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
     addRadiance(slot, path[slot].throughput * weight, material.emission);
 }
 
-// What comes from beyond the scene, weighted against aiming at it.
+// Radiance from outside the scene, with the multiple importance weight against a light sample in that direction.
 void addEnvironment(uint slot) {
     if ((lighting & lightsByEnvironment) == 0u) {
         addRadiance(slot, path[slot].throughput, frame.background);
@@ -85,7 +85,7 @@ void addEnvironment(uint slot) {
     addRadiance(slot, path[slot].throughput * weight, found.radiance);
 }
 
-// What glass around the path leaves of light after this distance.
+// Transmittance of the glass around the path over a distance, by Beer's law.
 vec3 transmittance(uint slot, float distance) {
     uint medium = mediumAround(path[slot].mediaInside);
     return medium != noMaterial ? expNegative(fetchMaterial(medium).absorption * distance) : vec3(1.0);
@@ -93,12 +93,12 @@ vec3 transmittance(uint slot, float distance) {
 
 float mediumIndex(uint medium) { return medium != noMaterial ? fetchMaterial(medium).refractiveIndex : 1.0; }
 
-// Lets long paths of little weight end by chance, and gives the others their weight.
+// Russian roulette: long paths with a small throughput end at random, and the others gain their weight.
 bool survivesRoulette(uint slot) {
     if (path[slot].rayDepth < firstRouletteDepth)
         return true;
     float index = hasDielectric ? mediumIndex(mediumAround(path[slot].mediaInside)) : 1.0;
-    // Radiance in glass is larger by the square of the index, which it loses on its way out.
+    // Radiance in glass is larger by the square of the refractive index; the path will lose that factor on its way out.
     float survival = lesser(largestComponent(path[slot].throughput) * (index * index), 1.0);
     if (unitFloat(vertexBits(slot, pairChoice).y) >= survival)
         return false;
@@ -118,17 +118,17 @@ void reflectRay(uint slot, Surface surface, vec3 normal) {
     continueRay(slot, origin, direction, path[slot].hitPrimitive);
 }
 
-// The glass on both sides of a surface of glass.
+// The media on both sides of a glass surface.
 struct Crossing {
     uint before; // counts as in media.glsl
     uint beyond;
     float eta;    // refractive index before divided by the one beyond
-    bool isNothing; // glass of higher priority is on both sides
+    bool isNothing; // both sides are inside glass of higher priority: there is no interface
 };
 
 Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {
     uint inside = path[slot].mediaInside;
-    // A path that leaves glass which it has not entered began in it.
+    // A path that leaves glass without having entered it began inside.
     uint before = isEntering || mediumCount(inside, materialIndex) > 0u ? inside : enterMedium(inside, materialIndex);
     uint beyond = isEntering ? enterMedium(inside, materialIndex) : leaveMedium(inside, materialIndex);
     uint medium = mediumAround(before);
@@ -136,15 +136,15 @@ Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {
     return Crossing(before, beyond, divide(mediumIndex(medium), mediumIndex(mediumBeyond)), medium == mediumBeyond);
 }
 
-// At smooth glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction,
-// chosen with the probability of its share.
+// Smooth glass: chooses reflection or refraction with the probability of its share. Inside glass of higher priority the
+// path passes straight through.
 void meetGlass(uint slot, Surface surface, uint materialIndex) {
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.geometricNormal) < 0.0;
     Crossing crossing = crossingOf(slot, materialIndex, isEntering);
     if (crossing.isNothing) {
         path[slot].mediaInside = crossing.beyond;
-        path[slot].scatterPdf = 0.0; // no light is aimed at through glass
+        path[slot].scatterPdf = 0.0; // light samples do not pass glass
         continueRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive);
         return;
     }
@@ -167,7 +167,7 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
     continueRay(slot, offsetRayOrigin(surface, glass.refracted), glass.refracted, path[slot].hitPrimitive);
 }
 
-// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
+// Whether the surface is a mirror or clear glass. Rough glass with the same index on both sides is clear.
 bool isSpecularHere(uint slot, MaterialRecord material, uint materialIndex, bool isEntering) {
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material) && material.alpha > 0.0) {
         Crossing crossing = crossingOf(slot, materialIndex, isEntering);
@@ -223,7 +223,7 @@ void shadeHit(uint slot) {
     }
 }
 
-// The path goes on from a surface, in a direction that was drawn when it was lit.
+// Continues the path from a surface, in the direction that was sampled when the surface was lit.
 void scatter(uint slot) {
     endPath(slot);
     vec3 direction = path[slot].scatterDirection;
@@ -239,14 +239,14 @@ void aimAtNothing(uint slot, uint emitter) {
     scatter(slot);
 }
 
-// Sends a shadow ray to what was chosen.
+// Sends a shadow ray to the light sample.
 void aimAt(uint slot, uint emitter, LightSample light) {
     path[slot].rayTarget = light.target;
     path[slot].lightIndex = emitter;
     beginShadow(slot, light.direction, light.distance);
 }
 
-// On a surface with lobes: draws the direction in which the path will go on, and aims at a light.
+// On a surface with lobes: samples the direction in which the path continues, and a light.
 void aimFromBsdf(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
@@ -288,7 +288,7 @@ void aimFromBsdf(uint slot) {
         aimAtNothing(slot, emitter);
 }
 
-// Stage: on a surface, draw the direction in which the path will go on, and aim at a light.
+// Stage: on a surface, sample the direction in which the path continues, and a light.
 void aimAtLight(uint slot) {
     if (scattering != 0u) {
         aimFromBsdf(slot);
@@ -309,7 +309,7 @@ void aimAtLight(uint slot) {
         aimAtNothing(slot, emitter);
         return;
     }
-    float reflected = pdfCosine(cosine); // also the density of a scattered ray
+    float reflected = pdfCosine(cosine); // also the pdf of a scattered ray
     float share = light.pdf > 0.0 ? reflected * powerHeuristic(light.pdf, reflected) : reflected;
     path[slot].surfaceWeight = path[slot].throughput * (light.radiance * share);
     if (hasDielectric)
@@ -326,7 +326,7 @@ void addLight(uint slot) {
     scatter(slot);
 }
 
-// Of the search for an emitter, in all slots.
+// Work of the search for an emitter, in all slots.
 uint searchIterations() {
     uint emitters = emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u;
     uint texels = (lighting & lightsByEnvironment) != 0u

@@ -1,11 +1,11 @@
 // The path slots of an invocation: where they are in the image, how they wait between dispatches, what they count.
 //
 // A slot works on every `samplesAbreast`-th sample of one pixel; neighbouring slots take the samples in between. Rays
-// of one pixel go nearly the same way, so on a CPU, where a subgroup pays for all that any of its lanes does, samples
-// abreast waste less than pixels abreast. What a slot has begun and not finished when the step budget is spent waits
-// in the path buffer; kernels that are not resumable drop it, and it is done again from the last round in the film.
+// of one pixel are coherent. On a CPU a subgroup pays for everything that any of its lanes does, so samples side by
+// side waste less than pixels side by side. When the step budget is spent, a resumable kernel saves unfinished samples
+// in the path buffer; other kernels drop them, and a later dispatch starts again after the last round in the film.
 
-const float unbounded = 3.4028234e38; // length of a ray that has met nothing
+const float unbounded = 3.4028234e38; // length of a ray without a hit
 
 PathRecord path[RAYS];
 uint slotIndex[RAYS]; // among the slots of the tile
@@ -14,12 +14,12 @@ uint filmIndex[RAYS];
 bool isSlotUsed[RAYS]; // a tile may reach beyond the film
 
 uint stepsTaken = 0u;         // loop iterations of this dispatch
-uint stepsForfeited = 0u;     // of them, those that were not made, as others had done all the work of the dispatch
-uint passWork = 0u;           // of all else that takes time, in steps that take as long
+uint stepsForfeited = 0u;     // of these, steps that were skipped because the work budget of the dispatch was spent
+uint passWork = 0u;           // other work, in the equivalent of steps
 uint stackOverflowCount = 0u;
 uint finishedSampleCount = 0u;
 uvec4 rayCounts[RAYS];               // of unfinished samples: primary, shadow, reflection, refraction
-uvec4 finishedRayCounts = uvec4(0u); // of those that came into the film
+uvec4 finishedRayCounts = uvec4(0u); // of samples in the film
 uint bounceCounts[RAYS];               // of unfinished samples: rays that diffuse surfaces scatter
 uint finishedBounceCount = 0u;
 uvec4 workCounts = uvec4(0u);         // nodes, boxes, triangles, deepest stack: only where isCounting
@@ -28,11 +28,11 @@ uint busySlotsBefore = 0u;            // the present pass
 
 uint slotCount() { return dispatch.tileWidth * dispatch.tileHeight * samplesAbreast; }
 
-// Which of the samples abreast the slot works on.
+// Position of the slot among the samples abreast.
 uint sampleLane(uint slot) { return slotIndex[slot] & (samplesAbreast - 1u); }
 
-// Quotient and remainder, for a < 2^24, b > 0 and a quotient below 2^20, where the device's own division is off by less
-// than 1: CPUs divide vectors of floats at once, but integers one by one.
+// Quotient and remainder, for a < 2^24, b > 0 and a quotient below 2^20, by a float division that is off by less than
+// 1: CPUs divide whole vectors of floats, but integers one by one.
 uvec2 divideSmall(uint a, uint b) {
     uint quotient = uint(float(a) / float(b));
     quotient -= quotient * b > a ? 1u : 0u;
@@ -40,8 +40,8 @@ uvec2 divideSmall(uint a, uint b) {
     return uvec2(quotient, a - quotient * b);
 }
 
-// Neighbouring slots are neighbouring samples or pixels: 8 pixels are a block of 4x2, 64 of 8x8, as coherent rays take
-// the same way through the tree.
+// Neighbouring slots are neighbouring samples or pixels, in blocks of 4x2 and 8x8 pixels, so that the rays of a
+// subgroup are coherent.
 uvec2 pixelOfSlot(uint index) {
     uint pixel = index / samplesAbreast;
     uint block = pixel >> 6u;
@@ -51,7 +51,7 @@ uvec2 pixelOfSlot(uint index) {
     return divideSmall(block, blocksAcross).yx * 8u + inBlock;
 }
 
-// Finds the slot's place. With several slots an invocation, the slots of 8 lanes lie side by side.
+// Finds the pixel of the slot. With several slots an invocation, the slots of 8 lanes are side by side.
 void placeSlot(uint slot) {
     uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
     uint group = part.y * dispatch.interleave + part.x;
@@ -64,13 +64,13 @@ void placeSlot(uint slot) {
                        filmPixel.y < dispatch.filmHeight;
 }
 
-// Leaves the slots one pass where others have done the work of the whole dispatch.
+// Leaves the slots one pass if others have spent the work budget of the dispatch.
 void shareWork() {
     stepsForfeited = progress.workDone >= dispatch.workBudget ? dispatch.stepBudget : 0u;
     stepsTaken = stepsForfeited;
 }
 
-// Goes on with what waits, or else after the `samplesInFilm` samples that the pixel has.
+// Continues a waiting slot, or starts after the `samplesInFilm` samples of the pixel.
 void loadSlot(uint slot, uint samplesInFilm) {
     rayCounts[slot] = uvec4(0u);
     bounceCounts[slot] = 0u;
@@ -140,7 +140,7 @@ void addProgress() {
         atomicAdd(progress.bounceRays, bounces);
 }
 
-// Counts nodes, boxes and triangles that a slot looks at.
+// Counts the nodes, boxes and triangles that a slot tests.
 void countWork(uint slot, uvec3 work) {
     if (!isCounting)
         return;
@@ -149,7 +149,7 @@ void countWork(uint slot, uvec3 work) {
         path[slot].sampleRadiance = path[slot].sampleRadiance + vec3(work);
 }
 
-// Counts a pass of the subgroup through a loop of the traversal: one of those lanes does that had something to do in it.
+// Counts a pass of the subgroup through a loop of the traversal: one of its busy lanes does.
 void countPass() {
     if (!isCounting || passCounts.y == busySlotsBefore)
         return;
@@ -157,7 +157,7 @@ void countPass() {
     busySlotsBefore = passCounts.y;
 }
 
-// Counts a slot in a pass, and what it looks at, if anything.
+// Counts a slot in a pass, and what it tests, if anything.
 void countSlot(uint slot, bool isBusy, uvec3 work) {
     if (!isCounting || !isBusy)
         return;
@@ -165,7 +165,7 @@ void countSlot(uint slot, bool isBusy, uvec3 work) {
     countWork(slot, work);
 }
 
-// Keeps what a path did, for those who search for a difference.
+// Records what a path did, to find where two renderers differ.
 void traceEvent(uint slot, uint quantity, uint integer, vec3 value) {
     if (!isTracing || slotIndex[slot] != 0u)
         return;

@@ -1,6 +1,6 @@
-// Rays that glass has split off wait here, the last one first: in registers where they are few and need not outlive the
-// dispatch, else in a buffer. lavapipe writes buffers lane by lane and word by word, so that a choice among all levels
-// of depth is faster there.
+// Pending rays: a stack of the rays that glass has split off. It is in registers if it is small and need not outlive
+// the dispatch, else in a buffer. lavapipe writes buffers lane by lane and word by word, so selecting among all
+// registers is faster there.
 
 #if MEMORY_TEXELS
 layout(set = 0, binding = bindingPending, rgba32ui) uniform restrict uimageBuffer pendingTexels;
@@ -18,7 +18,7 @@ PendingRay loadPendingRay(uint index) { return pendingRays[index]; }
 
 PendingRay pendingLevels[RAYS][maxPendingInRegisters];
 
-// There is one.
+// The stack is not empty.
 PendingRay popPendingRay(uint slot) {
     uint level = path[slot].pendingCount - 1u;
     path[slot].pendingCount = level;

@@ -1,7 +1,8 @@
 // Views of what primary rays meet, and ambient occlusion. Twin: host/reference/view.h.
 //
-// Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with everything
-// further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", 1998.
+// Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with
+// everything further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination
+// Model", 1998.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -58,7 +59,7 @@ void shadeHit(uint slot) {
     }
 }
 
-// Stage: look at a point of the sky.
+// Stage: send a ray to a random point of the sky.
 void aimAtLight(uint slot) {
     uvec2 bits = sampleBits(pairKeys(imagePixel[slot], frame.seed, 1u), path[slot].sampleIndex);
     vec3 direction = sampleCosine(path[slot].surfaceNormal, unitFloats(bits));
@@ -67,7 +68,7 @@ void aimAtLight(uint slot) {
         beginShadow(slot, direction, frame.occlusionDistance);
 }
 
-// Stage: the ray has left, or met something.
+// Stage: the ray has reached the sky, or was blocked.
 void addLight(uint slot) {
     path[slot].stage = stageSampleDone;
     bool isVisible = path[slot].hitPrimitive == noPrimitive;

@@ -2,7 +2,8 @@
 // deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
 // Twin: host/reference/whitted.h, where the same happens ray by ray.
 //
-// A path slot works through the samples of one pixel and, for each, through the tree of rays that glass makes of it.
+// A path slot works through the samples of one pixel and, for each of them, through the tree of rays that glass splits
+// it into.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,12 +18,12 @@ const bool hasBounces = false;
 
 void beginSample(uint slot) { sendPrimaryRay(slot); }
 
-// A path has come to its end: another one of the sample may wait.
+// Ends a path; the sample may have another one pending.
 void endPath(uint slot) {
     path[slot].stage = hasDielectric && path[slot].pendingCount > 0u ? stageNextRay : stageSampleDone;
 }
 
-// Stage: take the ray that waits.
+// Stage: take the pending ray.
 void takePendingRay(uint slot) {
     PendingRay ray = popPendingRay(slot);
     path[slot].throughput = ray.throughput;
@@ -47,8 +48,8 @@ PendingRay reflectedRay(uint slot, Surface surface, float reflectance, uint medi
     return reflected;
 }
 
-// The ray is made anew in each branch. A branch that only copies would be turned into selections, which lavapipe merges
-// a second time, under the mask of the loop around; what the branches compute alike it computes once.
+// Each branch makes its own ray. A branch that only copies would become selections, which lavapipe merges a second time
+// under the mask of the enclosing loop; it computes common parts of the branches once.
 void pushReflectedRay(uint slot, Surface surface, float reflectance, uint medium) {
     uint level = path[slot].pendingCount;
     path[slot].pendingCount = level + 1u;
@@ -69,7 +70,7 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
         reflectRay(slot, surface, mediumOfReflection);
         return;
     }
-    // The reflected ray waits, the refracted one goes on.
+    // The reflected ray waits; the path continues with the refracted one.
     pushReflectedRay(slot, surface, refraction.reflectance, mediumOfReflection);
     rayCounts[slot].z += 1u;
 
@@ -80,7 +81,7 @@ void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint mate
     rayCounts[slot].w += 1u;
 }
 
-// What rays find that leave the scene.
+// Radiance of rays that leave the scene.
 vec3 radianceAround(vec3 direction) {
     if ((lighting & lightsByEnvironment) != 0u)
         return environmentRadianceAt(environmentPlace(direction));
@@ -97,7 +98,7 @@ void leaveScene(uint slot, vec3 tint) {
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
     traceNearestHit(slot);
-    // Of the glass that the ray was sent into: fetched once for all that follows.
+    // Tint of the glass that the ray was in, fetched once.
     vec3 tint = vec3(1.0);
     if (hasDielectric && path[slot].rayMedium != noMaterial)
         tint = fetchMaterial(path[slot].rayMedium).segmentTint;
@@ -140,7 +141,7 @@ void shadeHit(uint slot) {
     }
 }
 
-// Stage: send a shadow ray from the surface to the next light, if it lies on the lit side.
+// Stage: send a shadow ray to the next light, if it is on the front side of the surface.
 void aimAtLight(uint slot) {
     if (path[slot].lightIndex == lightCount) {
         endPath(slot);
@@ -192,7 +193,7 @@ void addLight(uint slot) {
         endPath(slot);
 }
 
-// Follows rays until they meet a diffuse surface or nothing.
+// Follows rays until they hit a diffuse surface or leave the scene.
 void followPaths() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (hasDielectric && path[slot].stage == stageNextRay)
@@ -201,7 +202,7 @@ void followPaths() {
 }
 
 void advancePaths() {
-    bool takesOnePass = !hasSpecular && lightCount <= 1u; // there need be no loop
+    bool takesOnePass = !hasSpecular && lightCount <= 1u; // no loop is needed
     do {
         do
             followPaths();

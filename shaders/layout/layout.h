@@ -1,4 +1,4 @@
-// The one contract of host and shaders: every byte that both sides read or write is described here.
+// Memory layout shared by host and shaders: every record that both sides read or write.
 //
 // Compiled as C++ (with GLM) and as GLSL. All structs are made of 16-byte rows (vec3 + scalar, or four scalars), so
 // that C++, std140 and std430 agree without padding rules. No bool, no matrix.
@@ -24,21 +24,20 @@ using uint = std::uint32_t;
 const uint maxSphereCount = 64u; // spheres are tested one after the other, from a uniform buffer
 const uint maxLightCount = 16u;
 const uint maxPathDepth = 32u;
-const uint maxTreeDepth = 64u; // subtrees that can wait for one ray: the builders keep every tree below it
+const uint maxTreeDepth = 64u; // and the size of a traversal stack: builders keep every tree below it
 
-// ---- Primitives
-// A primitive's id orders all primitives of a scene: spheres first, then triangles, each by their index in the
-// input. Where two hits have the same distance, the smaller id is the nearest one.
+// ---- Primitives A primitive's id orders all primitives of a scene: spheres first, then triangles, both by their index
+// in the input. Of two hits at the same distance, the one with the smaller id is the nearest.
 
 const uint noPrimitive = 0xFFFFFFFFu;
 const uint firstTriangleId = maxSphereCount; // id of the triangle with input index 0
 
-// Most shading reads the first row alone: lavapipe takes as long for a row as for a test of a sphere.
+// Most shading reads only the first row: on lavapipe, reading a row takes as long as testing a sphere.
 struct SphereRecord {
     vec3 centre;          // world space
     uint materialAndSide; // see materialIndexOf, normalSignOf
     float radius;
-    uint isTransmissive; // 1 for a dielectric: light passes, dimmed
+    uint isTransmissive; // 1 for a dielectric: it dims light instead of blocking it
     uint pad0;
     uint pad1;
 };
@@ -63,11 +62,11 @@ struct TriangleRecord {
     uint flags;
 };
 
-const uint triangleIsTransmissive = 1u; // of a dielectric: light passes, dimmed
+const uint triangleIsTransmissive = 1u; // a dielectric: it dims light instead of blocking it
 const uint triangleEndsLeaf = 2u;       // the last triangle of its leaf
 const uint triangleIsCutOut = 4u;       // its material has an opacity texture
 
-// Shading normals of the triangle with the same index; zero vectors stand for "use the geometric normal".
+// Shading normals of the triangle with the same index. Zero vectors mean: use the geometric normal.
 struct NormalRecord {
     vec3 n0;
     float pad0;
@@ -77,10 +76,9 @@ struct NormalRecord {
     float pad2;
 };
 
-// ---- The tree
-// An inner node holds the boxes of both of its children, so that one fetch decides about two subtrees. A child is
-// an inner node (its index in the node array), or a leaf (leafFlag | index of its first triangle; the triangle that
-// ends the leaf says so itself), or nothing (noNode). Node 0 is the root; every scene has one.
+// ---- The tree An inner node holds the boxes of both children, so that one fetch decides about two subtrees. A child
+// is an inner node (its index in the node array), a leaf (leafFlag | index of its first triangle; triangleEndsLeaf
+// marks the last one), or nothing (noNode). Node 0 is the root; every scene has one.
 
 const uint leafFlag = 0x80000000u;
 const uint noNode = 0xFFFFFFFFu;
@@ -96,11 +94,12 @@ struct NodePair {
     uint pad1;
 };
 
-// The same tree as a list without a stack, for texel buffers: depth first, each node followed by its subtree, and the
-// index where a ray goes on that misses it. There are two such lists, one in which lower siblings come first and one in
-// which upper ones do. Boxes are rounded outward to a grid over all triangles, whose planes are signed integers of 16
-// bits: low half-words hold the lower plane, high ones the upper one. `link` of an inner node is the index to go on at,
-// of a leaf it is leafFlag | index of its first triangle, and the list goes on with the next node.
+// Skip list: the same tree for traversal without a stack. Nodes are in depth-first order, each followed by its subtree,
+// and know where a ray continues that misses them. There are two lists: lower siblings come first in one, upper
+// siblings in the other. Boxes are rounded outward to a grid over all triangles, whose planes are signed 16-bit
+// integers: the low half of a word is the lower plane, the high half the upper one. `link` of an inner node is the
+// index to continue at; of a leaf it is leafFlag | index of its first triangle, and traversal continues with the next
+// node.
 
 struct SkipNode {
     uint x;
@@ -118,32 +117,32 @@ const uint materialConductor = 3u;
 const uint materialPrincipled = 4u;
 const uint noMaterial = 0xFFFFFFFFu;
 
-// Dielectrics come first among the materials, those of higher priority before others: what glass is where several overlap
-// (shaders/bsdf/media.glsl).
+// Dielectrics come first among the materials, in order of falling priority. Where several overlap, the one of the
+// highest priority is there (shaders/bsdf/media.glsl).
 const uint maxMedia = 8u; // dielectrics that the path integrator tells apart
 
 struct MaterialRecord {
-    vec3 albedo;       // of a conductor its reflectance seen head on, of a principled material its colour
+    vec3 albedo;       // conductor: reflectance at normal incidence; principled: base colour
     uint kindAndSides; // see kindOf, isTwoSided
-    vec3 segmentTint;  // Whitted: factor on all that a segment inside this dielectric returns
+    vec3 segmentTint;  // Whitted: factor on the radiance that a segment inside this dielectric returns
     float refractiveIndex;
-    vec3 emission; // radiance on the side of the normal, on both where it is two-sided
-    // path: with which density, per unit of area, a light sample lies at a point that emits
+    vec3 emission; // radiance on the side of the normal, on both if two-sided
+    // path: pdf of a light sample at a point of the emitter, per unit of area
     float emitterPdf;
     vec3 absorption; // path: of this dielectric, per unit of length
     uint pad0;
-    // What follows is read where constantScattering asks for it.
+    // The rest is read only where constantScattering asks for it.
     vec3 conductorIndex;      // real part of the refractive index
-    float alpha;              // of microfacets: roughness squared; 0: smooth
+    float alpha;              // of GGX: roughness squared; 0: smooth
     vec3 conductorExtinction; // imaginary part of the refractive index
     float metallic;
-    // of a conductor's Fresnel reflectance, over cos^2: what light loses that is reflected twice
+    // cosine-weighted average of a conductor's Fresnel reflectance: the loss of a second reflection
     vec3 averageReflectance;
     float transmission;
-    float normalReflectance; // of a principled material that is no metal, seen head on
+    float normalReflectance; // principled, dielectric part: reflectance at normal incidence
     float clearcoat;
     float clearcoatAlpha;
-    uint textures; // row of the first of its textures, see below; 0: it has none
+    uint textures; // row of its first texture, see below; 0: none
 };
 
 const uint materialIsTwoSided = 0x80000000u;
@@ -161,17 +160,20 @@ const uint scattersAtRoughGlass = 4u; // dielectrics, and principled materials t
 const uint scattersAtPrincipled = 8u;
 const uint scattersAtRough = 14u; // any of those that need microfacets
 
-// What is looked up by index: rows of four numbers. First the energy of microfacets, see shaders/bsdf/energy.glsl, where
-// constantScattering needs it; then the environment.
+// Lookup tables, in rows of four numbers: the energy of microfacets (shaders/bsdf/energy.glsl), where
+// constantScattering needs it; the environment; the pixel filter.
 struct LookupRow {
     vec3 value;
     uint word; // another float, or an integer
 };
 
-// Textures, in rows of four words. First two tables of what the levels 0 to 255 of 8-bit images stand for, four floats a
-// row. From firstCoordinateRow on the coordinates of each triangle record: u and v of v0 and v1, then of v2. Then for
-// each material with textures one TextureRecord a slot, and then the images' texels: one a row, as floats, or four a row,
-// 8 bits each for red, green, blue and alpha from the lowest bits up; rows of the image from the top.
+// Textures, in rows of four words:
+// - two tables with the values of the levels 0 to 255 of 8-bit images, four floats a row;
+// - from firstCoordinateRow, the texture coordinates of each triangle record: u and v of v0 and v1, then of v2;
+// - for each material with textures, a TextureRecord for each slot;
+// - the texels of the images, from the top row down: one a row, as floats; or four a row, with 8 bits each for red,
+//   green,
+//   blue and alpha from the lowest bits up.
 struct TextureRow {
     uint x;
     uint y;
@@ -187,9 +189,9 @@ const uint rowsPerCoordinates = 2u;
 
 struct TextureRecord {
     uint firstRow; // of its texels
-    uint size;     // of the image in pixels: width, and height * 2^16; 0: the slot has no texture
+    uint size;     // of the image in pixels: width + height * 2^16; 0: the slot has no texture
     uint format;   // bits of textureIs...
-    float factor;  // on roughness, metallic, and on how far a normal map turns normals
+    float factor;  // on roughness and metallic; of a normal map its strength
     float scaleU;  // coordinates are multiplied by scale, then moved by offset
     float scaleV;
     float offsetU;
@@ -199,7 +201,7 @@ struct TextureRecord {
 const uint rowsPerTexture = 2u;
 const uint textureIsFloat = 1u;
 const uint textureIsSrgb = 2u;
-const uint textureIsAlpha = 4u; // its alpha is meant, not its colours
+const uint textureIsAlpha = 4u; // the alpha channel is read, not the colours
 
 const uint slotBaseColour = 0u;
 const uint slotEmission = 1u;
@@ -209,7 +211,8 @@ const uint slotNormal = 4u;
 const uint slotOpacity = 5u;
 const uint textureSlotCount = 6u;
 
-// Which slots the materials of a scene have textures in, and whether any texels have 8 bits: bits of constantTexturing.
+// Bits of constantTexturing: the slots in which materials of the scene have textures, and whether any texels have 8
+// bits.
 const uint texturesBaseColour = 1u;
 const uint texturesEmission = 2u;
 const uint texturesRoughness = 4u;
@@ -217,14 +220,14 @@ const uint texturesMetallic = 8u;
 const uint texturesNormal = 16u;
 const uint texturesOpacity = 32u;
 const uint texturesLevels = 64u;
-const uint texturesMaterials = 15u; // any of those that change what a material is
+const uint texturesMaterials = 15u; // any slot that changes the material
 
 const uint energyCosines = 32u; // nodes of the table over the cosine, and over the roughness
 const uint energyRoughnesses = 32u;
 const uint energyCellCount = (energyCosines - 1u) * (energyRoughnesses - 1u);
 const uint energyTexelCount = 2u * energyCellCount + energyRoughnesses - 1u;
 
-// Lights of no size, which both the Whitted integrator and the path integrator know.
+// Lights without size, for the Whitted and the path integrator.
 
 const uint lightPoint = 0u;
 const uint lightSpot = 1u;
@@ -235,13 +238,13 @@ struct LightRecord {
     uint kind;
     // radiant intensity, power / (4 pi), of a spot on its axis; irradiance of a directional light
     vec3 intensity;
-    float cosineOuter;  // of a spot: beyond this angle to its axis it is dark
+    float cosineOuter;  // of a spot: it is dark beyond this angle to its axis
     vec3 axis;          // unit direction in which light leaves
     float falloffScale; // of a spot: 1 / (cosine where it begins to fade - cosineOuter)
 };
 
-// What the path integrator can aim at: one of them is chosen for each shadow ray, with a probability that goes with its
-// power. Emitters are in the order of the input: lights, spheres, triangles.
+// Emitters: targets of the path integrator's shadow rays. Each shadow ray chooses one, with a probability in proportion
+// to its power. They are in the order of the input: lights, spheres, triangles, the environment.
 
 const uint emitterPoint = 0u;
 const uint emitterSphere = 1u;
@@ -253,18 +256,18 @@ const uint emitterEnvironment = 5u;
 struct EmitterRecord {
     vec3 position; // of a point light or a spot
     uint kind;
-    vec3 emission; // radiance of a surface; of lights their intensity, as above
+    vec3 emission; // radiance of a surface; intensity of a light, as above
     float probability;
-    uint cumulative; // of 2^32 numbers, so many choose this emitter or one before it
+    uint cumulative; // of 2^32 random numbers, those below it choose this emitter or one before it
     uint record;     // index among the sphere or the triangle records
-    float pdf;       // probability per unit of area of a triangle or a sphere; falloffScale of a spot
+    float pdf;       // of a triangle or a sphere, per unit of area; of a spot its falloffScale
     uint isTwoSided;
     vec3 axis;         // of a spot or a directional light
     float cosineOuter; // of a spot
 };
 
-// What lights a scene: bits of constantLighting, 1 << kind of emitter. Surfaces are only told where the path integrator
-// aims at them.
+// Bits of constantLighting, 1 << kind of emitter: what lights the scene. Emitting surfaces are included for the path
+// integrator only.
 const uint lightsByPoints = 1u << emitterPoint;
 const uint lightsBySpheres = 1u << emitterSphere;
 const uint lightsByTriangles = 1u << emitterTriangle;
@@ -279,23 +282,23 @@ const uint cameraLens = 1u;         // a thin lens
 const uint cameraOrthographic = 2u; // parallel rays
 const uint cameraPanorama = 3u;     // all directions, by longitude and latitude
 
-// What a view shows of the first hit.
+// Views: what they show of the first hit.
 
 const uint viewNormal = 0u; // for shading, from [-1, 1] to [0, 1]
 const uint viewDepth = 1u;  // distance from the eye
-const uint viewAlbedo = 2u; // or base colour, or reflectance of a metal; 1 for glass and mirrors
+const uint viewAlbedo = 2u; // base colour, or the reflectance of a metal; 1 for glass and mirrors
 const uint viewId = 3u;     // a colour for each primitive
 const uint viewOcclusion = 4u;
-const uint viewCoordinates = 5u; // u and v of textures, less their whole parts
+const uint viewCoordinates = 5u; // fractional parts of the texture coordinates
 
-// ---- What is the same for a whole render
+// ---- Frame constants: the same for a whole render
 
 const uint samplerCentre = 0u;
 const uint samplerSobol = 1u;
-const uint samplerFiltered = 2u; // Sobol points, as dense as the filter of pixels is high
+const uint samplerFiltered = 2u; // Sobol points, distributed like the pixel filter
 
-// The filter's quantiles, which samplerFiltered needs: a texel for each of these parts of [0, 1), with where in the pixel
-// the part begins and how far it reaches.
+// Quantiles of the pixel filter, for samplerFiltered: [0, 1) in equal cells, a lookup row each, with the position in
+// the pixel where the cell begins, and its width.
 const uint filterCellCount = 256u;
 
 struct FrameRecord {
@@ -303,7 +306,7 @@ struct FrameRecord {
     uint imageWidth; // of the whole image, in pixels
     // The primary ray through the image position (x, y), in pixels with y down, has the direction
     //     pixelRight * (x - imageWidth/2) + pixelUp * (imageHeight/2 - y) + imagePlane
-    // where rays are parallel the first two terms are added to the eye, and for a panorama all three vectors are of unit
+    // An orthographic camera adds the first two terms to the eye instead. For a panorama all three vectors have unit
     // length.
     vec3 pixelRight;
     uint imageHeight;
@@ -316,32 +319,32 @@ struct FrameRecord {
     vec3 boundsLower; // of all triangles
     uint triangleCount;
     vec3 boundsUpper;
-    uint maxDepth;       // segments of a path, the primary ray included
+    uint maxDepth;       // maximum number of path segments, the primary ray included
     vec3 gridMiddle;     // of the skip lists' boxes: plane q is at gridMiddle + gridScale * q
     uint skipListLength; // nodes of one list
     vec3 gridScale;
-    float occlusionDistance; // what is further away hides no sky
-    // The environment: rows of texels from the top, the number of 2^32 that choose a texel of the row or one left of it
-    // in `word`; then for each row, in `word`, how many choose it or one above it, and in value.x with which
-    // probability.
+    float occlusionDistance; // occluders further away are ignored
+    // The environment: its texels, row by row from the top, and then a lookup row for each row of texels. `word` is the
+    // cumulative distribution in units of 2^-32: over the texels of a row from the left, and over rows from the top;
+    // value.x of a row is its probability.
     uint environmentTexels; // the first one
     uint environmentWidth;
     uint environmentHeight;
     float environmentTurns;       // about +y
-    float environmentProbability; // that it is chosen among all emitters
+    float environmentProbability; // of choosing it among all emitters
     float lensScale;              // the lens' radius in units of pixelRight and pixelUp
     float focusDistance;          // along the view direction
-    float radianceLimit;          // path: most that a path may add behind its first segment, or infinity
-    uint filterTexels;            // the first one
+    float radianceLimit; // path: maximum that indirect light adds to a sample, per channel; or infinity
+    uint filterTexels;   // the first one
     uint pad0;
     uint pad1;
     uint pad2;
 };
 
-// ---- What changes with each dispatch
-// A dispatch works on one tile of the film, `samplesAbreast` path slots a pixel. `stepBudget` bounds the loop iterations
-// of a slot, and `workBudget` the work of all: slots that begin when it is done make one pass only. What is not finished
-// by then waits in the path buffer for a dispatch with `isResumed` set.
+// ---- Dispatch constants A dispatch works on one tile of the film, with `samplesAbreast` path slots for each pixel.
+// `stepBudget` bounds the loop iterations of a slot, and `workBudget` the work of all slots together: a slot that
+// starts after it is spent makes only one pass. Unfinished slots wait in the path buffer for a dispatch with
+// `isResumed` set.
 
 struct DispatchConstants {
     uint cropX; // pixel of the whole image where the film begins
@@ -355,9 +358,9 @@ struct DispatchConstants {
     uint sampleBegin; // samples [sampleBegin, sampleEnd) are added to the film
     uint sampleEnd;
     uint stepBudget;
-    uint isResumed; // 0: start the tile's samples, 1: go on with what waits
-    // Workgroup g works on block g % (count/interleave) * interleave + g / (count/interleave) of the tile: a driver
-    // that gives each thread one range of workgroups then spreads every part of the image over all threads.
+    uint isResumed; // 0: start the samples of the tile; 1: continue the waiting slots
+    // Workgroup g works on block g % (count/interleave) * interleave + g / (count/interleave) of the tile. So a driver
+    // that gives each thread one range of workgroups still spreads every part of the image over all threads.
     uint interleave;
     uint traceCapacity; // events in the trace buffer
     uint workBudget;    // of DispatchProgress::workDone
@@ -373,29 +376,29 @@ struct FilmPixel {
     float pad0;
 };
 
-// Counters of one dispatch, added up over all of its slots.
+// Counters of one dispatch, summed over all slots.
 struct DispatchProgress {
     uint unfinishedSlots;
-    uint stackOverflows; // subtrees that found no room to wait: 0 in any valid tree
+    uint stackOverflows; // subtrees that did not fit on the stack: 0 with any valid tree
     uint finishedSamples;
-    uint traceEvents; // wanted: more than the trace buffer holds are not kept
-    uint primaryRays; // rays are those of samples that came into the film
+    uint traceEvents; // including those that did not fit into the trace buffer
+    uint primaryRays; // rays of samples that are in the film
     uint shadowRays;
     uint reflectionRays;
     uint refractionRays;
     uint bounceRays; // scattered by diffuse surfaces
-    // in steps of a traversal, roughly: of each subgroup that of the busiest lane, or of each lane
+    // roughly in traversal steps: of the busiest lane of each subgroup, or of each lane
     uint workDone;
-    // The rest only where constantIsCounting is set.
+    // The rest is counted only where constantIsCounting is set.
     uint traversalPasses; // of subgroups through the loops of the traversal
-    uint busySlots;       // that had a node or a triangle to look at, in all passes
+    uint busySlots;       // slots with a node or a triangle to test, summed over passes
     uint nodesVisited;
     uint boxesTested;
     uint trianglesTested;
-    uint deepestStack; // the most of any slot, not a sum
+    uint deepestStack; // the maximum of all slots, not a sum
 };
 
-// ---- What a path did, step by step: written only where a difference is searched
+// ---- Trace: what a path did, step by step, to find where two renderers differ
 
 const uint traceRayOrigin = 0u;
 const uint traceRayDirection = 1u;
@@ -406,7 +409,7 @@ const uint traceThroughput = 5u;  // of the segment at its hit, tint included
 const uint traceReflectance = 6u; // at glass; integer: 1 where reflection is total; value: reflectance
 const uint traceVisibility = 7u;  // integer: 0 unlit, 1 blocked, 2 dimmed by glass, 3 clear
 const uint traceRadiance = 8u;    // of the sample so far, after light was added to it
-const uint traceScatter = 9u;     // integer: bits of the density; value: direction of the scattered ray
+const uint traceScatter = 9u;     // integer: bits of the pdf; value: direction of the scattered ray
 const uint traceQuantityCount = 10u;
 
 const uint visibilityUnlit = 0u;
@@ -423,15 +426,15 @@ struct TraceEvent {
     uint pad0;
 };
 
-// ---- A path slot, as it waits between two dispatches
+// ---- Path slots, as they wait between two dispatches
 
 const uint stageNextSample = 0u; // begin the next sample
 const uint stageNextRay = 1u;    // take the next pending ray, or end the sample
 const uint stageNewRay = 2u;     // a ray is ready to be traced
-const uint stageClosest = 3u;    // looking for its nearest hit
+const uint stageClosest = 3u;    // tracing for the nearest hit
 const uint stageNextLight = 4u;  // on a diffuse surface: aim at the next light
-const uint stageShadow = 5u;     // looking for anything between the surface and the light
-const uint stageSampleDone = 6u; // the sample waits for those of the pixel's other slots
+const uint stageShadow = 5u;     // tracing for any hit between the surface and the light
+const uint stageSampleDone = 6u; // waits for the samples of the pixel's other slots
 const uint stageDone = 7u;       // all samples of the pixel are in the film
 
 const uint seenFromBehind = 0x80000000u; // against the normal of the input
@@ -442,7 +445,7 @@ struct PathRecord {
     vec3 rayDirection;
     float rayLength; // nearest hit so far, or the distance to the light
     vec3 throughput;
-    uint rayExcluded; // the primitive that the ray starts on
+    uint rayExcluded; // the primitive at the ray's origin, which it cannot hit
     float hitU;       // weights of v0 and v1 at the nearest hit so far
     float hitV;
     uint hitPrimitive; // its id
@@ -458,17 +461,17 @@ struct PathRecord {
     vec3 surfaceError;  // bound on the rounding error of surfacePosition
     uint sampleIndex;
     vec3 sampleRadiance;
-    uint pendingCount;   // rays that wait in the pending buffer
+    uint pendingCount;   // rays in the pending buffer
     uint cursorNode;     // the inner node to visit next, or noNode
-    uint cursorTriangle; // the leaf's triangle to test next, or noNode
-    uint stackSize;      // subtrees that wait in the stack buffer
+    uint cursorTriangle; // the triangle of the leaf to test next, or noNode
+    uint stackSize;      // subtrees in the stack buffer
     uint isLightDimmed;  // 1: the shadow ray has passed glass
     // Of the path integrator:
-    vec3 scatterDirection; // of the ray that goes on from the surface
-    float scatterPdf;      // of the direction of the current ray, per solid angle; 0: it had no choice
-    uint rayTarget;        // the primitive that the shadow ray is aimed at
+    vec3 scatterDirection; // of the ray that leaves the surface
+    float scatterPdf;      // of the current ray's direction, per solid angle; 0: a specular direction
+    uint rayTarget;        // the primitive at which the shadow ray is aimed
     uint mediaInside;      // the glass around the current ray, see media.glsl
-    // Rays of the samples that are not in the film:
+    // Rays of samples that are not in the film yet:
     uint primaryRays;
     uint shadowRays;
     uint reflectionRays;
@@ -477,7 +480,7 @@ struct PathRecord {
     uint surfaceMaterial; // where constantScattering needs it; with seenFromBehind
 };
 
-// A ray that a dielectric has split off, to be traced later: at most one for each level of depth.
+// A ray that glass has split off, to be traced later: at most one for each level of depth.
 struct PendingRay {
     vec3 origin;
     uint excluded;
@@ -489,7 +492,7 @@ struct PendingRay {
 
 const uint maxPendingInRegisters = 8u;
 
-// ---- Specialization constants: what a scene does not use costs nothing
+// ---- Specialization constants: features that a scene does not use cost nothing
 
 const uint constantWorkgroupSize = 0u;
 const uint constantSphereCount = 1u;
@@ -498,18 +501,18 @@ const uint constantHasSpecular = 3u; // mirrors or dielectrics
 const uint constantHasDielectric = 4u;
 const uint constantSampler = 5u;
 const uint constantStackSize = 6u;
-const uint constantIsTracing = 7u;      // write what path slot 0 does into the trace buffer
+const uint constantIsTracing = 7u;      // path slot 0 writes into the trace buffer
 const uint constantExactDivision = 8u;  // the device's own / and sqrt are correctly rounded
 const uint constantSamplesAbreast = 9u; // slots of one pixel: a power of two, at most the subgroup's size
 const uint constantIsResumable = 10u;   // unfinished slots wait in the path buffer
 const uint constantLightCount = 11u;
-const uint constantPendingInRegisters = 12u; // how many; 0: they are in the buffer
+const uint constantPendingInRegisters = 12u; // pending rays in registers; 0: they are in the buffer
 const uint constantIsCounting = 13u;         // count the work of the traversal
 const uint constantEmitterCount = 14u;
 const uint constantHasEmission = 15u; // materials of primitives that emit
 const uint constantView = 16u;        // which view
-const uint constantShowsCost = 17u;   // samples are the work that they take: nodes, boxes, triangles
-const uint constantScattering = 18u;  // path: what the materials need
+const uint constantShowsCost = 17u;   // a sample is its work: nodes, boxes, triangles
+const uint constantScattering = 18u;  // path: bits scattersAt...
 const uint constantLighting = 19u;
 const uint constantCamera = 20u;
 const uint constantTexturing = 21u;

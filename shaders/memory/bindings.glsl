@@ -1,5 +1,5 @@
-// What a kernel is given beside the scene (scene_data.glsl): buffers, push constants and specialization constants, as
-// layout.h describes them.
+// Kernel inputs beside the scene (scene_data.glsl): buffers, push constants and specialization constants. layout.h and
+// buffers.h describe them.
 
 layout(set = 0, binding = bindingFrame, std140) uniform FrameBuffer { FrameRecord frameConstants; };
 layout(set = 0, binding = bindingProgress, std430) coherent buffer ProgressBuffer { DispatchProgress progress; };
@@ -30,10 +30,10 @@ layout(constant_id = constantCamera) const uint camera = cameraPinhole;
 layout(constant_id = constantTexturing) const uint texturing = 0u;
 layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
 
-// Entry kernels begin with loadConstants(), and everything else reads these copies: inside of loops and branches
-// lavapipe loads every word of a uniform buffer and of the push constants lane by lane. No branch, and no length of a loop,
-// may depend on them alone: lavapipe would write their values into the kernel and build it anew for each dispatch
-// (tests/kernels/uniform_branch_test.cpp).
+// Copies of the constants. Entry kernels begin with loadConstants(), and all other code reads the copies, because
+// inside loops and branches lavapipe loads every word of a uniform buffer and of the push constants lane by lane. No
+// branch and no loop length may depend on them alone: lavapipe would compile the values into the kernel, anew for each
+// dispatch (tests/kernels/uniform_branch_test.cpp).
 FrameRecord frame;
 DispatchConstants dispatch;
 

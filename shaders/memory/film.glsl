@@ -1,4 +1,4 @@
-// The film, and how samples come there: in the order of their indices, whichever slots they come from.
+// The film. Samples are added in the order of their indices, whichever slot computed them.
 
 #if LANES_SHUFFLE
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
@@ -9,8 +9,8 @@ uint firstLaneAbreast() { return gl_SubgroupInvocationID & ~(samplesAbreast - 1u
 
 uint laneAbreast() { return gl_SubgroupInvocationID & (samplesAbreast - 1u); }
 
-// All slots of a pixel load and store its words together, as lavapipe goes from lane to lane and word to word. Where the
-// pixel is not `isUsed` nothing is stored, and what is loaded is that of another.
+// The slots of a pixel share the loads and stores of its words, because lavapipe makes them lane by lane and word by
+// word. Unless `isUsed`, nothing is stored, and the words of another pixel are loaded.
 FilmPixel loadFilmPixel(uint index, bool isUsed) {
     uint words[filmPixelWords];
     [[unroll]] for (uint begin = 0u; begin < filmPixelWords; begin += samplesAbreast) {
@@ -36,7 +36,7 @@ void storeFilmPixel(uint index, bool isUsed, FilmPixel pixel) {
     }
 }
 
-// What the slot at this place among the samples abreast holds.
+// The radiance of the slot at position `lane` among the samples abreast.
 vec3 radianceOfSample(uint slot, uint lane) {
     return subgroupShuffle(path[slot].sampleRadiance, firstLaneAbreast() + lane);
 }
@@ -69,12 +69,12 @@ void loadFilm(uint slot) { film[slot] = loadFilmPixel(filmIndex[slot], isSlotUse
 
 void storeFilm(uint slot) { storeFilmPixel(filmIndex[slot], isSlotUsed[slot], film[slot]); }
 
-// Ends a round, if the samples of all slots of the pixel are finished.
+// Ends the round if the samples of all slots of the pixel are finished.
 void addRoundToFilm(uint slot) {
     if (!isTrueForAllAbreast(path[slot].stage == stageSampleDone))
         return;
     uint first = path[slot].sampleIndex - sampleLane(slot);
-    // Slots that had no sample left add 0, which changes no bit of a sum that is not -0.
+    // Slots without a sample add 0, which changes no bit of any sum but -0.
     [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
         vec3 radiance = radianceOfSample(slot, lane);
         film[slot].sum = film[slot].sum + radiance;

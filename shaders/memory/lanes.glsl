@@ -1,7 +1,7 @@
-// What the lanes of a subgroup tell each other.
+// Reductions over the lanes of a subgroup.
 
-// The sum over all lanes of a subgroup, which all of them get, and whether the lane is the one that speaks for it: on
-// lavapipe an atomic operation for each lane would take longer than a sample.
+// Every lane gets the result; one lane is elected to write it. On lavapipe, one atomic operation per lane would take
+// longer than a sample.
 #if LANES_SHUFFLE
 uint sumOfLanes(uint x) {
     x += gl_SubgroupSize > 1u ? subgroupShuffleXor(x, 1u) : 0u;

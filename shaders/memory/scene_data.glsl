@@ -1,8 +1,8 @@
 // The scene's buffers, and how their records are fetched.
 //
-// On a GPU a storage buffer is the natural thing. lavapipe loads each component of a storage buffer in a loop over the
-// lanes, with a bounds check each, but inlines the load of a whole texel: there the arrays are storage texel buffers,
-// which makes traversal several times faster (MEMORY_TEXELS=1).
+// GPUs read storage buffers. lavapipe loads each component of a storage buffer in a loop over the lanes, with a bounds
+// check each, but inlines the load of a whole texel. There the arrays are storage texel buffers, which makes traversal
+// several times faster (MEMORY_TEXELS=1).
 
 layout(set = 0, binding = bindingSphereConstants, std140) uniform SphereBuffer {
     SphereRecord sphereConstants[maxSphereCount];
