@@ -258,13 +258,9 @@ int main(int argumentCount, char **arguments) {
     try {
         std::vector<std::string> texts;
         addLeaves(arguments[1], arguments[3], file, texts);
-        std::set<std::string> words{"FrameRecord"};
-        for (const std::string &text : texts)
-            for (const Token &token : tokensOf(text))
-                words.insert(token.text);
         file = arguments[2];
         for (const Declaration &one : declarationsOf(tokensOf(glslPartOf(readText(file)))))
-            if (one.kind != Declaration::Constant && words.contains(one.name))
+            if (one.kind != Declaration::Constant)
                 translator.add(one, one.kind == Declaration::Struct);
         file = arguments[3];
         for (const std::string &text : texts)

@@ -4,7 +4,7 @@
 #include "host/base/hash.h"
 #include "host/base/quantities.h"
 #include "host/base/version.h"
-#include "host/scene/names.h"
+#include "host/scene/settings_table.h"
 
 #include <fmt/format.h>
 
@@ -191,7 +191,6 @@ std::string workOf(const Profile &profile, std::span<const std::byte> heatMapPng
 
 std::string provenance(const Profile &profile) {
     const Provenance &origin = profile.origin;
-    const RenderSettings &settings = origin.settings;
     std::string html = "<dl class=\"card\">\n";
     const auto add = [&](const char *term, const std::string &text) {
         html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, htmlText(text));
@@ -201,11 +200,10 @@ std::string provenance(const Profile &profile) {
     add("Scene", fmt::format("{}, {}, {}", origin.scene, countText(origin.triangleCount, "triangle"),
                              sizeText(profile.sceneBytes)));
     add("Scene's hash", hashText(origin.sceneHash));
-    add("Settings",
-        fmt::format("{} by {}, {} spp, depth {}, tree {}, leaves of {}, sampler {}, filter {}, seed {}",
-                    origin.width, origin.height, settings.samplesPerPixel, settings.maxDepth,
-                    nameOf(settings.tree), settings.leafSize, nameOf(settings.sampler),
-                    nameOf(settings.filter), settings.seed));
+    std::string settingsText = fmt::format("{} by {}", origin.width, origin.height);
+    for (const Setting &setting : settingsTable)
+        settingsText += fmt::format(", {} {}", setting.key, settingToJson(setting, origin.settings).dump());
+    add("Settings", settingsText);
     add("Device", profile.device.name);
     add("Driver", profile.device.driver);
     if (!profile.device.kernel.empty())
