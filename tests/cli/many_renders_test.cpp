@@ -48,7 +48,7 @@ TEST_F(ManyRenders, GrowNoMemory) {
     const char *scale = std::getenv("HYALITE_TEST_SCALE");
     const int count = 100 * std::clamp(scale != nullptr ? std::atoi(scale) : 1, 1, 1000);
     useOneHeap();
-    render(50);
+    render(20);
     const Memory before = memoryNow();
     render(count);
     const Memory after = memoryNow();

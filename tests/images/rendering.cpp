@@ -35,14 +35,21 @@ PackedScene pack(const Scene &scene, std::size_t maxDecoded) {
 }
 
 gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config, std::size_t maxDecoded) {
-    return gpu::Renderer(softwareDevice(), config)
-        .render(pack(scene, maxDecoded), scene.settings, wholeImage(scene));
+    return renderOnDevice(scene, pack(scene, maxDecoded), config);
+}
+
+gpu::Result renderOnDevice(const Scene &scene, const PackedScene &packed, const gpu::RenderConfig &config) {
+    return gpu::Renderer(softwareDevice(), config).render(packed, scene.settings, wholeImage(scene));
+}
+
+reference::Result renderOnCpu(const Scene &scene, const PackedScene &packed, reference::Precision precision) {
+    reference::Options options;
+    options.precision = precision;
+    return reference::render(packed, scene.settings, wholeImage(scene), options);
 }
 
 reference::Result renderOnCpu(const Scene &scene, reference::Precision precision, std::size_t maxDecoded) {
-    reference::Options options;
-    options.precision = precision;
-    return reference::render(pack(scene, maxDecoded), scene.settings, wholeImage(scene), options);
+    return renderOnCpu(scene, pack(scene, maxDecoded), precision);
 }
 
 std::size_t differingPixels(const Film &a, const Film &b) {

@@ -21,6 +21,12 @@ namespace hyalite::testing {
 [[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config = {},
                                          std::size_t maxDecoded = maxDecodedBytes);
 
+/// The same of a scene that is packed already.
+[[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const PackedScene &packed,
+                                         const gpu::RenderConfig &config);
+[[nodiscard]] reference::Result renderOnCpu(const Scene &scene, const PackedScene &packed,
+                                            reference::Precision precision = reference::Precision::Float32);
+
 [[nodiscard]] reference::Result renderOnCpu(const Scene &scene,
                                             reference::Precision precision = reference::Precision::Float32,
                                             std::size_t maxDecoded = maxDecodedBytes);

@@ -58,19 +58,19 @@ TEST(Timeline, HasARecordOfEachDispatch) {
 
 TEST(Timeline, ShortDispatchesAreManyAndChangeNoBit) {
     for (const Integrator integrator : {Integrator::Whitted, Integrator::Path}) {
-        Scene scene = testing::shippedScene("spheres-nested", 96, 80, 4);
+        Scene scene = testing::shippedScene("spheres-nested", 64, 48, 4);
         scene.settings.maxDepth = 8;
         scene.settings.integrator = integrator;
         const reference::Result wanted = testing::renderOnCpu(scene);
         for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
             for (const double seconds : {1e-5, 1e-3, 10.0}) {
                 const Recorded all =
-                    record(scene, {0, 96, 0, 80}, {.dispatchSeconds = seconds, .traversal = traversal});
+                    record(scene, {0, 64, 0, 48}, {.dispatchSeconds = seconds, .traversal = traversal});
                 EXPECT_EQ(testing::differingPixels(all.result.film, wanted.film), 0u) << seconds;
                 EXPECT_EQ(all.result.rays, wanted.rays) << seconds;
                 const std::size_t count = all.timeline.dispatches.size();
                 if (seconds < 0.01)
-                    EXPECT_GE(count, 96u * 80u / 512u) << seconds;
+                    EXPECT_GE(count, 64u * 48u / 512u) << seconds;
                 else
                     EXPECT_LE(count, 30u) << seconds;
             }
