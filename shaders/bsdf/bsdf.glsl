@@ -1,5 +1,5 @@
-// The dispatch of BSDFs: which class a material is of, make its BSDF at a hit, sample it, evaluate it. A new lobe has its row
-// in each of these functions; integrators ask here, and nowhere else.
+// The dispatch of BSDFs: which class a material is of, make its BSDF at a hit, sample it, evaluate it. A new lobe has
+// its row in each of these functions; integrators ask here, and nowhere else.
 #include "shaders/bsdf/bsdf_record.glsl"
 #include "shaders/bsdf/diffuse.glsl"
 #include "shaders/bsdf/opaque_ggx.glsl"
@@ -9,25 +9,25 @@
 
 // ---- Classes: what a ray may do where it meets a material
 
-// Light passes the material.
+// Whether light passes the material.
 bool isGlass(MaterialRecord material) {
     return kindOf(material) == materialDielectric ||
            ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled &&
             material.transmission > 0.0);
 }
 
-// Reflection and refraction have one direction each: a mirror, and conductors and glass of roughness 0. Nothing else may
-// follow a ray without aiming at lights.
+// Whether reflection and refraction have one direction each: mirrors, and conductors and glass of roughness 0. Only
+// these are not lit by light samples.
 bool isSpecular(MaterialRecord material) {
     return kindOf(material) != materialDiffuse && (kindOf(material) == materialMirror || material.alpha == 0.0);
 }
 
-// What scatters light is black from behind, unless it is two-sided, metal or glass.
+// Whether the back side is black: that of scattering surfaces, unless they are two-sided, metal or glass.
 bool isBlackBehind(MaterialRecord material) {
     return !isTwoSided(material) && (scattering == 0u || kindOf(material) != materialConductor && !isGlass(material));
 }
 
-// Whitted's integrator takes principled materials for diffuse ones, and rough metals for mirrors.
+// The Whitted integrator shows principled materials as diffuse, and rough metals as mirrors.
 bool isDiffuseForWhitted(MaterialRecord material) {
     return kindOf(material) == materialDiffuse ||
            ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled);
@@ -35,19 +35,19 @@ bool isDiffuseForWhitted(MaterialRecord material) {
 
 bool isGlassForWhitted(MaterialRecord material) { return kindOf(material) == materialDielectric; }
 
-// A mirror's reflectance for Whitted: metals have their colour.
+// Reflectance of a mirror for the Whitted integrator: that of a metal is its colour.
 vec3 mirrorReflectanceForWhitted(MaterialRecord material) {
     if ((scattering & scattersAtConductors) != 0u && kindOf(material) == materialConductor)
         return material.albedo;
     return vec3(1.0);
 }
 
-// Mirrors and dielectrics have no colour of their own in views.
+// Whether views show the material as white: mirrors and dielectrics.
 bool isColourless(MaterialRecord material) {
     return kindOf(material) == materialMirror || kindOf(material) == materialDielectric;
 }
 
-// The reflectance of what is specular and no glass, for a ray that meets the surface at this cosine.
+// Reflectance of a specular material that is not glass, at this cosine of the angle of incidence.
 vec3 mirrorReflectance(MaterialRecord material, float cosine) {
     if ((scattering & scattersAtConductors) == 0u || kindOf(material) != materialConductor)
         return vec3(1.0);
@@ -56,8 +56,8 @@ vec3 mirrorReflectance(MaterialRecord material, float cosine) {
 
 // ---- BSDFs
 
-// The surface with the unit normals `normal` and `geometricNormal`, on the side of the viewer, where a ray in `direction`
-// ends. `eta` is as in Bsdf; `choice`, in [0, 1), is random.
+// The BSDF where a ray in `direction` hits a surface. The unit normals `normal` and `geometricNormal` are on the side
+// of the viewer. `eta` is as in Bsdf; `choice`, in [0, 1), is random.
 Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, bool isBehind, float eta,
               float choice) {
     Bsdf bsdf;
@@ -95,8 +95,8 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     return bsdf;
 }
 
-// A direction wi in the frame, or 0 where a facet sends light to the wrong side; `choice`, in [0, 1), is another random
-// number. Its pdf is evalBsdf(bsdf, wi).pdf.
+// Samples a direction wi in the frame. It is 0 if the facet sends light to the wrong side. `u` in [0, 1)^2 and `choice`
+// in [0, 1) are random. The pdf is evalBsdf(bsdf, wi).pdf.
 vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
     if (bsdf.kind == bsdfDiffuse || bsdf.kind == bsdfOpaque && choice >= bsdf.specularProbability)
         return sampleDiffuse(u);
@@ -110,7 +110,7 @@ vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
     return reflected.z > 0.0 ? reflected : vec3(0.0);
 }
 
-// What the surface does with light from `wi`, a unit vector in the frame.
+// Value and pdf for light from `wi`, a unit vector in the frame.
 BsdfEval evalBsdf(Bsdf bsdf, vec3 wi) {
     if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass && wi.z != 0.0)
         return evalGlass(bsdf, wi);

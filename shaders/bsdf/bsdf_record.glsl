@@ -1,8 +1,8 @@
-// The BSDF at a hit: what its lobes need, and what evaluating it gives.
+// Bsdf: the parameters of all lobes at a hit. BsdfEval: a value with its pdf.
 //
-// All directions are unit vectors in the frame of the surface, whose normal is +z on the side of the viewer: `wo` leads back
-// along the path, `wi` towards the light. The lobes stand in a file each: diffuse, opaque_ggx (metal and plastic),
-// glass_ggx, and clearcoat; principled.glsl mixes them, and bsdf.glsl chooses among them.
+// All directions are unit vectors in the frame of the surface, whose +z is the normal on the side of the viewer: `wo`
+// leads back along the path, `wi` towards the light. Each lobe has a file: diffuse, opaque_ggx (metal and plastic),
+// glass_ggx, and clearcoat. principled.glsl mixes them, and bsdf.glsl chooses among them.
 
 const uint bsdfDiffuse = 0u;
 const uint bsdfOpaque = 1u;
@@ -18,22 +18,22 @@ struct Bsdf {
     bool isConductor;
     vec3 index; // of a conductor
     vec3 extinction;
-    vec3 reflectance;         // of facets of what is no conductor, head on; the albedo of what is diffuse
-    float eta;                // of glass: the refractive index before divided by the one beyond
-    vec3 tint;                // of what glass lets pass
-    vec3 multiScatter;        // what metal reflects after more than one bounce between facets, before (1 - E(wi)) cos
-    vec3 diffuseBase;         // what is reflected from below a plastic surface, before (1 - E(wi)) cos
-    float plasticReflectance; // of that surface, head on
-    float clearcoat;          // how much of a coat is above
+    vec3 reflectance;         // of facets at normal incidence, unless a conductor; of a diffuse surface its albedo
+    float eta;                // of glass: refractive index on the side of wo divided by that on the other side
+    vec3 tint;                // of light that passes glass
+    vec3 multiScatter;        // multiple scattering between facets of metal, without the factor (1 - E(wi)) cos
+    vec3 diffuseBase;         // diffuse reflection below a plastic surface, without the factor (1 - E(wi)) cos
+    float plasticReflectance; // of that surface, at normal incidence
+    float clearcoat;          // weight of the coat above
     float clearcoatRoughness;
-    float clearcoatEnergy;     // what the coat reflects of wo
-    float weight;              // 1 / the probability with which this component was chosen, of its share
-    float specularProbability; // that a direction is drawn by facets
+    float clearcoatEnergy;     // directional albedo of the coat for wo
+    float weight;              // share of the chosen component divided by the probability of choosing it
+    float specularProbability; // of sampling a facet instead of the diffuse part
 };
 
 struct BsdfEval {
     vec3 value; // the BSDF times |cos| of wi to the normal
-    float pdf;  // of wi, per solid angle; 0: it cannot be drawn
+    float pdf;  // of wi, per solid angle; 0: never sampled
 };
 
 vec3 toLocal(Frame f, vec3 v) { return vec3(dotProduct(f.x, v), dotProduct(f.y, v), dotProduct(f.z, v)); }

@@ -1,4 +1,4 @@
-// What metals reflect.
+// Fresnel reflectance of conductors.
 
 // Fresnel's equations for unpolarised light at a surface from vacuum to the complex refractive index n + i k: Lagarde,
 // "Memo on Fresnel equations", 2013. `cosine` in [0, 1].
@@ -31,7 +31,7 @@ vec3 conductorReflectance(float cosine, vec3 index, vec3 extinction) {
                 conductorReflectance(cosine, index.z, extinction.z));
 }
 
-// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994: from `normal` seen head on to 1.
+// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994: from `normal` at normal incidence to 1.
 vec3 schlickReflectance(float cosine, vec3 normal) {
     float k = 1.0 - lesser(cosine, 1.0);
     float k2 = k * k;

@@ -1,4 +1,4 @@
-// Reflection and refraction at smooth glass.
+// Fresnel reflectance and refraction of dielectrics.
 
 struct Refraction {
     vec3 direction;    // of the transmitted ray, unit length; meaningless when total
@@ -7,8 +7,8 @@ struct Refraction {
     bool isTotal;      // nothing is transmitted
 };
 
-// `direction` meets a surface whose unit normal `facing` lies on the side that it comes from. `index` is that of the
-// glass relative to its surroundings; `isEntering`: the ray comes from the surroundings.
+// Smooth glass for the Whitted integrator. The unit normal `facing` is on the side that `direction` comes from. `index`
+// is the refractive index of the glass relative to its surroundings; `isEntering`: the ray comes from outside.
 //
 // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, with the cosine on the optically thinner
 // side, so that the reflectance rises to 1 at the critical angle.
@@ -35,8 +35,8 @@ struct DielectricFresnel {
     float reflectance; // in [0, 1]; 1: total
 };
 
-// What a smooth interface does with unpolarised light: Fresnel's equations. `direction` meets it from the side of its
-// unit normal `facing`; `eta` is the refractive index on that side divided by the one beyond.
+// Fresnel's equations for unpolarised light at a smooth interface. `direction` comes from the side of the unit normal
+// `facing`; `eta` is the refractive index on that side divided by that on the other side.
 DielectricFresnel fresnelDielectric(vec3 direction, vec3 facing, float eta) {
     float cosIncident = -dotProduct(direction, facing);
     float radicand = 1.0 - eta * eta * (1.0 - cosIncident * cosIncident);

@@ -1,18 +1,18 @@
-// How much light microfacets reflect at once, and what becomes of the rest.
+// GGX directional albedo and Kulla-Conty energy compensation.
 //
-// Light that one facet sends to another is lost to the model of single reflections; at roughness 1 that is up to half
-// of it. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, give it back as a
-// second, diffuse lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)), which is reciprocal and keeps energy exactly as
-// long as E is that of the table: it is linear in between, and so are the averages of it.
+// A single-scattering model loses the light that one facet sends to another: up to half of it at roughness 1. Kulla and
+// Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, add it back as a second, diffuse
+// lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)). It is reciprocal, and conserves energy exactly for the E of the
+// table, because E and its averages are interpolated linearly.
 
 struct Energy {
-    float white;  // reflected at once by facets that reflect everything
-    float grazing; // and of that the share (1 - cos)^5, summed: by F0 between 0 and 1, Schlick's facets reflect the mixture
+    float white;  // directional albedo of single scattering, by facets that reflect everything
+    float grazing; // the same weighted by (1 - cos)^5: with Schlick's Fresnel, F0 mixes the two
 };
 
 struct EnergyPlace {
     uint cell;
-    float share; // of the cell's end
+    float share; // weight of the end of the cell
 };
 
 EnergyPlace energyPlace(float position, uint nodeCount) {
@@ -27,7 +27,7 @@ float mixture(float a, float b, float share) {
     return a + (b - a) * share;
 }
 
-// Of a direction with the cosine `cosine` > 0 to the normal, at the roughness sqrt(alpha). Nodes are even in the square
+// Energy for the cosine `cosine` > 0 to the normal, at the roughness sqrt(alpha). Nodes are evenly spaced in the square
 // roots of both.
 Energy energyOf(float cosine, float roughness) {
     EnergyPlace across = energyPlace(squareRoot(cosine), energyCosines);
@@ -41,7 +41,7 @@ Energy energyOf(float cosine, float roughness) {
                           mixture(grazing.value.z, uintBitsToFloat(grazing.word), across.share), along.share));
 }
 
-// Averages over the hemisphere, weighted by the cosine.
+// Cosine-weighted averages over the hemisphere.
 Energy averageEnergy(float roughness) {
     EnergyPlace along = energyPlace(roughness, energyRoughnesses);
     LookupRow ends = fetchLookupRow(2u * energyCellCount + along.cell);
@@ -49,11 +49,11 @@ Energy averageEnergy(float roughness) {
                   mixture(ends.value.z, uintBitsToFloat(ends.word), along.share));
 }
 
-// Of facets that reflect `normal` head on.
+// Directional albedo of facets with the reflectance `normal` at normal incidence.
 float energyAt(Energy energy, float normal) { return mixture(energy.grazing, energy.white, normal); }
 
-// What is reflected twice and more often by facets whose reflectance is `average`, of what is not reflected at once;
-// `white` is the average energy. Hill, "A Multi-Faceted Exploration", 2018, part 3.
+// Colour of multiple scattering by facets with the average reflectance `average`, relative to the energy that single
+// scattering loses; `white` is the average energy. Hill, "A Multi-Faceted Exploration", 2018, part 3.
 vec3 multiScatterReflectance(vec3 average, float white) {
     vec3 above = average * average * white;
     vec3 below = 1.0 - average * (1.0 - white);

@@ -1,7 +1,7 @@
-// The lobe of rough glass: GGX facets that reflect and refract. Walter et al., "Microfacet Models for Refraction through Rough
-// Surfaces", EGSR 2007, equations 20 and 21.
+// The lobe of rough glass: GGX facets that reflect and refract. Walter et al., "Microfacet Models for Refraction
+// through Rough Surfaces", EGSR 2007, equations 20 and 21.
 
-// Light that passes to or from `wi`, below the surface.
+// Transmission, for `wi` below the surface.
 BsdfEval evalGlassTransmission(Bsdf bsdf, vec3 wi) {
     vec3 facet = halfVectorOfRefraction(bsdf.wo, wi, bsdf.eta);
     float viewCosine = dotProduct(bsdf.wo, facet);
@@ -17,7 +17,7 @@ BsdfEval evalGlassTransmission(Bsdf bsdf, vec3 wi) {
     return BsdfEval(bsdf.tint * value, passing);
 }
 
-// Light that is reflected to or from `wi`, above the surface.
+// Reflection, for `wi` above the surface.
 BsdfEval evalGlassReflection(Bsdf bsdf, vec3 wi) {
     vec3 facet = halfVector(bsdf.wo, wi);
     float reflected = pdfReflection(ggxD(facet, bsdf.alpha), bsdf.wo, bsdf.stretchWo);

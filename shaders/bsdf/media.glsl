@@ -1,22 +1,22 @@
-// Which glass is around a point, where solids of glass lie in each other or overlap.
+// Nested dielectrics: the glass at a point inside several overlapping solids.
 //
-// `inside` counts in 4 bits for each of the first dielectrics how many of its surfaces a path has entered and not left.
-// What is there is the one of highest priority: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT
-// 7(2), 2002. As materials are sorted by priority, it is the lowest one that is counted.
+// `inside` has 4 bits for each of the first dielectrics: the number of its surfaces that the path has entered and not
+// left. The glass of the highest priority is there: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced
+// Images", JGT 7(2), 2002. Materials are sorted by priority, so it is the first one with a count.
 
 const uint mediumBits = 4u;
 
-// The material around, or noMaterial.
+// The glass around the path, or noMaterial.
 uint mediumAround(uint inside) { return inside == 0u ? noMaterial : uint(findLSB(inside)) / mediumBits; }
 
 uint mediumCount(uint inside, uint material) { return inside >> material * mediumBits & 15u; }
 
-// Beyond 15 nothing is counted.
+// Counts saturate at 15.
 uint enterMedium(uint inside, uint material) {
     return mediumCount(inside, material) < 15u ? inside + (1u << material * mediumBits) : inside;
 }
 
-// What was not entered is not left.
+// A count of 0 stays 0.
 uint leaveMedium(uint inside, uint material) {
     return mediumCount(inside, material) > 0u ? inside - (1u << material * mediumBits) : inside;
 }

@@ -1,11 +1,11 @@
-// Rough surfaces of microfacets with the GGX distribution.
+// GGX microfacets: distribution, masking and shadowing, sampling of visible normals, half vectors.
 //
-// All directions are unit vectors in the frame of the surface, whose normal is +z; `wo` has z > 0 and leads back to
-// where the path comes from. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz,
-// "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, for the masking of both
-// directions together: G = 2 |o.z| |i.z| / (|o.z| stretch(i) + |i.z| stretch(o)).
+// All directions are unit vectors in the frame of the surface, whose normal is +z; `wo` has z > 0 and leads back along
+// the path. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; Heitz, "Understanding
+// the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, for the masking of both directions
+// together: G = 2 |o.z| |i.z| / (|o.z| stretch(i) + |i.z| stretch(o)).
 
-// How long `w` is seen from the stretched surface.
+// Length of `w` after the surface is stretched to alpha 1.
 float stretchOf(vec3 w, float alpha) {
     float squaredAlpha = alpha * alpha;
     float squaredSine = w.x * w.x + w.y * w.y;
@@ -13,7 +13,7 @@ float stretchOf(vec3 w, float alpha) {
     return squareRoot(squared);
 }
 
-// Microfacets with the normal `m`, per solid angle and unit of area.
+// The distribution of normals D(m), per solid angle and per unit of area.
 float ggxD(vec3 m, float alpha) {
     float squaredAlpha = alpha * alpha;
     float squaredSine = m.x * m.x + m.y * m.y;
@@ -23,7 +23,7 @@ float ggxD(vec3 m, float alpha) {
     return divide(scaled, squared);
 }
 
-// A facet's normal with the density ggxD G1 (wo.m) / wo.z of those that are seen: Dupuy and Benyoub,
+// Samples a visible normal, with the pdf ggxD G1 (wo.m) / wo.z: Dupuy and Benyoub,
 // "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
 vec3 sampleGgxVndf(vec3 wo, float alpha, vec2 u) {
     vec3 stretched = unitVector(vec3(vec2(wo) * alpha, wo.z));
@@ -35,14 +35,13 @@ vec3 sampleGgxVndf(vec3 wo, float alpha, vec2 u) {
     return unitVector(vec3(vec2(cap) * alpha, cap.z));
 }
 
-// The density, per solid angle, of the direction that a visible facet reflects `wo` to; `density` is that of the
-// facets.
+// The pdf, per solid angle, of the direction that a visible facet reflects `wo` to. `density` is the pdf of the facet.
 float pdfReflection(float pdf, vec3 wo, float stretchWo) {
     float below = 2.0 * (wo.z + stretchWo);
     return divide(pdf, below);
 }
 
-// How many of the facets that are seen are also lit: G / G1(wo). `wi` may be on the other side.
+// Fraction of the visible facets that are also lit: G / G1(wo). `wi` may be on the other side.
 float smithG2OverG1(float viewHeight, float stretchWo, float lightHeight, float stretchLight) {
     float height = abs(lightHeight);
     float above = height * (viewHeight + stretchWo);
@@ -50,19 +49,19 @@ float smithG2OverG1(float viewHeight, float stretchWo, float lightHeight, float 
     return divide(above, below);
 }
 
-// The facet that reflects `wo` to `wi`.
+// The half vector: the facet that reflects `wo` to `wi`.
 vec3 halfVector(vec3 wo, vec3 wi) { return unitVector(wo + wi); }
 
-// The facet that refracts `wo` to `wi`, on the other side, with z > 0 where there is one; `eta` is the refractive
-// index on the side of `wo` divided by the other.
+// The half vector of refraction: the facet that refracts `wo` to `wi` on the other side; z > 0 if there is one. `eta`
+// is the refractive index on the side of `wo` divided by that on the other side.
 vec3 halfVectorOfRefraction(vec3 wo, vec3 wi, float eta) {
     vec3 across = wo * eta + wi;
     vec3 m = unitVector(across);
     return m.z < 0.0 ? -m : m;
 }
 
-// The density, per solid angle, of the direction to which visible facets refract: that of the facets that are seen, by
-// Walter's Jacobian (equation 17). `viewCosine` > 0 and `lightCosine` < 0 are those to the facet.
+// The pdf, per solid angle, of the direction to which visible facets refract: the pdf of the facet times Walter's
+// Jacobian (equation 17). `viewCosine` > 0 and `lightCosine` < 0 are those to the facet.
 float pdfRefraction(float pdf, vec3 wo, float stretchWo, float viewCosine, float lightCosine, float eta) {
     float seen = pdf * 2.0 * viewCosine * -lightCosine;
     float sum = eta * viewCosine + lightCosine;

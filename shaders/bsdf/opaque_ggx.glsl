@@ -1,14 +1,14 @@
-// The opaque lobe: GGX facets of metal or of a plastic's surface, what they scatter more than once, and the diffuse base below
-// plastic (Kulla and Conty 2017, see energy.glsl).
+// The opaque lobe: GGX facets of metal or of a plastic surface, multiple scattering between them, and the diffuse base
+// below plastic (Kulla and Conty 2017, see energy.glsl).
 
-const float minEnergyLoss = 1e-6; // of energy, where it is divided by
+const float minEnergyLoss = 1e-6; // lower bound of a divisor
 
 float mean(vec3 colour) {
     float sum = colour.x + colour.y + colour.z;
     return sum * (1.0 / 3.0);
 }
 
-// (1 - E(o)) / (pi (1 - average E)), the part of a lobe of what is not reflected at once that depends on the viewer.
+// (1 - E(o)) / (pi (1 - average E)): the factor of multiple scattering that depends on the viewer.
 float lossShare(float energy, float average) {
     float loss = 1.0 - energy;
     float averageLoss = greater(1.0 - average, minEnergyLoss);
@@ -21,8 +21,8 @@ vec3 fresnelReflectance(Bsdf bsdf, float cosine) {
     return schlickReflectance(cosine, bsdf.reflectance);
 }
 
-// `bsdf` with the lobes of metal and plastic; `metal` and `plastic` are their shares of the surface, and `metalAverage` is
-// the reflectance of metal, averaged over the hemisphere by the cosine.
+// Adds the lobes of metal and plastic to `bsdf`. `metal` and `plastic` are their shares of the surface; `metalAverage`
+// is the cosine-weighted average reflectance of the metal.
 Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 metalAverage) {
     Energy energy = energyOf(bsdf.wo.z, bsdf.roughness);
     Energy average = averageEnergy(bsdf.roughness);

@@ -1,8 +1,9 @@
-// The principled material: a clear coat over a mixture of metal, plastic and glass, after Burley, "Physically Based Shading at
-// Disney", SIGGRAPH 2012 courses.
+// The principled material: a clear coat over a mixture of metal, plastic and glass, after Burley, "Physically Based
+// Shading at Disney", SIGGRAPH 2012 courses.
 //
-// At each hit one of coat, glass, and metal with plastic is chosen with a probability that follows its share; emitters and
-// scattered rays then meet that one alone, which is unbiased and never mixes pdfs of what was not chosen.
+// At each hit one component is chosen with a probability that follows its share: the coat, glass, or metal with
+// plastic. Light samples and scattered rays then see only that component, which is unbiased, and its pdf is never mixed
+// with those of others.
 
 Bsdf makePrincipled(Bsdf bsdf, MaterialRecord material, bool isBehind, float choice) {
     float left = choice;

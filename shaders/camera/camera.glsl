@@ -1,6 +1,6 @@
 // Primary rays.
 
-// Where `offset` from the top left of `pixel` lies, in pixels from the middle of an image of this size, y up.
+// Image position of `offset` from the top left of `pixel`, in pixels from the middle of the image, y up.
 vec2 fromMiddle(uvec2 pixel, vec2 offset, uvec2 size) {
     float x = float(pixel.x) + offset.x - 0.5 * float(size.x);
     float y = 0.5 * float(size.y) - (float(pixel.y) + offset.y);
@@ -11,7 +11,7 @@ vec3 onImagePlane(vec2 position, vec3 right, vec3 up, vec3 middle) {
     return right * position.x + up * position.y + middle;
 }
 
-// The unit direction of the primary ray of a pinhole through `offset` in [0,1)^2 inside of `pixel`; see FrameRecord.
+// Unit direction of a pinhole camera's primary ray through `offset` in [0,1)^2 inside `pixel`; see FrameRecord.
 vec3 primaryDirection(uvec2 pixel, vec2 offset) {
     vec2 position = fromMiddle(pixel, offset, uvec2(frame.imageWidth, frame.imageHeight));
     return unitVector(onImagePlane(position, frame.pixelRight, frame.pixelUp, frame.imagePlane));
@@ -22,8 +22,8 @@ struct PrimaryRay {
     vec3 direction; // unit length
 };
 
-// Through a point of a thin lens, which `u` in [0,1)^2 draws, to what a pinhole would show at the focus distance: Cook,
-// Porter and Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984.
+// Thin lens: the ray from a point of the lens, sampled by `u` in [0,1)^2, to the point that a pinhole camera would show
+// at the focus distance. Cook, Porter and Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984.
 PrimaryRay throughLens(uvec2 pixel, vec2 offset, vec2 u) {
     vec2 position = fromMiddle(pixel, offset, uvec2(frame.imageWidth, frame.imageHeight));
     vec3 straight = onImagePlane(position, frame.pixelRight, frame.pixelUp, frame.imagePlane);
@@ -35,13 +35,13 @@ PrimaryRay throughLens(uvec2 pixel, vec2 offset, vec2 u) {
     return PrimaryRay(frame.eye + aside, unitVector(direction));
 }
 
-// Parallel to the view direction.
+// Orthographic: rays are parallel to the view direction.
 PrimaryRay alongView(uvec2 pixel, vec2 offset) {
     vec2 position = fromMiddle(pixel, offset, uvec2(frame.imageWidth, frame.imageHeight));
     return PrimaryRay(onImagePlane(position, frame.pixelRight, frame.pixelUp, frame.eye), unitVector(frame.imagePlane));
 }
 
-// By longitude and latitude: the image's middle is the view direction, its top row is up.
+// Panorama, by longitude and latitude: the middle of the image is the view direction, its top row is up.
 PrimaryRay allAround(uvec2 pixel, vec2 offset) {
     float x = float(pixel.x) + offset.x;
     float y = float(pixel.y) + offset.y;
@@ -54,9 +54,8 @@ PrimaryRay allAround(uvec2 pixel, vec2 offset) {
     return PrimaryRay(frame.eye, unitVector(direction));
 }
 
-// Where in a pixel the part `u` of its filter lies to the left or above. Ernst, Stamminger and Greiner, "Filter
-// Importance Sampling", 2006: samples that are as dense as the filter is high weigh alike, and each serves one pixel
-// only.
+// Quantile `u` of the pixel filter, in one dimension. Ernst, Stamminger and Greiner, "Filter Importance Sampling",
+// 2006: samples that are distributed like the filter have equal weights, and each contributes to one pixel only.
 float filterQuantile(float u) {
     float x = u * float(filterCellCount);
     uint cell = uint(x);
@@ -64,9 +63,9 @@ float filterQuantile(float u) {
     return texel.value.x + texel.value.y * (x - float(cell));
 }
 
-const uint lensPair = 1024u; // of random numbers: beyond those of paths
+const uint lensPair = 1024u; // pair of random numbers, beyond those of paths
 
-// Where a sample lies, seen from the top left of its pixel: in [0,1)^2, or around it where a filter is wider.
+// Position of a sample from the top left of its pixel: in [0,1)^2, or around it with a wider filter.
 vec2 sampleOffset(uvec2 pixel, uint sampleIndex) {
     vec2 offset = samplePixel(pixel, sampleIndex, frame.seed);
     if (samplerKind == samplerFiltered)
@@ -74,7 +73,7 @@ vec2 sampleOffset(uvec2 pixel, uint sampleIndex) {
     return offset;
 }
 
-// The ray of a sample through `offset`, from where the camera's kind has it begin.
+// The primary ray through `offset`, for each kind of camera.
 PrimaryRay primaryRayThrough(uvec2 pixel, vec2 offset, uint sampleIndex) {
     if (camera == cameraLens)
         return throughLens(pixel, offset, unitFloats(sampleBits(pairKeys(pixel, frame.seed, lensPair), sampleIndex)));

@@ -3,7 +3,7 @@
 struct SphereShape {
     vec3 centre;
     float squaredRadius;
-    float minChord; // along the tangent the sign of a shorter one is that of rounding
+    float minChord; // a chord shorter than this is only rounding error
 };
 
 SphereShape makeSphereShape(vec3 centre, float radius) {
@@ -12,14 +12,14 @@ SphereShape makeSphereShape(vec3 centre, float radius) {
     return SphereShape(centre, squaredRadius, minChord);
 }
 
-// The smallest positive distance at which a ray meets a sphere, or a negative number. `direction` is of unit length.
+// The smallest positive distance at which a ray hits a sphere, or a negative number. `direction` has unit length.
 //
 // Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
 // chapter 7: the discriminant comes from the vector between the centre and its nearest point on the ray, and the
 // roots from c/q and q, so that neither cancels for small or for giant spheres.
 //
-// A ray that starts on the sphere has one root that is 0 by definition, and the other is -2 f.d: it cannot find its
-// own starting point again, whatever the rounding, and no offset is needed.
+// A ray that starts on the sphere has one root that is 0 by definition; the other one is -2 f.d. So it cannot hit its
+// own starting point, however values are rounded, and needs no offset.
 float intersectSphere(vec3 origin, vec3 direction, SphereShape sphere, bool startsOnSphere) {
     vec3 f = origin - sphere.centre;
     float b = dotProduct(f, direction);

@@ -4,7 +4,7 @@ struct Surface {
     vec3 position;
     vec3 error;           // bound on the rounding error of the position
     vec3 normal;          // for shading, unit length
-    vec3 geometricNormal; // of the real surface, unit length, on the side of `normal`
+    vec3 geometricNormal; // of the surface itself, unit length, on the side of `normal`
 };
 
 Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord sphere) {
@@ -18,7 +18,7 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
     vec3 edge1 = triangle.v1 - triangle.v0;
     vec3 edge2 = triangle.v2 - triangle.v0;
     vec3 area = crossProduct(edge1, edge2);
-    // Scaled first, as the square of a small or of a giant area leaves the range of floats.
+    // Scaled first, because the square of a tiny or a giant area leaves the range of floats.
     float largest = largestComponent(abs(area));
     vec3 geometric = largest > 0.0 ? unitVector(area * divide(1.0, largest)) : vec3(0.0); // no area: no light
     vec3 blended = trianglePoint(normals.n0, normals.n1, normals.n2, u, v);
@@ -31,9 +31,9 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
     return surface;
 }
 
-// Where a ray leaves the surface in `direction`: moved along the geometric normal by twice the error bound, to the
-// side that the ray goes to (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
-// Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
+// Origin of a ray that leaves the surface in `direction`: moved along the geometric normal by twice the error bound, to
+// the side of the direction (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing
+// Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
 vec3 offsetRayOrigin(Surface surface, vec3 direction) {
     if (!hasTriangles)
         return surface.position; // the same, unless the normal is NaN

@@ -6,7 +6,7 @@
 // Hence no ray passes between triangles that share an edge or a vertex. Unlike the paper we need no second precision
 // where an edge function is 0: the hit is confined to the triangle's own box, which also keeps needles from being
 // hit where they are not. The limit: where all three are rounded to 0 there is no hit, which happens to needles whose
-// width is under 1e-6 of their length.
+// width is below 1e-6 of their length.
 
 struct TriangleRay {
     vec3 origin;
@@ -72,10 +72,10 @@ vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     return v0 * u + v1 * v + v2 * w;
 }
 
-// How far trianglePoint may lie off the plane, as a bound for each coordinate: Pharr, Jakob and Humphreys, "Physically
-// Based Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7). And how far a neighbour in the same
-// plane may seem to lie off it: its depth is uncertain by units of its size, for which this triangle's stands. Without
-// that, the triangles of a floor at y = 0 would shadow each other.
+// Error bound of trianglePoint, for each coordinate: its distance from the plane, by Pharr, Jakob and Humphreys,
+// "Physically Based Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7); and the apparent distance
+// of a neighbour in the same plane, whose depth is uncertain by units of its size, for which the size of this triangle
+// stands. Without the second part, the triangles of a floor at y = 0 would shadow each other.
 vec3 trianglePointError(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     float w = 1.0 - u - v;
     float extent = largestComponent(greater(abs(v1 - v0), abs(v2 - v0)));

@@ -1,9 +1,9 @@
-// How every integrator's kernel begins. Three choices, each by a macro of its own (shaders/CMakeLists.txt has the rows), and
-// RAYS path slots an invocation:
+// The beginning of every integrator's kernel. RAYS is the number of path slots an invocation; three further macros are
+// choices (shaders/CMakeLists.txt has the rows):
 //
 //   MEMORY_TEXELS        1: the scene is read through texel buffers; 0: through storage buffers
 //   TRAVERSAL_SKIP_LIST  1: the tree is a skip list without a stack; 0: node pairs and a stack
-//   LANES_SHUFFLE        1: lanes of a subgroup exchange values by shuffles; 0: each lane is on its own
+//   LANES_SHUFFLE        1: lanes of a subgroup exchange values by shuffles; 0: lanes are independent
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_basic : require
 #if LANES_SHUFFLE

@@ -1,4 +1,5 @@
-// Entry kernel: what the device's own / and sqrt make of hard inputs. The host compares (host/gpu/arithmetic.cpp).
+// Entry kernel: the results of the device's own / and sqrt for hard inputs. The host compares them
+// (host/gpu/arithmetic.cpp).
 #version 450
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// What every integrator is written against: leaf functions, memory, path slots, the film, and rays through the tree.
+// Everything that integrators use: leaf functions, memory, path slots, the film, and rays through the tree.
 #include "shaders/memory/scene_data.glsl"
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/leaves.glsl"

@@ -1,5 +1,4 @@
-// Entry kernel: rays from a buffer through the tree, with nothing around, to measure traversal by itself. RAYS rays an
-// invocation, Triangles only.
+// Entry kernel: traces rays from a buffer, to measure traversal alone. RAYS rays an invocation; triangles only.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -20,7 +19,8 @@ const bool hasBounces = false;
 
 layout(constant_id = constantIsAnyHit) const bool isAnyHit = false;
 
-// As in scene_data.glsl: texels where lavapipe reads them. It writes to storage buffers faster, by whole rows.
+// Rays are read from texels where the scene is (scene_data.glsl). Hits go to a storage buffer: lavapipe writes those
+// faster, by whole rows.
 #if MEMORY_TEXELS
 
 layout(set = 0, binding = bindingRays, rgba32ui) uniform restrict readonly uimageBuffer rayTexels;
@@ -45,7 +45,7 @@ void storeHit(uint index, HitRecord hit) {
     hitRows[index] = uvec4(hit.primitive, floatBitsToUint(vec3(hit.distance, hit.u, hit.v)));
 }
 
-// The ray's slot is its index: where it is in path_slots.glsl, and in the same order of workgroups.
+// The slot of a ray is its index; workgroups are in the same order as in path_slots.glsl.
 void beginRay(uint slot) {
     uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
     uint group = part.y * dispatch.interleave + part.x;
@@ -80,7 +80,7 @@ void endRay(uint slot) {
         hit.primitive = hitAnything;
     else if (isHit)
         hit = HitRecord(path[slot].hitPrimitive, path[slot].rayLength, path[slot].hitU, path[slot].hitV);
-    // Neither a spent budget nor lavapipe's own limit, which ends loops in silence, is mistaken for an answer.
+    // An unfinished ray is marked: its budget is spent, or lavapipe has ended the loop silently at its own limit.
     if (isTraversing(slot) || stackOverflowCount != 0u)
         hit.primitive = hitUnknown;
     storeHit(slotIndex[slot], hit);

@@ -1,14 +1,14 @@
-// Light that a surface is aimed at: lights without size, spheres and triangles that emit, an image around.
+// Light samples: of lights without size, emitting spheres and triangles, and the environment.
 
 struct LightSample {
     vec3 direction; // unit length, from the surface to the light
     float distance;
-    vec3 radiance;  // divided by the density; of a point light the intensity / squared distance / probability
-    float pdf;  // per solid angle, the choice of the emitter included; 0: a light without size
-    uint target;    // the primitive at its end
+    vec3 radiance;  // divided by the pdf; of a point light: intensity / squared distance / probability
+    float pdf;  // per solid angle, with the probability of the emitter; 0: a light without size
+    uint target;    // the primitive at the end of the shadow ray
 };
 
-const float unboundedDistance = 3.4028234e38; // to what is at no place
+const float unboundedDistance = 3.4028234e38; // of directional lights and the environment
 
 const LightSample noLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, noPrimitive);
 
@@ -38,7 +38,7 @@ LightSample sampleEnvironmentLight(EmitterRecord emitter, uvec2 bits) {
                        pdf > 0.0 ? found.radiance * divide(1.0, pdf) : vec3(0.0), pdf, noPrimitive);
 }
 
-// What a triangle sends out at the point with these weights, of what its whole material does.
+// Emission of a triangle at the point with these weights, relative to that of its material.
 vec3 triangleEmission(vec3 emission, TriangleRecord triangle, uint record, vec2 weights) {
     uint textures = fetchMaterial(triangle.materialIndex).textures;
     if (textures == 0u)
@@ -52,7 +52,7 @@ vec3 triangleEmission(vec3 emission, TriangleRecord triangle, uint record, vec2 
                                     triangleUv(fetchCoordinates(record), weights.x, weights.y));
 }
 
-// What a sphere sends out at the point `outward` from its centre, likewise.
+// Emission of a sphere at the point `outward` from its centre, likewise.
 vec3 sphereEmission(vec3 emission, SphereRecord sphere, vec3 outward) {
     uint textures = fetchMaterial(materialIndexOf(sphere)).textures;
     if (textures == 0u || !hasTexture(textures, slotEmission))
@@ -93,7 +93,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
         float height = coneHeight(shape.squaredRadius, squaredDistance);
         direction = sampleCone(toCentre * divide(1.0, centreDistance), height, u);
         float meeting = intersectSphere(position, direction, shape, false);
-        distance = meeting > 0.0 ? meeting : centreDistance; // past the rim by rounding
+        distance = meeting > 0.0 ? meeting : centreDistance; // rounding moved the direction past the rim
         pdf = emitter.probability * pdfCone(height);
         isSeen = normalSignOf(sphere) > 0.0 || emitter.isTwoSided != 0u;
     } else {
@@ -112,9 +112,9 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
                        emitter.record);
 }
 
-// Which emitter a number of 32 bits chooses; 0 where there is none.
+// The emitter that a 32-bit random number selects; 0 if there is none.
 uint chooseEmitter(uint bits) {
-    uint first = 0u; // all before it end at or below `bits`
+    uint first = 0u; // the cumulative values of all before it are at most `bits`
     for (int bit = findMSB(emitterCount); bit >= 0; --bit) {
         uint next = first + (1u << bit);
         if (next < emitterCount && fetchEmitter(next - 1u).cumulative <= bits)
@@ -123,13 +123,13 @@ uint chooseEmitter(uint bits) {
     return first;
 }
 
-// Whether the emitter is of this kind. Where there is no other nobody asks.
+// Whether the emitter is of this kind; known at compile time if the scene has no other.
 bool isEmitter(EmitterRecord emitter, uint kind) {
     uint bit = 1u << kind;
     return (lighting & bit) != 0u && (lighting == bit || emitter.kind == kind);
 }
 
-// A point of an emitter as seen from `position`, chosen by two numbers of 32 bits.
+// Samples a point of an emitter, as seen from `position`, by two 32-bit random numbers.
 LightSample sampleEmitter(uint index, vec3 position, uvec2 bits) {
     if (emitterCount == 0u)
         return noLight;

@@ -1,19 +1,19 @@
-// An image around the scene, and how it is aimed at.
+// The environment map, and how it is sampled.
 //
-// The image is a map of directions by longitude and latitude: its middle is -z, its top row is around +y. Between the
-// middles of its pixels radiance is interpolated. A pixel is chosen by integers, the row first; the weights are what
-// the interpolated image sends through the pixel's area (host/packing/environment.cpp), so that nothing that shines is left
-// out.
+// The image maps directions by longitude and latitude: its middle is -z, its top row is around +y. Radiance is
+// interpolated between the centres of pixels. A pixel is sampled by integers, the row first. Its weight is the integral
+// of the interpolated image over the pixel (host/packing/environment.cpp), so that every direction with radiance can be
+// sampled.
 
 const float piSquaredTwice = 19.739208802178716;
 
 struct EnvironmentLight {
     vec3 direction;
     vec3 radiance;
-    float pdf; // of the direction, per solid angle; 0: it cannot be chosen
+    float pdf; // of the direction, per solid angle; 0: never sampled
 };
 
-// Place in the image of a direction: x and y from the left and the top, in [0, 1].
+// Image position of a direction: x from the left and y from the top, in [0, 1].
 vec2 environmentPlace(vec3 direction) {
     float squared = direction.x * direction.x + direction.z * direction.z;
     float longitude = squared > 0.0 ? atan2Turns(-direction.x, direction.z) : 0.0;
@@ -46,7 +46,7 @@ vec3 environmentRadianceAt(vec2 place) {
                      mixtureOf(environmentTexel(left, lower).value, environmentTexel(right, lower).value, across), down);
 }
 
-// The density, per solid angle, with which a direction is chosen that lies `sine` off the vertical, in the given pixel.
+// The pdf, per solid angle, of a direction in the given pixel; `sine` is that of its angle to the vertical.
 float pdfEnvironment(uvec2 pixel, float sine) {
     if (sine <= 0.0)
         return 0.0;
@@ -64,7 +64,7 @@ float sineToVertical(vec3 direction) {
     return squareRoot(squared);
 }
 
-// What comes from a direction, and how densely that is chosen.
+// Radiance and pdf of a direction.
 EnvironmentLight environmentFrom(vec3 direction) {
     vec2 place = environmentPlace(direction);
     vec2 position = place * vec2(float(frame.environmentWidth), float(frame.environmentHeight));
@@ -72,8 +72,8 @@ EnvironmentLight environmentFrom(vec3 direction) {
     return EnvironmentLight(direction, environmentRadianceAt(place), pdfEnvironment(pixel, sineToVertical(direction)));
 }
 
-// The first of `count` texels, from `first` on, whose `word` is more than `bits`; the last one if none is. Takes no more
-// than findMSB(count) + 1 steps.
+// The first of `count` lookup rows, from `first` on, whose `word` is larger than `bits`, or the last one. Takes at most
+// findMSB(count) + 1 steps.
 uint searchTexels(uint first, uint count, uint bits) {
     uint found = 0u; // all before it end at or below `bits`
     uint last = count - 1u;
@@ -86,12 +86,12 @@ uint searchTexels(uint first, uint count, uint bits) {
     return found;
 }
 
-// Where in a pixel a number lies that chose it, in [0, 1].
+// Position in a pixel of the random number that selected it, in [0, 1].
 float shareOf(uint bits, uint before, uint end) { return divide(float(bits - before), float(end - before)); }
 
-// A direction chosen by two numbers of 32 bits.
+// Samples a direction by two 32-bit random numbers.
 EnvironmentLight sampleEnvironment(uvec2 random) {
-    uvec2 bits = min(random, uvec2(0xFFFFFFFEu)); // the last number counts for what ends the row or the column
+    uvec2 bits = min(random, uvec2(0xFFFFFFFEu)); // the largest number selects the end of a row or column
     uint texelCount = frame.environmentWidth * frame.environmentHeight;
     uint y = searchTexels(frame.environmentTexels + texelCount, frame.environmentHeight, bits.y);
     uint x = searchTexels(frame.environmentTexels + y * frame.environmentWidth, frame.environmentWidth, bits.x);

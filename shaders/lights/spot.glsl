@@ -1,7 +1,7 @@
 // Lights without size.
 
-// How much of a spot's intensity there is in the direction from which it is seen: `toSpot` leads to it. It fades between
-// two angles as the cubic that is even at both ends.
+// Fraction of a spot's intensity in the direction from which it is seen; `toSpot` leads to the spot. It falls off
+// between two angles by a smooth step.
 float spotFalloff(vec3 toSpot, vec3 axis, float cosineOuter, float falloffScale) {
     float inside = -dotProduct(toSpot, axis) - cosineOuter;
     float scaled = inside * falloffScale;

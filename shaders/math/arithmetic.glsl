@@ -1,15 +1,15 @@
 // Division and square root, correctly rounded (to nearest, ties to even) on every device.
 //
-// Vulkan lets a device be 2.5 units off in a / b, and more in sqrt. Where the host knows better (constant
-// hasExactDivision) the device's own operators run; elsewhere these do, which need nothing but + - * and integers.
-// The last bit never depends on a float operation: floats only estimate, and what follows is integer arithmetic
-// modulo 2^32 on a remainder that is known to be small. So the proofs ask little of a device: u = 2^-23 bounds the
-// relative error of one float operation, which holds in any rounding mode, fused or not.
+// Vulkan allows an error of 2.5 units in a / b, and more in sqrt. The device's own operators run only where the host
+// knows that they are exact (constant hasExactDivision); elsewhere these functions do, which need only + - * and
+// integers. The last bit never depends on a float operation: floats only estimate, and what follows is integer
+// arithmetic modulo 2^32 on a remainder that is known to be small. So the proofs ask little of a device: u = 2^-23
+// bounds the relative error of one float operation, which holds in any rounding mode, fused or not.
 //
 // Exactly IEEE 754 wherever inputs and result are normal, zero, infinite or NaN. Subnormal inputs count as zeros,
-// and quotients below 2^-126 become zeros, as devices may treat + - * as well: pictures keep clear of them.
+// and quotients below 2^-126 become zeros, as devices may do for + - *. No picture depends on subnormal numbers.
 
-// All integers are signed ones, which CPUs convert and compare faster: magnitudes have 31 bits.
+// All integers are signed, because CPUs convert and compare them faster: magnitudes have 31 bits.
 
 const int signBit = int(0x80000000u);
 const int magnitudeMask = 0x7FFFFFFF;
@@ -19,7 +19,7 @@ const int significandMask = 0x7FFFFF;
 const int significandOne = 0x800000; // 1.0 as a significand: an integer with 24 bits
 const int farExponent = 1000;        // stands for an infinity, negated for a zero
 
-// Rounds to the nearest integer or to the one below. Estimates are within 2^-13 of what they stand for.
+// Rounds to the nearest integer or to the one below it. Estimates are within 2^-13 of the true value.
 const float justBelowHalf = 0.5 - 1.0 / 8192.0;
 
 // The significand of `bits` as a float in [1, 2).

@@ -1,6 +1,6 @@
-// Colours of what is not light: ids and normals, as views show them.
+// False colours of ids and normals, for views.
 
-// A colour for each number, in [0.2, 1).
+// A random colour for each id, with channels in [0.2, 1).
 vec3 idColour(uint id) {
     uvec3 bits = hashKeys(uvec3(id, 1u, 2u));
     return 0.2 + 0.8 * vec3(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z));

@@ -1,12 +1,12 @@
-// Sine, cosine, the angle of a vector and the exponential from + - * alone, the same bits everywhere.
+// Sine, cosine, arc tangent and exponential, made of + - * only, with the same bits everywhere.
 
 struct SineCosine {
     float sine;
     float cosine;
 };
 
-// Of an angle in turns, in [-8, 8]. The Taylor polynomials of both on an eighth of a turn to either side of the nearest
-// quarter, where they are within 3e-8.
+// Sine and cosine of an angle in turns, in [-8, 8], by Taylor polynomials within an eighth of a turn around the nearest
+// quarter, where their error is below 3e-8.
 SineCosine sineCosine(float turns) {
     int quarter = int(floor(turns * 4.0 + 0.5));
     float x = (turns - float(quarter) * 0.25) * 6.2831853071795865;
@@ -19,8 +19,8 @@ SineCosine sineCosine(float turns) {
     return SineCosine((quarter & 2) != 0 ? -sine : sine, ((quarter + 1) & 2) != 0 ? -cosine : cosine);
 }
 
-// The angle from the x axis to the vector (x, y), in turns, in [0, 1], within 1e-7. One of both is not 0. The Taylor
-// polynomial of the arc tangent to tan(1/16 turn), where it is within 2e-8; further up, of the angle to the diagonal.
+// The angle from the x axis to the vector (x, y), which is not 0, in turns, in [0, 1], within 1e-7. Taylor polynomial
+// of the arc tangent up to tan(1/16 turn), where its error is below 2e-8; beyond, of the angle to the diagonal.
 float atan2Turns(float y, float x) {
     float low = lesser(abs(x), abs(y));
     float high = greater(abs(x), abs(y));
@@ -45,8 +45,8 @@ float atan2Turns(float y, float x) {
     return y < 0.0 ? whole : turns;
 }
 
-// e^-x for x >= 0: a power of 2 as an exponent, and the Taylor polynomial around the middle of what remains.
-// Within 2e-7 (1 + x) of the result, exactly 1 at 0, and 0 from 86 on.
+// e^-x for x >= 0: a power of 2 for the exponent, and the Taylor polynomial around the middle of the remaining
+// interval. Within 2e-7 (1 + x) of the result, exactly 1 at 0, and 0 from 86 on.
 float expNegative(float x) {
     float t = lesser(x, 86.0) * 1.4426950408889634;
     int k = int(t);

@@ -1,4 +1,4 @@
-// Sample points from integer hashes: no state, no order.
+// Random numbers and Sobol points from integer hashes, without state and in any order.
 
 // Three hashes of three keys. Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d.
 uvec3 hashKeys(uvec3 v) {
@@ -39,14 +39,14 @@ uint secondSobolCoordinate(uint x) {
 // In [0, 1): the upper 24 bits, which a float holds exactly.
 float unitFloat(uint x) { return float(x >> 8u) * (1.0 / 16777216.0); }
 
-// Keys of the pair of dimensions `pair` of a pixel: each pair is a pattern of its own.
+// Hash keys of a pair of dimensions of a pixel: each pair has a pattern of its own.
 uvec3 pairKeys(uvec2 pixel, uint seed, uint pair) {
     uvec3 keys = hashKeys(uvec3(pixel, seed));
     return pair == 0u ? keys : hashKeys(keys ^ pair);
 }
 
-// Two coordinates of a sample, as fractions of 2^32: shuffled, scrambled Sobol points, so that any first 2^k samples of a
-// pixel are stratified, and no two pixels and no two pairs share a pattern.
+// Two coordinates of a sample, as fractions of 2^32: shuffled, scrambled Sobol points, so that any first 2^k samples of
+// a pixel are stratified, and no two pixels and no two pairs share a pattern.
 uvec2 sampleBits(uvec3 keys, uint sampleIndex) {
     uint first = bitfieldReverse(owenScramble(sampleIndex, keys.x));
     uint second = secondSobolCoordinate(first);
@@ -55,7 +55,7 @@ uvec2 sampleBits(uvec3 keys, uint sampleIndex) {
 
 vec2 unitFloats(uvec2 bits) { return vec2(unitFloat(bits.x), unitFloat(bits.y)); }
 
-// Where sample `sampleIndex` of a pixel lies inside of it, in [0,1)^2. It is pair 0.
+// Position of sample `sampleIndex` in its pixel, in [0,1)^2: pair 0.
 vec2 samplePixel(uvec2 pixel, uint sampleIndex, uint seed) {
     if (samplerKind == samplerCentre)
         return vec2(0.5);

@@ -1,4 +1,4 @@
-// Directions and points drawn from two numbers in [0, 1), and the densities that they have.
+// Sampling of directions and points from two numbers in [0, 1), and the pdfs.
 
 const float inversePi = 0.31830988618379067;
 
@@ -24,7 +24,7 @@ vec3 toWorld(Frame f, vec3 v) {
     return f.x * v.x + f.y * v.y + f.z * v.z;
 }
 
-// Around `normal` with the density cos / pi per solid angle: a point of the unit disc, projected up (Malley).
+// A direction around `normal` with the pdf cos / pi per solid angle: a point of the unit disc, projected up (Malley).
 vec3 sampleCosine(vec3 normal, vec2 u) {
     float radius = squareRoot(u.x);
     SineCosine angle = sineCosine(u.y);
@@ -34,8 +34,8 @@ vec3 sampleCosine(vec3 normal, vec2 u) {
 
 float pdfCosine(float cosine) { return cosine * inversePi; }
 
-// Weights of a triangle's first and second vertex, uniform over its area: PBRT, section 6.5.4, before it was made one
-// with less distortion.
+// Barycentric weights of the first and second vertex, uniform over the area of a triangle: PBRT, section 6.5.4, before
+// it was made one with less distortion.
 vec2 sampleTriangle(vec2 u) {
     float root = squareRoot(u.x);
     float first = 1.0 - root;
@@ -43,8 +43,8 @@ vec2 sampleTriangle(vec2 u) {
     return vec2(first, second);
 }
 
-// The cone of directions from a point that meet a sphere, `squaredDistance` from the point to its centre, more than the
-// squared radius: 1 - cos of the half angle, written so that it does not cancel for small cones.
+// The cone of directions from a point to a sphere: 1 - cos of its half angle, in a form that does not cancel for small
+// cones. `squaredDistance` from the point to the centre is larger than the squared radius.
 float coneHeight(float squaredRadius, float squaredDistance) {
     float squaredSine = divide(squaredRadius, squaredDistance);
     float squaredCosine = 1.0 - squaredSine;
@@ -52,7 +52,7 @@ float coneHeight(float squaredRadius, float squaredDistance) {
     return divide(squaredSine, above);
 }
 
-// Uniform over the solid angle of the cone around `axis` with this height.
+// A direction in the cone around `axis` with this height, uniform over its solid angle.
 vec3 sampleCone(vec3 axis, float height, vec2 u) {
     float below = u.x * height;
     float cosine = 1.0 - below;
@@ -64,7 +64,7 @@ vec3 sampleCone(vec3 axis, float height, vec2 u) {
 
 float pdfCone(float height) { return divide(0.5 * inversePi, height); }
 
-// On the unit sphere, uniform over its area.
+// A point of the unit sphere, uniform over its area.
 vec3 sampleSphere(vec2 u) {
     float z = 1.0 - 2.0 * u.x;
     float squaredRadius = 1.0 - z * z;
@@ -73,9 +73,9 @@ vec3 sampleSphere(vec2 u) {
     return unitVector(vec3(radius * angle.cosine, radius * angle.sine, z));
 }
 
-// The share of a sample drawn with density `a` where another way of sampling has density `b`: Veach's power heuristic
-// with exponent 2, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995, by the quotient
-// of the smaller to the larger, as squares may leave the range of floats.
+// Multiple importance weight of a sample with the pdf `a`, where another technique has the pdf `b`: the power heuristic
+// with exponent 2, Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
+// 1995. It uses the quotient of the smaller to the larger pdf, because squares may leave the range of floats.
 float powerHeuristic(float a, float b) {
     float quotient = divide(lesser(a, b), greater(a, b));
     float squared = quotient * quotient;

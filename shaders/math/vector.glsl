@@ -1,4 +1,4 @@
-// Vector arithmetic in a fixed order of operations. GLSL leaves the order of its own dot, cross, normalize and reflect open.
+// Vector arithmetic in a fixed order of operations, which GLSL leaves open for dot, cross, normalize and reflect.
 
 float dotProduct(vec3 a, vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -28,13 +28,13 @@ vec3 mirrorDirection(vec3 d, vec3 n) {
     return d - n * twice;
 }
 
-// From `a`, share 0, to `b`, share 1.
+// Linear interpolation: `a` at share 0, `b` at share 1.
 vec3 mixtureOf(vec3 a, vec3 b, float share) {
     return a + (b - a) * share;
 }
 
-// The lesser and the greater of two numbers, and `b` where they are equal or one of them is NaN. The built-in min and max
-// leave that open; and on lavapipe they are three instructions, these are one.
+// Minimum and maximum; `b` if the numbers are equal or one of them is NaN, which the built-in min and max leave open.
+// On lavapipe those take three instructions, and these one.
 float lesser(float a, float b) { return a < b ? a : b; }
 
 float greater(float a, float b) { return a > b ? a : b; }

@@ -1,17 +1,17 @@
-// Normals turned by images.
+// Normal maps.
 
-// The directions on a surface in which u and v grow, of any length; 0 where they are not known.
+// Tangents: the directions on a surface in which u and v grow, of any length; 0 if unknown.
 struct Tangent {
     vec3 alongU;
     vec3 alongV;
 };
 
-const float minSpan = 1e-30;        // of a triangle, and of its texture coordinates
-const float maxSpan = 1e30;          // of coordinates: the inverse is no subnormal number
-const float minDeterminant = 1e-20; // of coordinates that lie on one line, up to rounding
-const float minHeight = 0.01;       // of a mapped normal above the surface, and of what it reflects
+const float minSpan = 1e-30;        // of a triangle and of its texture coordinates
+const float maxSpan = 1e30;          // of coordinates: the inverse is not subnormal
+const float minDeterminant = 1e-20; // of coordinates on one line, up to rounding
+const float minHeight = 0.01;       // of a mapped normal, and of the direction that it reflects, above the surface
 
-// Coordinates and edges are scaled first, as their products leave the range of floats.
+// Coordinates and edges are scaled first, because their products leave the range of floats.
 Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
     vec3 edge1 = triangle.v1 - triangle.v0;
     vec3 edge2 = triangle.v2 - triangle.v0;
@@ -33,14 +33,13 @@ Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
     return determinant > 0.0 ? Tangent(alongU, alongV) : Tangent(-alongU, -alongV);
 }
 
-// Of the point of a sphere whose outward normal is `outward`.
+// Tangents at the point of a sphere with the outward normal `outward`.
 Tangent sphereTangent(vec3 outward) {
     vec3 alongU = vec3(outward.z, 0.0, -outward.x);
     return Tangent(alongU, crossProduct(outward, alongU));
 }
 
-// The unit normal that the normal map in a TextureRecord's row makes of `normal`, which it stays where no tangent is
-// known.
+// Applies the normal map of a TextureRecord's row to a unit normal, which stays as it is if the tangents are unknown.
 vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     vec3 flatU = tangent.alongU - normal * dotProduct(normal, tangent.alongU);
     if (!(dotProduct(flatU, flatU) > minSpan))
@@ -56,9 +55,9 @@ vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     return unitVector(mapped);
 }
 
-// The unit normal nearest to `normal`, nearly, that faces a ray in `direction` and does not mirror it into the surface: a
-// mapped normal knows nothing of either. Keller et al., "The Iray Light Transport Simulation and Rendering System", 2017,
-// section A.3.
+// Approximately the unit normal nearest to `normal` that faces a ray in `direction` and does not reflect it into the
+// surface; normal maps guarantee neither. Keller et al., "The Iray Light Transport Simulation and Rendering System",
+// 2017, section A.3.
 vec3 visibleNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
     bool isBehind = dotProduct(direction, geometricNormal) > 0.0;
     vec3 facing = isBehind ? -normal : normal;

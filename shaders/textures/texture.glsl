@@ -1,8 +1,8 @@
-// Images on surfaces.
+// Texture lookups.
 //
-// The filter is ours, and no sampler's: those have 8 bits of weights, and round as they like.
+// The bilinear filter is our own: samplers have weights of 8 bits, and their rounding is not specified.
 
-// u and v of textures at the corners of a triangle.
+// Texture coordinates at the corners of a triangle.
 struct Coordinates {
     vec2 uv0;
     vec2 uv1;
@@ -20,14 +20,14 @@ Coordinates fetchCoordinates(uint triangleRecord) {
     return Coordinates(vec2(first), vec2(first.z, first.w), uintBitsToFloat(uvec2(textureWords(row + 1u))));
 }
 
-// As trianglePoint.
+// Interpolated as trianglePoint does.
 vec2 triangleUv(Coordinates at, float u, float v) {
     float w = 1.0 - u - v;
     return at.uv0 * u + at.uv1 * v + at.uv2 * w;
 }
 
-// Of the point of a sphere that lies `outward`, a vector of any length, from its centre: as the environment's image, seen
-// from outside. Its middle is at +z.
+// Texture coordinates of a sphere, at the point in direction `outward`, of any length, from its centre: by longitude
+// and latitude like the environment, seen from outside. The middle of the image is at +z.
 vec2 sphereUv(vec3 outward) {
     float squared = outward.x * outward.x + outward.z * outward.z;
     float longitude = squared > 0.0 ? atan2Turns(-outward.x, -outward.z) : 0.0;
@@ -35,8 +35,7 @@ vec2 sphereUv(vec3 outward) {
     return vec2(longitude, latitude);
 }
 
-// How far a number lies above the whole one below it, in [0, 1); 0 for what is no finite number, and for what is so
-// little below a whole one that it would be 1.
+// The fractional part of a number, in [0, 1). It is 0 for infinities and NaN, and where it would be rounded to 1.
 float fractionOf(float x) {
     float fraction = x - floor(x);
     return fraction >= 0.0 && fraction < 1.0 ? fraction : 0.0;
@@ -64,7 +63,7 @@ vec3 textureTexel(uvec4 description, uint x, uint y) {
                 decodeLevel(table, (levels >> 16u) & 255u));
 }
 
-// Between the middles of texels it is linear both ways, and the image repeats. `row` is that of a TextureRecord.
+// Bilinear lookup; the image repeats. `row` is that of a TextureRecord.
 vec3 lookUpTexture(uint row, vec2 uv) {
     uvec4 description = textureWords(row);
     vec4 placement = uintBitsToFloat(textureWords(row + 1u));
@@ -88,27 +87,27 @@ vec3 lookUpTexture(uint row, vec2 uv) {
 
 uint textureRow(uint textures, uint slot) { return textures + rowsPerTexture * slot; }
 
-// Whether a material with textures has one in that slot.
+// Whether a material with textures has one in the slot.
 bool hasTexture(uint textures, uint slot) { return textureWords(textureRow(textures, slot)).y != 0u; }
 
-// What a texture says where one number is wanted, times its factor.
+// Lookup of one number: the red channel, times the factor of the texture.
 float lookUpNumber(uint row, vec2 uv) {
     return lookUpTexture(row, uv).x * uintBitsToFloat(textureWords(row).w);
 }
 
-// GGX's alpha: what is rougher than nothing is at least so rough that float32 resolves the peak of the reflection.
+// Alpha of GGX. Roughness has a minimum, so that float32 resolves the peak of the reflection.
 float alphaOf(float roughness) {
     float used = greater(roughness, 0.04);
     return used * used;
 }
 
-// Whether what a triangle's material is cut out of its image leaves nothing at the point with these weights.
+// Whether the opacity texture cuts out the point of a triangle with these weights.
 bool isCutAway(uint materialIndex, uint triangleRecord, float u, float v) {
     uint row = textureRow(fetchMaterial(materialIndex).textures, slotOpacity);
     return lookUpNumber(row, triangleUv(fetchCoordinates(triangleRecord), u, v)) < 0.5;
 }
 
-// The material as its textures make it at (u, v).
+// The material with its textures applied at (u, v).
 MaterialRecord texturedMaterial(MaterialRecord material, vec2 uv) {
     uint textures = material.textures;
     if (textures == 0u)

@@ -1,10 +1,10 @@
-// What all traversals share: where a ray stands in the tree, and what it does when it meets a triangle. Where a texture
-// of opacity has cut out the triangle there is nothing to meet.
+// Shared by all traversals: the position of a ray in the tree, and the test of a triangle. A point that an opacity
+// texture cuts out is not hit.
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 
-// Tests a triangle and keeps what comes of it. isShadow: anything opaque between the surface and the light ends the
-// search, which is when this returns true, and glass only dims; otherwise the nearest hit is kept.
+// Tests a triangle and records a hit. isShadow: an opaque hit ends the search, for which this returns true, and glass
+// only dims; otherwise the nearest hit is kept.
 bool meetTriangle(uint slot, uint record, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
                   const bool isShadow) {
     TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);

@@ -1,10 +1,10 @@
-// Small things of the scene that every ray meets, loaded once: lavapipe reads a uniform buffer fast only outside of all
-// loops and branches.
+// Small parts of the scene that every ray needs, loaded once: lavapipe reads uniform buffers fast only outside loops
+// and branches.
 
 const uint unrolledSphereCount = 16u;
 
 SphereShape sphereShapes[unrolledSphereCount];
-uint transmissiveSpheres = 0u; // a bit each
+uint transmissiveSpheres = 0u; // one bit each
 LightRecord firstLight;
 
 SphereShape sphereShape(uint index) { return makeSphereShape(sphereConstants[index].centre, sphereConstants[index].radius); }

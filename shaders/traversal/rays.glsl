@@ -1,6 +1,6 @@
-// Rays of the path slots, whichever integrator sends them: how they start, what they meet and when all have ended.
-// An integrator defines `lightPassesGlass`, whether glass dims a shadow ray and does not block it, and `raysHaveTargets`,
-// whether a shadow ray ends on a primitive, which then does not block it.
+// Rays of the path slots, for every integrator: how they start, and their hits. An integrator defines
+// `lightPassesGlass`: glass dims shadow rays and does not block them; and `raysHaveTargets`: a shadow ray ends on a
+// primitive, which does not block it.
 
 void startRay(uint slot, vec3 origin, vec3 direction, uint excluded, uint depth, uint medium) {
     path[slot].rayOrigin = origin;
@@ -11,7 +11,7 @@ void startRay(uint slot, vec3 origin, vec3 direction, uint excluded, uint depth,
     path[slot].stage = stageNewRay;
 }
 
-// Begins the next sample with its primary ray, or says that the pixel needs no more.
+// Starts the next sample with its primary ray, or ends the pixel.
 void sendPrimaryRay(uint slot) {
     path[slot].sampleRadiance = vec3(0.0);
     path[slot].throughput = vec3(1.0);
@@ -26,7 +26,7 @@ void sendPrimaryRay(uint slot) {
 bool isTarget(uint slot, uint primitive) { return raysHaveTargets && path[slot].rayTarget == primitive; }
 
 void meetSphere(uint slot, uint i, SphereShape shape) {
-    bool areAllPrimary = !hasSpecular && !hasBounces; // and start on no surface
+    bool areAllPrimary = !hasSpecular && !hasBounces; // so none starts on a surface
     float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape,
                                      !areAllPrimary && path[slot].rayExcluded == i);
     bool isNearer = distance > 0.0 && distance < path[slot].rayLength;
@@ -43,7 +43,7 @@ void meetSphereInShadow(uint slot, uint i, SphereShape shape) {
     path[slot].hitPrimitive = isBetween && !isTransmissive ? i : path[slot].hitPrimitive;
 }
 
-// Stage: meet the spheres and stand at the root of the tree.
+// Stage: test the spheres, and enter the tree at its root.
 void beginClosest(uint slot) {
     traceEvent(slot, traceRayOrigin, 0u, path[slot].rayOrigin);
     traceEvent(slot, traceRayDirection, 0u, path[slot].rayDirection);
@@ -63,7 +63,8 @@ void beginClosest(uint slot) {
     path[slot].stage = stageClosest;
 }
 
-// Where the path stands. What is known anyway is not read from the path's variables, which then need not be kept.
+// The surface that the path is on. Members that the scene makes constant are not read from the path, so they need no
+// registers.
 Surface surfaceAt(uint slot) {
     Surface surface;
     surface.position = path[slot].surfacePosition;
@@ -74,7 +75,7 @@ Surface surfaceAt(uint slot) {
     return surface;
 }
 
-// Stage: look for what lies between the surface where the path stands and a light, `distance` away in `direction`.
+// Stage: trace a shadow ray from the surface of the path to a light, `distance` away in `direction`.
 void beginShadow(uint slot, vec3 direction, float distance) {
     rayCounts[slot].y += 1u;
     path[slot].rayOrigin = offsetRayOrigin(surfaceAt(slot), direction);
@@ -96,10 +97,10 @@ void beginShadow(uint slot, vec3 direction, float distance) {
     path[slot].stage = stageShadow;
 }
 
-// Whether a primitive that a ray has met is a triangle.
+// Whether the primitive that was hit is a triangle.
 bool isTriangle(uint primitive) { return hasTriangles && (sphereCount == 0u || primitive >= firstTriangleId); }
 
-// Texture coordinates where the ray has met a surface, at `position`.
+// Texture coordinates of the hit at `position`.
 vec2 hitUv(uint slot, vec3 position) {
     uint record = path[slot].hitRecord;
     if (isTriangle(path[slot].hitPrimitive))
@@ -107,7 +108,7 @@ vec2 hitUv(uint slot, vec3 position) {
     return sphereUv(position - fetchSphere(record).centre);
 }
 
-// What the surface that the ray has met at `position` is made of.
+// Material of the hit at `position`, with its textures applied.
 MaterialRecord hitMaterial(uint slot, uint materialIndex, vec3 position) {
     MaterialRecord material = fetchMaterial(materialIndex);
     if ((texturing & texturesMaterials) != 0u)
@@ -115,7 +116,7 @@ MaterialRecord hitMaterial(uint slot, uint materialIndex, vec3 position) {
     return material;
 }
 
-// Turns the surface's normal by the normal map of its material, if it has one.
+// Applies the normal map of the material, if it has one.
 void mapNormal(uint slot, inout Surface surface, uint materialIndex, Tangent tangent) {
     uint textures = fetchMaterial(materialIndex).textures;
     if (textures == 0u || !hasTexture(textures, slotNormal))
@@ -124,7 +125,7 @@ void mapNormal(uint slot, inout Surface surface, uint materialIndex, Tangent tan
     surface.normal = visibleNormal(path[slot].rayDirection, mapped, surface.geometricNormal);
 }
 
-// The surface that the ray has met.
+// The surface at the hit.
 Surface hitSurface(uint slot, out uint materialIndex) {
     if (isTriangle(path[slot].hitPrimitive)) {
         TriangleRecord triangle = fetchTriangle(path[slot].hitRecord);
@@ -143,7 +144,7 @@ Surface hitSurface(uint slot, out uint materialIndex) {
     return surface;
 }
 
-// Stands on the surface that the ray has met, to light it.
+// Moves the path to the surface at the hit, to light it.
 void standOn(uint slot, Surface surface) {
     path[slot].surfacePosition = surface.position;
     path[slot].surfaceError = surface.error;
@@ -173,5 +174,5 @@ bool isAtStageUpTo(uint stage) {
     return any;
 }
 
-// Of loops over the spheres in one pass, which count as steps.
+// Loops over the spheres in one pass; they count as steps.
 const uint sphereIterations = sphereCount <= unrolledSphereCount ? 0u : RAYS * sphereCount;

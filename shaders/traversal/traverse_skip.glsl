@@ -1,12 +1,12 @@
 // The traversal for lavapipe: skip lists, without a stack (layout.h: SkipNode).
 //
-// There an `if` skips no code, only the back edge of a loop branches, and a step costs the same for one lane as for
-// eight. The lanes of a subgroup follow samples of the same pixels and find their leaves together: so all path slots step
-// until each stands at a leaf, then all test triangles until each has left its leaf. It can stop after any step: the
-// cursor and the nearest hit are all there is to keep.
+// On lavapipe an `if` skips no code, only the back edge of a loop branches, and a step costs the same for one lane as
+// for eight. The lanes of a subgroup follow samples of the same pixels and reach their leaves together. So all path
+// slots step until each is at a leaf, and then all test triangles until each has left its leaf. Traversal can stop
+// after any step: its state is the cursor and the nearest hit.
 
-// Distances to the planes of the grid: q * scale + lower or upper, with q in the upper half of a word. What is in the
-// lower half then moves a plane up by less than a cell: it is only left there for upper planes, which that moves outward.
+// Distances to the planes of the grid: q * scale + lower or upper, with q in the upper half of a word. A value in the
+// lower half moves the plane up by less than a cell; it is left there only for upper planes, which it moves outward.
 //
 // Both are moved outward by 3 pads. With u the unit of rounding and M the reach, a pad is 16 u M: one is the pad of
 // the triangle's own box (box.glsl), whose interval is rounded by 4 u M |inverse|, and the others cover the rounding
@@ -25,8 +25,8 @@ GridRay makeGridRay(vec3 origin, BoxRay ray) {
     return GridRay(scale, base - outward, base + outward);
 }
 
-// The list in which nearer siblings come first for most of these directions: the second one where the longest
-// component is negative.
+// The list in which nearer siblings mostly come first for this direction: the second one if the largest component is
+// negative.
 uint skipListFor(vec3 direction) {
     return largestComponent(abs(direction)) != largestComponent(direction) ? 1u : 0u;
 }
@@ -41,7 +41,7 @@ void stopTraversal(uint slot) {
     path[slot].cursorTriangle = noNode;
 }
 
-// Where the ray of a slot stands, as signed integers, which CPUs compare faster.
+// Cursor of a ray in the tree, in signed integers, which CPUs compare faster.
 struct Cursor {
     int node;         // the next one to visit
     int end;          // of its list; 0: the slot has no ray to trace
@@ -51,7 +51,7 @@ struct Cursor {
 
 bool isBeforeLeaf(Cursor cursor) { return cursor.leaf == 0 && cursor.node < cursor.end; }
 
-// A cursor that stands on a triangle, or at the end, stays.
+// A cursor on a triangle, or at the end, does not move.
 void visitNode(inout Cursor cursor, GridRay ray, float rayLength) {
     SkipNode node = fetchSkipNode(uint(cursor.node));
     ivec3 planes = ivec3(node.x, node.y, node.z);

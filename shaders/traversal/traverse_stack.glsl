@@ -1,8 +1,8 @@
 // The portable traversal: an explicit stack over the node pairs, in storage buffers.
 //
-// Works on the global path slots, all of them at once, because on a CPU two independent rays hide each other's
-// latency. A step visits at most one inner node and tests at most one triangle for each slot. It can stop after any
-// step: the cursor, the nearest hit and the stack all outlive the dispatch.
+// It steps all path slots of an invocation together, because on a CPU two independent rays hide each other's latency. A
+// step visits at most one inner node and tests at most one triangle for each slot. Traversal can stop after any step:
+// cursor, nearest hit and stack outlive the dispatch.
 
 void pushSubtree(uint slot, uint subtree) {
     uint size = path[slot].stackSize;
@@ -67,8 +67,8 @@ void visitTriangle(uint slot, TriangleRay ray, BoxRay boxRay, const bool isShado
         stopTraversal(slot);
 }
 
-// Carries on with the rays of all slots at `stage`, until all are through the tree or the step budget is spent.
-// isShadow: any opaque hit will do, glass only dims; otherwise the nearest hit is wanted.
+// Traces the rays of all slots in `stage`, until all have left the tree or the step budget is spent. isShadow: any
+// opaque hit ends a ray, and glass only dims; otherwise the nearest hit is found.
 void traverse(uint stage, const bool isShadow) {
     BoxRay boxRay[RAYS];
     TriangleRay triangleRay[RAYS];
