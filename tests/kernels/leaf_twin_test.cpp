@@ -9,6 +9,8 @@
 
 #include <array>
 #include <limits>
+#include <ostream>
+#include <string>
 
 namespace hyalite::testing {
 namespace {
@@ -18,106 +20,10 @@ using glm::uvec3;
 using glm::vec2;
 using glm::vec3;
 
-// ---- Vectors
-
-TEST(VectorTwin, DotProduct) {
-    expectTwin(probeDotProduct, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 a = draw.point();
-        const vec3 b = draw.point();
-        input << a << b;
-        expected << reference::dotProduct(a, b);
-    });
-}
-
-TEST(VectorTwin, CrossProduct) {
-    expectTwin(probeCrossProduct, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 a = draw.point();
-        const vec3 b = draw.chance(16) ? a * 3.0f : draw.point();
-        input << a << b;
-        expected << reference::crossProduct(a, b);
-    });
-}
-
-TEST(VectorTwin, VectorLength) {
-    expectTwin(probeVectorLength, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 v = draw.point();
-        input << v;
-        expected << reference::vectorLength(v);
-    });
-}
-
-TEST(VectorTwin, UnitVector) {
-    expectTwin(probeUnitVector, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 v = draw.point();
-        input << v;
-        expected << reference::unitVector(v);
-    });
-}
-
-TEST(VectorTwin, MirrorDirection) {
-    expectTwin(probeMirrorDirection, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 direction = draw.direction();
-        const vec3 normal = draw.chance(16) ? -direction : draw.direction();
-        input << direction << normal;
-        expected << reference::mirrorDirection(direction, normal);
-    });
-}
-
 // Of equal components of different sign, as 0 and -0, either may be the largest.
 vec3 pointWithoutNegativeZero(Draw &draw) { return draw.point() + vec3(0.0f); }
 
-TEST(VectorTwin, LargestComponent) {
-    expectTwin(probeLargestComponent, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 v = pointWithoutNegativeZero(draw);
-        input << v;
-        expected << reference::largestComponent(v);
-    });
-}
-
-TEST(VectorTwin, SmallestComponent) {
-    expectTwin(probeSmallestComponent, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 v = pointWithoutNegativeZero(draw);
-        input << v;
-        expected << reference::smallestComponent(v);
-    });
-}
-
 // ---- Random numbers
-
-TEST(RandomTwin, HashKeys) {
-    expectTwin(probeHashKeys, [](Draw &draw, Words &input, Words &expected) {
-        const std::uint32_t x = draw.word();
-        const std::uint32_t y = draw.word();
-        const uvec3 keys(x, y, draw.word());
-        input << keys;
-        expected << reference::hashKeys(keys);
-    });
-}
-
-TEST(RandomTwin, OwenScramble) {
-    expectTwin(probeOwenScramble, [](Draw &draw, Words &input, Words &expected) {
-        const std::uint32_t x = draw.word();
-        const std::uint32_t key = draw.word();
-        input << x << key;
-        expected << reference::owenScramble(x, key);
-    });
-}
-
-TEST(RandomTwin, SecondSobolCoordinate) {
-    expectTwin(probeSecondSobolCoordinate, [](Draw &draw, Words &input, Words &expected) {
-        const std::uint32_t x = draw.word();
-        input << x;
-        expected << reference::secondSobolCoordinate(x);
-    });
-}
-
-TEST(RandomTwin, UnitReal) {
-    expectTwin(probeUnitReal, [](Draw &draw, Words &input, Words &expected) {
-        const std::uint32_t x = draw.word();
-        input << x;
-        expected << reference::unitFloat<float>(x);
-    });
-}
 
 TEST(RandomTwin, SamplePixel) {
     for (const std::uint32_t samplerKind : {layout::samplerCentre, layout::samplerSobol}) {
@@ -182,32 +88,6 @@ vec3 drawOrigin(Draw &draw, const Box &box) {
     return origin;
 }
 
-TEST(BoxTwin, MakeBoxRay) {
-    expectTwin(probeMakeBoxRay, [](Draw &draw, Words &input, Words &expected) {
-        const Box bounds = drawBox(draw);
-        const vec3 origin = drawOrigin(draw, bounds);
-        const vec3 direction = draw.direction();
-        input << origin << direction << bounds.lower << bounds.upper;
-        const reference::BoxRay<float> ray =
-            reference::makeBoxRay(origin, direction, bounds.lower, bounds.upper);
-        expected << ray.inverse << ray.origin << ray.pad;
-    });
-}
-
-TEST(BoxTwin, BoxInterval) {
-    expectTwin(probeBoxInterval, [](Draw &draw, Words &input, Words &expected) {
-        const Box box = drawBox(draw);
-        const vec3 origin = drawOrigin(draw, box);
-        const vec3 direction = draw.direction();
-        const vec3 lower = box.lower - vec3(1.0f);
-        const vec3 upper = box.upper + vec3(1.0f);
-        input << origin << direction << lower << upper << box.lower << box.upper;
-        const vec2 interval =
-            boxInterval(reference::makeBoxRay(origin, direction, lower, upper), box.lower, box.upper);
-        expected << interval.x << interval.y;
-    });
-}
-
 // ---- Triangles
 
 struct Triangle {
@@ -247,16 +127,6 @@ vec3 drawTarget(Draw &draw, const Triangle &triangle) {
     }
 }
 
-TEST(TriangleTwin, MakeTriangleRay) {
-    expectTwin(probeMakeTriangleRay, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 origin = draw.point();
-        const vec3 direction = draw.direction();
-        input << origin << direction;
-        const reference::TriangleRay<float> ray = reference::makeTriangleRay(origin, direction);
-        expected << ray.origin << static_cast<std::uint32_t>(ray.axis) << ray.shear;
-    });
-}
-
 TEST(TriangleTwin, IntersectTriangle) {
     std::size_t hitCount = 0;
     expectTwin(probeIntersectTriangle, [&](Draw &draw, Words &input, Words &expected) {
@@ -281,24 +151,6 @@ TEST(TriangleTwin, IntersectTriangle) {
     });
     EXPECT_GT(hitCount, probeInputCount / 8);
     EXPECT_LT(hitCount, probeInputCount / 8 * 7);
-}
-
-TEST(TriangleTwin, TrianglePoint) {
-    expectTwin(probeTrianglePoint, [](Draw &draw, Words &input, Words &expected) {
-        const Triangle triangle = drawTriangle(draw);
-        const vec2 uv(draw.unit(), draw.unit());
-        input << triangle.v0 << triangle.v1 << triangle.v2 << uv;
-        expected << reference::trianglePoint(triangle.v0, triangle.v1, triangle.v2, uv.x, uv.y);
-    });
-}
-
-TEST(TriangleTwin, TrianglePointError) {
-    expectTwin(probeTrianglePointError, [](Draw &draw, Words &input, Words &expected) {
-        const Triangle triangle = drawTriangle(draw);
-        const vec2 uv(draw.unit(), draw.unit());
-        input << triangle.v0 << triangle.v1 << triangle.v2 << uv;
-        expected << reference::trianglePointError(triangle.v0, triangle.v1, triangle.v2, uv.x, uv.y);
-    });
 }
 
 // ---- Spheres
@@ -351,175 +203,11 @@ Words &operator<<(Words &words, const reference::Surface<float> &surface) {
     return words << surface.position << surface.error << surface.normal << surface.geometricNormal;
 }
 
-TEST(SurfaceTwin, SphereSurface) {
-    expectTwin(probeSphereSurface, [](Draw &draw, Words &input, Words &expected) {
-        layout::SphereRecord sphere{};
-        sphere.centre = draw.point();
-        sphere.materialAndSide = draw.chance(2) ? layout::sphereFacesInward : 0u;
-        const vec3 origin = draw.point();
-        const vec3 direction = draw.direction();
-        const float distance = std::abs(draw.coordinate());
-        input << origin << direction << distance << sphere.centre << sphere.materialAndSide;
-        expected << reference::sphereSurface<float>(origin, direction, distance, sphere);
-    });
-}
-
-TEST(SurfaceTwin, TriangleSurface) {
-    expectTwin(probeTriangleSurface, [](Draw &draw, Words &input, Words &expected) {
-        const Triangle drawn = drawTriangle(draw);
-        layout::TriangleRecord triangle{};
-        triangle.v0 = drawn.v0;
-        triangle.v1 = drawn.v1;
-        triangle.v2 = drawn.v2;
-        layout::NormalRecord normals{};
-        if (!draw.chance(4)) {
-            normals.n0 = draw.direction();
-            normals.n1 = draw.chance(8) ? normals.n0 : draw.direction();
-            normals.n2 = draw.chance(8) ? -normals.n0 : draw.direction();
-        }
-        const vec2 uv(draw.unit(), draw.unit());
-        input << triangle.v0 << triangle.v1 << triangle.v2 << normals.n0 << normals.n1 << normals.n2 << uv;
-        expected << reference::triangleSurface<float>(triangle, normals, uv.x, uv.y);
-    });
-}
-
-TEST(SurfaceTwin, SpawnPoint) {
-    expectTwin(probeOffsetRayOrigin, [](Draw &draw, Words &input, Words &expected) {
-        reference::Surface<float> surface{};
-        surface.position = draw.point();
-        surface.error = draw.chance(4) ? vec3(0.0f) : glm::abs(surface.position) * 0x1p-21f;
-        surface.geometricNormal = draw.direction();
-        const vec3 direction = draw.chance(8) ? -surface.geometricNormal : draw.direction();
-        input << surface.position << surface.error << surface.geometricNormal << direction;
-        expected << reference::offsetRayOrigin(surface, direction);
-    });
-}
-
 // ---- Sampling
 
 vec2 unitPair(Draw &draw) {
     const float x = draw.chance(64) ? 0.0f : draw.unit();
     return {x, draw.chance(64) ? 1.0f - 0x1p-24f : draw.unit()};
-}
-
-TEST(RandomTwin, SampleBits) {
-    expectTwin(probeSampleBits, [](Draw &draw, Words &input, Words &expected) {
-        const std::uint32_t x = draw.index(32768);
-        const uvec2 pixel(x, draw.index(32768));
-        const std::uint32_t seed = draw.word();
-        const std::uint32_t pair = draw.index(100);
-        const std::uint32_t sample = draw.index(65536);
-        input << pixel << seed << pair << sample;
-        expected << reference::sampleBits(reference::pairKeys(pixel, seed, pair), sample);
-    });
-}
-
-TEST(FunctionTwin, SineCosine) {
-    expectTwin(probeSineCosine, [](Draw &draw, Words &input, Words &expected) {
-        const float turns = draw.chance(8) ? static_cast<float>(draw.index(17)) / 16.0f : draw.unit();
-        const auto angle = reference::sineCosine(turns);
-        input << turns;
-        expected << angle.sine << angle.cosine;
-    });
-}
-
-TEST(FunctionTwin, Decay) {
-    expectTwin(probeExpNegative, [](Draw &draw, Words &input, Words &expected) {
-        const float x = draw.chance(4) ? std::abs(draw.coordinate()) : draw.unit() * 90.0f;
-        input << x;
-        expected << reference::expNegative(x);
-    });
-}
-
-TEST(SamplingTwin, SampleCosine) {
-    expectTwin(probeSampleCosine, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 normal = draw.direction();
-        const vec2 u = unitPair(draw);
-        const vec3 direction = reference::sampleCosine(normal, u);
-        input << normal << u;
-        expected << direction << reference::pdfCosine(direction.z);
-    });
-}
-
-TEST(SamplingTwin, SampleTriangle) {
-    expectTwin(probeSampleTriangle, [](Draw &draw, Words &input, Words &expected) {
-        const vec2 u = unitPair(draw);
-        input << u;
-        expected << reference::sampleTriangle(u);
-    });
-}
-
-TEST(SamplingTwin, SampleCone) {
-    expectTwin(probeSampleCone, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 axis = draw.direction();
-        const float squaredDistance = 0.001f + draw.unit() * 1000.0f;
-        const float squaredRadius = squaredDistance * draw.unit();
-        const vec2 u = unitPair(draw);
-        const float height = reference::coneHeight(squaredRadius, squaredDistance);
-        input << axis << squaredRadius << squaredDistance << u;
-        expected << height << reference::sampleCone(axis, height, u) << reference::pdfCone(height);
-    });
-}
-
-TEST(SamplingTwin, SampleSphere) {
-    expectTwin(probeSampleSphere, [](Draw &draw, Words &input, Words &expected) {
-        const vec2 u = unitPair(draw);
-        input << u;
-        expected << reference::sampleSphere(u);
-    });
-}
-
-TEST(SamplingTwin, PowerHeuristic) {
-    expectTwin(probePowerHeuristic, [](Draw &draw, Words &input, Words &expected) {
-        const float a = std::abs(draw.coordinate()) + 1e-6f;
-        const float b = draw.chance(8) ? 0.0f : std::abs(draw.coordinate());
-        input << a << b;
-        expected << reference::powerHeuristic(a, b);
-    });
-}
-
-TEST(DielectricTwin, MeetInterface) {
-    expectTwin(probeMeetInterface, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 normal = draw.direction();
-        vec3 direction = draw.direction();
-        if (glm::dot(direction, normal) > 0.0f)
-            direction = -direction;
-        const float eta = draw.chance(2) ? 0.1f + draw.unit() : 1.0f + draw.unit() * 2.0f;
-        const auto glass = reference::fresnelDielectric(direction, normal, eta);
-        input << direction << normal << eta;
-        expected << glass.refracted << glass.reflectance;
-    });
-}
-
-TEST(MediaTwin, CountsAndPriorities) {
-    expectTwin(probeMedia, [](Draw &draw, Words &input, Words &expected) {
-        const std::uint32_t inside = draw.word();
-        const std::uint32_t material = draw.index(layout::maxMedia);
-        input << inside << material;
-        expected << reference::mediumAround(inside) << reference::mediumCount(inside, material)
-                 << reference::enterMedium(inside, material) << reference::leaveMedium(inside, material);
-    });
-}
-
-TEST(FunctionTwin, TurnsOf) {
-    expectTwin(probeAtan2Turns, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 direction = draw.direction();
-        const float y = draw.chance(2) ? direction.y : draw.coordinate();
-        const float x = direction.x == 0.0f && y == 0.0f ? 1.0f : direction.x;
-        input << y << x;
-        expected << reference::atan2Turns(y, x);
-    });
-}
-
-TEST(LightTwin, SpotFalloff) {
-    expectTwin(probeSpotFalloff, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 axis = draw.direction();
-        const vec3 toSpot = draw.chance(4) ? -axis : draw.direction();
-        const float cosineOuter = draw.unit() * 2.0f - 1.0f;
-        const float scale = 1.0f / (draw.unit() + 1e-6f);
-        input << toSpot << axis << cosineOuter << scale;
-        expected << reference::spotFalloff(toSpot, axis, cosineOuter, scale);
-    });
 }
 
 /// An environment of random texels, packed as the host does.
@@ -619,24 +307,6 @@ TEST(TextureTwin, LookUpTexture) {
     expectTwin(probeLookUpTexture, call, {.textures = packed.textures});
 }
 
-TEST(TextureTwin, TriangleUv) {
-    expectTwin(probeTriangleUv, [](Draw &draw, Words &input, Words &expected) {
-        const reference::Coordinates<float> at{vec2(draw.point()), vec2(draw.point()), vec2(draw.point())};
-        const float u = draw.unit();
-        const float v = draw.unit();
-        input << at.uv0 << at.uv1 << at.uv2 << u << v;
-        expected << reference::triangleUv(at, u, v);
-    });
-}
-
-TEST(TextureTwin, SphereUv) {
-    expectTwin(probeSphereUv, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 outward = draw.direction() * (draw.chance(2) ? 1.0f : 700.0f);
-        input << outward;
-        expected << reference::sphereUv(outward);
-    });
-}
-
 TEST(NormalMapTwin, MappedNormal) {
     const PackedScene packed = texturedScene();
     const std::uint32_t row = reference::textureRow(packed.materials[0].textures, layout::slotNormal);
@@ -658,16 +328,6 @@ TEST(NormalMapTwin, MappedNormal) {
                                             reference::sphereTangent(normal), row, at.uv1);
     };
     expectTwin(probeMappedNormal, call, {.textures = packed.textures});
-}
-
-TEST(NormalMapTwin, VisibleNormal) {
-    expectTwin(probeVisibleNormal, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 direction = draw.direction();
-        const vec3 normal = draw.chance(16) ? direction : draw.direction();
-        const vec3 up = draw.chance(4) ? normal : draw.direction();
-        input << direction << normal << up;
-        expected << reference::visibleNormal(direction, normal, up);
-    });
 }
 
 TEST(CameraTwin, PrimaryRay) {
@@ -742,48 +402,6 @@ vec3 drawColour(Draw &draw) {
     return {red, green, draw.chance(8) ? 0.0f : draw.unit()};
 }
 
-TEST(ConductorTwin, Reflectance) {
-    expectTwin(probeConductorReflectance, [](Draw &draw, Words &input, Words &expected) {
-        const float cosine = draw.chance(16) ? 1.0f : draw.unit();
-        const vec3 index = drawColour(draw) * 5.0f;
-        const vec3 extinction = drawColour(draw) * 9.0f + vec3(0.01f);
-        input << cosine << index << extinction;
-        expected << reference::conductorReflectance(cosine, index, extinction)
-                 << reference::schlickReflectance(cosine, index);
-    });
-}
-
-TEST(MicrofacetTwin, Reflecting) {
-    expectTwin(probeFacets, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 view = drawAbove(draw);
-        const float alpha = drawAlpha(draw);
-        const vec2 u = unitPair(draw);
-        const vec3 light = drawAbove(draw);
-        const float stretchView = reference::stretchOf(view, alpha);
-        const vec3 facet = reference::sampleGgxVndf(view, alpha, u);
-        const float pdf = reference::ggxD(facet, alpha);
-        input << view << alpha << u << light;
-        expected << stretchView << facet << pdf << reference::pdfReflection(pdf, view, stretchView)
-                 << reference::smithG2OverG1(view.z, stretchView, light.z, reference::stretchOf(light, alpha))
-                 << reference::halfVector(view, light);
-    });
-}
-
-TEST(MicrofacetTwin, Refracting) {
-    expectTwin(probeFacetsAcross, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 view = drawAbove(draw);
-        const vec3 light = -drawAbove(draw);
-        const float alpha = drawAlpha(draw);
-        const float eta = draw.chance(2) ? 0.4f + 0.5f * draw.unit() : 1.1f + draw.unit();
-        const vec3 facet = reference::halfVectorOfRefraction(view, light, eta);
-        input << view << light << alpha << eta;
-        expected << facet
-                 << reference::pdfRefraction(
-                        reference::ggxD(facet, alpha), view, reference::stretchOf(view, alpha),
-                        reference::dotProduct(view, facet), reference::dotProduct(light, facet), eta);
-    });
-}
-
 TEST(EnergyTwin, OfTheTable) {
     const PackedScene &packed = reference::sceneOfAllMaterials();
     const reference::SceneView<float> scene(packed);
@@ -844,30 +462,355 @@ TEST(BsdfTwin, DrawnAndEvaluated) {
     expectTwin(probeBsdf, call, {.lookups = packed.lookups, .scattering = 15u});
 }
 
-TEST(EmitterTwin, SolidAngleDensity) {
-    expectTwin(probeSolidAnglePdf, [](Draw &draw, Words &input, Words &expected) {
-        const float areaPdf = draw.unit();
-        const float distance = std::abs(draw.coordinate());
-        const float cosine = draw.unit() + 0x1p-24f;
-        input << areaPdf << distance << cosine;
-        expected << reference::solidAnglePdf(areaPdf, distance, cosine);
-    });
-}
+// ---- Functions that read nothing beside their parameters
 
-TEST(EmitterTwin, SphereLightDensity) {
-    expectTwin(probePdfSphereLight, [](Draw &draw, Words &input, Words &expected) {
-        const vec3 position = draw.point();
-        const vec3 direction = draw.direction();
-        const float distance = std::abs(draw.coordinate());
-        const vec3 centre = draw.point();
-        const float radius = draw.unit() * 10.0f + 0.001f;
-        const vec3 outward = draw.direction();
-        const float areaPdf = draw.unit();
-        input << position << direction << distance << centre << radius << outward << areaPdf;
-        expected << reference::pdfSphereLight(position, direction, distance, centre, radius, outward,
-                                              areaPdf);
-    });
-}
+struct LeafTwin {
+    const char *name;
+    std::uint32_t function; ///< of the probe kernel
+    TwinCall call;
+};
+
+void PrintTo(const LeafTwin &twin, std::ostream *stream) { *stream << twin.name; }
+
+class LeafTwins : public ::testing::TestWithParam<LeafTwin> {};
+
+TEST_P(LeafTwins, HaveTheSameBits) { expectTwin(GetParam().function, GetParam().call); }
+
+const LeafTwin leafTwins[] = {
+    {"VectorDotProduct", probeDotProduct,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 a = draw.point();
+         const vec3 b = draw.point();
+         input << a << b;
+         expected << reference::dotProduct(a, b);
+     }},
+    {"VectorCrossProduct", probeCrossProduct,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 a = draw.point();
+         const vec3 b = draw.chance(16) ? a * 3.0f : draw.point();
+         input << a << b;
+         expected << reference::crossProduct(a, b);
+     }},
+    {"VectorVectorLength", probeVectorLength,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 v = draw.point();
+         input << v;
+         expected << reference::vectorLength(v);
+     }},
+    {"VectorUnitVector", probeUnitVector,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 v = draw.point();
+         input << v;
+         expected << reference::unitVector(v);
+     }},
+    {"VectorMirrorDirection", probeMirrorDirection,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 direction = draw.direction();
+         const vec3 normal = draw.chance(16) ? -direction : draw.direction();
+         input << direction << normal;
+         expected << reference::mirrorDirection(direction, normal);
+     }},
+    {"VectorLargestComponent", probeLargestComponent,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 v = pointWithoutNegativeZero(draw);
+         input << v;
+         expected << reference::largestComponent(v);
+     }},
+    {"VectorSmallestComponent", probeSmallestComponent,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 v = pointWithoutNegativeZero(draw);
+         input << v;
+         expected << reference::smallestComponent(v);
+     }},
+    {"RandomHashKeys", probeHashKeys,
+     [](Draw &draw, Words &input, Words &expected) {
+         const std::uint32_t x = draw.word();
+         const std::uint32_t y = draw.word();
+         const uvec3 keys(x, y, draw.word());
+         input << keys;
+         expected << reference::hashKeys(keys);
+     }},
+    {"RandomOwenScramble", probeOwenScramble,
+     [](Draw &draw, Words &input, Words &expected) {
+         const std::uint32_t x = draw.word();
+         const std::uint32_t key = draw.word();
+         input << x << key;
+         expected << reference::owenScramble(x, key);
+     }},
+    {"RandomSecondSobolCoordinate", probeSecondSobolCoordinate,
+     [](Draw &draw, Words &input, Words &expected) {
+         const std::uint32_t x = draw.word();
+         input << x;
+         expected << reference::secondSobolCoordinate(x);
+     }},
+    {"RandomUnitReal", probeUnitReal,
+     [](Draw &draw, Words &input, Words &expected) {
+         const std::uint32_t x = draw.word();
+         input << x;
+         expected << reference::unitFloat<float>(x);
+     }},
+    {"BoxMakeBoxRay", probeMakeBoxRay,
+     [](Draw &draw, Words &input, Words &expected) {
+         const Box bounds = drawBox(draw);
+         const vec3 origin = drawOrigin(draw, bounds);
+         const vec3 direction = draw.direction();
+         input << origin << direction << bounds.lower << bounds.upper;
+         const reference::BoxRay<float> ray =
+             reference::makeBoxRay(origin, direction, bounds.lower, bounds.upper);
+         expected << ray.inverse << ray.origin << ray.pad;
+     }},
+    {"BoxBoxInterval", probeBoxInterval,
+     [](Draw &draw, Words &input, Words &expected) {
+         const Box box = drawBox(draw);
+         const vec3 origin = drawOrigin(draw, box);
+         const vec3 direction = draw.direction();
+         const vec3 lower = box.lower - vec3(1.0f);
+         const vec3 upper = box.upper + vec3(1.0f);
+         input << origin << direction << lower << upper << box.lower << box.upper;
+         const vec2 interval =
+             boxInterval(reference::makeBoxRay(origin, direction, lower, upper), box.lower, box.upper);
+         expected << interval.x << interval.y;
+     }},
+    {"TriangleMakeTriangleRay", probeMakeTriangleRay,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 origin = draw.point();
+         const vec3 direction = draw.direction();
+         input << origin << direction;
+         const reference::TriangleRay<float> ray = reference::makeTriangleRay(origin, direction);
+         expected << ray.origin << static_cast<std::uint32_t>(ray.axis) << ray.shear;
+     }},
+    {"TriangleTrianglePoint", probeTrianglePoint,
+     [](Draw &draw, Words &input, Words &expected) {
+         const Triangle triangle = drawTriangle(draw);
+         const vec2 uv(draw.unit(), draw.unit());
+         input << triangle.v0 << triangle.v1 << triangle.v2 << uv;
+         expected << reference::trianglePoint(triangle.v0, triangle.v1, triangle.v2, uv.x, uv.y);
+     }},
+    {"TriangleTrianglePointError", probeTrianglePointError,
+     [](Draw &draw, Words &input, Words &expected) {
+         const Triangle triangle = drawTriangle(draw);
+         const vec2 uv(draw.unit(), draw.unit());
+         input << triangle.v0 << triangle.v1 << triangle.v2 << uv;
+         expected << reference::trianglePointError(triangle.v0, triangle.v1, triangle.v2, uv.x, uv.y);
+     }},
+    {"SurfaceSphereSurface", probeSphereSurface,
+     [](Draw &draw, Words &input, Words &expected) {
+         layout::SphereRecord sphere{};
+         sphere.centre = draw.point();
+         sphere.materialAndSide = draw.chance(2) ? layout::sphereFacesInward : 0u;
+         const vec3 origin = draw.point();
+         const vec3 direction = draw.direction();
+         const float distance = std::abs(draw.coordinate());
+         input << origin << direction << distance << sphere.centre << sphere.materialAndSide;
+         expected << reference::sphereSurface<float>(origin, direction, distance, sphere);
+     }},
+    {"SurfaceTriangleSurface", probeTriangleSurface,
+     [](Draw &draw, Words &input, Words &expected) {
+         const Triangle drawn = drawTriangle(draw);
+         layout::TriangleRecord triangle{};
+         triangle.v0 = drawn.v0;
+         triangle.v1 = drawn.v1;
+         triangle.v2 = drawn.v2;
+         layout::NormalRecord normals{};
+         if (!draw.chance(4)) {
+             normals.n0 = draw.direction();
+             normals.n1 = draw.chance(8) ? normals.n0 : draw.direction();
+             normals.n2 = draw.chance(8) ? -normals.n0 : draw.direction();
+         }
+         const vec2 uv(draw.unit(), draw.unit());
+         input << triangle.v0 << triangle.v1 << triangle.v2 << normals.n0 << normals.n1 << normals.n2 << uv;
+         expected << reference::triangleSurface<float>(triangle, normals, uv.x, uv.y);
+     }},
+    {"SurfaceSpawnPoint", probeOffsetRayOrigin,
+     [](Draw &draw, Words &input, Words &expected) {
+         reference::Surface<float> surface{};
+         surface.position = draw.point();
+         surface.error = draw.chance(4) ? vec3(0.0f) : glm::abs(surface.position) * 0x1p-21f;
+         surface.geometricNormal = draw.direction();
+         const vec3 direction = draw.chance(8) ? -surface.geometricNormal : draw.direction();
+         input << surface.position << surface.error << surface.geometricNormal << direction;
+         expected << reference::offsetRayOrigin(surface, direction);
+     }},
+    {"RandomSampleBits", probeSampleBits,
+     [](Draw &draw, Words &input, Words &expected) {
+         const std::uint32_t x = draw.index(32768);
+         const uvec2 pixel(x, draw.index(32768));
+         const std::uint32_t seed = draw.word();
+         const std::uint32_t pair = draw.index(100);
+         const std::uint32_t sample = draw.index(65536);
+         input << pixel << seed << pair << sample;
+         expected << reference::sampleBits(reference::pairKeys(pixel, seed, pair), sample);
+     }},
+    {"FunctionSineCosine", probeSineCosine,
+     [](Draw &draw, Words &input, Words &expected) {
+         const float turns = draw.chance(8) ? static_cast<float>(draw.index(17)) / 16.0f : draw.unit();
+         const auto angle = reference::sineCosine(turns);
+         input << turns;
+         expected << angle.sine << angle.cosine;
+     }},
+    {"FunctionDecay", probeExpNegative,
+     [](Draw &draw, Words &input, Words &expected) {
+         const float x = draw.chance(4) ? std::abs(draw.coordinate()) : draw.unit() * 90.0f;
+         input << x;
+         expected << reference::expNegative(x);
+     }},
+    {"SamplingSampleCosine", probeSampleCosine,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 normal = draw.direction();
+         const vec2 u = unitPair(draw);
+         const vec3 direction = reference::sampleCosine(normal, u);
+         input << normal << u;
+         expected << direction << reference::pdfCosine(direction.z);
+     }},
+    {"SamplingSampleTriangle", probeSampleTriangle,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec2 u = unitPair(draw);
+         input << u;
+         expected << reference::sampleTriangle(u);
+     }},
+    {"SamplingSampleCone", probeSampleCone,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 axis = draw.direction();
+         const float squaredDistance = 0.001f + draw.unit() * 1000.0f;
+         const float squaredRadius = squaredDistance * draw.unit();
+         const vec2 u = unitPair(draw);
+         const float height = reference::coneHeight(squaredRadius, squaredDistance);
+         input << axis << squaredRadius << squaredDistance << u;
+         expected << height << reference::sampleCone(axis, height, u) << reference::pdfCone(height);
+     }},
+    {"SamplingSampleSphere", probeSampleSphere,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec2 u = unitPair(draw);
+         input << u;
+         expected << reference::sampleSphere(u);
+     }},
+    {"SamplingPowerHeuristic", probePowerHeuristic,
+     [](Draw &draw, Words &input, Words &expected) {
+         const float a = std::abs(draw.coordinate()) + 1e-6f;
+         const float b = draw.chance(8) ? 0.0f : std::abs(draw.coordinate());
+         input << a << b;
+         expected << reference::powerHeuristic(a, b);
+     }},
+    {"DielectricMeetInterface", probeMeetInterface,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 normal = draw.direction();
+         vec3 direction = draw.direction();
+         if (glm::dot(direction, normal) > 0.0f)
+             direction = -direction;
+         const float eta = draw.chance(2) ? 0.1f + draw.unit() : 1.0f + draw.unit() * 2.0f;
+         const auto glass = reference::fresnelDielectric(direction, normal, eta);
+         input << direction << normal << eta;
+         expected << glass.refracted << glass.reflectance;
+     }},
+    {"MediaCountsAndPriorities", probeMedia,
+     [](Draw &draw, Words &input, Words &expected) {
+         const std::uint32_t inside = draw.word();
+         const std::uint32_t material = draw.index(layout::maxMedia);
+         input << inside << material;
+         expected << reference::mediumAround(inside) << reference::mediumCount(inside, material)
+                  << reference::enterMedium(inside, material) << reference::leaveMedium(inside, material);
+     }},
+    {"FunctionTurnsOf", probeAtan2Turns,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 direction = draw.direction();
+         const float y = draw.chance(2) ? direction.y : draw.coordinate();
+         const float x = direction.x == 0.0f && y == 0.0f ? 1.0f : direction.x;
+         input << y << x;
+         expected << reference::atan2Turns(y, x);
+     }},
+    {"LightSpotFalloff", probeSpotFalloff,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 axis = draw.direction();
+         const vec3 toSpot = draw.chance(4) ? -axis : draw.direction();
+         const float cosineOuter = draw.unit() * 2.0f - 1.0f;
+         const float scale = 1.0f / (draw.unit() + 1e-6f);
+         input << toSpot << axis << cosineOuter << scale;
+         expected << reference::spotFalloff(toSpot, axis, cosineOuter, scale);
+     }},
+    {"TextureTriangleUv", probeTriangleUv,
+     [](Draw &draw, Words &input, Words &expected) {
+         const reference::Coordinates<float> at{vec2(draw.point()), vec2(draw.point()), vec2(draw.point())};
+         const float u = draw.unit();
+         const float v = draw.unit();
+         input << at.uv0 << at.uv1 << at.uv2 << u << v;
+         expected << reference::triangleUv(at, u, v);
+     }},
+    {"TextureSphereUv", probeSphereUv,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 outward = draw.direction() * (draw.chance(2) ? 1.0f : 700.0f);
+         input << outward;
+         expected << reference::sphereUv(outward);
+     }},
+    {"NormalMapVisibleNormal", probeVisibleNormal,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 direction = draw.direction();
+         const vec3 normal = draw.chance(16) ? direction : draw.direction();
+         const vec3 up = draw.chance(4) ? normal : draw.direction();
+         input << direction << normal << up;
+         expected << reference::visibleNormal(direction, normal, up);
+     }},
+    {"ConductorReflectance", probeConductorReflectance,
+     [](Draw &draw, Words &input, Words &expected) {
+         const float cosine = draw.chance(16) ? 1.0f : draw.unit();
+         const vec3 index = drawColour(draw) * 5.0f;
+         const vec3 extinction = drawColour(draw) * 9.0f + vec3(0.01f);
+         input << cosine << index << extinction;
+         expected << reference::conductorReflectance(cosine, index, extinction)
+                  << reference::schlickReflectance(cosine, index);
+     }},
+    {"MicrofacetReflecting", probeFacets,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 view = drawAbove(draw);
+         const float alpha = drawAlpha(draw);
+         const vec2 u = unitPair(draw);
+         const vec3 light = drawAbove(draw);
+         const float stretchView = reference::stretchOf(view, alpha);
+         const vec3 facet = reference::sampleGgxVndf(view, alpha, u);
+         const float pdf = reference::ggxD(facet, alpha);
+         input << view << alpha << u << light;
+         expected << stretchView << facet << pdf << reference::pdfReflection(pdf, view, stretchView)
+                  << reference::smithG2OverG1(view.z, stretchView, light.z,
+                                              reference::stretchOf(light, alpha))
+                  << reference::halfVector(view, light);
+     }},
+    {"MicrofacetRefracting", probeFacetsAcross,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 view = drawAbove(draw);
+         const vec3 light = -drawAbove(draw);
+         const float alpha = drawAlpha(draw);
+         const float eta = draw.chance(2) ? 0.4f + 0.5f * draw.unit() : 1.1f + draw.unit();
+         const vec3 facet = reference::halfVectorOfRefraction(view, light, eta);
+         input << view << light << alpha << eta;
+         expected << facet
+                  << reference::pdfRefraction(
+                         reference::ggxD(facet, alpha), view, reference::stretchOf(view, alpha),
+                         reference::dotProduct(view, facet), reference::dotProduct(light, facet), eta);
+     }},
+    {"EmitterSolidAngleDensity", probeSolidAnglePdf,
+     [](Draw &draw, Words &input, Words &expected) {
+         const float areaPdf = draw.unit();
+         const float distance = std::abs(draw.coordinate());
+         const float cosine = draw.unit() + 0x1p-24f;
+         input << areaPdf << distance << cosine;
+         expected << reference::solidAnglePdf(areaPdf, distance, cosine);
+     }},
+    {"EmitterSphereLightDensity", probePdfSphereLight,
+     [](Draw &draw, Words &input, Words &expected) {
+         const vec3 position = draw.point();
+         const vec3 direction = draw.direction();
+         const float distance = std::abs(draw.coordinate());
+         const vec3 centre = draw.point();
+         const float radius = draw.unit() * 10.0f + 0.001f;
+         const vec3 outward = draw.direction();
+         const float areaPdf = draw.unit();
+         input << position << direction << distance << centre << radius << outward << areaPdf;
+         expected << reference::pdfSphereLight(position, direction, distance, centre, radius, outward,
+                                               areaPdf);
+     }},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, LeafTwins, ::testing::ValuesIn(leafTwins),
+                         [](const auto &instance) { return std::string(instance.param.name); });
 
 } // namespace
 } // namespace hyalite::testing
