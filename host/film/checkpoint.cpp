@@ -30,7 +30,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == 64 && std::has_unique_object_representations_v<Header>);
 
-/// The file is whole, and not one that this render can go on from.
+/// The file is complete, but this render cannot continue from it.
 class OtherRender : public Error {
   public:
     using Error::Error;
@@ -89,7 +89,7 @@ class Reader {
         std::string identityThere(header.identityBytes, '\0');
         offset_ = head.size();
         readPiece(std::as_writable_bytes(std::span(identityThere)));
-        // The sizes are those of the file, and so memory is asked for no more than it has.
+        // Sizes are checked against that of the file, so memory is never more than the file has.
         Checkpoint checkpoint{Film({header.x0, header.x1, header.y0, header.y1}), {}};
         for (std::size_t i = 0; i < rayKinds.size(); ++i)
             checkpoint.rays.*rayKinds[i].count = header.rays[i];
@@ -121,7 +121,7 @@ class Reader {
     }
 
   private:
-    /// Of the crop, if the file has the size that belongs to it.
+    /// For the crop, if the size of the file matches it.
     [[nodiscard]] std::uint64_t countPixels(const Header &header) const {
         constexpr std::int32_t mostSide = 1 << 20;
         const std::int64_t width = std::int64_t{header.x1} - header.x0;
@@ -194,11 +194,11 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays) {
     file.write(identity);
     file.write(std::as_bytes(std::span(film.pixels)));
     file.write(std::as_bytes(std::span(&hash, 1)));
-    // From here until the new one is in place, the older generation is the only one.
+    // Until the new one is in place, the older generation is the only one.
     std::error_code error;
     const std::filesystem::path older = olderCheckpoint(path_);
     if (isNewestWhole_)
-        std::filesystem::rename(path_, older, error); // there may be none to keep
+        std::filesystem::rename(path_, older, error); // there may be none
     const bool isMoved = isNewestWhole_ && !error;
     try {
         file.commit();

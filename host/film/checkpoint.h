@@ -1,7 +1,7 @@
-// Checkpoints: what a render has so far, in a file from which it can go on.
+// Checkpoints: the state of a render, in a file from which it can continue.
 //
-// There are two generations: FILE, the newer one, and FILE.1. Each is written whole, stored durably and put in place by
-// renaming, so that at any moment one of them is there and whole. All numbers are little endian:
+// There are two generations: FILE, the newer one, and FILE.1. Each is written, synced to disk and then renamed into
+// place, so that at any moment at least one of them is complete. All numbers are little endian:
 //
 //     "hyalite checkpoint\n"
 //     u32 version     u32 bytes of the identity
@@ -23,13 +23,13 @@
 
 namespace hyalite {
 
-/// All that decides the pixels of a render, by name: two renders whose identities are equal may share samples. Neither
-/// names nor values have line ends, and no name has a colon.
+/// Everything that affects the samples of a render, by name. Renders with equal identities may share samples. Names and
+/// values have no line ends, and names have no colons.
 using RenderIdentity = std::vector<std::pair<std::string, std::string>>;
 
 struct Checkpoint {
     Film film;
-    RayCounts rays; ///< traced for the film: a device may have begun samples that are not in it
+    RayCounts rays; ///< traced for the film; a device may have started samples that are not in it
 };
 
 /// The older generation of a checkpoint: FILE.1.
@@ -38,11 +38,11 @@ struct Checkpoint {
 /// Writes checkpoints of one render.
 class CheckpointWriter {
   public:
-    /// `isNewestWhole`: `path` holds a checkpoint of this render that can be read, which is then worth keeping as the
-    /// older generation. Throws Error{OutputNotWritten} where `path` cannot be written.
+    /// `isNewestWhole`: `path` is a readable checkpoint of this render, which then becomes the older generation. Throws
+    /// Error{OutputNotWritten} if `path` cannot be written.
     CheckpointWriter(const std::filesystem::path &path, RenderIdentity identity, bool isNewestWhole);
 
-    /// Stores a generation durably. Throws Error{OutputNotWritten}; then those that were there before still are.
+    /// Stores a generation on disk. Throws Error{OutputNotWritten}; then the previous generations are kept.
     void write(const Film &film, const RayCounts &rays);
 
     [[nodiscard]] const std::filesystem::path &path() const { return path_; }
@@ -53,19 +53,19 @@ class CheckpointWriter {
     bool isNewestWhole_;
 };
 
-/// Reads one generation. Memory goes with the size of the file. Throws Error{BadInput}, naming the file, where it cannot
-/// be read, is not a checkpoint, of another version or damaged; and where it is whole but of another render: then with
-/// what differs, and both values, in place of the damage.
+/// Reads one generation; memory is in proportion to the size of the file. Throws Error{BadInput}, naming the file, if
+/// it cannot be read, is not a checkpoint, has another version or is damaged; and, with the difference and both values,
+/// if it belongs to another render.
 [[nodiscard]] Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentity &identity,
                                         const Crop &crop, std::uint32_t samplesPerPixel);
 
 struct ResumedCheckpoint {
     Checkpoint checkpoint;
     std::filesystem::path path; ///< of the generation that was read
-    std::string damage;         ///< what is wrong with the newer generation, where the older one was read
+    std::string damage;         ///< the fault of the newer generation, if the older one was read
 };
 
-/// Reads the newer generation or, if that is missing or damaged, the older one. Nothing where neither exists. Throws
+/// Reads the newer generation or, if it is missing or damaged, the older one. Empty if neither exists. Throws
 /// Error{BadInput} as readCheckpoint does, with all reasons.
 [[nodiscard]] std::optional<ResumedCheckpoint> resumeCheckpoint(const std::filesystem::path &path,
                                                                 const RenderIdentity &identity,

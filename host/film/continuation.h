@@ -1,4 +1,4 @@
-// What a render is begun with, and what it gives away while it runs.
+// Continuation of renders: the film that a render starts with, and copies of it that it gives away while it runs.
 #pragma once
 
 #include "host/film/film.h"
@@ -10,24 +10,24 @@
 
 namespace hyalite {
 
-/// Takes copies of a film that is still being rendered. Every pixel of them holds its first samples, as many as its count
-/// says, in their order: so any renderer can go on from there, to the same bits.
+/// Takes copies of a film during its render. Every pixel of a copy has its first `sampleCount` samples in their order,
+/// so any renderer can continue from it to the same bits.
 class SnapshotTaker {
   public:
     virtual ~SnapshotTaker() = default;
 
-    /// Whether a copy is wanted now: asked often, and from any thread.
+    /// Whether a copy is wanted now. Called often, and from any thread.
     [[nodiscard]] virtual bool isWanted() const noexcept = 0;
 
-    /// Called by one thread, soon after a copy was wanted. `copyFilm` fills the pixels that it is given, those of the
-    /// whole film; `rays` are those that this render has traced for them. Does not throw.
+    /// Called by one thread, soon after a copy was wanted. `copyFilm` fills the pixels of the whole film; `rays` were
+    /// traced by this render for them. Does not throw.
     virtual void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
                       const RayCounts &rays) = 0;
 };
 
 struct Continuation {
-    std::optional<Film> film; ///< of the same crop, to be added to; else the render begins with none
-    SnapshotTaker *snapshots = nullptr; ///< where there is one, it outlives the render
+    std::optional<Film> film;           ///< of the same crop; samples are added to it. Empty: start with none
+    SnapshotTaker *snapshots = nullptr; ///< if not null, it outlives the render
 };
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// The film: what both renderers fill, one record a pixel of the crop.
+// The film: a record for each pixel of the crop, which both renderers fill.
 #pragma once
 
 #include "host/image/crop.h"
@@ -20,8 +20,8 @@ namespace hyalite {
 ///
 ///     (sum x^2 - (sum x)^2 / n) / (n - 1) / n
 ///
-/// with Bessel's correction. It takes samples for independent; low-discrepancy ones have less. NaN below two samples.
-/// The film's sums are float32: as little as 2^-24 of the square of the mean is beneath their rounding.
+/// with Bessel's correction. It assumes independent samples; low-discrepancy samples have less variance. NaN below two
+/// samples. The sums of the film are float32: variances below 2^-24 of the squared mean are lost in rounding.
 [[nodiscard]] inline glm::dvec3 varianceOfMean(const layout::FilmPixel &pixel) {
     if (pixel.sampleCount < 2)
         return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
@@ -39,7 +39,7 @@ struct Film {
         : crop(region),
           pixels(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height())) {}
 
-    /// The mean of the samples of each pixel; black where there is none.
+    /// The mean of the samples of each pixel; black without samples.
     [[nodiscard]] Image toImage() const {
         Image image(crop.width(), crop.height());
         for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -49,14 +49,14 @@ struct Film {
     }
 };
 
-/// Row y of the crop, from 0 on. `film` must outlive it.
+/// Row y of the crop, from 0. `film` must outlive it.
 [[nodiscard]] std::span<const layout::FilmPixel> rowOf(const Film &film, int y);
 
-/// The film as layers: "variance" RGB, of the mean of the samples, see varianceOfMean(), unless no pixel has one; and
-/// "samples", their number. `film` must outlive them.
+/// The film as layers: "variance" RGB, that of the mean (varianceOfMean()), unless no pixel has one; and "samples", the
+/// sample count. `film` must outlive them.
 [[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
 
-/// Pixels of two films of one crop that differ in any bit.
+/// Number of pixels that differ in any bit between two films of one crop.
 [[nodiscard]] std::size_t differingPixelCount(const Film &a, const Film &b);
 
 } // namespace hyalite

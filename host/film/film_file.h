@@ -1,4 +1,4 @@
-// Films as picture files: what the numbers of each integrator look like.
+// Films as picture files, for each integrator.
 #pragma once
 
 #include "host/film/film.h"
@@ -10,16 +10,16 @@
 
 namespace hyalite {
 
-/// Boxes and triangles that a sample of each pixel tests, on average, from a film of the cost.
+/// Average number of boxes and triangles that a sample of each pixel tests, from a film of the cost.
 [[nodiscard]] std::vector<float> testsPerSample(const Film &cost);
 
 /// The same in false colours, with a legend.
 [[nodiscard]] Drawing drawCost(const Film &cost);
 
-/// What a PNG shows: the means, tone-mapped; but of the cost, drawCost().
+/// The picture in a PNG: the tone-mapped means, or drawCost() for the cost.
 [[nodiscard]] Drawing drawFilm(const Film &film, const RenderSettings &settings);
 
-/// writeImage() of the film's `picture`; but a PNG of the cost is drawCost(). Throws likewise.
+/// writeImage() of the film's `picture`, or of drawCost() for a PNG of the cost. Throws likewise.
 void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, const Picture &picture,
                const RenderSettings &settings, ToneCurve tone = ToneCurve::Gamma);
 

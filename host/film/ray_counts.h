@@ -1,4 +1,4 @@
-// How many rays a render traced, by kind.
+// Ray counts of a render, by kind.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where the time of a render went.
+// Times of the parts of a render.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,10 @@
 namespace hyalite {
 
 struct RenderTiming {
-    double uploadSeconds = 0.0;   ///< scene data to the device
-    double pipelineSeconds = 0.0; ///< building kernels, beyond the upload, and their first runs, without work
-    double renderSeconds = 0.0;   ///< from the first ray to the last
+    double uploadSeconds = 0.0; ///< scene data to the device
+    double pipelineSeconds =
+        0.0; ///< building kernels, unless during the upload, and their first runs, without work
+    double renderSeconds = 0.0; ///< from the first ray to the last
     std::uint64_t dispatchCount = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a render did and when: plain data that traces, tables and reports are made of.
+// Timeline of a render: plain data for traces, tables and reports.
 #pragma once
 
 #include "host/film/ray_counts.h"
@@ -11,14 +11,14 @@
 
 namespace hyalite {
 
-/// Now, in nanoseconds of the host's monotonic clock since an epoch of its own.
+/// The current time in nanoseconds of the host's monotonic clock, since an arbitrary epoch.
 [[nodiscard]] inline std::int64_t hostNanos() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
                std::chrono::steady_clock::now().time_since_epoch())
         .count();
 }
 
-/// A stretch of time, in nanoseconds as hostNanos() counts them.
+/// A time span, in nanoseconds of hostNanos().
 struct Span {
     std::int64_t beginNanos = 0;
     std::int64_t endNanos = 0; ///< never before the beginning
@@ -28,7 +28,7 @@ struct Span {
     bool operator==(const Span &) const = default;
 };
 
-/// Measures what follows on each other: every lap begins where the last one ended.
+/// Measures consecutive spans: every lap begins where the last one ended.
 class Stopwatch {
   public:
     Span lap() {
@@ -41,14 +41,14 @@ class Stopwatch {
     std::int64_t lapBegin_ = hostNanos();
 };
 
-/// When one run of a kernel took place.
+/// Times of one run of a kernel.
 struct RunTimes {
     Span host; ///< from before its submission until the host knew that it was finished
-    /// What the device's own clock says, placed on the host's: its length is the device's, and it lies inside of
-    /// `host`. Nothing where the device has no timestamps.
+    /// The span by the device's clock, placed inside `host` on the host's time line. Empty if the device has no
+    /// timestamps.
     std::optional<Span> device;
 
-    /// The best that is known of the kernel's own time.
+    /// The best estimate of the kernel's own time.
     [[nodiscard]] const Span &best() const { return device ? *device : host; }
 };
 
@@ -61,7 +61,7 @@ struct DispatchRecord {
     int tileHeight = 0;
     std::uint32_t sampleBegin = 0; ///< the samples [sampleBegin, sampleEnd) of each pixel were asked for
     std::uint32_t sampleEnd = 0;
-    bool isResumed = false; ///< goes on where the tile's last dispatch had spent its steps
+    bool isResumed = false; ///< continues the tile's last dispatch, whose steps were spent
     RayCounts rays;         ///< of the samples that it finished
     std::uint64_t invocations = 0;
     RunTimes times;
@@ -78,7 +78,7 @@ struct StageRecord {
 struct Timeline {
     std::vector<StageRecord> stages;
     std::vector<DispatchRecord> dispatches;
-    std::string clock; ///< which clock timed the dispatches, in words
+    std::string clock; ///< description of the clock that timed the dispatches
 };
 
 } // namespace hyalite

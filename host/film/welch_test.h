@@ -1,7 +1,8 @@
-// Whether two renders can be estimates of one picture: a test for each pixel and channel, corrected for their number.
+// Welch's test of the hypothesis that two renders estimate the same picture: a test for each pixel and channel,
+// corrected for their number.
 //
-// As K. Subr and J. Arvo did ("Statistical Hypothesis Testing for Assessing Monte Carlo Estimators", Pacific Graphics
-// 2007), and the render tests of Mitsuba do (W. Jakob and others).
+// After K. Subr and J. Arvo ("Statistical Hypothesis Testing for Assessing Monte Carlo Estimators", Pacific Graphics
+// 2007), and the render tests of Mitsuba (W. Jakob and others).
 #pragma once
 
 #include "host/film/film.h"
@@ -13,43 +14,42 @@
 
 namespace hyalite {
 
-/// A picture whose pixels are means of samples. All images have one size.
+/// A picture whose pixels are means of samples. All images have the same size.
 struct Estimate {
     Image mean;
     Image variance;              ///< of the mean
-    std::optional<Image> counts; ///< of samples, in all channels; without it variances are taken for exact
+    std::optional<Image> counts; ///< of samples, in all channels; without it variances count as exact
 };
 
 [[nodiscard]] Estimate estimateOf(const Film &film);
 
 struct WelchOptions {
-    double significance = 0.01; ///< in (0, 1): how often all tests together fail on equal pictures, at most
-    int leastSampleCount = 16;  ///< pixels of fewer are left out: their t is far from Student's
+    double significance = 0.01; ///< in (0, 1): maximum probability that any test fails on equal pictures
+    int leastSampleCount = 16;  ///< pixels with fewer samples are skipped: their t is not Student's
 };
 
 struct WelchResult {
-    std::uint64_t testCount = 0;     ///< of channels of pixels, and three of the whole image
-    std::uint64_t untestedCount = 0; ///< channels of pixels that have no variance, or too few samples
+    std::uint64_t testCount = 0;     ///< channels of pixels, and three of the whole image
+    std::uint64_t untestedCount = 0; ///< channels of pixels without variance or with too few samples
     std::uint64_t failureCount = 0;
     double threshold = 0.0; ///< of |z|, by Sidak's correction for testCount
-    double largest = 0.0;   ///< |z| of pixels; infinite where one side alone is finite
-    int x = 0;              ///< where that is
+    double largest = 0.0;   ///< |z| of a pixel; infinite if only one side is finite
+    int x = 0;              ///< position of the largest
     int y = 0;
     int channel = 0;
-    std::array<double, 3> ofImage{}; ///< z of the means over all pixels that are tested, per channel
+    std::array<double, 3> ofImage{}; ///< z of the means over all tested pixels, per channel
 
     [[nodiscard]] bool isPassed() const { return failureCount == 0; }
 };
 
-/// Welch's t of each channel of each pixel, with the degrees of freedom by Satterthwaite, as the normal deviate that is
-/// as unlikely. A deterministic pixel has a variance of 0: to each variance 2^-24 of the square of the mean is added,
-/// which is what a film of float32 cannot resolve. Samples within a pixel may be better spread than independent ones:
-/// then fewer tests fail than may. Where the mean is finite on one side alone, the test fails. Both estimates are of
-/// one size.
+/// Welch's t of each channel of each pixel, with degrees of freedom by Satterthwaite, converted to the normal deviate
+/// of the same probability. 2^-24 of the squared mean is added to each variance: a film of float32 cannot resolve less,
+/// and deterministic pixels have a variance of 0. If samples are stratified, tests fail less often than `significance`
+/// allows. A test fails if the mean is finite on only one side. Both estimates have the same size.
 [[nodiscard]] WelchResult welchTest(const Estimate &a, const Estimate &b, const WelchOptions &options = {});
 
-/// The normal deviate that is exceeded as often as `t` of Student's distribution, to 0.5 % from 15 degrees of freedom on
-/// (D. L. Wallace, "Bounds on Normal Approximations to Student's and the Chi-Square Distributions", 1959).
+/// The normal deviate with the same tail probability as `t` of Student's distribution, to 0.5 % from 15 degrees of
+/// freedom on (D. L. Wallace, "Bounds on Normal Approximations to Student's and the Chi-Square Distributions", 1959).
 [[nodiscard]] double normalDeviateOfStudent(double t, double degreesOfFreedom);
 
 /// |z| that the largest of `testCount` independent normal deviates exceeds with a probability of `significance`

@@ -1,4 +1,4 @@
-// What the traversal of the tree came to: counts that do not depend on any clock.
+// Work of the traversal: counts that do not depend on any clock.
 #pragma once
 
 #include <algorithm>
@@ -7,13 +7,13 @@
 
 namespace hyalite {
 
-/// Of a traversal with a stack, nearer subtree first, or of one by skip lists, whose nodes are one box each and which has
-/// no stack. The same on every device and, with a stack, on the CPU, for the same tree.
+/// Work of a traversal with a stack, nearer subtree first, or by skip lists, whose nodes have one box each. For the
+/// same tree the counts are the same on every device and, with a stack, on the CPU.
 struct WorkCounts {
-    std::uint64_t nodesVisited = 0;    ///< with a stack, inner ones, which hold the boxes of their children
-    std::uint64_t boxesTested = 0;     ///< of children that there are
-    std::uint64_t trianglesTested = 0; ///< those that a ray starts on too
-    std::uint64_t deepestStack = 0;    ///< most subtrees that waited for one ray
+    std::uint64_t nodesVisited = 0;    ///< with a stack: inner nodes, which hold the boxes of their children
+    std::uint64_t boxesTested = 0;     ///< of existing children
+    std::uint64_t trianglesTested = 0; ///< including those that a ray starts on
+    std::uint64_t deepestStack = 0;    ///< maximum number of waiting subtrees of a ray
 
     WorkCounts &operator+=(const WorkCounts &other) {
         nodesVisited += other.nodesVisited;
@@ -25,10 +25,10 @@ struct WorkCounts {
     bool operator==(const WorkCounts &) const = default;
 };
 
-/// How many lanes of its subgroups the traversal kept busy. It depends on the device and on how work is cut.
+/// Lane utilisation of the traversal. It depends on the device and on the render config.
 struct LaneCounts {
     std::uint64_t passes = 0;    ///< of subgroups through the loops of the traversal
-    std::uint64_t busySlots = 0; ///< path slots that had a node or a triangle to look at, in all passes
+    std::uint64_t busySlots = 0; ///< path slots with a node or a triangle to test, summed over passes
     std::uint32_t slotsPerSubgroup = 0;
 
     LaneCounts &operator+=(const LaneCounts &other) {
@@ -37,7 +37,7 @@ struct LaneCounts {
         slotsPerSubgroup = std::max(slotsPerSubgroup, other.slotsPerSubgroup);
         return *this;
     }
-    /// Of all slots in all passes; 0 without passes.
+    /// Fraction of busy slots, over all passes; 0 without passes.
     [[nodiscard]] double busyShare() const {
         const double slots = static_cast<double>(passes) * slotsPerSubgroup;
         return slots > 0.0 ? static_cast<double>(busySlots) / slots : 0.0;

@@ -1,8 +1,9 @@
-// Which division and square root the kernels run: the device's own operators, or those of shaders/math/arithmetic.glsl.
+// Choice of division and square root: the device's own operators, or those of shaders/math/arithmetic.glsl.
 //
 // Vulkan promises correctly rounded + - * only, and to nearest only where RoundingModeRTE is offered. The operators of
-// shaders/math/arithmetic.glsl need no more, and cost some time. Whether a driver's own are correctly rounded as well,
-// samples cannot prove: they run only for drivers on a list, each with its reason, and hard inputs can still veto.
+// shaders/math/arithmetic.glsl need no more than that, but take longer. No number of samples can prove that a driver's
+// own operators round correctly. They run only for drivers on a list, each with its reason, if a check on hard inputs
+// passes too.
 #pragma once
 
 #include "host/gpu/vk/device_list.h"
@@ -23,7 +24,7 @@ enum class Arithmetic {
     Native,    ///< the device's own, unchecked
 };
 
-/// What runs, and why.
+/// The choice, and its reason.
 struct ArithmeticChoice {
     bool isNative = false;
     std::string reason;
@@ -32,17 +33,17 @@ struct ArithmeticChoice {
 /// Whether the driver with this VkDriverId is on the list of those whose / and sqrt are correctly rounded.
 [[nodiscard]] bool isExactDivisionListed(std::uint32_t driverId);
 
-/// Which float control a device lacks that the equality of images to the bit needs, or empty.
+/// The float control that equal bits need and the device lacks, or empty.
 [[nodiscard]] std::string explainUnpromisedBits(const DeviceInfo &device);
 
-/// Runs the check on the device if it is the check that decides.
+/// Runs the check on the device if the choice depends on it.
 [[nodiscard]] ArithmeticChoice chooseArithmetic(Device &device, Arithmetic wanted);
 
-/// How many of a device's results (quotient and root of each input in turn) differ in any bit from this machine's.
+/// The number of device results (quotient and root of each input in turn) that differ in any bit from this machine's.
 [[nodiscard]] std::size_t countWrongResults(std::span<const HardInput> inputs,
                                             std::span<const float> results);
 
-/// Runs the device's / and sqrt on hard inputs. Returns how many results are wrong.
+/// Runs the device's / and sqrt on hard inputs. Returns the number of wrong results.
 [[nodiscard]] std::size_t checkNativeArithmetic(Device &device);
 
 } // namespace hyalite::gpu

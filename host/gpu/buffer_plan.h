@@ -1,4 +1,4 @@
-// What a buffer is for, and how large it will be.
+// The use and the size of a buffer.
 #pragma once
 
 #include "host/gpu/vk/device_list.h"
@@ -10,10 +10,10 @@ namespace hyalite::gpu {
 
 enum class BufferUse {
     Uniform,  ///< small constants
-    Storage,  ///< the bulk: in device memory, which the host may not see
+    Storage,  ///< bulk data, in device memory that the host may not see
     Texels,   ///< the same, read by kernels as texels of four 32-bit words
     Counters, ///< storage that the host reads and writes between dispatches: in host memory
-    Staging,  ///< a stop-over of transfers, in host memory
+    Staging,  ///< staging buffers for transfers, in host memory
 };
 
 struct BufferPlan {
@@ -22,10 +22,10 @@ struct BufferPlan {
     std::uint64_t sizeBytes = 0;
 };
 
-/// The bytes that one buffer of a use may have on the device.
+/// Maximum size of one buffer of this use on the device, in bytes.
 [[nodiscard]] std::uint64_t mostBytes(BufferUse use, const DeviceInfo &device);
 
-/// Throws Error{LimitExceeded} where the device allows no buffer of this size.
+/// Throws Error{LimitExceeded} if the device does not allow a buffer of this size.
 void requireBuffer(const BufferPlan &plan, const DeviceInfo &device);
 
 } // namespace hyalite::gpu

@@ -1,4 +1,4 @@
-// How much one dispatch is given to do, so that it takes about as long as is wanted, and never much longer.
+// Sizes of dispatches, so that each takes about as long as wanted and never much longer.
 #pragma once
 
 #include <algorithm>
@@ -6,24 +6,27 @@
 
 namespace hyalite::gpu {
 
-/// Long dispatches block a display, or are ended by the driver; short ones cost more than they do. Two things bound them:
+/// Long dispatches block a display or are ended by the driver; short ones waste time on overhead. Two bounds keep them
+/// in between:
 ///
-/// - the tile and its samples are sized to what samples took lately, so that a dispatch takes about as long as is wanted;
-/// - the work of all its slots together is bounded by how fast work was done lately: where the tile is dearer than those
-///   before, the dispatch ends soon after that time, and another one does the rest.
+/// - the number of pixels and samples, by the time that recent samples took;
+/// - the work of all slots together, by the time that recent work took. If a tile is more expensive than those before,
+///   the
+///   dispatch ends soon after the wanted time, and another one continues.
 ///
-/// The first dispatches are small, as nothing is known yet.
+/// The first dispatches are small, because nothing is known yet.
 class DispatchSizer {
   public:
-    static constexpr std::uint64_t leastPixels = 256; ///< of a tile that is cut: enough for a few processors
+    static constexpr std::uint64_t leastPixels = 256; ///< of a tile: enough for a few processors
 
-    /// `seconds` > 0 is how long a dispatch should take. Samples are given in whole rounds of `samplesAbreast`, and tiles
-    /// have `mostPixels` at most.
+    /// `seconds` > 0 is the wanted time of a dispatch. Sample counts are whole rounds of `samplesAbreast`; tiles have
+    /// at most `mostPixels` pixels.
     DispatchSizer(double seconds, std::uint32_t samplesAbreast, std::uint64_t mostPixels)
         : seconds_(seconds), samplesAbreast_(samplesAbreast), mostPixels_(mostPixels) {}
 
-    /// The size that a tile should not exceed of whose pixels each wants so many samples. Slots are set up once for all
-    /// samples of a dispatch, and so tiles are small rather than gone over again, unless they would be very small.
+    /// Maximum number of pixels of a tile that needs `samples` samples per pixel. Slots are set up once per dispatch,
+    /// so a small tile with all its samples is better than a large one in several dispatches, unless it would be very
+    /// small.
     [[nodiscard]] std::uint64_t pixels(std::uint32_t samples) const {
         if (sampleSeconds_ == 0.0)
             return std::min(firstPixels, mostPixels_);
@@ -36,7 +39,7 @@ class DispatchSizer {
                                                      static_cast<double>(mostPixels_)));
     }
 
-    /// How many samples to give each pixel of a tile of so many.
+    /// Samples per pixel for a tile of `pixels` pixels.
     [[nodiscard]] std::uint32_t samples(std::uint64_t pixels) const {
         const double rounds =
             sampleSeconds_ == 0.0
@@ -45,7 +48,7 @@ class DispatchSizer {
         return static_cast<std::uint32_t>(std::clamp(rounds, 1.0, double{mostRounds})) * samplesAbreast_;
     }
 
-    /// How much work to give a dispatch: layout::DispatchProgress::workDone.
+    /// Work budget of a dispatch, in units of layout::DispatchProgress::workDone.
     [[nodiscard]] std::uint32_t work() const {
         if (workSeconds_ == 0.0)
             return firstWork;
@@ -53,13 +56,13 @@ class DispatchSizer {
             std::clamp(mostTimes * seconds_ / workSeconds_, 1.0, double{mostWork}));
     }
 
-    /// A dispatch did so much work. Short ones count for little: they must not make forgotten how dear work can be.
+    /// Learns from a dispatch. A short one gets little weight, so that it cannot hide expensive work.
     void learnWork(double seconds, std::uint64_t work) {
         if (work > 0)
             learn(workSeconds_, seconds / static_cast<double>(work), std::min(seconds / seconds_, 1.0));
     }
 
-    /// One or more dispatches gave so many samples to all their pixels together.
+    /// Learns from dispatches that took `samples` samples in all.
     void learnSamples(double seconds, std::uint64_t samples) {
         if (samples > 0)
             learn(sampleSeconds_, seconds / static_cast<double>(samples), 1.0);
@@ -69,12 +72,13 @@ class DispatchSizer {
     static constexpr std::uint64_t firstPixels = 1024;
     static constexpr std::uint32_t firstSamples = 32;
     static constexpr std::uint32_t firstWork = 1u << 20;
-    static constexpr std::uint32_t mostWork = 1u << 30; ///< what is in flight comes on top, in 32 bits
+    static constexpr std::uint32_t mostWork = 1u << 30; ///< leaves room in 32 bits for the work in flight
     static constexpr std::uint32_t mostRounds = 1u << 13;
-    static constexpr double mostTimes = 1.25; ///< as long as is wanted
+    static constexpr double mostTimes = 1.25; ///< of the wanted time
 
-    /// Dearer at once, as the next dispatch must not be long; cheaper bit by bit, faster with more `weight`. No single
-    /// one counts for more than four times what is known: the machine may have been busy with something else.
+    /// A higher cost is learned at once, because the next dispatch must not be long; a lower one gradually, faster with
+    /// more `weight`. No dispatch raises the cost more than fourfold: the machine may have been busy with something
+    /// else.
     static void learn(double &known, double found, double weight) {
         if (found <= 0.0)
             return;
@@ -87,8 +91,8 @@ class DispatchSizer {
     double seconds_;
     std::uint32_t samplesAbreast_;
     std::uint64_t mostPixels_;
-    double sampleSeconds_ = 0.0; ///< beside the others; 0: not known
-    double workSeconds_ = 0.0;   ///< beside the others; 0: not known
+    double sampleSeconds_ = 0.0; ///< per sample, with all slots running; 0: unknown
+    double workSeconds_ = 0.0;   ///< per unit of work, likewise; 0: unknown
 };
 
 } // namespace hyalite::gpu

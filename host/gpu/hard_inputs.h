@@ -1,4 +1,4 @@
-// Inputs whose quotients and square roots lie as near as possible to the middle between two floats.
+// Hard inputs: their quotients and square roots are as close as possible to the midpoint between two floats.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace hyalite::gpu {
 struct HardInput {
     float numerator;
     float denominator;
-    float square; ///< of which the root is hard
+    float square; ///< its root is hard to round
 };
 
 /// `count` inputs, the same in each run. With the significands A and B as integers, 2^k A and (2n + 1) B differ by 1

@@ -1,4 +1,4 @@
-// What a render is asked to do on a device.
+// A render job for a device.
 #pragma once
 
 #include "host/film/film.h"
@@ -19,7 +19,7 @@ struct Job {
     std::uint32_t sampleEnd;
     bool isTraced;
     std::span<const layout::FilmPixel>
-        film{}; ///< to be added to, in place of an empty one; needed only to begin
+        film{}; ///< samples are added to it; empty: start with none. Read only at the start
 };
 
 } // namespace hyalite::gpu

@@ -10,7 +10,7 @@ namespace hyalite::gpu {
 
 namespace {
 
-/// Which part of the image a dispatch works on, for labels and messages.
+/// Names the tile and samples of a dispatch, for labels and messages.
 std::string describeTile(const layout::DispatchConstants &dispatch) {
     if (dispatch.tileWidth == 0)
         return {};

@@ -1,4 +1,4 @@
-// A compute kernel: a pipeline with the buffers that it works on.
+// A compute kernel: a pipeline with its buffers.
 #pragma once
 
 #include "host/gpu/vk/buffer.h"
@@ -25,7 +25,7 @@ class Kernel {
 
     [[nodiscard]] const std::string &name() const { return pipeline_.name(); }
 
-    /// Runs the kernel with these push constants, waits, and makes what it wrote visible to the host.
+    /// Runs the kernel with these push constants, waits, and makes its results visible to the host.
     RunTimes run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);
 
   private:

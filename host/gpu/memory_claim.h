@@ -1,4 +1,4 @@
-// How much memory of a device is in use.
+// Accounting of device memory in use.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace hyalite::gpu {
 
-/// Adds the bytes of an allocation to a total for as long as it lives. The total must outlive it.
+/// Adds the bytes of an allocation to a total during its lifetime. The total must outlive it.
 class MemoryClaim {
   public:
     MemoryClaim() = default;

@@ -6,7 +6,7 @@
 namespace hyalite::gpu {
 
 bool hasWideVectors() {
-    // All that compilers take for granted then.
+    // The extensions that compilers assume together.
 #if defined(__x86_64__)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
@@ -18,7 +18,8 @@ bool hasWideVectors() {
 
 namespace {
 
-// Of Whitted's rays, by when 512 bits were slower with glass: a mesh at depth 6, spheres at depth 12.
+// Maximum depths for 512 bits with Whitted's rays: with glass they were slower for a mesh at depth 6, for spheres at
+// depth 12.
 constexpr int mostDepthInTree = 5;
 constexpr int mostDepthOfSpheres = 10;
 

@@ -1,4 +1,4 @@
-// What software drivers, which compute on the processors, are told before they are loaded.
+// Settings of software drivers, which compute on the processors. They are made before the driver is loaded.
 #pragma once
 
 #include "host/scene/scene.h"
@@ -15,12 +15,12 @@ struct ProcessorUse {
 /// Whether the processor has vectors of 512 bits.
 [[nodiscard]] bool hasWideVectors();
 
-/// Sets what lavapipe reads of the environment when its driver is loaded (https://docs.mesa3d.org/envvars.html): how many
-/// threads it has, and how wide its vectors are, unless the user has said so. Where the processor has vectors of 512 bits
-/// they take three quarters of the time without triangles, when kernels compute and hardly read, and nine tenths with
-/// them, as long as rays stay together. Paths through a tree are soon apart, and 16 of them idle more than 8; the rays
-/// that glass splits off are at great depth, too, to twice the time where the glass is a mesh. Not to be called while other
-/// threads read the environment.
+/// Sets environment variables that lavapipe reads when its driver is loaded (https://docs.mesa3d.org/envvars.html): the
+/// number of threads, and the width of vectors, unless the user has set it. Vectors of 512 bits take three quarters of
+/// the time in scenes without triangles, where kernels compute and rarely read, and nine tenths in others, as long as
+/// rays are coherent. Paths through a tree diverge soon, and 16 of them idle more than 8. So do the rays that glass
+/// splits off at great depth: twice the time if the glass is a mesh. Do not call it while other threads read the
+/// environment.
 void tellLavapipe(const ProcessorUse &use);
 
 } // namespace hyalite::gpu

@@ -1,4 +1,4 @@
-// Rays from a buffer through the tree of a scene on a device: traversal by itself, without an integrator around it.
+// Traversal alone: traces rays from a buffer through the tree of a scene on a device, without an integrator.
 #pragma once
 
 #include "host/gpu/arithmetic.h"
@@ -12,7 +12,7 @@
 
 namespace hyalite::gpu {
 
-/// A trace_rays.comp that was compiled for one way through the tree.
+/// trace_rays.comp, compiled for one traversal.
 struct RayKernel {
     const char *name;
     bool isSkipList; ///< skip lists in texel buffers; otherwise node pairs in storage buffers
@@ -25,11 +25,11 @@ enum class RayGoal {
     AnyHit,
 };
 
-/// A scene's tree in the memory of a device, in the form that some kernels read.
+/// The tree of a scene in device memory, as node pairs or as skip lists.
 class RayScene {
   public:
-    /// `scene` has triangles, all of them opaque; its spheres are left out. Throws Error{LimitExceeded} where it is
-    /// too large for the device, Error{NoDevice}.
+    /// `scene` has triangles, all of them opaque; its spheres are ignored. Throws Error{LimitExceeded} if it is too
+    /// large for the device, and Error{NoDevice}.
     RayScene(const DeviceInfo &device, const PackedScene &scene, bool isSkipList);
     ~RayScene();
     RayScene(RayScene &&) noexcept;
@@ -41,10 +41,10 @@ class RayScene {
     std::unique_ptr<State> state_;
 };
 
-/// Rays in the memory of a device, and a kernel that follows them.
+/// Rays in device memory, and the kernel that traces them.
 class RayTracer {
   public:
-    /// `scene` outlives the tracer and has the form that the kernel reads; there is at least one ray. Throws as
+    /// `scene` outlives the tracer and was made for the traversal of the kernel. There is at least one ray. Throws as
     /// RayScene does.
     RayTracer(RayScene &scene, const RayKernel &kernel, RayGoal goal,
               std::span<const layout::RayRecord> rays);
@@ -52,11 +52,11 @@ class RayTracer {
     RayTracer(RayTracer &&) noexcept;
     RayTracer &operator=(RayTracer &&) noexcept;
 
-    /// Follows all rays in one dispatch, and waits for it. Throws Error{DeviceLost}.
+    /// Traces all rays in one dispatch, and waits for it. Throws Error{DeviceLost}.
     void run();
 
-    /// What the rays of the last run hit. Throws Error{LimitExceeded} where one was not followed to its end, as its
-    /// traversal takes more steps than one dispatch has.
+    /// The hits of the last run. Throws Error{LimitExceeded} if the traversal of a ray takes more steps than one
+    /// dispatch has.
     [[nodiscard]] std::vector<layout::HitRecord> hits() const;
 
   private:

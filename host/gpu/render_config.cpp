@@ -20,26 +20,26 @@ Workload workloadOf(const PackedScene &scene, Integrator integrator) {
 }
 
 RenderConfig completed(RenderConfig config, const DeviceInfo &device, Workload workload) {
-    // A software device has few cores; a GPU wants to be filled.
+    // A software device has few cores; a GPU needs many invocations.
     const int side = device.isSoftware() ? 256 : 512;
     if (config.tileWidth == 0)
         config.tileWidth = side;
     if (config.tileHeight == 0)
         config.tileHeight = side;
-    // Two independent rays at once hide on a CPU how long it waits for nodes of the tree; where there is none, they are
-    // only more code. Where shading searches, lavapipe does not unroll the loop over slots around it, and keeps slots in
-    // memory: 6 times slower, 20 with textures; unrolled by us they gain nothing there, and pipelines take longer. On a
-    // GPU other subgroups hide it.
+    // On a CPU two independent rays hide the latency of nodes; without a tree they are only more code. Where shading
+    // searches, lavapipe does not unroll the loop over slots around it and keeps slots in memory: 6 times slower, 20
+    // times with textures. Unrolled by us, two slots gain nothing there, and pipelines take longer. On a GPU other
+    // subgroups hide the latency.
     const bool isWaiting = workload == Workload::Triangles && device.isSoftware();
     if (config.slotsPerInvocation == 0)
         config.slotsPerInvocation = isWaiting && config.kernel.empty() ? 2 : 1;
-    // lavapipe stops a subgroup in silence after 65,535 loop iterations of all of its lanes together. The lanes count
-    // for themselves, and lanes that diverge add up.
+    // lavapipe silently stops a subgroup after 65,535 loop iterations of all its lanes together. Kernels count for each
+    // lane, and the iterations of diverging lanes add up.
     const std::uint32_t limit = 65535u / (std::max(device.subgroupSize, 1u) + 1u);
     if (config.traversal == Traversal::Automatic)
         config.traversal =
             device.isSoftware() && config.kernel.empty() ? Traversal::SkipList : Traversal::Stack;
-    // Sums over samples abreast cross lanes, which only the kernels over texel buffers do.
+    // Samples abreast need sums across lanes, which only the kernels over texel buffers have.
     const int lanes = static_cast<int>(std::bit_floor(std::clamp(device.subgroupSize, 1u, 8u)));
     if (config.samplesAbreast == 0)
         config.samplesAbreast = lanes;

@@ -1,4 +1,4 @@
-// How work is cut into dispatches, and which kernel does it.
+// Render configuration: which kernel runs, and how its work is divided into dispatches.
 #pragma once
 
 #include "host/gpu/arithmetic.h"
@@ -15,32 +15,32 @@
 
 namespace hyalite::gpu {
 
-/// How rays go through the tree. Stack: the portable one, over storage buffers. SkipList: over texel buffers, which
-/// lavapipe reads several times faster.
+/// Traversals of the tree. Stack: portable, over storage buffers. SkipList: over texel buffers, which lavapipe reads
+/// several times faster.
 enum class Traversal { Automatic, Stack, SkipList };
 
-/// How work is cut into dispatches, and what for. The image does not depend on any of it.
+/// How the work of a render is divided and done. No member affects the image.
 struct RenderConfig {
     int tileWidth = 0;            ///< pixels, a multiple of 8; 0: by the device
     int tileHeight = 0;           ///< pixels, a multiple of 8; 0: by the device
     std::uint32_t steps = 0;      ///< loop iterations of a path slot in one dispatch; 0: by the device
     int slotsPerInvocation = 0;   ///< path slots of one invocation, 1 or 2; 0: by the device
-    double dispatchSeconds = 0.1; ///< how long a dispatch should take; > 0
-    int samplesAbreast = 0;  ///< slots of one pixel: 1, 2, 4 or 8; 0: by the device and the samples wanted
-    bool isStaged = false;   ///< transfer everything through staging buffers
-    bool isCounting = false; ///< count the work of the traversal
-    Arithmetic arithmetic = Arithmetic::Automatic; ///< which / and sqrt run
+    double dispatchSeconds = 0.1; ///< wanted time of a dispatch; > 0
+    int samplesAbreast = 0;       ///< slots of one pixel: 1, 2, 4 or 8; 0: by the device and the sample count
+    bool isStaged = false;        ///< transfer everything through staging buffers
+    bool isCounting = false;      ///< count the work of the traversal
+    Arithmetic arithmetic = Arithmetic::Automatic; ///< division and square root
     Traversal traversal = Traversal::Automatic;
-    /// SPIR-V to run in place of our kernel, to see how a faulty one is found; empty: ours. One slot an
-    /// invocation, and the stack.
+    /// SPIR-V in place of our kernel, for tests of how a faulty one is found; empty: ours. It has one slot an
+    /// invocation and a stack.
     std::span<const std::uint32_t> kernel{};
 };
 
 /// Kinds of scenes for which different kernels are fast.
 enum class Workload {
-    Spheres,   ///< there are no triangles: kernels compute, and hardly read
+    Spheres,   ///< no triangles: kernels compute and rarely read
     Triangles, ///< rays go through a tree
-    Shading ///< most code is about what happens where rays arrive: paths with rough surfaces or an environment
+    Shading    ///< most code is shading: paths with rough surfaces or an environment
 };
 
 inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNames{
@@ -48,26 +48,26 @@ inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNa
 
 [[nodiscard]] Workload workloadOf(const PackedScene &scene, Integrator integrator);
 
-/// `config` with everything filled in that was left to the device.
+/// Fills in every member of `config` that was left to the device.
 [[nodiscard]] RenderConfig completed(RenderConfig config, const DeviceInfo &device,
                                      Workload workload = Workload::Triangles);
 
-/// The kernel of `integrator` that a complete `config` names, as SPIR-V.
+/// SPIR-V of the kernel for `integrator` and a complete `config`.
 [[nodiscard]] std::span<const std::uint32_t> kernelWords(const RenderConfig &config, Integrator integrator);
 
-/// Of all kernels together: what was measured of others does not hold.
+/// Hash of all kernels: measurements of other kernels do not count.
 [[nodiscard]] std::uint64_t hashOfKernels();
 
-/// A kernel that can be asked for.
+/// A kernel, as far as users choose it.
 struct KernelChoice {
     Traversal traversal = Traversal::Automatic;
     int slotsPerInvocation = 0;
 };
 
-/// For each Workload; Automatic where there is nothing to prefer.
+/// The preferred kernel for each Workload; Automatic: none.
 using KernelChoices = std::array<KernelChoice, workloadNames.size()>;
 
-/// By the words that command lines use.
+/// The words for kernels.
 inline constexpr std::array<std::pair<std::string_view, KernelChoice>, 5> kernelNames{
     {{"auto", {}},
      {"stack", {Traversal::Stack, 1}},
@@ -75,7 +75,7 @@ inline constexpr std::array<std::pair<std::string_view, KernelChoice>, 5> kernel
      {"skip-list", {Traversal::SkipList, 1}},
      {"skip-list-x2", {Traversal::SkipList, 2}}}};
 
-/// Those that are kernels.
+/// All of them but "auto".
 inline constexpr std::span namedKernels = std::span(kernelNames).subspan<1>();
 
 /// The word for a kernel.

@@ -19,8 +19,7 @@ namespace hyalite::gpu {
 
 namespace {
 
-/// Bands of whole rows whose films fit into a storage buffer of the device and a quarter of its memory, from top to
-/// bottom.
+/// Bands of whole rows, from top to bottom, whose films fit into a storage buffer and a quarter of the device memory.
 std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
     const std::uint64_t rowBytes = static_cast<std::uint64_t>(crop.width()) * sizeof(layout::FilmPixel);
     const std::uint64_t mostBytes = std::min(device.maxStorageBufferBytes, device.deviceMemoryBytes / 4);
@@ -32,11 +31,11 @@ std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
     return bands;
 }
 
-/// How often a render that failed is tried again.
+/// Number of further attempts after a failure.
 constexpr int mostRetries = 3;
-constexpr std::uint32_t leastSteps = 256; // of a dispatch that is cut in halves
+constexpr std::uint32_t leastSteps = 256; // lower bound when dispatches are halved
 
-/// When to copy the film to the host, as a device that is lost takes its own with it: often, but for a hundredth of the
+/// When to copy the film to the host, because a lost device loses its film: often, but for at most a hundredth of the
 /// time.
 class FilmKeeper {
   public:
@@ -56,7 +55,7 @@ class FilmKeeper {
 
 struct Renderer::State {
     DeviceInfo info;
-    std::optional<Device> device; ///< none where it failed, and could not be opened again
+    std::optional<Device> device; ///< empty if it failed and could not be opened again
     RenderConfig wanted;
     KernelChoices preferred;
     RenderConfig config;
@@ -72,7 +71,7 @@ struct Renderer::State {
         return config.isStaged ? Transfers::Staged : Transfers::Automatic;
     }
 
-    /// How an integrator renders a scene.
+    /// The configuration for an integrator and a scene.
     [[nodiscard]] RenderConfig configFor(const PackedScene &scene, Integrator integrator) const {
         RenderConfig used = config;
         used.traversal = wanted.traversal;
@@ -100,7 +99,7 @@ struct Renderer::State {
         return gpu::requireMemory(scene, job, device->isStagingPreferred(), info);
     }
 
-    /// The same device anew, for half as much at a time. Throws DeviceFault.
+    /// Opens the device again, with half the work per dispatch. Throws DeviceFault.
     void reopen() {
         device.reset();
         config.tileHeight = std::max(config.tileHeight / 2 / 8 * 8, 8);
@@ -110,7 +109,7 @@ struct Renderer::State {
             device.emplace(info, transfers(config));
         } catch (const DeviceFault &) {
             throw;
-        } catch (const Error &error) { // it is gone
+        } catch (const Error &error) { // the device is gone
             throw DeviceFault(error.kind, error.what());
         }
     }
@@ -168,7 +167,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     const Crop crop = result.film.crop;
     FilmKeeper keeper;
     Stopwatch watch;
-    // Ends a stage and returns how long it took.
+    // Ends a stage and returns its time.
     const auto endStage = [&](const char *name) {
         const Span span = watch.lap();
         if (timeline != nullptr)
@@ -193,7 +192,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     const Job firstJob = jobOf(bands.front());
     const JobPlan firstPlan = planJob(firstJob, config, state_->info);
     result.memory = state_->requireMemory(scenePlan, firstPlan);
-    // Drivers make a pipeline on one processor: meanwhile the others prepare what it works on.
+    // A driver compiles a pipeline on one processor. Meanwhile the others prepare the buffers.
     std::future<Pipeline> firstPipeline = std::async(std::launch::async, [&] {
         return TileRenderer::makePipeline(*state_->device, config, firstJob, scenePlan, firstPlan);
     });
@@ -230,7 +229,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
             timeline, shouldStop,
             [&](const RayCounts &rays) {
                 const RayCounts raysSoFar = raysBefore + rays;
-                // Of lost dispatches work cannot be counted: a frame that counts begins anew.
+                // The work of lost dispatches is unknown, so a render that counts starts again.
                 if (!config.isCounting && keeper.isDue()) {
                     keeper.keep([&] { tiles.readFilm(bandPixels); });
                     result.rays = raysSoFar;
@@ -239,7 +238,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
                     return;
                 snapshots->take(
                     [&](std::span<layout::FilmPixel> copy) {
-                        // Other bands have all samples, or those that they began with.
+                        // Other bands have all their samples, or those from before the render.
                         std::ranges::copy(pixels.first(bandBegin), copy.begin());
                         std::ranges::copy(pixels.subspan(bandBegin + bandSize),
                                           copy.subspan(bandBegin + bandSize).begin());

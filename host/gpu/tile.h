@@ -1,4 +1,4 @@
-// Parts of a film that one dispatch works on.
+// Tiles: the part of a film that one dispatch works on.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,8 @@
 
 namespace hyalite::gpu {
 
-/// Pixels of a film, which may end inside. Sides are multiples of 8: 8x8 pixels are the block that 64 slots take.
+/// A rectangle of pixels; the film may end inside. Sides are multiples of 8, because 64 slots work on a block of 8x8
+/// pixels.
 struct Tile {
     static constexpr std::uint32_t blockSide = 8;
 
@@ -18,7 +19,7 @@ struct Tile {
     [[nodiscard]] std::uint64_t pixelCount() const { return std::uint64_t{width} * height; }
     [[nodiscard]] bool canBeHalved() const { return width > blockSide || height > blockSide; }
 
-    /// Two tiles side by side, or one above the other, that are this one; it can be halved.
+    /// The two halves, side by side or one above the other. Requires canBeHalved().
     [[nodiscard]] std::pair<Tile, Tile> halves() const {
         const auto half = [](std::uint32_t pixels) {
             return (pixels / 2 + blockSide - 1) / blockSide * blockSide;

@@ -21,7 +21,8 @@ namespace hyalite {
 
 namespace {
 
-/// "Mesa 22.3.6" of "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", where the device is called "llvmpipe (LLVM 15.0.6, 256 bits)".
+/// "Mesa 22.3.6" of "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", where the device is called "llvmpipe (LLVM 15.0.6, 256
+/// bits)".
 std::string driverBesideName(const std::string &driver, const std::string &name) {
     std::string text = driver.substr(0, driver.find(" ("));
     const std::size_t firstWordEnd = std::min(text.find(' '), text.size());

@@ -1,4 +1,4 @@
-// The renderers that a command can name: Vulkan devices, the CPU twin, and the oracle in double precision.
+// Backends: the renderers that a command can name. Vulkan devices, the CPU twin, and the double twin.
 #pragma once
 
 #include "host/film/ray_counts.h"
@@ -22,75 +22,75 @@ struct BackendResult {
     Film film;
     RayCounts rays;           ///< traced by this call
     RenderTiming timing;      ///< only renderSeconds on the CPU
-    WorkCounts work;          ///< all 0 unless counting was asked for, or the integrator is the cost
+    WorkCounts work;          ///< all 0 without counting, unless the integrator is the cost
     LaneCounts lanes{};       ///< of a device, likewise
-    gpu::MemoryPlan memory{}; ///< what it took of a device at most, and of the host for it
+    gpu::MemoryPlan memory{}; ///< peak memory of a device, and of the host for it
     std::vector<std::string>
-        faults{}; ///< Vulkan calls that failed; after all of them, or all but the last, it went on
-    std::optional<Error>
-        failure{}; ///< why the render ended before all was finished, where the device was at fault
+        faults{}; ///< failed Vulkan calls; the render continued after each, except perhaps the last
+    std::optional<Error> failure{}; ///< why the device ended the render early, or empty
 };
 
 class Backend {
   public:
     virtual ~Backend() = default;
 
-    [[nodiscard]] virtual std::string name() const = 0;        ///< "cpu", or as the device calls itself
+    [[nodiscard]] virtual std::string name() const = 0;        ///< "cpu", or the name of the device
     [[nodiscard]] virtual std::string description() const = 0; ///< for people
-    [[nodiscard]] virtual RendererIdentity identity(const PackedScene &scene,
-                                                    Integrator integrator) const = 0; ///< as what renders it
-    /// Why images may differ from the CPU twin's in their bits, or empty where they may not.
+    [[nodiscard]] virtual RendererIdentity
+    identity(const PackedScene &scene,
+             Integrator integrator) const = 0; ///< kernel and the like, for reports
+    /// Why images may differ in bits from the CPU twin's, or empty if they may not.
     [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
-    /// Backends that say the same add samples of the same bits to a film, and a film gives them all that they need to go
-    /// on; empty: it does not.
+    /// Backends with the same text add samples with the same bits to a film, and can continue one another's films;
+    /// empty: this one cannot.
     [[nodiscard]] virtual std::string precision() const { return "float32"; }
-    /// `timeline`, where there is one, gets what was done when. Where `shouldStop`, which several threads may ask at
-    /// once, says so, the film has the samples that are finished by then.
+    /// `timeline`, if not null, records what happened when. `shouldStop` may be called by several threads at once; if
+    /// it returns true, the film has the samples finished so far.
     [[nodiscard]] virtual BackendResult render(const PreparedScene &scene,
                                                const std::function<void(double)> &onProgress,
                                                Timeline *timeline, const std::function<bool()> &shouldStop,
                                                Continuation continuation) = 0;
-    /// What one sample of one pixel of the whole image does.
+    /// Traces one sample of one pixel of the whole image.
     [[nodiscard]] virtual std::vector<layout::TraceEvent>
     trace(const PreparedScene &scene, const glm::uvec2 &pixel, std::uint32_t sampleIndex) = 0;
 };
 
-/// Renders with a progress line that `task` begins. Throws Error{LimitExceeded} with the film's size where there is not
-/// the memory for it. Faults of the device are told; where a render that cannot be stopped, of which a part is of no
-/// use, fails for them, its failure is thrown.
+/// Renders with a progress line that starts with `task`. Throws Error{LimitExceeded} with the size of the film if
+/// memory is too small for it. Device faults are reported. If they end a render without `shouldStop`, whose partial
+/// result is useless, its failure is thrown.
 [[nodiscard]] BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene,
                                                const std::string &task, bool isQuiet,
                                                Timeline *timeline = nullptr,
                                                const std::function<bool()> &shouldStop = {},
                                                Continuation continuation = {});
 
-/// Throws Error{LimitExceeded} where memory cannot hold so many films of the crop and the images made of them.
+/// Throws Error{LimitExceeded} if memory cannot hold this number of films of the crop and the images made of them.
 void requireFilmMemory(const Crop &crop, unsigned filmCount);
 
 /// Whether openBackend opens the reference renderer by this name.
 [[nodiscard]] bool isReference(const std::string &name);
 
-/// How a Vulkan device is to work; the image does not depend on it.
+/// Options of a Vulkan device. None affects the image.
 struct DeviceOptions {
     std::optional<gpu::KernelChoice> kernel;
     double maxDispatchMillis = gpu::RenderConfig{}.dispatchSeconds * 1e3;
 };
 
-/// What openBackend takes of them.
+/// The render config for these options.
 [[nodiscard]] gpu::RenderConfig renderConfigFor(const DeviceOptions &options);
 
-/// How a scene is best rendered on the processors, by so many threads; 0: all.
+/// The best use of the processors for a scene. `threadCount` 0: all threads.
 [[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline);
 [[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene);
 
-/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. What `processors` asks of lavapipe holds
-/// where it is for the first device that is opened. Throws Error{NoDevice}, and Error{Usage} where the reference renderer
-/// is asked for a kernel.
+/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. Lavapipe follows `processors` only if
+/// this is the first device that the program opens. Throws Error{NoDevice}, and Error{Usage} if a kernel is chosen for
+/// the reference renderer.
 [[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name,
                                                    const gpu::ProcessorUse &processors = {},
                                                    const gpu::RenderConfig &config = {});
 
-/// The same, while the caller does something else. A render config's kernel must outlive the opening.
+/// The same, in a thread of its own. The kernel of a render config must outlive the opening.
 [[nodiscard]] std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name,
                                                                         const gpu::ProcessorUse &processors,
                                                                         const gpu::RenderConfig &config = {});

@@ -1,4 +1,4 @@
-// Two renderers on one scene, to be compared.
+// Comparison of two renderers on one scene.
 #pragma once
 
 #include "host/reference/divergence.h"
@@ -14,7 +14,7 @@ struct ContestRequest {
     std::string device = "auto";
     std::string against = "cpu";
     int threadCount = 0;         ///< 0: all
-    DeviceOptions deviceOptions; ///< of both, but for the reference renderer as the second
+    DeviceOptions deviceOptions; ///< of both, unless the second is the reference renderer
 };
 
 struct Contestants {
@@ -28,7 +28,7 @@ struct Contestants {
 [[nodiscard]] std::optional<Divergence>
 findFirstDivergence(const Contestants &contestants, const PreparedScene &scene, const glm::uvec2 &pixel);
 
-/// What a report of two renders begins with.
+/// The beginning of a report on two renders.
 [[nodiscard]] nlohmann::ordered_json contestToJson(const Contestants &contestants, const PreparedScene &scene,
                                                    const std::string &commandLine);
 

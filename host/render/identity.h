@@ -1,4 +1,4 @@
-// What decides the pixels of a render, in short: to tell whether two renders may share samples.
+// Identity of a render: everything that affects its samples, to decide whether two renders may share them.
 #pragma once
 
 #include "host/film/checkpoint.h"
@@ -6,7 +6,7 @@
 
 namespace hyalite {
 
-/// Of the crop, too, but neither of the tree nor of the samples per pixel: a film may get more of them.
+/// It includes the crop, but neither the tree nor the samples per pixel, which may grow.
 [[nodiscard]] RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend);
 
 } // namespace hyalite

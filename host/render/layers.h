@@ -1,4 +1,4 @@
-// Layers: what primary rays meet, beside the colours of an EXR.
+// Layers: views of primary hits, beside the colours of an EXR.
 #pragma once
 
 #include "host/image/picture.h"
@@ -19,15 +19,15 @@ struct ViewFilm {
 inline constexpr std::array<Integrator, 4> layerViews{Integrator::Albedo, Integrator::Normal,
                                                       Integrator::Depth, Integrator::Id};
 
-/// Renders the views of `scene`, whose settings are as they were afterwards: albedo by the same samples as the image, the
-/// others through the centres of pixels, as means of depths or normals are those of no surface. Once `shouldStop` says so
-/// the rest has no samples.
+/// Renders the views of `scene`, and restores its settings. Albedo uses the samples of the image; the others use pixel
+/// centres, because a mean of depths or normals belongs to no surface. When `shouldStop` returns true, the rest gets no
+/// samples.
 [[nodiscard]] std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
                                                 const std::vector<Integrator> &views, bool isQuiet,
                                                 const std::function<bool()> &shouldStop);
 
-/// "albedo" RGB, "normal" XYZ of unit length, "depth" and "id" RGB, as far as they are there; all 0 where a ray meets
-/// nothing. `films` must outlive the layers.
+/// "albedo" RGB, "normal" XYZ of unit length, "depth" and "id" RGB, for the films that exist; all 0 where a ray leaves
+/// the scene. `films` must outlive the layers.
 [[nodiscard]] std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films);
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// Renders that are measured, stage by stage, and written down as a profile.
+// Measurement of renders, stage by stage, for a profile.
 #pragma once
 
 #include "host/film/film_file.h"
@@ -12,7 +12,7 @@
 
 namespace hyalite {
 
-/// What to measure, and how often.
+/// A request for a measurement.
 struct MeasurementRequest {
     SceneOptions scene;
     std::string device = "auto";
@@ -24,27 +24,27 @@ struct MeasurementRequest {
     bool isQuiet = false; ///< no progress
 };
 
-/// The stages are called once each, in the order of their declarations; the counts are as wanted.
+/// Call the stages once each, in the order of their declarations; the counts are optional.
 class Measurement {
   public:
     Measurement(const MeasurementRequest &request, const std::string &commandLine);
 
     void prepareScene();
     void openDevice();
-    /// Renders a first frame and compares it with the CPU twin's, unless that is not wanted or the device is that twin.
-    /// Returns why nothing should be measured, or nothing.
+    /// Renders a first frame and compares it with the CPU twin's, unless the request skips that or the device is the
+    /// CPU twin. Returns the reason not to measure, or nothing.
     [[nodiscard]] std::optional<std::string> verify();
     /// Renders the warm-ups and the repeats.
     void measure();
-    /// Renders the work of a traversal with a stack, whichever kernel is measured.
+    /// Counts the work of a traversal with a stack, whichever kernel is measured.
     void countWork();
-    /// Renders once more, and counts what the traversal of the measured kernel does, where it has one.
+    /// Renders once more and counts the work of the measured kernel's traversal, if it has one.
     void countKernelWork();
 
     [[nodiscard]] const PreparedScene &scene() const { return scene_; }
     [[nodiscard]] const Backend &device() const { return *backend_; }
     [[nodiscard]] const Film &film() const { return *film_; } ///< of the last repeat
-    /// Of countWork(): boxes and triangles tested, in false colours.
+    /// Result of countWork(): boxes and triangles tested, in false colours.
     [[nodiscard]] const std::optional<Drawing> &heatMap() const { return heatMap_; }
     [[nodiscard]] const Profile &profile() const { return profile_; }
     [[nodiscard]] Profile &profile() { return profile_; }

@@ -1,4 +1,4 @@
-// Files that are written again and again while a render runs.
+// Files that are written periodically during a render.
 #pragma once
 
 #include "host/film/continuation.h"
@@ -13,23 +13,23 @@
 
 namespace hyalite {
 
-/// Something that is written at intervals, after the end of the last time that it was begun.
+/// A file that is written at intervals.
 struct PeriodicFile {
     double intervalSeconds;
-    /// Called by a thread of its own. Throws Error where it fails: this is told, and the render goes on.
+    /// Called by a thread of its own. If it throws Error, the message is printed, and the render continues.
     std::function<void(const Film &film, const RayCounts &rays)> write;
 };
 
-/// Writes them beside the render, which only waits for its film to be copied. Where writing takes longer than the
-/// interval, the next time is left out.
+/// Writes the files in a thread of its own; the render waits only for copies of its film. If writing takes longer than
+/// the interval, the next time is skipped.
 class PeriodicFiles : public SnapshotTaker {
   public:
-    /// `crop` is the film's. The first interval begins now.
+    /// `crop` is that of the film. The first interval begins now.
     PeriodicFiles(const Crop &crop, std::vector<PeriodicFile> files);
     /// As finish().
     ~PeriodicFiles() override;
 
-    /// Ends the last writing and begins none. The render is over.
+    /// Waits for the last write and starts no other. Call it after the render.
     void finish();
 
     [[nodiscard]] bool isWanted() const noexcept override {

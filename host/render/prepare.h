@@ -1,4 +1,4 @@
-// From a scene and what overrides it to what both renderers read.
+// Preparation: from a scene file and its overrides to the packed scene.
 #pragma once
 
 #include "host/base/error.h"
@@ -18,7 +18,7 @@
 
 namespace hyalite {
 
-/// Command line beats scene file beats defaults: only what was given is set.
+/// Overrides: the command line beats the scene file, which beats defaults. Only given values are set.
 struct SceneOptions {
     std::string scene;
     std::optional<int> width;
@@ -33,7 +33,7 @@ struct SceneOptions {
     std::vector<std::filesystem::path> allowedPaths;
 };
 
-/// An override that does not go together with the scene or the others; `name` is its own: "crop", "look-at".
+/// An override that conflicts with the scene or with another one. `name` is that of the override: "crop", "look-at".
 class OverrideError : public Error {
   public:
     OverrideError(std::string overrideName, const std::string &message)
@@ -42,11 +42,11 @@ class OverrideError : public Error {
     const std::string name;
 };
 
-/// What becomes of a scene's meshes and tree once they are packed. Renderers read the packed scene alone; of a large
-/// mesh the rest takes a sixth of the memory.
+/// Whether meshes and tree are kept after packing. Renderers read only the packed scene; for a large mesh the rest is a
+/// sixth of the memory.
 enum class Source { Kept, Dropped };
 
-/// A scene made ready for both renderers.
+/// A scene ready for both renderers.
 struct PreparedScene {
     LoadedScene loaded; ///< its scene without meshes if the source was dropped
     Bvh bvh;            ///< empty if the source was dropped
@@ -56,13 +56,13 @@ struct PreparedScene {
     double buildSeconds = 0.0;
 };
 
-/// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or OverrideError for overrides that do not go
-/// together, such as a crop outside of the image. Shows the progress of reading large meshes, unless quiet. `onOutline`
-/// is told of the scene, as the options make it, before large files are read.
+/// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or OverrideError for conflicting overrides,
+/// such as a crop outside the image. Shows progress while it reads large meshes, unless quiet. `onOutline` gets an
+/// outline of the scene, with overrides applied, before large files are read.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
                                          const std::function<void(const SceneOutline &)> &onOutline = {});
 
-/// What reports say of it.
+/// Provenance for reports.
 [[nodiscard]] Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine);
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// A render from request to files, in stages. Whoever runs them tells people what happens between them.
+// A render job: a render from request to files, in stages. The caller reports progress between them.
 #pragma once
 
 #include "host/base/atomic_file.h"
@@ -21,7 +21,7 @@
 
 namespace hyalite {
 
-/// What to render, on which device, and into which files; the path of a file that is not wanted is empty.
+/// A request: what to render, on which device, into which files. The path of a file that is not wanted is empty.
 struct RenderRequest {
     SceneOptions scene;
     std::string output;
@@ -33,40 +33,40 @@ struct RenderRequest {
     std::string report;
     std::optional<double> timeLimitSeconds;
     std::string checkpoint;
-    std::optional<double> checkpointSeconds; ///< between two; default: 10
+    std::optional<double> checkpointSeconds; ///< interval; default: 10
     bool isResuming = false;
-    std::optional<double> partialSeconds; ///< between two outputs of what is finished; default: none
+    std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
     bool isQuiet = false;                 ///< no progress
 };
 
-/// The stages are called once each, in the order of their declarations.
+/// Call the stages once each, in the order of their declarations.
 class RenderJob {
   public:
-    /// Opens the outputs: one that cannot be written is known before the work begins.
+    /// Opens the outputs, so that one that cannot be written fails before the work begins.
     RenderJob(const RenderRequest &request, const std::string &commandLine);
 
-    /// Loads and builds the scene; opens the device meanwhile, once the outline tells what for.
+    /// Loads and builds the scene, and opens the device at the same time, as soon as the outline is known.
     void prepare();
-    /// Waits for the device, and for room for the films. From here on signals only stop the render.
+    /// Waits for the device, and checks memory for the films. From here on signals stop the render gracefully.
     void openDevice();
-    /// Opens the checkpoint and reads what is to be resumed, where there is any.
+    /// Opens the checkpoint and, to resume, reads it.
     void resume();
-    /// Renders what primary rays meet.
+    /// Renders the layers.
     void renderLayers();
-    /// Renders the samples that are missing, until it is stopped. Throws where not even one is finished.
+    /// Renders the missing samples, until it is stopped. Throws if not even one sample is finished.
     void render();
     /// Stores the checkpoint, then the image.
     void writeImage();
     void writeReport();
-    /// Throws what kept the render from its end, or the checkpoint from being stored.
+    /// Throws the failure of the render or of the checkpoint, if there was one.
     void throwFailure() const;
 
     [[nodiscard]] const PreparedScene &scene() const { return *scene_; }
     [[nodiscard]] const Backend &device() const { return *backend_; }
     [[nodiscard]] const RenderReport &report() const { return report_; }
-    /// Why the newest checkpoint was passed over, or empty.
+    /// Why the newest checkpoint was not used, or empty.
     [[nodiscard]] const std::string &checkpointDamage() const { return checkpointDamage_; }
-    /// Whether it ended early, and the time limit, which was asked for, is the only reason.
+    /// Whether it ended early, only because of the time limit.
     [[nodiscard]] bool isCutByTime() const;
     /// The signal that came first so far, or 0.
     [[nodiscard]] int stoppingSignal() const { return signals_->first(); }
@@ -88,7 +88,7 @@ class RenderJob {
     std::optional<PreparedScene> scene_;
     std::future<std::unique_ptr<Backend>> opening_;
     std::unique_ptr<Backend> backend_;
-    std::optional<CaughtSignals> signals_; ///< until all is written: at the last moment, most would be lost
+    std::optional<CaughtSignals> signals_; ///< until everything is written, when the most could be lost
     std::optional<CheckpointWriter> checkpoint_;
     std::string checkpointDamage_;
     RayCounts raysBefore_;

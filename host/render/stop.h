@@ -1,27 +1,26 @@
-// SIGINT, SIGTERM and SIGHUP as a wish to stop, for work whose results so far are worth keeping.
+// SIGINT, SIGTERM and SIGHUP as requests to stop, for work whose partial results are worth keeping.
 #pragma once
 
 #include "host/base/error.h"
 
 namespace hyalite {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only noted, and SIGPIPE is ignored. Another wish to stop ends
-/// the program at once, as if none of this existed; one that follows within `echoSeconds` is taken for the same, since
-/// `timeout` and terminals behind wrappers send each signal twice. A signal that the program was started to ignore, as
-/// in the background of a script, stays ignored.
-/// At most one of them lives at a time.
+/// During its lifetime the first SIGINT, SIGTERM or SIGHUP is only recorded, and SIGPIPE is ignored. A second one ends
+/// the program at once, by the default action. One within `echoSeconds` counts as the same signal, because `timeout`
+/// and terminals behind wrappers send each signal twice. Signals that were ignored when the program started, as in
+/// background jobs of a script, stay ignored. At most one object exists at a time.
 class CaughtSignals {
   public:
     static constexpr double echoSeconds = 0.2;
 
-    /// Unless quiet, the first signal is answered on standard error.
+    /// Unless quiet, the first signal is acknowledged on standard error.
     explicit CaughtSignals(bool isQuiet);
-    /// Puts back what was there before.
+    /// Restores the previous handlers.
     ~CaughtSignals();
     CaughtSignals(const CaughtSignals &) = delete;
     CaughtSignals &operator=(const CaughtSignals &) = delete;
 
-    /// The number of the signal that came first, or 0. From any thread.
+    /// The number of the first signal, or 0. Thread-safe.
     [[nodiscard]] int first() const noexcept;
 };
 

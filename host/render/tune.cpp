@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A scene for each kind, and enough samples a pixel to fill the lanes of a subgroup with them.
+/// A scene for each workload, with enough samples per pixel to fill the lanes of a subgroup.
 struct Trial {
     gpu::Workload workload;
     const char *scene;
@@ -39,9 +39,9 @@ constexpr std::array<Trial, gpu::workloadNames.size()> trials{{{gpu::Workload::S
                                                                {gpu::Workload::Shading, "studio-cat", 8}}};
 constexpr int imageSide = 192; // pixels
 constexpr int rounds = 4;
-constexpr double gainNeeded = 1.05; // of another kernel than the usual one, in each round: less is noise
+constexpr double gainNeeded = 1.05; // over the default kernel, in each round: less is noise
 constexpr double shareNeeded =
-    0.5; // of the best rate in the first round: what is slower is not measured again
+    0.5; // of the best rate in the first round: slower kernels are not measured again
 
 KernelRates measure(const Trial &trial, const std::string &deviceName) {
     SceneOptions options;
@@ -115,7 +115,8 @@ std::string drain(int pipe) {
     }
 }
 
-/// Does `work`, writes what it returns or throws, and ends: what the parent holds is not this process' to destroy.
+/// Runs `work`, writes its result or error, and exits without destructors: objects of the parent are not ours to
+/// destroy.
 [[noreturn]] void answer(int pipe, const std::function<Json()> &work) {
     Json said;
     try {
@@ -132,7 +133,7 @@ std::string drain(int pipe) {
     _exit(isWritten ? 0 : 1);
 }
 
-/// What `work` returns, done in a process of its own. Throws the Error that it throws.
+/// Runs `work` in a process of its own and returns its result. Throws the Error that it throws.
 Json inOwnProcess(const std::function<Json()> &work) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0)

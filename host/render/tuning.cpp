@@ -37,7 +37,7 @@ std::optional<fs::path> findFile() {
     return std::nullopt;
 }
 
-/// What the choice depends on. The name of the device does not count: lavapipe's differs with the width of its vectors.
+/// What the choice depends on. The device name is not part of it: that of lavapipe contains its vector width.
 Json keyOf(const gpu::DeviceInfo &device) {
     return {{"vendorId", device.vendorId},
             {"deviceId", device.deviceId},
@@ -45,7 +45,7 @@ Json keyOf(const gpu::DeviceInfo &device) {
             {"kernels", hashText(gpu::hashOfKernels())}};
 }
 
-/// The entries of a file, which are few. Throws Error{BadInput}.
+/// The entries of a file. Throws Error{BadInput}.
 Json readEntries(const fs::path &file) {
     const Json document = readJsonFile(file);
     const auto devices = document.find("devices");
@@ -98,7 +98,7 @@ Tuning readTuning(const gpu::DeviceInfo &device) {
 void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning) {
     const fs::path file = tuningFile();
     std::error_code error;
-    fs::create_directories(file.parent_path(), error); // whether it can be written is found out below
+    fs::create_directories(file.parent_path(), error); // an error shows when the file is written
     Json entries = Json::array();
     const Json key = keyOf(device);
     if (fs::exists(file, error)) {

@@ -16,8 +16,8 @@ struct Tuning {
     [[nodiscard]] bool isMeasured() const { return !date.empty(); }
 };
 
-/// $HYALITE_CACHE/tuning.json, or hyalite/tuning.json in $XDG_CACHE_HOME, or in ~/.cache. Throws Error{OutputNotWritten}
-/// where none of these variables is set.
+/// $HYALITE_CACHE/tuning.json, or hyalite/tuning.json in $XDG_CACHE_HOME, or in ~/.cache. Throws
+/// Error{OutputNotWritten} where none of these variables is set.
 [[nodiscard]] std::filesystem::path tuningFile();
 
 /// What was stored for this device, this version of its driver and these kernels. A file that cannot be read is told on

@@ -32,7 +32,7 @@ VkBufferUsageFlags usageFlags(BufferUse use) {
     return transfer;
 }
 
-/// Memory that suits the use, the best first.
+/// Memory properties for the use, the preferred ones first.
 std::uint32_t chooseMemoryType(const Device &device, BufferUse use, std::uint32_t typeBits) {
     const bool isForHost = use == BufferUse::Counters || use == BufferUse::Staging;
     if (isForHost) {
@@ -40,7 +40,7 @@ std::uint32_t chooseMemoryType(const Device &device, BufferUse use, std::uint32_
             device.findMemoryType(typeBits, hostMemory | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
         return cached != VK_MAX_MEMORY_TYPES ? cached : device.findMemoryType(typeBits, hostMemory);
     }
-    // A discrete GPU's memory is slow to read for the host even where it is visible.
+    // The host reads the memory of a discrete GPU slowly even if it can map it.
     if (!device.isStagingPreferred()) {
         const std::uint32_t shared =
             device.findMemoryType(typeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | hostMemory);

@@ -11,16 +11,16 @@
 
 namespace hyalite::gpu {
 
-/// A buffer with memory of its own. Where the host cannot see the memory, transfers go through a staging buffer.
+/// A buffer with memory of its own. If the host cannot map it, transfers go through a staging buffer.
 class Buffer {
   public:
-    /// `name` is for messages. Buffers of 0 bytes get 16, as a binding needs some memory. The contents are
-    /// undefined. Throws Error{LimitExceeded} where a limit of the device or its memory does not suffice.
+    /// `name` is for messages. Buffers of 0 bytes get 16, because Vulkan has no empty buffers. The contents are
+    /// undefined. Throws Error{LimitExceeded} if a device limit or its memory is too small.
     Buffer(Device &device, std::string name, BufferUse use, std::size_t sizeBytes);
     Buffer(Device &device, const BufferPlan &plan);
 
     [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
-    /// Of all texels; only for BufferUse::Texels.
+    /// A view of all texels; only for BufferUse::Texels.
     [[nodiscard]] VkBufferView view() const { return view_.get(); }
     [[nodiscard]] BufferUse use() const { return use_; }
     [[nodiscard]] std::size_t sizeBytes() const { return sizeBytes_; }
@@ -37,11 +37,11 @@ class Buffer {
     std::string name_;
     BufferUse use_;
     std::size_t sizeBytes_;
-    MemoryHandle memory_; ///< before the buffer, to outlive it
+    MemoryHandle memory_; ///< declared before the buffer: it is destroyed after it
     MemoryClaim claim_;
     BufferHandle buffer_;
-    BufferViewHandle view_;       ///< after the buffer, to be gone before it
-    std::byte *mapped_ = nullptr; ///< null where the host cannot see the memory
+    BufferViewHandle view_;       ///< declared after the buffer: it is destroyed before it
+    std::byte *mapped_ = nullptr; ///< null if the host cannot map the memory
 };
 
 } // namespace hyalite::gpu

@@ -1,5 +1,4 @@
-// Our words in other tools: names of Vulkan objects and labels around commands, for RenderDoc, Nsight and the messages
-// of the validation layer.
+// Names of Vulkan objects and labels of commands, for RenderDoc, Nsight and the messages of the validation layer.
 #pragma once
 
 #include "host/gpu/vk/instance.h"
@@ -9,7 +8,7 @@
 
 namespace hyalite::gpu {
 
-/// Does nothing where VK_EXT_debug_utils is missing.
+/// Does nothing without VK_EXT_debug_utils.
 class DebugUtils {
   public:
     DebugUtils() = default;

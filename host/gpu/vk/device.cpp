@@ -83,15 +83,15 @@ std::uint32_t Device::findMemoryType(std::uint32_t typeBits, VkMemoryPropertyFla
 }
 
 bool Device::isMappable(std::uint32_t memoryType) const {
-    // What is not coherent would have to be flushed.
+    // Memory that is not coherent would need flushes.
     constexpr VkMemoryPropertyFlags wanted =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     return (memory_.memoryTypes[memoryType].propertyFlags & wanted) == wanted;
 }
 
 void Device::waitForFence(const std::string &action) {
-    // In slices that are counted, not by a clock: a program that is suspended for a while uses up one of them. No
-    // dispatch is meant to take a second, and a busy machine is given a hundred times that.
+    // Counted slices in place of a clock: a suspended program uses up only one of them. No dispatch should take a
+    // second; a busy machine gets a hundred times that.
     constexpr std::uint64_t sliceNanos = 1'000'000'000;
     constexpr int mostSlices = 120;
     const VkFence fence = fence_.get();
@@ -100,7 +100,7 @@ void Device::waitForFence(const std::string &action) {
         result = vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, sliceNanos);
     if (result == VK_SUCCESS)
         return;
-    // A lost device has stopped. Otherwise what was submitted may still run, and use what would be destroyed next.
+    // A lost device has stopped. Otherwise the submission may still run, and use objects that would be destroyed next.
     const bool isIdle = result == VK_ERROR_DEVICE_LOST ||
                         (result != VK_TIMEOUT && vkDeviceWaitIdle(device_.get()) == VK_SUCCESS);
     if (!isIdle) {

@@ -17,7 +17,7 @@ enum class Transfers { Automatic, Staged };
 
 class Device {
   public:
-    /// Opens the device that `info` describes. Throws Error{NoDevice} where it is gone or refuses.
+    /// Opens the device that `info` describes. Throws Error{NoDevice} if it is gone or cannot be opened.
     explicit Device(const DeviceInfo &info, Transfers transfers = Transfers::Automatic);
 
     [[nodiscard]] VkDevice get() const { return device_.get(); }
@@ -33,12 +33,12 @@ class Device {
 
     [[nodiscard]] Timestamps &timestamps() { return timestamps_; }
     [[nodiscard]] const DebugUtils &debugUtils() const { return debugUtils_; }
-    /// Of all buffers that are alive.
+    /// Bytes of all live buffers.
     [[nodiscard]] std::uint64_t &allocatedBytes() { return allocatedBytes_; }
 
     /// Records commands with `record`, submits them and waits until they are finished. Throws DeviceFault naming
-    /// `action` where the device fails, or does not finish within two minutes; after that the device and all that
-    /// belongs to it are never destroyed, as they may still be in use.
+    /// `action` if the device fails or does not finish within two minutes. After a time-out the device and its objects
+    /// are never destroyed, because they may still be in use.
     void submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record);
 
   private:

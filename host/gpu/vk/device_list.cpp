@@ -23,7 +23,7 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-/// lavapipe has the width of its vectors in its name, which depends on what it was told (processor_use.h).
+/// The name of lavapipe contains its vector width, which depends on our own settings (processor_use.h).
 std::string withoutVectorWidth(const std::string &name) {
     static const std::regex width(", [0-9]+ bits");
     return std::regex_replace(name, width, "");

@@ -1,4 +1,4 @@
-// Which Vulkan devices there are, what they can do, and which one to use: plain data, no Vulkan types.
+// Vulkan devices, their capabilities, and the choice among them: plain data, no Vulkan types.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct DeviceInfo {
     int index = 0; ///< in the order of vkEnumeratePhysicalDevices
     std::string name;
     DeviceType type = DeviceType::Other;
-    std::string driver;     ///< name and version as the driver calls them
+    std::string driver;     ///< name and version, from the driver
     std::string apiVersion; ///< of Vulkan: "1.3.230"
     std::uint32_t vendorId = 0;
     std::uint32_t deviceId = 0;
@@ -30,13 +30,13 @@ struct DeviceInfo {
     std::uint64_t deviceMemoryBytes = 0; ///< largest device-local heap
     bool hasTimestamps = false;
     bool hasCalibratedTimestamps = false;
-    std::uint32_t driverId = 0; ///< VkDriverId; 0: not told
+    std::uint32_t driverId = 0; ///< VkDriverId; 0: unknown
     bool hasExactDivisionListed =
         false; ///< its / and sqrt are known to be correctly rounded: see arithmetic.h
-    // Float controls of float32 arithmetic: without both no bits are promised.
+    // Float controls for float32. Equal bits are promised only with both.
     bool canRoundToNearestEven = false;
     bool canPreserveSignedZeroInfNan = false;
-    std::string rejection; ///< why it cannot be used, or empty
+    std::string rejection; ///< why the device cannot be used, or empty
 
     [[nodiscard]] bool isUsable() const { return rejection.empty(); }
     [[nodiscard]] bool areBitsPromised() const {
@@ -45,14 +45,14 @@ struct DeviceInfo {
     [[nodiscard]] bool isSoftware() const { return type == DeviceType::Cpu; }
 };
 
-/// All devices that the Vulkan loader finds, usable or not. Throws Error{NoDevice}, saying what to install, where
-/// there is no loader, no driver or no device at all.
+/// All devices that the Vulkan loader finds, usable or not. Throws Error{NoDevice}, naming what to install, if there is
+/// no loader, no driver or no device.
 [[nodiscard]] std::vector<DeviceInfo> listDevices();
-/// The same, by an instance that stays.
+/// The same, with an existing instance.
 [[nodiscard]] std::vector<DeviceInfo> listDevices(const Instance &instance);
 
-/// Chooses by "auto" (a hardware GPU before a software one), an index, or a part of a name, in any case and whatever
-/// the width of vectors in it. Throws Error{NoDevice} listing what there is, if none or an unusable one is meant.
+/// Chooses by "auto" (hardware before software), an index, or part of a name; case and the vector width in the name of
+/// lavapipe do not matter. Throws Error{NoDevice}, listing the devices, if none matches or the device is unusable.
 [[nodiscard]] DeviceInfo chooseDevice(const std::vector<DeviceInfo> &devices, const std::string &wanted);
 
 } // namespace hyalite::gpu

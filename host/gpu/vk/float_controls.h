@@ -1,4 +1,4 @@
-// How a kernel's float32 arithmetic rounds: said in its SPIR-V, where the device can be told.
+// Float controls: rounding of float32, declared in the SPIR-V of a kernel as far as the device supports it.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ struct FloatControls {
     bool canPreserveSignedZeroInfNan = false;
 };
 
-/// The module `spirv` with the execution modes RoundingModeRTE and SignedZeroInfNanPreserve, for 32 bits and all of
-/// its entry points, as far as `controls` offers them. GLSL cannot ask for what only some devices offer, and a module
-/// that asks for more than there is, is invalid. `spirv` is a valid module in the byte order of this machine.
+/// The module `spirv` with the execution modes RoundingModeRTE and SignedZeroInfNanPreserve, for 32 bits and all of its
+/// entry points, as far as `controls` offers them. They are added here because GLSL cannot make them optional, and a
+/// module that declares an unsupported mode is invalid. `spirv` is a valid module in the byte order of this machine.
 [[nodiscard]] std::vector<std::uint32_t> addFloatControls(std::span<const std::uint32_t> spirv,
                                                           const FloatControls &controls);
 

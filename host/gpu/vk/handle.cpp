@@ -9,7 +9,7 @@ namespace hyalite::gpu {
 namespace {
 
 std::mutex mutex;
-std::vector<VkDevice> abandoned; ///< as they are not destroyed, no other device gets the same handle
+std::vector<VkDevice> abandoned; ///< they are never destroyed, so no other device gets the same handle
 
 } // namespace
 

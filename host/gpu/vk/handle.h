@@ -10,8 +10,8 @@ namespace hyalite::gpu {
 
 struct NoParent {};
 
-/// From now on nothing of this device is destroyed, nor is it: a kernel that does not end still uses all that it was
-/// given. From any thread.
+/// Abandons a device: neither it nor its objects are destroyed any more, because a kernel that does not end still uses
+/// them. Thread-safe.
 void abandon(VkDevice device);
 [[nodiscard]] bool isAbandoned(VkDevice device) noexcept;
 
@@ -42,7 +42,7 @@ template <class Object, auto destroy, class Parent = VkDevice> class Handle {
     }
 
     [[nodiscard]] Object get() const { return object_; }
-    /// Leaves the object to its fate.
+    /// Releases ownership without destroying the object.
     void release() { object_ = VK_NULL_HANDLE; }
 
   private:

@@ -34,7 +34,7 @@ bool isLayerPresent(const char *name) {
     });
 }
 
-/// Of the loader and the drivers together.
+/// The extensions of loader and drivers together.
 bool isExtensionPresent(const char *name) {
     const std::string action = fmt::format("vkEnumerateInstanceExtensionProperties for {}", name);
     std::uint32_t count = 0;
@@ -127,7 +127,7 @@ Instance::~Instance() {
 void Instance::abandon() {
     handle_.release();
     messenger_ = VK_NULL_HANDLE;
-    // The layer may still write to it, until the very end: it is never freed, but not lost either.
+    // The layer may write to it until the program ends: it is never freed, but stays reachable.
     static std::vector<std::unique_ptr<std::string>> &left = *new std::vector<std::unique_ptr<std::string>>;
     static std::mutex leftMutex;
     const std::lock_guard lock(leftMutex);

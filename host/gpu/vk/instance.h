@@ -1,4 +1,4 @@
-// The Vulkan instance, with the validation layer where it is asked for.
+// The Vulkan instance, with the validation layer on request.
 #pragma once
 
 #include "host/gpu/vk/handle.h"
@@ -10,10 +10,10 @@
 namespace hyalite::gpu {
 
 /// Set HYALITE_VALIDATION=1 to run under VK_LAYER_KHRONOS_validation, with synchronisation checks. Any warning or
-/// error of the layer is then an error of ours.
+/// error of the layer then fails the program.
 class Instance {
   public:
-    /// Throws Error{NoDevice} where there is no driver, or where the layer is asked for and missing.
+    /// Throws Error{NoDevice} if there is no driver, or if the layer is requested and missing.
     Instance();
     ~Instance();
     Instance(const Instance &) = delete;
@@ -24,10 +24,10 @@ class Instance {
     /// Whether VK_EXT_debug_utils is enabled.
     [[nodiscard]] bool hasDebugUtils() const { return hasDebugUtils_; }
 
-    /// Does not destroy it: it has a device that is abandoned.
+    /// Never destroys the instance, for one with an abandoned device.
     void abandon();
 
-    /// Throws Error{DeviceLost} with the first message, if the validation layer has had anything to say.
+    /// Throws Error{DeviceLost} with the first message of the validation layer, if there is one.
     void throwOnValidationMessage() const;
 
   private:

@@ -36,7 +36,7 @@ DeviceType deviceType(VkPhysicalDeviceType type) {
     }
 }
 
-/// A device of which this cannot be learnt is none that lacks the extension: that would change what is rendered.
+/// Throws if the query fails: to treat the extension as missing would change what is rendered.
 bool hasExtension(VkPhysicalDevice device, const char *name) {
     const std::string action = fmt::format("vkEnumerateDeviceExtensionProperties for {}", name);
     std::uint32_t count = 0;
@@ -112,7 +112,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     if (properties.apiVersion < VK_API_VERSION_1_1)
         return info;
 
-    // Structures of extensions that a device lacks must stay out of the chain.
+    // The chain must not contain structures of unsupported extensions.
     VkPhysicalDeviceSubgroupProperties subgroup{};
     subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
     VkPhysicalDeviceDriverProperties driver{};
@@ -121,7 +121,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     floats.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES;
     const bool is12 = properties.apiVersion >= VK_API_VERSION_1_2;
     const bool hasDriver = is12 || hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
-    // We ask for Vulkan 1.1, where float controls are an extension, whatever the device knows beyond.
+    // We use Vulkan 1.1, in which float controls are an extension, even if the device supports later versions.
     const bool hasFloats = hasExtension(device, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
     void *next = nullptr;
     if (hasFloats) {

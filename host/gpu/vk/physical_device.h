@@ -1,4 +1,4 @@
-// What a Vulkan physical device offers, and whether that is enough.
+// Capabilities of a physical device, and whether they suffice.
 #pragma once
 
 #include "host/gpu/vk/device_list.h"
@@ -7,7 +7,7 @@
 
 namespace hyalite::gpu {
 
-/// All but the index.
+/// Everything except the index.
 [[nodiscard]] DeviceInfo describePhysicalDevice(VkPhysicalDevice device);
 
 /// The first queue family that can compute, or VK_QUEUE_FAMILY_IGNORED.

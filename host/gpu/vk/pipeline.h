@@ -9,14 +9,14 @@
 
 namespace hyalite::gpu {
 
-/// What Vulkan takes a buffer of this use for.
+/// The descriptor type of a buffer of this use.
 [[nodiscard]] VkDescriptorType descriptorTypeOf(BufferUse use);
 
 class Pipeline {
   public:
     /// `constants` are the specialization constants 0, 1, ..., and `bindings` the uses of the buffers at bindings 0,
     /// 1, ... of set 0. The float controls that the device offers are added to `spirv`. Throws as `check` does. The
-    /// device may be in use elsewhere meanwhile.
+    /// device may be in use by other threads.
     Pipeline(Device &device, std::string name, std::span<const std::uint32_t> spirv,
              std::span<const std::uint32_t> constants, std::span<const BufferUse> bindings);
 

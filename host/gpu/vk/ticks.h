@@ -6,14 +6,14 @@
 
 namespace hyalite::gpu {
 
-/// The bits of a timestamp that mean anything. `validBits` is in [1, 64].
+/// Mask of the valid bits of a timestamp. `validBits` is in [1, 64].
 [[nodiscard]] inline std::uint64_t validTicks(std::uint64_t ticks, std::uint32_t validBits) {
     assert(validBits >= 1 && validBits <= 64);
     return validBits >= 64 ? ticks : ticks & ((std::uint64_t{1} << validBits) - 1);
 }
 
-/// Ticks from one timestamp to a later one. The counter may have wrapped around in between, even several times: of all
-/// durations that end on these bits it is the longest of at most `mostTicks`, or the shortest, if none is so short.
+/// Ticks from one timestamp to a later one. The counter may have wrapped around, even several times: of all durations
+/// that fit these bits it is the longest up to `mostTicks`, or the shortest if all are longer.
 [[nodiscard]] inline std::uint64_t elapsedTicks(std::uint64_t begin, std::uint64_t end,
                                                 std::uint32_t validBits, std::uint64_t mostTicks) {
     const std::uint64_t shortest = validTicks(end - begin, validBits);
@@ -22,7 +22,8 @@ namespace hyalite::gpu {
     return shortest + ((mostTicks - shortest) >> validBits << validBits);
 }
 
-/// Ticks from a reference to a timestamp, which may lie before it: the smallest of all differences that fit these bits.
+/// Ticks from a reference to a timestamp, which may be earlier: of all differences that fit these bits, the smallest
+/// magnitude.
 [[nodiscard]] inline std::int64_t signedTicks(std::uint64_t reference, std::uint64_t ticks,
                                               std::uint32_t validBits) {
     const std::uint64_t forward = validTicks(ticks - reference, validBits);

@@ -84,7 +84,7 @@ std::optional<Span> Timestamps::read(const Span &host) {
     const std::int64_t hostLength = host.endNanos - host.beginNanos;
     const auto mostTicks =
         static_cast<std::uint64_t>(static_cast<double>(hostLength) / static_cast<double>(nanosPerTick_));
-    // Between two dispatches the clocks' rates hardly differ, and a length in ticks needs no more than a double has.
+    // Between two dispatches the rates of the clocks hardly differ, and a double holds a length in ticks exactly.
     const std::int64_t length =
         std::min(nanosOf(elapsedTicks(ticks[0], ticks[1], validBits_, mostTicks)), hostLength);
 
@@ -97,7 +97,7 @@ std::optional<Span> Timestamps::read(const Span &host) {
         const std::int64_t since = signedTicks(calibration_->deviceTicks, ticks[0], validBits_);
         const std::int64_t distance = nanosOf(static_cast<std::uint64_t>(std::abs(since)));
         begin = calibration_->hostNanos + (since < 0 ? -distance : distance);
-        // No kernel runs before it is submitted, nor after the host has learnt of its end.
+        // A kernel runs after its submission, and before the host knows of its end.
         begin = std::clamp(begin, host.beginNanos, host.endNanos - length);
     }
     return Span{begin, begin + length};

@@ -1,4 +1,4 @@
-// The device's own clock: when a kernel began and ended, on the host's time line.
+// Timestamps of kernels by the device's clock, on the host's time line.
 #pragma once
 
 #include "host/film/timeline.h"
@@ -18,19 +18,19 @@ class Timestamps {
     Timestamps(VkInstance instance, VkPhysicalDevice physical, VkDevice device, std::uint32_t queueFamily,
                bool isCalibrationEnabled);
 
-    /// Both write nothing where the queue has no timestamps.
+    /// Both write nothing if the queue has no timestamps.
     void writeBegin(VkCommandBuffer commands) const;
     void writeEnd(VkCommandBuffer commands) const;
 
-    /// What lay between the two, after the submission is finished that they were written in. `host` is the time from
-    /// before the submission until its end was known. Nothing where the queue has no timestamps.
+    /// The span between the two, after their submission is finished. `host` is the time from before the submission
+    /// until its end was known. Empty if the queue has no timestamps.
     [[nodiscard]] std::optional<Span> read(const Span &host);
 
-    /// Which clock times kernels, in words.
+    /// Description of the clock that times kernels.
     [[nodiscard]] std::string describe() const;
 
   private:
-    /// The same moment on both clocks.
+    /// One moment on both clocks.
     struct Calibration {
         std::uint64_t deviceTicks = 0;
         std::int64_t hostNanos = 0;
@@ -43,7 +43,7 @@ class Timestamps {
     QueryPoolHandle queries_;
     std::uint32_t validBits_ = 0; ///< 0: the queue has no timestamps
     float nanosPerTick_ = 0.0f;
-    PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr; ///< null where the device has none
+    PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr; ///< null without the extension
     std::optional<Calibration> calibration_;
 };
 
