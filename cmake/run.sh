@@ -6,7 +6,7 @@
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it
 #   cmake/run.sh sanitize            builds with the address and undefined behaviour sanitizers, and runs all tests
-#   cmake/run.sh check               checks the format of all C++ by clang-format
+#   cmake/run.sh check               checks the format of all C++ by clang-format, and host/ and cmake/ by clang-tidy
 #   cmake/run.sh fuzz SECONDS        feeds each reader of files with inputs made up by libFuzzer, for so many seconds
 #   cmake/run.sh ARGUMENT...         hyalite ARGUMENT..., for instance: render cat -o cat.png
 #
@@ -22,7 +22,7 @@ needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-t
         zlib1g-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
 needed_for_bench=(libbenchmark-dev libembree-dev)
-needed_for_check=(clang-format-14)
+needed_for_check=(clang-format-14 clang-tidy-14 libomp-14-dev)
 needed_for_fuzz=(clang-14 libclang-rt-14-dev libomp-14-dev)
 
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
@@ -70,6 +70,27 @@ build_all() {
     rm -f "$log"
 }
 
+# .clang-tidy says what is looked for. Headers of libraries take most of the time, so that all files of a folder are read
+# as one; those in `alone` are not, as they use names for themselves that others of their folder use, too.
+check_by_clang_tidy() {
+    local alone=" host/cli/profile_command.cpp host/gpu/tile_renderer.cpp host/image/hdr.cpp host/import/obj_statement.cpp
+        host/render/tune.cpp host/report/profile_table.cpp host/report/trace_json.cpp "
+    local file unit units=$build/check
+    rm -rf "$units"
+    mkdir -p "$units"
+    while read -r file; do
+        unit=$(cut -d / -f 1,2 <<<"$file")
+        [[ $alone =~ [[:space:]]$file[[:space:]] ]] && unit=$file
+        unit=${unit%.cpp}
+        echo "#include \"$root/$file\"" >>"$units/${unit//\//-}.cpp"
+    done < <(git ls-files 'cmake/*.cpp' 'host/*.cpp')
+    # The longest first.
+    find "$units" -name '*.cpp' -printf '%s %p\n' | sort -nr | cut -d ' ' -f 2 |
+        xargs -P "$(nproc)" -I UNIT clang-tidy-14 --quiet --config-file="$root/.clang-tidy" UNIT -- -std=c++20 -fopenmp \
+            -DHYALITE_VERSION='"0"' -I"$root" -I"$build/kernels" -isystem /usr/include/Imath 2>&1 |
+        sed '/warnings\{0,1\} generated\.$/d'
+}
+
 # Whatever was chosen before stays: a build with tests is not made one without by the next render.
 tests_as_before() { grep -qs '^HYALITE_TESTS:BOOL=ON' "$build/CMakeCache.txt" && echo ON || echo OFF; }
 
@@ -78,10 +99,13 @@ if [ $# -eq 0 ]; then
     exit 2
 fi
 if [ "$1" = check ]; then
-    install_missing "${needed_for_check[@]}"
+    install_missing "${needed[@]}" "${needed_for_check[@]}"
     cd "$root"
     git ls-files 'assets/*.cpp' 'assets/*.h' 'cmake/*.cpp' 'host/*.cpp' 'host/*.h' 'shaders/*.cpp' 'tests/*.cpp' 'tests/*.h' |
         xargs clang-format-14 --dry-run -Werror
+    target=hyalite_reference_leaves # the C++ that is made from shaders
+    build_all "$(tests_as_before)"
+    check_by_clang_tidy
     exit
 fi
 install_missing "${needed[@]}"

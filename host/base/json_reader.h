@@ -88,7 +88,8 @@ class JsonObject {
     [[nodiscard]] bool boolean(std::string_view key, std::optional<bool> fallback = {}) const {
         return read(key, fallback, [](const JsonNode &node) { return node.boolean(); });
     }
-    [[nodiscard]] std::string text(std::string_view key, std::optional<std::string> fallback = {}) const {
+    [[nodiscard]] std::string text(std::string_view key,
+                                   const std::optional<std::string> &fallback = {}) const {
         return read(key, fallback, [](const JsonNode &node) { return node.text(); });
     }
     /// One of a few names, each given with what it stands for.

@@ -33,6 +33,7 @@ std::vector<Layer> filmLayers(const Film &film) {
 std::size_t differingPixelCount(const Film &a, const Film &b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        // Bits are what is compared. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
         count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
     return count;
 }

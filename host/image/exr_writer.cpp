@@ -120,6 +120,7 @@ void writeRows(ExrOutput &output, const Picture &picture) {
     constexpr int rowCountPacked = 16; // together, by ZIP
     const int rowCountMax = rowCountPacked * threadCount;
     std::vector<LayerRows> rows;
+    rows.reserve(layers.size());
     for (const Layer &layer : layers)
         rows.emplace_back(layer, picture.crop, rowCountMax);
     for (int y = 0; y < picture.crop.height(); y += rowCountMax) {

@@ -57,7 +57,7 @@ std::filesystem::path resolveScene(const std::string &argument) {
                         argument, listOfScenes()));
     std::vector<std::string> lookedAt;
     for (const std::filesystem::path &folder : assetFolders()) {
-        const std::filesystem::path file = folder / "scenes" / (argument + ".json");
+        std::filesystem::path file = folder / "scenes" / (argument + ".json");
         std::error_code error;
         if (std::filesystem::is_regular_file(file, error))
             return file;

@@ -40,7 +40,7 @@ FileReach::FileReach(const std::filesystem::path &sceneFile,
 std::filesystem::path FileReach::resolve(const JsonNode &node) const {
     if (node.text().empty())
         node.fail("found an empty name; allowed: that of a file");
-    const std::filesystem::path file = folder_ / node.text();
+    std::filesystem::path file = folder_ / node.text();
     std::error_code error;
     const std::filesystem::path absolute = std::filesystem::absolute(file, error);
     if (error)

@@ -38,7 +38,7 @@ class ObjMeshBuilder {
     void addUv(const glm::dvec2 &uv);
 
     /// Of the faces that follow: an index from 1 on, or 0 for none.
-    void setMaterial(std::uint32_t material);
+    void setMaterial(std::uint32_t index);
 
     [[nodiscard]] MeshReport &report() { return result.report; }
 

@@ -196,6 +196,7 @@ std::uint32_t readMaterialIndex(const JsonObject &object, const std::vector<Mate
                                     [&](const Material &material) { return material.name == name; });
     if (found == materials.end()) {
         std::vector<std::string_view> names;
+        names.reserve(materials.size());
         for (const Material &material : materials)
             names.push_back(material.name);
         node.refuse(names.empty() ? "a name in /materials, which defines none"

@@ -61,6 +61,7 @@ std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
 
 std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films) {
     std::vector<Layer> layers;
+    layers.reserve(films.size());
     for (const ViewFilm &film : films)
         layers.push_back(layerOf(film));
     return layers;

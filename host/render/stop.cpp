@@ -77,6 +77,8 @@ CaughtSignals::~CaughtSignals() {
     sigaction(SIGPIPE, &pipeActionBefore, nullptr);
 }
 
+// Signals reach the whole process, and whoever catches them is asked.
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static)
 int CaughtSignals::first() const noexcept { return firstSignal; }
 
 const char *signalName(int signal) {

@@ -126,8 +126,8 @@ std::string phaseBar(const std::vector<StageSummary> &stages) {
 std::string rayTable(const std::vector<KernelSummary> &kernels) {
     std::vector<std::string> head{"kernel", "invocations"};
     for (const RayKind &kind : rayKinds)
-        head.push_back(kind.name);
-    head.push_back("total");
+        head.emplace_back(kind.name);
+    head.emplace_back("total");
     std::string rows = row("th", head);
     for (const KernelSummary &kernel : kernels) {
         std::vector<std::string> counts{kernel.times.name + ": rays", std::to_string(kernel.invocations)};

@@ -15,8 +15,8 @@ void appendAttributes(std::vector<Attribute> &attributes, const std::string &pat
             appendAttributes(attributes, path.empty() ? key : path + "." + key, part);
         return;
     }
-    attributes.push_back(
-        {path == "program" ? "software" : path, value.is_string() ? value.get<std::string>() : value.dump()});
+    attributes.emplace_back(path == "program" ? "software" : path,
+                            value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 } // namespace

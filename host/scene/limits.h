@@ -6,9 +6,7 @@
 
 #include <cstddef>
 
-namespace hyalite {
-
-namespace limits {
+namespace hyalite::limits {
 
 inline constexpr Interval coordinate{-1e15, 1e15};
 inline constexpr Interval directionLength{1e-100, 1e16}; ///< its square neither underflows nor overflows
@@ -49,5 +47,4 @@ inline constexpr std::size_t materialCount = 65536;
 inline constexpr std::size_t meshCount = 4096;
 inline constexpr std::size_t triangleCount = std::size_t{1} << 30; ///< of all meshes together
 
-} // namespace limits
-} // namespace hyalite
+} // namespace hyalite::limits

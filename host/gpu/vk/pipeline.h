@@ -26,7 +26,7 @@ class Pipeline {
     [[nodiscard]] VkDescriptorSetLayout setLayout() const { return setLayout_.get(); }
 
   private:
-    void makeLayouts(Device &device, std::span<const BufferUse> bindings);
+    void makeLayouts(Device &device, std::span<const BufferUse> uses);
     void makePipeline(Device &device, std::span<const std::uint32_t> spirv,
                       std::span<const std::uint32_t> constants);
 
