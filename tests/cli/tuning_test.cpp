@@ -50,7 +50,7 @@ TEST_F(Tuning, MeasuresShowsAndKeeps) {
     ASSERT_EQ(kept.size(), 1u) << kept;
     const Outcome shown = run("devices");
     EXPECT_TRUE(contains(shown.output, "as measured on " + kept[0].at("date").get<std::string>())) << shown;
-    EXPECT_EQ(kernelOf(small), kept[0].at("spheres"));
+    EXPECT_EQ(kernelOf(small), kept[0].at("spheres").get<std::string>());
 
     // What it kept decides, and changes no bit.
     const std::string hash = kept[0].at("key").at("kernels");
