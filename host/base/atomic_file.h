@@ -1,4 +1,4 @@
-// A file that appears whole or not at all.
+// Atomic file: it appears complete or not at all.
 //
 // The bytes go into a temporary file in the target's folder; commit() puts it in the target's place with one rename.
 // A failure at any moment, from a full disk to a killed process, leaves the file that was there before as it was. The
@@ -14,8 +14,8 @@
 
 namespace hyalite {
 
-/// Where a file is that is written through `path`, which may be a link, even a dangling one: canonical() fails there, and
-/// open() would create a file. Of links in a circle, one of them. Folders above may be links still.
+/// The target of `path`, which may be a link, even a dangling one, where canonical() fails and open() would create a
+/// file. Of links in a circle it is one of them. Parent folders may still be links.
 [[nodiscard]] std::filesystem::path followLinks(std::filesystem::path path);
 
 /// Whether the temporary file has a name from the start. Automatic: only where it must.
@@ -23,7 +23,7 @@ enum class TemporaryFile { Automatic, Named };
 
 class AtomicFile {
   public:
-    /// Creates the temporary file, and so finds out before any work is done whether the output can be written.
+    /// Creates the temporary file, so that an output that cannot be written fails before any work is done.
     /// A symbolic link is followed, even a dangling one: the file that it points at is replaced, the link stays.
     /// The new file has the permissions of any new file (0666 less the umask), whatever the old one had.
     /// Throws Error{OutputNotWritten} for a target that exists and is not a regular file (a folder, a device, a
@@ -42,11 +42,11 @@ class AtomicFile {
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
 
-    /// Writes at a place of its own, over what is there or beyond it, for formats that fill in a table at the end. What
-    /// write() appends does not move. Throws Error{OutputNotWritten} likewise.
+    /// Writes at an offset, over existing bytes or beyond them, for formats that fill in a table at the end. The
+    /// position of write() does not change. Throws Error{OutputNotWritten} likewise.
     void writeAt(std::uint64_t offsetBytes, std::span<const std::byte> bytes);
 
-    /// Stores the bytes durably and renames them over the target. At most once, and nothing is written after it.
+    /// Syncs the bytes to disk and renames the file over the target. Call it at most once, as the last operation.
     /// Throws Error{OutputNotWritten}.
     void commit();
 

@@ -1,4 +1,4 @@
-// Text of any origin, made fit for terminals and for files that others read.
+// Clean text: untrusted text made safe for terminals and files.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace hyalite {
 
-/// Valid UTF-8 without control characters other than line feeds, and without those that change lines or the direction
-/// of text (Unicode Standard Annex 9, section 2), which can make a name look like another: each byte and character that
-/// is not becomes U+FFFD.
+/// Valid UTF-8 without control characters except line feeds, and without characters that change lines or the direction
+/// of text (Unicode Standard Annex 9, section 2), which can make one name look like another. Every other byte or
+/// character becomes U+FFFD.
 [[nodiscard]] std::string cleanText(std::string_view text);
 
-/// A piece of a file for a message: clean, on one line, and cut behind `maxBytes`, where "..." stands for the rest.
+/// An excerpt of a file for a message: clean, on one line, and cut after `maxBytes` with "...".
 [[nodiscard]] std::string excerpt(std::string_view text, std::size_t maxBytes = 100);
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// The one exception type of the program: what went wrong, in words, of which kind, and what might help.
+// Error: the exception type of the program, with a message, a kind and a remedy.
 //
 // A programmer's error is an assert. Wrong input and a failing environment throw `Error`: its message names
 // the object, the file (and line), the size and the remedy, and is shown to the user as it stands. The command line
@@ -11,7 +11,7 @@
 namespace hyalite {
 
 enum class ErrorKind {
-    Usage,            ///< what was asked for does not go together
+    Usage,            ///< the request contradicts itself
     BadInput,         ///< a scene, mesh or image cannot be used
     NoDevice,         ///< no usable Vulkan device
     LimitExceeded,    ///< memory or a device limit does not suffice
@@ -20,10 +20,10 @@ enum class ErrorKind {
     HungUp,           ///< SIGHUP, before there was a result
     Interrupted,      ///< SIGINT, likewise
     Terminated,       ///< SIGTERM, likewise
-    Internal          ///< a bug of ours, as is every exception that is no Error
+    Internal          ///< a bug of ours; so is every exception that is not an Error
 };
 
-/// What might help, where the message alone does not say it: the words for it are the command line's.
+/// Remedies. The command line has the words for them.
 enum class Remedy {
     None,
     SmallerImage,     ///< or parts of it

@@ -1,4 +1,4 @@
-// Hashes that tell apart scenes and kernels by accident alone: nothing here withstands who wants two to be the same.
+// Hashes of scenes and kernels. They are not cryptographic: collisions can be made on purpose.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The memory of the host.
+// Host memory.
 #pragma once
 
 #include <cstdint>
@@ -6,12 +6,11 @@
 
 namespace hyalite {
 
-/// The bytes that can be had without pushing other programs out, where the system tells.
+/// Bytes available without swapping out other programs; empty if the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> availableHostBytes();
 
-/// Gives all threads one heap. glibc gives them several, each of which keeps what it once had: a process that renders
-/// again and again, with a driver that starts threads each time, would grow by 17 KB a render, to twice of what it
-/// needs.
+/// Makes all threads use one heap. glibc has several, and each keeps its freed memory: a process with many renders,
+/// whose driver starts threads each time, would grow by 17 KB a render, to twice the memory that it needs.
 void useOneHeap();
 
 } // namespace hyalite

@@ -1,5 +1,5 @@
-// A regular file that is read piece by piece, so that what it holds can be checked before anything is allocated. All
-// files that a user or a scene names are opened here.
+// Input file: a regular file that is read piece by piece, so that its contents can be checked before memory is
+// allocated. All files that a user or a scene names are opened here.
 #pragma once
 
 #include "host/base/error.h"
@@ -15,15 +15,15 @@ namespace hyalite {
 
 class InputFile {
   public:
-    /// Throws Error{BadInput} where there is no such file, it cannot be read, or it is a folder, device, pipe or socket:
-    /// these are not opened, and nothing is waited for.
+    /// Throws Error{BadInput} if there is no such file, it cannot be read, or it is a folder, device, pipe or socket,
+    /// which are never opened or waited for.
     explicit InputFile(const std::filesystem::path &path);
     InputFile(const InputFile &) = delete;
     InputFile &operator=(const InputFile &) = delete;
     ~InputFile();
 
     [[nodiscard]] const std::filesystem::path &path() const { return path_; }
-    /// As it was when it was opened: what is written behind that later is not read.
+    /// The size when the file was opened: bytes appended later are not read.
     [[nodiscard]] std::uint64_t sizeBytes() const { return sizeBytes_; }
 
     /// Fills `destination` from `offsetBytes`; the range lies within sizeBytes(). Throws Error{BadInput} where the
@@ -33,7 +33,7 @@ class InputFile {
     /// The first `countBytes`, or the whole file if it is shorter.
     [[nodiscard]] std::vector<std::byte> head(std::size_t countBytes) const;
 
-    /// The error to throw when what the file holds cannot be used: "FILE: found".
+    /// The error for unusable contents: "FILE: found".
     [[nodiscard]] Error bad(const std::string &found) const;
 
   private:

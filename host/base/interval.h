@@ -1,4 +1,4 @@
-// Ranges of numbers, and how messages say them.
+// Intervals of numbers, and their words in messages.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 
 namespace hyalite {
 
-/// A range of numbers. NaN lies in none.
+/// An interval. No interval contains NaN.
 struct Interval {
     double low;
     double high;

@@ -1,4 +1,4 @@
-// A JSON file as a checked document: regular, not too large, not too deep, and without a key given twice.
+// JSON documents: parsed from regular files of bounded size and depth, without duplicate keys.
 #pragma once
 
 #include <nlohmann/json.hpp>

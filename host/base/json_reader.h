@@ -22,7 +22,7 @@
 
 namespace hyalite {
 
-/// A value together with where it stands. It points into a document and a file name that outlive it.
+/// A value with its position. It refers to a document and a file name, which outlive it.
 struct JsonNode {
     const nlohmann::json *value;
     const std::string *fileName;
@@ -46,13 +46,13 @@ struct JsonNode {
 /// An object's members by key. A getter without a fallback demands the key.
 class JsonObject {
   public:
-    /// Refuses what is not an object.
+    /// Throws unless the value is an object.
     explicit JsonObject(JsonNode node);
     JsonObject(JsonNode node, std::span<const std::string_view> keys) : JsonObject(std::move(node)) {
         allowOnly(keys);
     }
 
-    /// Refuses a key that is not listed and suggests the listed one nearest to it.
+    /// Throws for a key that is not listed, and suggests the most similar one.
     void allowOnly(std::span<const std::string_view> keys) const;
 
     [[nodiscard]] std::optional<JsonNode> find(std::string_view key) const;
@@ -92,7 +92,7 @@ class JsonObject {
                                    const std::optional<std::string> &fallback = {}) const {
         return read(key, fallback, [](const JsonNode &node) { return node.text(); });
     }
-    /// One of a few names, each given with what it stands for.
+    /// One of a few names, each with its value.
     template <class T>
     [[nodiscard]] T choice(std::string_view key, std::span<const std::pair<std::string_view, T>> choices,
                            std::optional<std::type_identity_t<T>> fallback = {}) const {
@@ -122,7 +122,7 @@ class JsonObject {
 /// `; did you mean "centre"?` for the candidate nearest to `word`, or nothing where none is near.
 [[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> candidates);
 
-/// `"a", "b", "c"`, fit for a terminal; `...` stands for what follows the 32nd.
+/// `"a", "b", "c"`, safe for terminals; `...` after 32 names.
 [[nodiscard]] std::string quotedList(std::span<const std::string_view> words);
 
 } // namespace hyalite

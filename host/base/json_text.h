@@ -1,4 +1,4 @@
-// JSON as every command writes it.
+// JSON text, as all commands write it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace hyalite {
 
-/// Indented, with a line feed at the end. File names need not be UTF-8, but JSON is: other bytes become U+FFFD.
+/// Indented, with a line feed at the end. Bytes that are not UTF-8, as in file names, become U+FFFD.
 [[nodiscard]] inline std::string jsonText(const nlohmann::ordered_json &json) {
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

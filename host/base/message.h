@@ -1,4 +1,4 @@
-// What is said to people on standard error.
+// Messages on standard error.
 #pragma once
 
 #include "host/base/clean_text.h"
@@ -11,8 +11,8 @@
 
 namespace hyalite {
 
-/// Prints on standard error. Names from files may be in it: a terminal must not obey them. A message that is lost,
-/// because nobody reads it or a disk is full, stops no work.
+/// Prints on standard error, without terminal escapes, which names from files could contain. A message that cannot be
+/// written, to a closed pipe or a full disk, is not an error.
 template <class... Arguments>
 void printMessage(fmt::format_string<Arguments...> format, Arguments &&...arguments) {
     const std::string text = cleanText(fmt::format(format, std::forward<Arguments>(arguments)...));

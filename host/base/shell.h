@@ -6,8 +6,8 @@
 
 namespace hyalite {
 
-/// The words with blanks between them, quoted where a shell would read anything into them: pasted back, they are the
-/// same words, byte for byte.
+/// The words separated by blanks, quoted where a shell would interpret them: pasted into a shell, they are the same
+/// words, byte for byte.
 [[nodiscard]] std::string shellLine(std::span<const char *const> words);
 
 } // namespace hyalite

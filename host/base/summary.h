@@ -1,4 +1,4 @@
-// What many measurements of the same thing come to.
+// Summary statistics of repeated measurements.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace hyalite {
 
-/// The value below which `share` of the values lie, by linear interpolation between the two that are next to it.
-/// `values` is not empty, in any order; `share` is in [0, 1].
+/// The quantile `share`, in [0, 1], of `values`, by linear interpolation. `values` is not empty; its order does not
+/// matter.
 [[nodiscard]] double quantile(std::span<const double> values, double share);
 
 struct Summary {
@@ -22,8 +22,8 @@ struct Summary {
 
 [[nodiscard]] Summary summarise(std::span<const double> values);
 
-/// Half of the distance between the quartiles, as a share of the median: how far a repeat usually lies off. 0 for less
-/// than two values, which tell nothing, and where the median is 0.
+/// Half the interquartile range, relative to the median: the usual deviation of a repeat. 0 for fewer than two values,
+/// and for a median of 0.
 [[nodiscard]] double relativeSpread(std::span<const double> values);
 
 } // namespace hyalite

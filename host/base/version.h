@@ -1,4 +1,4 @@
-// The program's version: the one place, set by the build.
+// The version of the program, set by the build.
 #pragma once
 
 #ifndef HYALITE_VERSION

@@ -1,4 +1,4 @@
-// The commands of the program: each adds itself to the command line and runs when it is named there.
+// Commands: each adds itself to the command line, and runs if the user names it.
 #pragma once
 
 #include "host/cli/failure.h"
@@ -9,7 +9,7 @@
 
 namespace hyalite {
 
-/// What commands share with main().
+/// State that commands share with main().
 struct CommandContext {
     std::string commandLine;          ///< as typed, for reports
     ExitCode exitCode = ExitCode::Ok; ///< what main() returns if nothing is thrown

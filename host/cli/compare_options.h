@@ -1,4 +1,4 @@
-// What `compare` was asked for, by its options.
+// Options of `compare`.
 #pragma once
 
 #include "host/cli/failure.h"

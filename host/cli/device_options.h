@@ -1,4 +1,4 @@
-// --threads, --kernel and --max-dispatch-ms, of all commands that open a renderer.
+// --threads, --kernel and --max-dispatch-ms, for all commands that open a renderer.
 #pragma once
 
 #include "host/render/backend.h"

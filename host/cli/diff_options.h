@@ -1,4 +1,4 @@
-// What `diff` was asked for, by its options.
+// Options of `diff`.
 #pragma once
 
 #include "host/cli/failure.h"
@@ -29,10 +29,10 @@ struct DiffOptions {
 /// Throws Error{BadInput}.
 void requireSameSize(const Image &a, const std::string &pathA, const Image &b, const std::string &pathB);
 
-/// Two images as numbers, and the bounds on how they differ.
+/// Compares two images as numbers, against bounds.
 [[nodiscard]] ExitCode runDiff(const DiffOptions &options, const std::string &commandLine);
 
-/// Two renders as estimates of one picture, not as numbers.
+/// Compares two renders as estimates of one picture.
 [[nodiscard]] ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &commandLine);
 
 } // namespace hyalite

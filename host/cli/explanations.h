@@ -1,4 +1,4 @@
-// Why two renders differ, for people and reports.
+// Explanations of differences between two renders, for people and reports.
 #pragma once
 
 #include "host/cli/outliers.h"
@@ -20,7 +20,7 @@ void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &d
 [[nodiscard]] nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
                                                       const std::optional<Divergence> &divergence);
 
-/// Explains outliers against the oracle, and returns how many are not explained by a decision near its boundary.
+/// Explains outliers with the double twin. Returns the number of those that no decision near its boundary explains.
 [[nodiscard]] std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers);
 
 } // namespace hyalite

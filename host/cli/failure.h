@@ -1,4 +1,4 @@
-// From failures to exit codes and words: the one place.
+// Failures: their exit codes and messages.
 #pragma once
 
 #include "host/base/error.h"
@@ -26,13 +26,13 @@ enum class ExitCode : int {
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 
-/// How a command ends that threw.
+/// The end of a command that threw.
 struct Failure {
     ExitCode code;
     std::string message; ///< for standard error, behind the program's name
 };
 
-/// `commandLine` is what a bug report needs.
+/// `commandLine` is for bug reports.
 [[nodiscard]] Failure describeFailure(const std::exception_ptr &failure, const std::string &commandLine);
 
 } // namespace hyalite

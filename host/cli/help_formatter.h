@@ -1,4 +1,4 @@
-// The pages of `--help`: paragraphs with a blank line between them, in lines of at most 100 columns.
+// Help pages: paragraphs separated by blank lines, at most 100 columns wide.
 #pragma once
 
 #include <CLI/CLI.hpp>

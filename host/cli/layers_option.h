@@ -1,4 +1,4 @@
-// --layers: what primary rays meet, beside the colours of an EXR.
+// --layers: views of primary hits, beside the colours of an EXR.
 #pragma once
 
 #include "host/render/layers.h"

@@ -1,6 +1,6 @@
-// Options of one kind each, read in one way by all commands: numbers, vectors, words and files.
+// Options by kind: numbers, vectors, words and files, read the same way by all commands.
 //
-// A value that cannot be used is Error{Usage} "--spp: found "0"; allowed: a whole number from 1 to 65536". Each function
+// An invalid value throws Error{Usage} "--spp: found "0"; allowed: a whole number from 1 to 65536". Each function
 // adds an option to `command`, which sets `value` when it is parsed: `value` must outlive the command.
 #pragma once
 
@@ -31,9 +31,9 @@ namespace hyalite {
 /// Throws Error{Usage}.
 [[noreturn]] void refuseValue(const std::string &option, std::string_view found, std::string_view allowed);
 
-/// The number that `text` is, apart from blanks around it. Throws Error{Usage} for other text and what is not in range.
+/// The number in `text`, which may have blanks around it. Throws Error{Usage} for other text and numbers out of range.
 [[nodiscard]] double readNumber(const std::string &option, std::string_view text, const Interval &allowed);
-/// The same; 1.5 and 1e3 are no whole numbers.
+/// The same for whole numbers; 1.5 and 1e3 are none.
 [[nodiscard]] std::int64_t readWholeNumber(const std::string &option, std::string_view text,
                                            const Interval &allowed);
 
@@ -48,7 +48,7 @@ template <class Number>
 template <class Value> struct NumberIn { using Type = Value; };
 template <class Number> struct NumberIn<std::optional<Number>> { using Type = Number; };
 
-/// An option with one number, which is whole if its type is, and goes to `take`.
+/// An option with one number, which is passed to `take`. Its type decides whether it is whole.
 template <class Number>
 CLI::Option *addNumberFor(CLI::App &command, const std::string &name, const std::function<void(Number)> &take,
                           const Interval &allowed, const std::string &help) {
@@ -69,7 +69,7 @@ CLI::Option *addNumber(CLI::App &command, const std::string &name, Value &value,
         command, name, [&value](Number number) { value = number; }, allowed, help);
 }
 
-/// An option with as many numbers as `typeName` has words: `--up 0,1,0` for "X,Y,Z".
+/// An option with one number for each word of `typeName`: `--up 0,1,0` for "X,Y,Z".
 template <class Number>
 CLI::Option *addNumbers(CLI::App &command, const std::string &name, std::vector<Number> &values,
                         const Interval &allowed, const std::string &typeName, const std::string &help) {
@@ -84,11 +84,11 @@ CLI::Option *addNumbers(CLI::App &command, const std::string &name, std::vector<
     return command.add_option(name, CLI::callback_t(read), help)
         ->delimiter(',')
         ->expected(static_cast<int>(count))
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll) // any other number of them is told here
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll) // a wrong count is reported here
         ->type_name(typeName);
 }
 
-/// An option with one of a few words, whose meaning goes to `take`. `choices` must outlive the command.
+/// An option with one of a few words; its value is passed to `take`. `choices` must outlive the command.
 template <class Value>
 CLI::Option *addChoiceFor(CLI::App &command, const std::string &name, const std::function<void(Value)> &take,
                           std::span<const Name<Value>> choices, const std::string &help) {
@@ -114,24 +114,24 @@ CLI::Option *addChoice(CLI::App &command, const std::string &name, std::optional
         command, name, [&value](Value chosen) { value = chosen; }, choices, help);
 }
 
-/// An option with the name of a file, which is not empty.
+/// An option with a file name, which must not be empty.
 CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
                      const std::string &typeName, const std::string &help);
 
-/// An option that may be given again and again, each time with one folder (or file) that exists.
+/// An option that may be repeated, each time with an existing folder or file.
 CLI::Option *addFolders(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
                         const std::string &help);
 
-/// --tone, of commands that write a PNG. `curve` must outlive the command; it stays without a value for the default.
+/// --tone, for commands that write a PNG. `curve` must outlive the command; it is empty for the default.
 CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve);
 
-/// A file that the user named with an option; without a path where the option was not given.
+/// A file option as the user gave it; the path is empty without the option.
 struct NamedFile {
     std::string option;
     std::string path;
 };
 
-/// Throws Error{Usage} where two outputs are one file, or where an output is an input and would replace it.
+/// Throws Error{Usage} if two outputs are the same file, or if an output would replace an input.
 void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs);
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// Pixels at which two pictures are further apart than is allowed.
+// Outliers: pixels at which two pictures differ by more than allowed.
 #pragma once
 
 #include "host/image/image.h"
@@ -12,7 +12,7 @@
 
 namespace hyalite {
 
-/// How far two channels may be apart: by so many representable numbers, or by a difference of linear radiance.
+/// Tolerance between two channels: in ulps, or as a difference of linear radiance.
 struct Tolerance {
     double absolute = 0.0;
     std::uint32_t ulps = 0;
@@ -20,19 +20,19 @@ struct Tolerance {
     [[nodiscard]] bool allows(float a, float b) const;
 };
 
-/// Of "4ulp" or "1e-5". Throws Error{Usage}.
+/// Parses "4ulp" or "1e-5". Throws Error{Usage}.
 [[nodiscard]] Tolerance parseTolerance(const std::string &text);
 
-/// Pixels of the images, that is of the crop.
+/// Outliers, as pixels of the crop.
 using Pixels = std::vector<glm::ivec2>;
 
-/// By rows. Images are of one size, here and below.
+/// In row order. Images have the same size, here and below.
 [[nodiscard]] Pixels findOutliers(const Image &a, const Image &b, const Tolerance &tolerance);
 
-/// More than two of 255 levels apart in a PNG: what an eye could find.
+/// Pixels that differ by more than two of 255 levels in a PNG: visible differences.
 [[nodiscard]] Pixels findVisibleOutliers(const Image &a, const Image &b);
 
-/// The pixel that a difference is explained at: the one with the largest, or the first with any.
+/// The pixel at which a difference is explained: the one with the largest, or the first with any.
 [[nodiscard]] glm::ivec2 worstPixel(const Image &a, const Image &b, const PixelMetrics &metrics);
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// The files that a profile is written to.
+// Output files of a profile.
 #pragma once
 
 #include "host/base/atomic_file.h"
@@ -12,7 +12,7 @@
 
 namespace hyalite {
 
-/// The path of each that was asked for; else empty.
+/// The requested paths; empty: not requested.
 struct ProfilePaths {
     std::string output;
     std::string report;
@@ -22,19 +22,19 @@ struct ProfilePaths {
     std::string heatMap;
 };
 
-/// With their options.
+/// Adds their options.
 [[nodiscard]] std::vector<NamedFile> namedFiles(const ProfilePaths &paths);
 
-/// Opened before the work begins, so that one that cannot be written is known then; they appear when all is done.
+/// The files are opened before the work begins, so that one that cannot be written fails then. They appear at the end.
 class ProfileFiles {
   public:
-    /// Throws Error{Usage} for endings that do not fit.
+    /// Throws Error{Usage} for wrong extensions.
     explicit ProfileFiles(const ProfilePaths &paths);
 
-    /// Throws Error{LimitExceeded} where an image of this size does not fit into a PNG that is wanted.
+    /// Throws Error{LimitExceeded} if an image of this size does not fit into a requested PNG.
     void requireSizes(int width, int height) const;
     [[nodiscard]] bool wantsHeatMap(const PreparedScene &scene) const;
-    /// Writes the image, and how long that took into the profile.
+    /// Writes the image, and adds the time of writing to the profile.
     void writeImage(Measurement &measurement);
     void writeFigures(const Measurement &measurement);
 

@@ -1,4 +1,4 @@
-// The SCENE argument and the options that override the scene file, of all commands that render.
+// The SCENE argument and the options that override the scene file, for all commands that render.
 #pragma once
 
 #include "host/render/prepare.h"

@@ -1,4 +1,4 @@
-// --statistical, of `compare` and `diff`: two renders as estimates of one picture.
+// --statistical, for `compare` and `diff`: a test of two renders as estimates of one picture.
 #pragma once
 
 #include "host/film/welch_test.h"
@@ -13,15 +13,15 @@ namespace hyalite {
 /// Adds --significance. `options` must outlive the command.
 CLI::Option *addSignificanceOption(CLI::App &command, WelchOptions &options);
 
-/// Reads colours, "variance" and, where it is there, "samples" of an EXR file. Throws Error{BadInput} for other files.
+/// Reads colours, "variance" and, if present, "samples" of an EXR file. Throws Error{BadInput} for other files.
 [[nodiscard]] Estimate readEstimate(const std::string &path);
 
-/// Tests, prints the result, and returns it. Throws Error{BadInput} where no pixel can be tested; `names` is for the
+/// Tests, prints the result, and returns it. Throws Error{BadInput} if no pixel can be tested; `names` is for the
 /// message.
 [[nodiscard]] WelchResult testAndPrint(const Estimate &a, const Estimate &b, const WelchOptions &options,
                                        const std::string &names);
 
-/// As reports write it.
+/// JSON for reports.
 [[nodiscard]] nlohmann::ordered_json welchToJson(const WelchResult &result, const WelchOptions &options);
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// What an image file says about itself.
+// Attributes: the metadata of an image file.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace hyalite {
 
-/// A name and a text. Names have 1 to 79 printable ASCII characters, no blanks around them nor two of them together; what
-/// is not UTF-8 in a text becomes U+FFFD.
+/// A name and a text. Names have 1 to 79 printable ASCII characters, without leading, trailing or double blanks. Bytes
+/// of a text that are not UTF-8 become U+FFFD.
 using Attribute = std::pair<std::string, std::string>;
 
 } // namespace hyalite

@@ -17,11 +17,11 @@ struct Drawing {
     Drawing() = default;
     Drawing(int drawingWidth, int drawingHeight, const std::array<std::uint8_t, 3> &colour);
 
-    /// Pixels outside of it are left out.
+    /// Pixels outside are ignored.
     void fill(int x0, int y0, int x1, int y1, const std::array<std::uint8_t, 3> &colour);
 };
 
-inline constexpr int textHeight = 9; ///< pixels of a line at scale 1, what hangs below it included
+inline constexpr int textHeight = 9; ///< pixels of a line at scale 1, with descenders
 
 /// Pixels. `text` is a line of printable ASCII.
 [[nodiscard]] int textWidth(const std::string &text, int scale);

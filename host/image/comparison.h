@@ -1,4 +1,4 @@
-// Two images compared by every metric at once.
+// Comparison of two images by every metric.
 #pragma once
 
 #include "host/image/error_map.h"
@@ -13,17 +13,16 @@
 namespace hyalite {
 
 struct ImageComparison {
-    Encoding encoding = Encoding::Display; ///< of the numbers that were compared
+    Encoding encoding = Encoding::Display; ///< of the compared numbers
     PixelMetrics pixels;
-    std::optional<double> ssim; ///< nothing where SSIM has no window, see meanSsim()
+    std::optional<double> ssim; ///< empty if SSIM has no window, see meanSsim()
     FlipSummary flip;           ///< LDR-FLIP of display-encoded images, HDR-FLIP of linear ones
     std::optional<FlipExposures> flipExposures; ///< of HDR-FLIP
-    ErrorMap flipMap;                           ///< 0 for pixels that are not compared
+    ErrorMap flipMap;                           ///< 0 for pixels outside the mask
 };
 
-/// Compares images of one size and one encoding, of which `reference` is the one that is right if one of them is.
-/// At least one pixel is compared. Where the mask leaves pixels out, the metrics that look at neighbourhoods take the
-/// test image to be equal to the reference there.
+/// Compares images of the same size and encoding, with at least one pixel in the mask. Metrics over neighbourhoods
+/// treat the test image as equal to the reference outside the mask.
 [[nodiscard]] ImageComparison compareImages(const Image &reference, const Image &test, Encoding encoding,
                                             double outlierThreshold = 0.0, const Mask &mask = {});
 

@@ -7,8 +7,8 @@
 
 namespace hyalite {
 
-/// All metrics. The images are those that were compared; their values at the worst pixel are told. What is not
-/// available, and what JSON has no number for (an infinite PSNR), becomes null when it is written.
+/// All metrics, and the values of the compared images at the worst pixel. Values that are not available, or that JSON
+/// cannot express (an infinite PSNR), become null.
 [[nodiscard]] nlohmann::ordered_json comparisonToJson(const ImageComparison &comparison,
                                                       const Image &reference, const Image &test);
 

@@ -1,4 +1,4 @@
-// Parts of an image.
+// Crop: a part of an image.
 #pragma once
 
 namespace hyalite {

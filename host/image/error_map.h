@@ -1,4 +1,4 @@
-// One error for each pixel, as the metrics make it and the heat map shows it.
+// Error map: an error for each pixel, from a metric, for the heat map.
 #pragma once
 
 #include <vector>

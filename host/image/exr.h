@@ -11,9 +11,9 @@
 
 namespace hyalite {
 
-/// Writes scan lines of float32, packed without loss: R, G and B, linear, of the primaries of Rec. 709; each layer as
-/// NAME.CHANNEL, or as NAME where it has one value a pixel; and the attributes as strings. The display window is the
-/// whole image, the data window the crop. The same picture makes the same bytes. Throws Error{OutputNotWritten}.
+/// Writes scan lines of float32 with lossless compression: R, G and B, linear, with the primaries of Rec. 709; each
+/// layer as NAME.CHANNEL, or as NAME if it has one value per pixel; and the attributes as strings. The display window
+/// is the whole image, the data window the crop. The same picture makes the same bytes. Throws Error{OutputNotWritten}.
 void writeExr(AtomicFile &file, const Picture &picture);
 
 /// Whether the first bytes of a file are those of an OpenEXR file.
@@ -25,7 +25,7 @@ void writeExr(AtomicFile &file, const Picture &picture);
 /// Error{LimitExceeded} for files that would take more memory than readingBytesMax.
 [[nodiscard]] Image readExr(const InputFile &file, const std::string &layer = "");
 
-/// Whether readExr() would find that layer. Throws as it does where the header cannot be read.
+/// Whether the file has that layer. Throws as readExr() does if the header cannot be read.
 [[nodiscard]] bool hasExrLayer(const InputFile &file, const std::string &layer);
 
 } // namespace hyalite

@@ -1,12 +1,12 @@
-// FLIP: how much someone sees who flips between two pictures.
+// FLIP: the difference that an observer sees who flips between two pictures.
 //
 //   LDR: P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. D. Fairchild, "FLIP: A Difference
 //        Evaluator for Alternating Images", HPG 2020.
 //   HDR: P. Andersson, J. Nilsson, P. Shirley, T. Akenine-Moeller, "Visualizing Errors in Rendered High Dynamic
 //        Range Images", Eurographics 2021 (short papers).
 //
-// An error is 0 where nothing differs and 1 at most: between black and white it is about 0.97, between pure green and
-// pure blue, the pair of colours that is furthest apart, 1.
+// Errors are in [0, 1]. That between black and white is about 0.97; that between pure green and pure blue, the most
+// distant pair of colours, is 1.
 #pragma once
 
 #include "host/image/error_map.h"
@@ -25,13 +25,13 @@ inline constexpr double flipPixelsPerDegree = 67.0206432765823;
 /// The exposures under which HDR-FLIP looks at the images, evenly spaced from the first to the last.
 struct FlipExposures {
     double startStops = 0.0; ///< shows the brightest pixel of the reference at 0.85 of white
-    double stopStops = 0.0;  ///< shows its median pixel so
+    double stopStops = 0.0;  ///< shows the median pixel of the reference at 0.85 of white
     int count = 1;           ///< about one a stop
 };
 
-/// Eurographics 2021, section 2.1, for the ACES tone mapper. Where the median luminance is 0, and the published rule
-/// divides by it, the median of the positive ones is taken. Infinite pixels are left out; a black reference has the
-/// one exposure 0.
+/// Eurographics 2021, section 2.1, for the ACES tone mapper. The published rule divides by the median luminance; if
+/// that is 0, the median of the positive luminances is used. Infinite pixels are ignored. A black reference has a
+/// single exposure of 0.
 [[nodiscard]] FlipExposures flipExposures(const Image &reference);
 
 /// HDR-FLIP of linear images of one size: the largest error of each pixel under all exposures. Values below 0 and

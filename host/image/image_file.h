@@ -1,4 +1,4 @@
-// Picture files: which formats there are, and reading and writing them.
+// Picture files: formats, reading and writing.
 #pragma once
 
 #include "host/base/atomic_file.h"
@@ -12,20 +12,20 @@
 namespace hyalite {
 
 enum class ImageFormat {
-    Png, ///< 8-bit RGB, tone-mapped: for eyes
-    Pfm, ///< float32 RGB, linear, as rendered: for programs
+    Png, ///< 8-bit RGB, tone-mapped, for viewing
+    Pfm, ///< float32 RGB, linear, as rendered, for programs
     Exr, ///< the same, with layers and attributes
     Hdr, ///< RGB of 8 bits with a common exponent, linear
 };
 
-/// What the numbers of an image mean.
+/// Encoding of the numbers of an image.
 enum class Encoding {
-    Display, ///< as a screen takes them, in [0, 1]
+    Display, ///< display-encoded, in [0, 1]
     Linear,  ///< proportional to light, any float
 };
 
 struct LoadedImage {
-    Image image; ///< the numbers as the file has them: display-encoded ones are not made linear
+    Image image; ///< the numbers of the file; display-encoded ones are not linearised
     Encoding encoding = Encoding::Linear;
 };
 
@@ -39,10 +39,11 @@ struct LoadedImage {
 void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops,
                 ToneCurve curve = ToneCurve::Gamma);
 
-/// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by their first bytes. Grey becomes three equal channels; alpha
-/// and layers are dropped and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does). Throws
-/// Error{BadInput}, naming the file and what was found, where it is not a regular file, too large, cut short, damaged,
-/// or, except for OpenEXR, followed by other bytes; Error{LimitExceeded} where it would take more than readingBytesMax.
+/// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by their first bytes. Grey becomes three equal channels;
+/// alpha and layers are dropped and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does).
+/// Throws Error{BadInput}, naming the file and what was found, where it is not a regular file, too large, cut short,
+/// damaged, or, except for OpenEXR, followed by other bytes; Error{LimitExceeded} where it would take more than
+/// readingBytesMax.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 
 } // namespace hyalite

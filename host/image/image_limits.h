@@ -1,4 +1,4 @@
-// How large images may be, and how much memory reading them may take.
+// Limits on the size of images, and on memory for reading them.
 #pragma once
 
 #include "host/base/input_file.h"
@@ -7,12 +7,12 @@
 
 namespace hyalite {
 
-/// Images larger than this are refused before memory is asked for.
+/// Larger images are refused before memory is allocated.
 inline constexpr int imageSideMax = 32768;
 inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
 
-/// Most memory that reading a file of so many bytes may take: enough for 4096 x 4096 pixels of whatever content, as flat
-/// ones are packed a thousandfold, and in proportion to the file beyond that, so that no small file asks for gigabytes.
+/// Maximum memory for reading a file of `fileBytes`: enough for 4096 x 4096 pixels of any content, because flat images
+/// compress a thousandfold; beyond that in proportion to the file, so that no small file allocates gigabytes.
 [[nodiscard]] constexpr std::uint64_t readingBytesMax(std::uint64_t fileBytes) {
     return (std::uint64_t{256} << 20) + 64 * fileBytes;
 }

@@ -1,4 +1,4 @@
-// Which pixels a comparison looks at.
+// Mask: the pixels of a comparison.
 #pragma once
 
 #include "host/image/image.h"

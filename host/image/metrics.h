@@ -36,8 +36,8 @@ struct PixelMetrics {
     [[nodiscard]] bool identical() const { return differingPixelCount == 0; }
 };
 
-/// Compares images of one size, of which at least one pixel is compared. The numbers are taken as they are: the
-/// peak of 1 fits display-encoded ones, and is a convention for linear ones. Sums are in double, in the order of pixels.
+/// Compares images of one size, of which at least one pixel is compared. The numbers are taken as they are: the peak of
+/// 1 fits display-encoded ones, and is a convention for linear ones. Sums are in double, in the order of pixels.
 [[nodiscard]] PixelMetrics comparePixels(const Image &a, const Image &b, double outlierThreshold = 0.0,
                                          const Mask &mask = {});
 

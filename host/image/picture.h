@@ -1,4 +1,4 @@
-// All that an image file can hold of a render: colours, what is known beside them, and where they come from.
+// Picture: the contents of an image file. Colours, layers and attributes.
 #pragma once
 
 #include "host/image/attribute.h"
@@ -12,8 +12,8 @@
 
 namespace hyalite {
 
-/// Values of each pixel beside its colour, such as its variance. They are asked for row by row, so that a layer need
-/// not be in memory as a whole.
+/// A layer: values of each pixel beside its colour, such as its variance. Rows are requested one by one, so that a
+/// layer need not be in memory as a whole.
 struct Layer {
     std::string name;
     std::string channels; ///< a letter for each value of a pixel, such as RGB or XYZ; empty: one value
@@ -27,11 +27,11 @@ struct Picture {
           wholeHeight(image.height()), crop{0, image.width(), 0, image.height()} {}
 
     const Image &colour; ///< must outlive the picture
-    int wholeWidth;      ///< of the image that `crop` is a part of, pixels
+    int wholeWidth;      ///< of the image that `crop` is part of, in pixels
     int wholeHeight;
     Crop crop; ///< of the size of `colour`
     std::vector<Layer> layers;
-    std::vector<Attribute> attributes; ///< what made the picture, from what
+    std::vector<Attribute> attributes; ///< the origin of the picture
 };
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// An image that surfaces wear, as its file has it: 8-bit levels, or linear floats.
+// Texture: an image for surfaces, with the values of its file: 8-bit levels, or linear floats.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,7 +10,7 @@
 
 namespace hyalite {
 
-/// Rows from the top. What levels mean is up to who wears them: colours are sRGB, all else is level / 255.
+/// Rows from the top. The use decides the meaning of levels: colours are sRGB, other values are level / 255.
 struct Texture {
     std::string name; ///< of the file, for messages
     int width = 0;    ///< pixels, from 1 to imageSideMax
@@ -25,7 +25,7 @@ struct Texture {
     }
 };
 
-/// What it takes of a device's memory: 4 bytes a pixel, or 16 where they are floats.
+/// Its size in device memory: 4 bytes a pixel, or 16 for floats.
 [[nodiscard]] inline std::size_t bytesOnDevice(const Texture &texture) {
     return texture.pixelCount() * (texture.isFloat() ? 16 : 4);
 }

@@ -1,4 +1,4 @@
-// Files of textures: which formats there are, and reading them.
+// Texture files: formats and reading.
 #pragma once
 
 #include "host/image/texture.h"

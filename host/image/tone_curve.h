@@ -1,5 +1,4 @@
-// Tone curves in double precision, from + - * / alone: a C library's pow() and log() may differ in the last bit from
-// one to the next.
+// Tone curves in double precision, made of + - * / only, because pow() and log() of C libraries differ in the last bit.
 #pragma once
 
 #include "host/image/tone_map.h"
@@ -13,20 +12,20 @@ namespace hyalite {
 /// log2(x), for finite x > 0, to a few ulps.
 [[nodiscard]] double log2Portable(double x);
 
-/// The transfer function of IEC 61966-2-1 from linear light in [0, 1] to what a screen takes.
+/// The transfer function of IEC 61966-2-1, from linear light in [0, 1] to the display encoding.
 [[nodiscard]] double srgbEncoded(double linear);
 
-/// What a screen takes, in [0, 1], for exposed radiance. Negative values and NaN count as 0, and what exceeds 2^60 as
-/// that.
+/// The display encoding, in [0, 1], of exposed radiance. Negative values and NaN count as 0; larger values than 2^60 as
+/// 2^60.
 ///
-/// Gamma and Srgb take each channel by itself. The other two mix channels, so that bright colours lose saturation as film
-/// does, rather than clip to primaries:
+/// Gamma and Srgb take each channel by itself. The other two mix channels, so that bright colours lose saturation as
+/// film does, rather than clip to primaries:
 ///
 /// Aces: S. Hill's fit of the ACES reference rendering and sRGB output transforms, as published in M. Pettineo's Baking
 /// Lab (2016, ACES.hlsl), without the exposure that this program adds; 0.18 is shown as 0.106. Then srgbEncoded().
 ///
-/// Agx: B. Wrensch's "Minimal AgX Implementation" (2023, iolite-engine.com), of T. Sobotka's AgX as in Blender: the base
-/// look, with the contrast as a polynomial of degree six over log2 in [-12.47393, 4.026069].
+/// Agx: B. Wrensch's "Minimal AgX Implementation" (2023, iolite-engine.com), of T. Sobotka's AgX as in Blender: the
+/// base look, with the contrast as a polynomial of degree six over log2 in [-12.47393, 4.026069].
 [[nodiscard]] glm::dvec3 displayed(const glm::dvec3 &radiance, ToneCurve curve);
 
 } // namespace hyalite

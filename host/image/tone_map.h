@@ -1,4 +1,4 @@
-// From linear radiance to the 8-bit values of a picture file.
+// Tone mapping: from linear radiance to the 8-bit values of a picture file.
 #pragma once
 
 #include "host/image/image.h"
@@ -11,15 +11,15 @@
 
 namespace hyalite {
 
-/// How linear radiance becomes what a screen is sent.
+/// Tone curves.
 enum class ToneCurve {
     Gamma, ///< c^(1/2.2), clipped: the default
-    Srgb,  ///< IEC 61966-2-1, clipped: what a screen undoes
-    Aces,  ///< filmic: contrast, a shoulder, colours that go to white; see tone_curve.h
-    Agx,   ///< softer, and nearer to its hue when it goes to white; see tone_curve.h
+    Srgb,  ///< IEC 61966-2-1, clipped: the inverse of a screen
+    Aces,  ///< filmic: contrast, a shoulder, bright colours go to white; see tone_curve.h
+    Agx,   ///< softer, and keeps hues better as they go to white; see tone_curve.h
 };
 
-/// As options name them.
+/// The words of options.
 inline constexpr std::array<std::pair<std::string_view, ToneCurve>, 4> toneCurveNames{
     {{"gamma", ToneCurve::Gamma},
      {"srgb", ToneCurve::Srgb},
@@ -34,8 +34,8 @@ inline constexpr std::array<std::pair<std::string_view, ToneCurve>, 4> toneCurve
 [[nodiscard]] std::uint8_t encodeLevel(float linear);
 
 /// Three bytes R, G, B a pixel, row by row from the top left: of c * 2^exposureStops, by the curve. By the default they
-/// are encodeLevel() of that product, rounded to float. `exposureStops` is finite. NaN is black, and infinity white where
-/// the curve does not mix channels. The same bytes on every machine.
+/// are encodeLevel() of that product, rounded to float. `exposureStops` is finite. NaN is black, and infinity white
+/// where the curve does not mix channels. The same bytes on every machine.
 [[nodiscard]] std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops,
                                                 ToneCurve curve = ToneCurve::Gamma);
 

@@ -1,4 +1,4 @@
-// Where the shipped scenes are, and which file a SCENE argument means.
+// Shipped assets: their folders, and the file of a SCENE argument.
 #pragma once
 
 #include <filesystem>
@@ -8,19 +8,19 @@
 
 namespace hyalite {
 
-/// The folders that hold shipped assets, first come first served: $HYALITE_ASSETS where it is set, then
-/// ../share/hyalite beside the program's own folder. They need not exist.
+/// Asset folders in search order: $HYALITE_ASSETS if set, then ../share/hyalite relative to the program's folder. They
+/// need not exist.
 [[nodiscard]] std::vector<std::filesystem::path> assetFolders();
 
-/// The names of the shipped scenes, that is of scenes/NAME.json in any asset folder, sorted.
+/// The sorted names of the shipped scenes: scenes/NAME.json in any asset folder.
 [[nodiscard]] std::vector<std::string> availableScenes();
 
-/// The file that a SCENE argument means: an argument that ends in .json or .obj is a path (and may not exist), a
-/// bare word is a shipped scene's name. Throws Error{BadInput}, for an unknown name with the places looked at
-/// and the names that exist.
+/// The file of a SCENE argument. An argument that ends in .json or .obj is a path, which need not exist; a bare word is
+/// the name of a shipped scene. Throws Error{BadInput} for an unknown name, with the folders searched and the names
+/// that exist.
 [[nodiscard]] std::filesystem::path resolveScene(const std::string &argument);
 
-/// Does the file's name end in `extension` (".obj", in lower case), whatever its case?
+/// Whether the file name ends in `extension` (".obj", in lower case), ignoring case.
 [[nodiscard]] bool hasExtension(const std::filesystem::path &file, std::string_view extension);
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// Which files a scene file may name, so that a scene from a stranger reads nothing but what came with it.
+// File access of scene files: a scene from a stranger reads only files that came with it.
 #pragma once
 
 #include "host/base/json_reader.h"
@@ -11,12 +11,12 @@ namespace hyalite {
 
 class FileReach {
   public:
-    /// What lies in the scene file's own folder, in the asset folders and in `allowedPaths` (folders, or single files),
-    /// at any depth, may be named.
+    /// A scene may name files in its own folder, in the asset folders and in `allowedPaths` (folders or single files),
+    /// at any depth.
     FileReach(const std::filesystem::path &sceneFile, std::span<const std::filesystem::path> allowedPaths);
 
-    /// The path of the file that `node` names, relative to the scene file's folder. Throws Error{BadInput} where there
-    /// is no such file, or where it lies out of reach once all symbolic links and `..` are followed. It opens nothing.
+    /// The path of the file that `node` names, relative to the folder of the scene file. Throws Error{BadInput} if
+    /// there is no such file, or if it is out of reach after symbolic links and `..` are resolved. It opens nothing.
     [[nodiscard]] std::filesystem::path resolve(const JsonNode &node) const;
 
   private:

@@ -1,4 +1,4 @@
-// From the SCENE argument of a command to a validated scene.
+// Loading: from a SCENE argument to a validated scene.
 #pragma once
 
 #include "host/import/scene_json.h"

@@ -12,15 +12,16 @@
 
 namespace hyalite {
 
-/// Where the textures of material libraries come from, and go to.
+/// Textures of material libraries: the folder to read from, and where to put them.
 struct MtlTextures {
-    std::filesystem::path folder; ///< canonical: what does not lie in it or below is not read
+    std::filesystem::path folder; ///< canonical; files outside it are not read
     TextureLibrary &library;
-    std::vector<std::string> &warnings; ///< what was passed over, though the picture would differ
+    std::vector<std::string>
+        &warnings; ///< statements that were ignored although they would change the picture
 };
 
-/// Reads what an MTL file says of its materials, by name, in the order of the file; of two with one name the later is
-/// left out. All of them are two-sided.
+/// Reads the materials of an MTL file, by name, in the order of the file; of two with the same name the first counts.
+/// All of them are two-sided.
 ///
 ///     Kd, Pr, Pm, Ks, Ns  principled: base colour, roughness and metallic; without Pr the roughness whose highlight is as
 ///                         wide as that of the exponent Ns, and the mean of Ks as `specular`. Diffuse where all but Kd
@@ -35,14 +36,14 @@ struct MtlTextures {
 ///     map_d               opacity, by its alpha if it has that, cut out at a half
 ///     norm, map_Bump, bump  a normal map; -bm says how strong
 ///
-/// Names are relative to the library's folder. -s and -o scale and move a texture; other options, textures that are not
-/// there, of other formats, or for anything else, and height maps are passed over, with a warning. Fractions are cut off
-/// at 0 and 1. Other statements are passed over. Throws Error{BadInput}, with
-/// file and line, for what is no regular file, numbers that are missing or not finite, statements before the first
-/// newmtl, and more materials than limits::materialCount; and for textures that are damaged, as TextureLibrary does.
+/// Names are relative to the folder of the library. -s and -o scale and move a texture. Other options, missing
+/// textures, other formats, other uses and height maps are ignored with a warning. Fractions are clamped to [0, 1].
+/// Other statements are ignored. Throws Error{BadInput}, with file and line, if it is not a regular file, for numbers
+/// that are missing or not finite, statements before the first newmtl, and more materials than limits::materialCount;
+/// and for damaged textures, as TextureLibrary does.
 [[nodiscard]] std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures textures);
 
-/// The file that `name`, relative to `base`, leads to, where it lies in `folder`, which is canonical, or below.
+/// The file `name`, relative to `base`, if it is inside `folder`, which is canonical.
 [[nodiscard]] std::optional<std::filesystem::path>
 findWithin(const std::filesystem::path &folder, const std::filesystem::path &base, std::string_view name);
 

@@ -19,10 +19,10 @@ struct MeshTransform {
     glm::dvec3 translate{0.0};
 };
 
-/// What reading a mesh met, for `hyalite inspect` and for warnings.
+/// Findings while reading a mesh, for `hyalite inspect` and for warnings.
 struct MeshReport {
     std::size_t faceCount = 0;    ///< `f` statements
-    std::size_t polygonCount = 0; ///< of those, with more than three corners
+    std::size_t polygonCount = 0; ///< faces with more than three corners
 
     /// Triangles that were dropped: two equal corner positions, or exactly no area in double arithmetic.
     std::size_t degenerateTriangleCount = 0;
@@ -32,20 +32,21 @@ struct MeshReport {
     std::size_t lostNormalCount = 0;
 
     std::size_t unknownMaterialCount = 0;       ///< `usemtl` with a name that no library of the file has
-    std::vector<std::filesystem::path> files{}; ///< what was read: the mesh and its libraries
-    std::vector<std::string> lostLibraries{};   ///< `mtllib` that is not there, or not in the mesh's folder
-    std::size_t uvLessCount = 0;          ///< triangles without texture coordinates, where others have some
-    std::vector<std::string> warnings{};  ///< what of its materials was passed over, though it would be seen
+    std::vector<std::filesystem::path> files{}; ///< the mesh and its libraries
+    std::vector<std::string>
+        lostLibraries{};                  ///< `mtllib` files that are missing or outside the mesh's folder
+    std::size_t uvLessCount = 0;          ///< triangles without texture coordinates, if others have some
+    std::vector<std::string> warnings{};  ///< ignored statements of materials that would be visible
     std::size_t unusedStatementCount = 0; ///< `l`, `p`, unknown keywords: skipped
 };
 
-/// Told which share of a file is read, in [0, 1], ever so often: about every 4 MiB.
+/// Called with the fraction of the file that is read, in [0, 1], about every 4 MiB.
 using OnReading = std::function<void(double share)>;
 
 struct ObjMesh {
     TriangleMesh mesh; ///< in world space; materialIndex is left 0
-    /// What its material libraries say, where they are read; mesh.triangleMaterials are indices from 1 on into these,
-    /// and 0 for triangles without a material. Both are empty where no triangle has one.
+    /// Materials of its libraries, if they are read. mesh.triangleMaterials are indices into these, from 1; 0: no
+    /// material. Both are empty if no triangle has a material.
     std::vector<Material> materials{};
     MeshReport report;
 };

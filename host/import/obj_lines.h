@@ -1,4 +1,4 @@
-// Cuts a text file into logical lines, in bounded memory: any line ends, joined continuations, no byte order mark.
+// Logical lines of a text file, in bounded memory: any line ends, continuations joined, without a byte order mark.
 #pragma once
 
 #include "host/base/input_file.h"
@@ -16,7 +16,7 @@ namespace hyalite {
 /// Throws Error{BadInput} "file:line: message".
 [[noreturn]] void failAtLine(const std::string &file, std::size_t line, std::string_view message);
 
-/// What messages show of the input at most.
+/// Maximum length of input in messages.
 inline constexpr std::size_t maxExcerptBytes = 40;
 
 /// An excerpt of the input, in quotes.
@@ -36,18 +36,18 @@ class ObjLines {
     /// or a file that is too long, or that cannot be read.
     [[nodiscard]] std::optional<std::span<char>> next();
 
-    /// What follows, from the beginning of a logical line on, without being taken. A zero stands behind the last
-    /// character that is in memory, wherever that is.
+    /// The text from the next logical line on, without consuming it. A zero follows the last character in memory,
+    /// wherever that is.
     [[nodiscard]] const char *peek() const { return buffer.data() + scan; }
     [[nodiscard]] std::size_t peekedLineNumber() const { return nextLine; }
 
-    /// Takes one line of what peek() shows, with its line end, so that `nextBegin` follows.
+    /// Consumes one line of peek(), with its line end; the next one begins at `nextBegin`.
     void take(const char *nextBegin) {
         scan = static_cast<std::size_t>(nextBegin - buffer.data());
         ++nextLine;
     }
 
-    /// Where the line that next() gave last begins, counted from 1.
+    /// Number of the line that next() returned last, from 1.
     [[nodiscard]] std::size_t lineNumber() const { return line; }
 
     [[nodiscard]] const std::string &fileName() const { return name; }
@@ -57,7 +57,7 @@ class ObjLines {
     /// In [0, 1].
     [[nodiscard]] double shareRead() const;
 
-    /// Throws an Error about the line that next() gave last.
+    /// Throws an Error about the line that next() returned last.
     [[noreturn]] void fail(std::string_view message) const { failAtLine(name, line, message); }
 
   private:

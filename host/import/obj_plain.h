@@ -1,4 +1,4 @@
-// The short way of reading OBJ: statements in the plainest form, which are nearly all of a file.
+// Fast path for OBJ: statements in the plainest form, which are nearly all of a file.
 #pragma once
 
 #include "host/import/obj_mesh.h"
@@ -10,10 +10,9 @@ namespace hyalite {
 /// Reads the statement at `line`, the beginning of a logical line, and gives a v, vn, vt or f to `builder`, which may
 /// throw. Returns where the next line begins.
 ///
-/// Null, with nothing taken or given, wherever anything is out of the ordinary: an indent, a comment, a continued
-/// line, a keyword of more than two letters, a token that is not what it should be, a face of more than 8 corners, a
-/// zero, which must stand behind the last character. Such lines are for checkStatement and tinyobjloader; plain
-/// ones give the same bits there.
+/// Returns null, with nothing consumed, for anything unusual: an indent, a comment, a continued line, a keyword of more
+/// than two letters, an unexpected token, a face of more than 8 corners, or a zero, which must follow the last
+/// character. Such lines go to checkStatement and tinyobjloader, which give the same bits for plain ones.
 [[nodiscard]] const char *readPlainStatement(const char *line, std::size_t lineNumber,
                                              ObjMeshBuilder &builder);
 

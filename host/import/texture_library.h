@@ -13,8 +13,8 @@ namespace hyalite {
 
 class TextureLibrary {
   public:
-    /// The index among the textures of the one that the file has, read where it is the first time. Throws Error{BadInput}
-    /// as readTexture() does, and where all textures together take more than limits::textureBytes.
+    /// The index of the file's texture, which is read the first time. Throws Error{BadInput} as readTexture() does, and
+    /// if all textures together take more than limits::textureBytes.
     [[nodiscard]] std::uint32_t load(const std::filesystem::path &file);
 
     [[nodiscard]] const Texture &at(std::uint32_t index) const { return textures_[index]; }
@@ -27,7 +27,7 @@ class TextureLibrary {
     std::size_t sizeBytes_ = 0;                    ///< on the device, of all
 };
 
-/// Whether 8-bit levels are grey everywhere, as those of height maps are, and of no normal map.
+/// Whether all 8-bit levels are grey, as in height maps but not in normal maps.
 [[nodiscard]] bool isGrey(const Texture &texture);
 
 } // namespace hyalite

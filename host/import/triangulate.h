@@ -11,13 +11,13 @@
 
 namespace hyalite {
 
-/// Triangulates one polygon after the other; keeps its working memory between them (about 75 bytes a corner).
+/// Triangulates polygons one after the other, and keeps its working memory (about 75 bytes a corner).
 ///
 /// Ear clipping after G. H. Meisters, "Polygons Have Ears", American Mathematical Monthly 82 (1975). Only reflex
-/// corners can lie in an ear (D. Eberly, "Triangulation by Ear Clipping" (2002)); they are looked up in a tree of boxes,
-/// which makes it nearly linear in the number of corners where a list takes seconds for a hostile polygon. The plane's
-/// normal is the sum of I. E. Sutherland, R. F. Sproull and R. A. Schumacker's
-/// "Newell" terms (A Characterization of Ten Hidden-Surface Algorithms, ACM Computing Surveys 6 (1974)).
+/// corners can lie in an ear (D. Eberly, "Triangulation by Ear Clipping" (2002)); they are looked up in a tree of
+/// boxes, which makes it nearly linear in the number of corners where a list takes seconds for a hostile polygon. The
+/// plane's normal is the sum of I. E. Sutherland, R. F. Sproull and R. A. Schumacker's "Newell" terms (A
+/// Characterization of Ten Hidden-Surface Algorithms, ACM Computing Surveys 6 (1974)).
 class Triangulator {
   public:
     /// Splits a polygon of n >= 3 corners into exactly n - 2 triangles of corner numbers in [0, n), each wound
@@ -49,7 +49,7 @@ class Triangulator {
     void setReflex(std::uint32_t corner, bool isReflex);
     [[nodiscard]] double turn(std::uint32_t corner) const;
     [[nodiscard]] bool isEar(std::uint32_t corner, Ear kind) const;
-    /// Does a reflex corner, other than the ear's own, keep the ear from being clipped?
+    /// Whether a reflex corner, other than those of the ear, prevents clipping it.
     [[nodiscard]] bool isBlocked(std::uint32_t corner, Ear kind) const;
 
     std::vector<glm::dvec2> points; ///< corners in the plane, counter-clockwise

@@ -1,6 +1,6 @@
-// Nearest and any hits, in the plainest way: this is what the kernels are checked against.
+// Nearest and any hits, in the plainest code: the kernels are checked against it.
 //
-// The nearest hit is defined without a tree: the smallest distance, and of equal ones the smallest primitive id.
+// The nearest hit is defined without a tree: the smallest distance, and of equal distances the smallest primitive id.
 #pragma once
 
 #include "host/packing/packed_scene.h"
@@ -15,7 +15,7 @@ namespace hyalite::reference {
 template <class Real> struct Ray {
     Vec3<Real> origin;
     Vec3<Real> direction;                         ///< unit length
-    std::uint32_t excluded = layout::noPrimitive; ///< the primitive that the ray starts on
+    std::uint32_t excluded = layout::noPrimitive; ///< the primitive at the origin, which the ray cannot hit
 };
 
 template <class Real> struct Hit {
@@ -26,7 +26,7 @@ template <class Real> struct Hit {
     Real v = 0;
 };
 
-/// Whether the triangle's material leaves nothing at the hit.
+/// Whether the opacity texture cuts out the triangle at the hit.
 template <class Real>
 [[nodiscard]] bool isCutOut(const SceneView<Real> &scene, const layout::TriangleRecord &triangle,
                             std::uint32_t record, const TriangleHit<Real> &hit) {
@@ -34,8 +34,9 @@ template <class Real>
            isCutAway<Real>(scene, triangle.materialIndex, record, hit.u, hit.v);
 }
 
-/// Calls visit(record, hit) for every triangle that the ray meets, but where it is cut out, in a subtree whose box it
-/// enters at or before `reach` (read anew at each node). `visit` returns false to stop. `counter` is told what is done.
+/// Calls visit(record, hit) for every triangle that the ray hits, unless it is cut out there, in subtrees whose box it
+/// enters at or before `reach`, which is read again at each node. `visit` returns false to stop. `counter` counts the
+/// work.
 template <class Real, class Counter, class Visitor>
 [[gnu::flatten]] // GCC would call the triangle test in some builds and inline it in others: a quarter of the time
 void visitTriangles(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
@@ -110,13 +111,13 @@ template <class Real> [[nodiscard]] Hit<Real> closestHit(const PackedScene &scen
     return closestHit(SceneView<Real>(scene), ray, counter);
 }
 
-/// What light meets on its way.
+/// Occlusion of a light.
 struct Shadow {
     bool isBlocked = false; ///< by something opaque
     bool isDimmed = false;  ///< by glass; unspecified when blocked
 };
 
-/// What lies between the ray's origin and `length` along it.
+/// Occlusion between the ray's origin and `length` along it.
 template <class Real, class Counter>
 [[nodiscard]] Shadow castShadowRay(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &length,
                                    Counter &counter) {
@@ -151,7 +152,7 @@ template <class Real>
     return castShadowRay(SceneView<Real>(scene), ray, length, counter);
 }
 
-/// Whether anything, glass included, lies between the ray's origin and `length` along it, the primitive `target` aside.
+/// Whether anything, including glass but not the primitive `target`, is between the ray's origin and `length` along it.
 template <class Real, class Counter>
 [[nodiscard]] bool isAnythingBefore(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &length,
                                     std::uint32_t target, Counter &counter) {

@@ -1,4 +1,4 @@
-// What a traversal is asked to count: nothing, which costs nothing, or all that the kernel over a stack counts.
+// Counters for traversal: none, at no cost, or all counts of the kernel with a stack.
 // Twin: the counts in shaders/traversal/traverse_stack.glsl.
 #pragma once
 
@@ -15,8 +15,7 @@ struct NoCounter {
 
 struct WorkCounter {
     WorkCounts counts;
-    glm::vec3 sample{
-        0.0f}; ///< nodes, boxes and triangles since it was last set to 0, added up as the kernel does
+    glm::vec3 sample{0.0f}; ///< nodes, boxes and triangles since the last reset, added as the kernel does
 
     void visitNode(const layout::NodePair &node) {
         const unsigned boxes =

@@ -1,4 +1,4 @@
-// Where two renderers went apart first.
+// First difference between two renderers.
 #pragma once
 
 #include "shaders/layout/layout.h"

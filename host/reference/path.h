@@ -175,8 +175,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return {before, beyond, mediumIndex(medium) / mediumIndex(mediumBeyond), medium == mediumBeyond};
     }
 
-    /// At smooth glass: nothing, where glass of higher priority is on both sides; else one of reflection and refraction,
-    /// chosen with the probability of its share.
+    /// At smooth glass: nothing, where glass of higher priority is on both sides; else one of reflection and
+    /// refraction, chosen with the probability of its share.
     [[nodiscard]] Ray<Real> meetGlass(const Ray<Real> &ray, const Surface<Real> &surface,
                                       std::uint32_t materialIndex, std::uint32_t primitive) {
         const bool isEntering = dotProduct(ray.direction, surface.geometricNormal) < 0;
@@ -204,7 +204,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return {offsetRayOrigin(scene_, surface, glass.refracted), glass.refracted, primitive};
     }
 
-    /// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is clear.
+    /// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is
+    /// clear.
     [[nodiscard]] bool isSpecularHere(const MaterialRecord<Real> &material, std::uint32_t materialIndex,
                                       bool isEntering) const {
         if (isGlass(scene_, material) && material.alpha > 0) {

@@ -31,8 +31,9 @@ struct Result {
     WorkCounts work; ///< all 0 unless counting was asked for, or the integrator is the cost
 };
 
-/// Renders `crop` of the scene's image. The result does not depend on the number of threads, nor, with Float32, on where
-/// `continuation` goes on. With Float64 a snapshot has pixels with all samples or none besides those that it began with.
+/// Renders `crop` of the scene's image. The result does not depend on the number of threads, nor, with Float32, on
+/// where `continuation` goes on. With Float64 a snapshot has pixels with all samples or none besides those that it
+/// began with.
 [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                             const Options &options = {}, Continuation continuation = {});
 

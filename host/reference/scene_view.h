@@ -1,7 +1,7 @@
 // What leaf functions find when they are compiled as C++: GLSL's words, and the scene that they read.
 //
-// `Real` is float in the twin of the kernels, whose bits are those of a device, and double where the error of float32 is
-// measured. All is compiled with -ffp-contract=off, so that what stands in the shaders is what is computed.
+// `Real` is float in the twin of the kernels, whose bits are those of a device, and double where the error of float32
+// is measured. All is compiled with -ffp-contract=off, so that what stands in the shaders is what is computed.
 #pragma once
 
 #include "host/packing/packed_scene.h"
@@ -83,8 +83,8 @@ template <class Real> struct SceneView;
 
 #include "leaves.h"
 
-/// The scene as leaf functions read it: what kernels have as specialization constants, uniforms and buffers, by the same
-/// names. The packed scene outlives it.
+/// The scene as leaf functions read it: what kernels have as specialization constants, uniforms and buffers, by the
+/// same names. The packed scene outlives it.
 template <class Real> struct SceneView {
     /// `samplerKind` is one of layout::sampler...
     explicit SceneView(const PackedScene &packedScene, uint samplerKindOfRender = samplerSobol)

@@ -1,7 +1,8 @@
 // Views of what primary rays meet, and ambient occlusion. Twin: shaders/integrators/view.comp.
 //
-// Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with everything
-// further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", 1998.
+// Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with
+// everything further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination
+// Model", 1998.
 #pragma once
 
 #include "host/film/ray_counts.h"
@@ -19,8 +20,8 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
     ViewIntegrator(const PackedScene &scene, std::uint32_t samplerKind, std::uint32_t view)
         : scene_(scene, samplerKind), view_(view) {}
 
-    /// What one sample of a pixel of the whole image shows. `shift` moves it by so many pixels, to learn how the picture
-    /// changes around it.
+    /// What one sample of a pixel of the whole image shows. `shift` moves it by so many pixels, to learn how the
+    /// picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
         const PrimaryRay<Real> primary = primaryRayThrough<Real>(

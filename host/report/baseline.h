@@ -1,4 +1,4 @@
-// A profile against an older one: is anything slower, and is anything more work?
+// Comparison of a profile with an older one, the baseline: times and work counts.
 //
 // Times jitter, so they are judged with their noise: each side's noise is half the distance between the quartiles of
 // its frames, as a share of the median, and the noise of the ratio of the two medians is the root of the sum of their
@@ -18,7 +18,7 @@
 
 namespace hyalite {
 
-/// What of a profile can be held against an older one.
+/// The parts of a profile that are compared.
 struct ProfileFigures {
     struct Times {
         std::string name;
@@ -29,8 +29,8 @@ struct ProfileFigures {
         std::uint64_t count = 0;
     };
 
-    std::string device; ///< its name and driver
-    std::string job;    ///< what was rendered: times and counts of other jobs say nothing
+    std::string device; ///< name and driver
+    std::string job;    ///< what was rendered; only equal jobs are compared
     std::vector<Times> kernels;
     Times frame{"frame", {}};
     std::vector<Count> work;
@@ -38,7 +38,7 @@ struct ProfileFigures {
 
 [[nodiscard]] ProfileFigures figuresOf(const Profile &profile);
 
-/// Of a file that --report has written. Throws Error{BadInput} naming the file and the key that is missing or wrong.
+/// Reads the JSON of a profile. Throws Error{BadInput} naming the file and the key that is missing or wrong.
 [[nodiscard]] ProfileFigures readFigures(const std::filesystem::path &file);
 
 struct TimeChange {
@@ -46,7 +46,7 @@ struct TimeChange {
     double oldMillis = 0.0; ///< median of the frames
     double newMillis = 0.0;
     double ratio = 1.0;          ///< new / old
-    std::optional<double> noise; ///< of the ratio, relative; nothing where a side has a single frame
+    std::optional<double> noise; ///< of the ratio, relative; empty if a side has a single frame
     bool isRegression = false;
 };
 
@@ -57,30 +57,30 @@ struct CountChange {
     bool isRegression = false;
 };
 
-/// What may fail a comparison.
+/// The reasons why a comparison may fail.
 enum class Gate { All, Times, Work };
 
 struct BaselineComparison {
     std::vector<TimeChange> kernels;
-    TimeChange frame;                   ///< is no regression by itself: compilers and caches are a part of it
-    std::vector<CountChange> work;      ///< those that differ
-    std::size_t comparedCounts = 0;     ///< of work, equal ones too
-    std::vector<std::string> unmatched; ///< kernels and counts that only one side has
+    TimeChange frame;                   ///< not a regression by itself: it includes compilers and caches
+    std::vector<CountChange> work;      ///< differing counts
+    std::size_t comparedCounts = 0;     ///< including equal ones
+    std::vector<std::string> unmatched; ///< kernels and counts of one side only
     bool isSameDevice = true;
     bool isPassed = true;
 };
 
-/// Throws Error{BadInput} where the two have not rendered the same. Of `profile`, which need not be finished, only what
-/// was asked for matters.
+/// Throws Error{BadInput} if the two did not render the same. Only the request in `profile` matters; it need not be
+/// finished.
 void requireSameJob(const ProfileFigures &baseline, const Profile &profile);
 
-/// Both are of the same job. `maxRegression` is a share, 0.05 for 5 %. Times of another device are compared, but fail
-/// nothing.
+/// Both are of the same job. `maxRegression` is relative: 0.05 is 5 %. Times of another device are compared but never
+/// fail.
 [[nodiscard]] BaselineComparison compareWithBaseline(const ProfileFigures &baseline,
                                                      const ProfileFigures &now, double maxRegression,
                                                      Gate gate);
 
-/// As a table for people, with a line feed at the end.
+/// A table for people, with a line feed at the end.
 [[nodiscard]] std::string comparisonTable(const BaselineComparison &comparison, double maxRegression,
                                           Gate gate);
 

@@ -1,4 +1,4 @@
-// What `hyalite profile` has measured, and what it comes to for each stage and kernel.
+// Profile: the measurements of `hyalite profile`, and their summary for each stage and kernel.
 #pragma once
 
 #include "host/base/summary.h"
@@ -22,7 +22,7 @@ struct Frame {
     Timeline timeline;
 };
 
-/// What the traversal of the measured kernel did.
+/// Traversal work of the measured kernel.
 struct KernelWork {
     std::string kernel;
     WorkCounts work;
@@ -32,14 +32,13 @@ struct KernelWork {
 struct Profile {
     Provenance origin;
     RendererIdentity device;
-    std::string verification; ///< against what, or why not
+    std::string verification; ///< result, or why there is none
     bool isVerified = false;
-    std::optional<WorkCounts> work; ///< of a frame with a stack; nothing where nobody asked
-    std::optional<KernelWork>
-        kernelWork;                     ///< of a frame of the device's own kernel; nothing where nobody asked
-    std::vector<WorkBin> workHistogram; ///< of the same frame
-    std::uint64_t sceneBytes = 0;       ///< of the scene's arrays
-    std::vector<StageRecord> hostStages; ///< outside of frames: load, build, open, write
+    std::optional<WorkCounts> work;       ///< of a frame with a stack, if requested
+    std::optional<KernelWork> kernelWork; ///< of a frame of the measured kernel, if requested
+    std::vector<WorkBin> workHistogram;   ///< of the same frame
+    std::uint64_t sceneBytes = 0;         ///< of the scene's arrays
+    std::vector<StageRecord> hostStages;  ///< outside of frames: load, build, open, write
     std::vector<Frame> frames; ///< in the order in which they were rendered; at least one is measured
 };
 
@@ -48,39 +47,39 @@ struct StageSummary {
     std::string name;
     bool isInFrame = false;
     std::size_t launchCount = 0;       ///< in a frame
-    std::optional<double> firstMillis; ///< in the first frame, where that was not measured
+    std::optional<double> firstMillis; ///< in the first frame, if that was not measured
     std::vector<double> frameMillis;   ///< its total in each measured frame
     Summary launch;                    ///< of one launch, over all measured frames
     double share = 0.0;                ///< of the measured frames' time
 
-    /// The usual total of a frame.
+    /// Median total of a frame.
     [[nodiscard]] double medianFrameMillis() const { return quantile(frameMillis, 0.5); }
 };
 
-/// One kernel: a stage of its own, timed by the best clock that there is.
+/// One kernel: a stage of its own, timed by the best available clock.
 struct KernelSummary {
     StageSummary times;
     std::uint64_t invocations = 0; ///< in a frame, as the following
     RayCounts rays;
 
-    /// Of rays of one kind, or any number of them, by the kernel's whole time.
+    /// Rate of `rays` over the whole time of the kernel.
     [[nodiscard]] double megaraysPerSecond(std::uint64_t rayCount) const;
 };
 
-/// In the order in which they first occur, those of the host around those of the frames.
+/// In order of first occurrence; stages of the host enclose those of the frames.
 [[nodiscard]] std::vector<StageSummary> summariseStages(const Profile &profile);
 [[nodiscard]] std::vector<KernelSummary> summariseKernels(const Profile &profile);
 
-/// The frame as a row: it is no stage, but the sum of them should come to it.
+/// The frame as a row. It is not a stage, but about the sum of them.
 [[nodiscard]] StageSummary summariseFrame(const Profile &profile);
 
 /// Milliseconds of each measured frame.
 [[nodiscard]] std::vector<double> frameMillis(const Profile &profile);
 
-/// The time of all stages in the measured frames, as a share of those frames' time.
+/// The time of all stages in the measured frames, relative to the time of these frames.
 [[nodiscard]] double stageShare(const std::vector<StageSummary> &stages);
 
-/// Most bytes that buffers took on the device at the end of any stage; 0 for the reference renderer, which has none.
+/// Maximum size of all device buffers at the end of any stage; 0 for the reference renderer.
 [[nodiscard]] std::uint64_t mostDeviceBytes(const Profile &profile);
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// Every dispatch of a profile as a line of a CSV file (RFC 4180), for tables and plots of others.
+// Profile as CSV (RFC 4180): a line for each dispatch.
 #pragma once
 
 #include "host/report/profile.h"

@@ -1,4 +1,4 @@
-// A profile as one page for a browser, with everything in it: no other file, no network, no script.
+// Profile as an HTML page: one self-contained file, without network access or scripts.
 #pragma once
 
 #include "host/report/profile.h"
@@ -10,13 +10,13 @@
 
 namespace hyalite {
 
-/// `text` with what HTML would read anything into replaced, in elements and in quoted attributes alike.
+/// `text` escaped for HTML elements and quoted attributes.
 [[nodiscard]] std::string htmlText(std::string_view text);
 
 /// RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
-/// `png` is the image that was rendered, encoded, and `heatMapPng` its work, where it was counted.
+/// `png` is the encoded image, and `heatMapPng` that of its work, if it was counted.
 [[nodiscard]] std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
                                       std::span<const std::byte> heatMapPng = {});
 

@@ -1,4 +1,4 @@
-// A profile as JSON: what --report writes and --baseline reads.
+// Profile as JSON, which a later comparison reads.
 #pragma once
 
 #include "host/report/profile.h"

@@ -1,4 +1,4 @@
-// A profile as tables for people.
+// Profile as tables for people.
 #pragma once
 
 #include "host/report/profile.h"

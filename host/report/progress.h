@@ -1,4 +1,4 @@
-// The progress of a long task, on standard error.
+// Progress of a long task, on standard error.
 #pragma once
 
 #include <chrono>
@@ -8,12 +8,12 @@
 
 namespace hyalite {
 
-/// The time that the rest of a task takes, at the speed of the last half of the time so far: parts of an image differ
-/// in cost, and what came before the last half says little about what comes next.
+/// Estimate of the remaining time, by the speed during the second half of the time so far: parts of an image differ in
+/// cost, and recent ones predict the next ones best.
 class TimeLeft {
   public:
-    /// In seconds, after `elapsedSeconds` in which `share` of the work was finished. Both never decrease. Nothing where
-    /// no work was finished lately.
+    /// In seconds, after `elapsedSeconds` in which `share` of the work was finished. Both never decrease. Empty if
+    /// no work was finished recently.
     [[nodiscard]] std::optional<double> update(double elapsedSeconds, double share);
 
   private:
@@ -24,8 +24,8 @@ class TimeLeft {
     std::deque<Moment> moments_{{0.0, 0.0}}; ///< the first one begins the half
 };
 
-/// On a terminal one line that is drawn over and over, with the time left; elsewhere a `key=value` line every few
-/// seconds. Prints nothing at all if quiet, nor for tasks that end within half a second.
+/// On a terminal, one line that is redrawn, with the remaining time; elsewhere a `key=value` line every few seconds.
+/// Prints nothing if quiet, or for tasks that end within half a second.
 class ProgressLine {
   public:
     ProgressLine(std::string task, bool isQuiet);

@@ -1,4 +1,4 @@
-// Where a picture or a report comes from: the one place for what all files say about it.
+// Provenance: the origin of a picture or a report, as all files state it.
 #pragma once
 
 #include "host/image/attribute.h"
@@ -12,16 +12,16 @@
 
 namespace hyalite {
 
-/// Who rendered.
+/// The renderer.
 struct RendererIdentity {
-    std::string name;             ///< "cpu", or as the device calls itself
+    std::string name;             ///< "cpu", or the name of the device
     std::string driver;           ///< name and version
-    std::string arithmetic;       ///< which / and sqrt ran
-    std::string kernel;           ///< empty for the reference renderer, which has none
+    std::string arithmetic;       ///< division and square root
+    std::string kernel;           ///< empty for the reference renderer
     std::uint64_t kernelHash = 0; ///< of its SPIR-V for all scenes and devices
 };
 
-/// What was rendered.
+/// The render.
 struct Provenance {
     std::string commandLine;
     std::string scene;           ///< path of the file
@@ -32,9 +32,9 @@ struct Provenance {
     RenderSettings settings;
 };
 
-/// The program and its command line: how every report begins.
+/// The program and its command line: the beginning of every report.
 [[nodiscard]] nlohmann::ordered_json programToJson(const std::string &commandLine);
-/// The same, what was rendered, and by whom.
+/// The same, with the render and the renderer.
 [[nodiscard]] nlohmann::ordered_json provenanceToJson(const Provenance &provenance);
 [[nodiscard]] nlohmann::ordered_json provenanceToJson(const Provenance &provenance,
                                                       const RendererIdentity &device);

@@ -1,4 +1,4 @@
-// What a render did and how long it took, as JSON.
+// Report of a render, as JSON.
 #pragma once
 
 #include "host/film/film.h"
@@ -15,17 +15,17 @@
 
 namespace hyalite {
 
-/// How much of an image is finished.
+/// The finished part of an image.
 struct FinishedWork {
     std::uint64_t pixelCount = 0; ///< with all of their samples
     std::uint64_t sampleCount = 0;
     bool isComplete = false; ///< all samples of all pixels are
 };
 
-/// What `film` has of `samplesPerPixel` samples in each pixel.
+/// The finished part of `film`, of `samplesPerPixel` samples in each pixel.
 [[nodiscard]] FinishedWork finishedWork(const Film &film, int samplesPerPixel);
 
-/// What a render went on from.
+/// The checkpoint that a render continued.
 struct ResumedWork {
     std::string checkpoint; ///< path of the file
     std::uint64_t sampleCount = 0;
@@ -38,11 +38,11 @@ struct RenderReport {
     std::string output;
     FinishedWork finished;
     std::vector<std::string>
-        faults;            ///< Vulkan calls that failed, and that the render went on after but for the last
-    std::string stoppedBy; ///< what ended the render before all was finished; empty: nothing did
+        faults;            ///< failed Vulkan calls; the render continued after each, except perhaps the last
+    std::string stoppedBy; ///< what ended the render early, or empty
     std::optional<ResumedWork> resumed;
     RayCounts rays;                ///< traced for the image, before and now
-    std::uint64_t deviceBytes = 0; ///< of memory, at most: what a render on a device took; 0: on the CPU
+    std::uint64_t deviceBytes = 0; ///< peak memory on a device; 0: on the CPU
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
     RenderTiming timing;
@@ -50,7 +50,7 @@ struct RenderReport {
     double totalSeconds = 0.0;
 };
 
-/// As all reports write them.
+/// JSON for reports.
 [[nodiscard]] nlohmann::ordered_json raysToJson(const RayCounts &rays);
 
 [[nodiscard]] std::string formatReport(const RenderReport &report);

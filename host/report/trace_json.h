@@ -1,4 +1,4 @@
-// A profile as a timeline to look at: the Trace Event Format that ui.perfetto.dev and chrome://tracing open.
+// Profile as a timeline in the Trace Event Format, for ui.perfetto.dev and chrome://tracing.
 //
 // https://docs.google.com/document/d/1CvAClvFfyA5R-PhYUmn5OOQtYMH4h6I0nSsKchNAySU (N. Duca, D. Sinclair, "Trace Event
 // Format"). Times are in microseconds since the profile began. There are two tracks,

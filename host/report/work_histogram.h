@@ -1,4 +1,4 @@
-// How the work of a frame is spread over its pixels.
+// Histogram of the work of a frame over its pixels.
 #pragma once
 
 #include <cstdint>
