@@ -1,8 +1,8 @@
 // Error: the exception type of the program, with a message, a kind and a remedy.
 //
-// A programmer's error is an assert. Wrong input and a failing environment throw `Error`: its message names
-// the object, the file (and line), the size and the remedy, and is shown to the user as it stands. The command line
-// turns kinds into exit codes and remedies into options (host/cli/failure.h).
+// A programmer's error is an assert. Wrong input and a failing environment throw `Error`. The message names the
+// object, the file (and line) and the size, and is shown to the user unchanged. The command line turns the kind into
+// an exit code and the remedy into words about options (host/cli/failure.h).
 #pragma once
 
 #include <stdexcept>
@@ -14,9 +14,9 @@ enum class ErrorKind {
     Usage,            ///< the request contradicts itself
     BadInput,         ///< a scene, mesh or image cannot be used
     NoDevice,         ///< no usable Vulkan device
-    LimitExceeded,    ///< memory or a device limit does not suffice
+    LimitExceeded,    ///< not enough memory, or a device limit is too low
     DeviceLost,       ///< the device failed or hung while rendering
-    OutputNotWritten, ///< a result could not be stored
+    OutputNotWritten, ///< an output file could not be written
     HungUp,           ///< SIGHUP, before there was a result
     Interrupted,      ///< SIGINT, likewise
     Terminated,       ///< SIGTERM, likewise
@@ -26,11 +26,14 @@ enum class ErrorKind {
 /// Remedies. The command line has the words for them.
 enum class Remedy {
     None,
-    SmallerImage,     ///< or parts of it
+    SmallerImage,     ///< or render the image in parts
     SmallerRender,    ///< fewer triangles, parts of the image, or the reference renderer
-    ReferenceInstead, ///< it needs no Vulkan
-    NoKernelChoice,   ///< to leave the kernel open
-    CompareRenders    ///< it tells where two differ
+    ReferenceInstead, ///< the CPU renderer needs no Vulkan
+    NoKernelChoice,   ///< let the program choose the kernel
+    CompareRenders,   ///< a comparison shows where two renders differ
+    BeginAnew,        ///< render with the checkpoint's settings, or without the checkpoint
+    AllowPath,        ///< let the scene read files in another folder
+    ProfileReport     ///< a profile writes such a report
 };
 
 class Error : public std::runtime_error {

@@ -133,9 +133,10 @@ nlohmann::json readJsonFile(const std::filesystem::path &file) {
     return json::parse(text);
 }
 
-void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path, std::string_view message) {
+void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path, std::string_view message,
+            Remedy remedy) {
     const std::string place = path.empty() ? "the top level" : excerpt(path.to_string());
-    throw Error(ErrorKind::BadInput, fmt::format("{}: {}: {}", fileName, place, message));
+    throw Error(ErrorKind::BadInput, fmt::format("{}: {}: {}", fileName, place, message), remedy);
 }
 
 } // namespace hyalite

@@ -1,6 +1,8 @@
 // JSON documents: parsed from regular files of bounded size and depth, without duplicate keys.
 #pragma once
 
+#include "host/base/error.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
@@ -16,6 +18,6 @@ namespace hyalite {
 
 /// Throws Error{BadInput} "FILE: /path/to/the/key: message".
 [[noreturn]] void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path,
-                         std::string_view message);
+                         std::string_view message, Remedy remedy = Remedy::None);
 
 } // namespace hyalite

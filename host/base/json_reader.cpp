@@ -44,7 +44,9 @@ void JsonNode::refuse(std::string_view allowed) const {
     fail(fmt::format("found {}; allowed: {}", describe(*value), allowed));
 }
 
-void JsonNode::fail(std::string_view message) const { failAt(*fileName, path, message); }
+void JsonNode::fail(std::string_view message, Remedy remedy) const {
+    failAt(*fileName, path, message, remedy);
+}
 
 double JsonNode::number(const Interval &allowed) const {
     if (!value->is_number() || !allowed.contains(value->get<double>()))

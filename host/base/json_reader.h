@@ -1,8 +1,9 @@
-// Strict reading of JSON values, with type and range: nothing here knows what a scene is.
+// Strict, typed and range-checked access to JSON values. Knows nothing about scenes.
 //
 // Every refusal is an Error{BadInput} "FILE: /path/to/the/key: found ...; allowed: ...".
 #pragma once
 
+#include "host/base/error.h"
 #include "host/base/interval.h"
 
 #include <array>
@@ -31,7 +32,7 @@ struct JsonNode {
     /// Throws "found <the value>; allowed: <allowed>" at this path.
     [[noreturn]] void refuse(std::string_view allowed) const;
     /// Throws `message` at this path.
-    [[noreturn]] void fail(std::string_view message) const;
+    [[noreturn]] void fail(std::string_view message, Remedy remedy = Remedy::None) const;
 
     [[nodiscard]] double number(const Interval &allowed) const;
     [[nodiscard]] glm::dvec3 vector(const Interval &allowed) const; ///< [x, y, z]

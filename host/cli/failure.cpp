@@ -28,8 +28,14 @@ std::string_view wordsFor(Remedy remedy) {
         return "; leave out --kernel";
     case Remedy::CompareRenders:
         return "; `hyalite compare` tells where";
+    case Remedy::BeginAnew:
+        return "; render as before, or begin anew without --resume";
+    case Remedy::AllowPath:
+        return "; --allow-path FOLDER allows another folder";
+    case Remedy::ProfileReport:
+        return "; `hyalite profile --report` writes one";
     }
-    std::abort(); // the switch has them all
+    std::abort(); // unreachable: the switch is complete
 }
 
 Failure internalFailure(std::string_view what, const std::string &commandLine) {
@@ -72,7 +78,7 @@ ExitCode exitCodeOf(ErrorKind kind) {
     case ErrorKind::Internal:
         return ExitCode::Internal;
     }
-    std::abort(); // the switch has them all
+    std::abort(); // unreachable: the switch is complete
 }
 
 Failure describeFailure(const std::exception_ptr &failure, const std::string &commandLine) {

@@ -147,11 +147,10 @@ class Reader {
     }
 
     [[nodiscard]] OtherRender other(const std::string &difference) const {
-        return OtherRender(
-            ErrorKind::BadInput,
-            fmt::format("cannot resume from '{}': it is of another render: {}; render as before, or begin "
-                        "anew without --resume",
-                        file_.path().string(), difference));
+        return OtherRender(ErrorKind::BadInput,
+                           fmt::format("cannot resume from '{}': it is of another render: {}",
+                                       file_.path().string(), difference),
+                           Remedy::BeginAnew);
     }
 
     InputFile file_;
@@ -240,7 +239,7 @@ std::optional<ResumedCheckpoint> resumeCheckpoint(const std::filesystem::path &p
     try {
         return ResumedCheckpoint{readCheckpoint(older, identity, crop, samplesPerPixel), older, damage};
     } catch (const Error &oldest) {
-        throw Error(ErrorKind::BadInput, fmt::format("{}; and {}", damage, oldest.what()));
+        throw Error(ErrorKind::BadInput, fmt::format("{}; and {}", damage, oldest.what()), oldest.remedy);
     }
 }
 

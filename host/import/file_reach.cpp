@@ -1,6 +1,7 @@
 #include "host/import/file_reach.h"
 
 #include "host/base/clean_text.h"
+#include "host/base/error.h"
 #include "host/base/json_document.h"
 #include "host/import/assets.h"
 
@@ -51,10 +52,10 @@ std::filesystem::path FileReach::resolve(const JsonNode &node) const {
     const bool isReachable =
         std::ranges::any_of(reachable_, [&](const auto &folder) { return isWithin(canonical, folder); });
     if (!isReachable)
-        node.fail(fmt::format(
-            "{} leads to {}; allowed: files in the scene's folder {}, in the shipped assets, and where "
-            "--allow-path FOLDER says",
-            shown(file), shown(canonical), shown(reachable_.front())));
+        node.fail(
+            fmt::format("{} leads to {}; allowed: files in the scene's folder {} and in the shipped assets",
+                        shown(file), shown(canonical), shown(reachable_.front())),
+            Remedy::AllowPath);
     if (!std::filesystem::exists(canonical, error))
         node.fail(fmt::format("{}: there is no such file", shown(file)));
     return file;

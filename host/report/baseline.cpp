@@ -124,13 +124,12 @@ ProfileFigures readFigures(const std::filesystem::path &file) {
     } catch (const Json::exception &) { // its words are about the library's own types
         throw Error(
             ErrorKind::BadInput,
-            fmt::format("{}: this is no report of `hyalite profile --report`: a value is missing or has "
-                        "another type",
-                        file.string()));
+            fmt::format("{}: not a profile report: a value is missing or has another type", file.string()),
+            Remedy::ProfileReport);
     } catch (const Error &error) {
         throw Error(ErrorKind::BadInput,
-                    fmt::format("{}: this is no report of `hyalite profile --report`: {}", file.string(),
-                                error.what()));
+                    fmt::format("{}: not a profile report: {}", file.string(), error.what()),
+                    Remedy::ProfileReport);
     }
 }
 

@@ -193,7 +193,7 @@ TEST_F(ProfileCommand, RefusesABaselineThatIsNone) {
     ASSERT_EQ(run(line + " --report old.json").exitCode, 0);
     store("none.json", "{}");
     expectFailure(line + " --baseline none.json", 3,
-                  {"none.json", "no report of `hyalite profile --report`"});
+                  {"none.json", "not a profile report", "`hyalite profile --report` writes one"});
     expectFailure(line + " --baseline missing.json", 3, {"missing.json"});
     expectFailure(line + " --baseline old.json --max-regression 5", 2, {"--max-regression", "a percentage"});
     expectFailure(line + " --baseline old.json --max-regression -1%", 2, {"--max-regression"});
