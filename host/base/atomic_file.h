@@ -1,7 +1,7 @@
 // Atomic file: it appears complete or not at all.
 //
 // The bytes go into a temporary file in the target's folder; commit() puts it in the target's place with one rename.
-// A failure at any moment, from a full disk to a killed process, leaves the file that was there before as it was. The
+// A failure at any moment, from a full disk to a killed process, leaves the previous file unchanged. The
 // temporary file has no name until commit() where the file system offers that (O_TMPFILE): a process that is killed
 // then leaves nothing behind.
 #pragma once
@@ -38,7 +38,7 @@ class AtomicFile {
     /// Removes the temporary file if it was not committed.
     ~AtomicFile();
 
-    /// Appends. Throws Error{OutputNotWritten}, after which the file can only be dropped.
+    /// Appends. Throws Error{OutputNotWritten}; after that the file can only be discarded.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
 

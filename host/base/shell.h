@@ -1,4 +1,4 @@
-// Command lines as text for a POSIX shell.
+// Command lines quoted for a POSIX shell.
 #pragma once
 
 #include <span>

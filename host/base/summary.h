@@ -12,7 +12,7 @@ namespace hyalite {
 [[nodiscard]] double quantile(std::span<const double> values, double share);
 
 struct Summary {
-    std::size_t count = 0; ///< all below are 0 where this is
+    std::size_t count = 0; ///< if 0, all below are 0
     double total = 0.0;
     double min = 0.0;
     double median = 0.0;
