@@ -16,7 +16,7 @@ namespace hyalite {
 
 namespace {
 
-/// Halving is forced as soon as it is the only way to stay within the depth that traversal stacks have room for.
+/// Halving is forced once nothing else can keep the tree within the depth of the traversal stack.
 bool mustHalve(std::size_t count, int depth) {
     constexpr int deepest = static_cast<int>(layout::maxTreeDepth) - 1;
     return depth + static_cast<int>(std::bit_width(count)) >= deepest;
@@ -47,8 +47,8 @@ struct Branch {
     int deepest = 0;            ///< inner nodes above its deepest leaf
 };
 
-/// Builds large branches as OpenMP tasks and small ones in one go. Which are small depends on the triangles alone, and
-/// so does the tree: threads decide only who builds what.
+/// Builds large branches as OpenMP tasks and small ones serially. The division depends on the triangles only, and so
+/// does the tree; the thread count has no influence.
 class Builder {
   public:
     /// `duplicates` may be null: then all triangles stay.
@@ -83,11 +83,11 @@ class Builder {
                                       : splitAtMidpoint(range, bounds.triangles.box(), leafSize_);
     }
 
-    /// Finds the task's box and reorders its triangles; returns where the right child's begin, or the task's begin for a
-    /// leaf.
+    /// Finds the task's box and reorders its triangles; returns where the right child's begin, or the task's begin for
+    /// a leaf.
     ///
-    /// What is identical has one centroid, and goes the same way until a range cannot be cut by centroids. Only there
-    /// it is looked for, and what is dropped leaves the task at its end.
+    /// Identical triangles share a centroid, so they stay together until centroids no longer split a range. Only there
+    /// are duplicates searched for; dropped triangles leave the task at its end.
     std::uint32_t divide(Box &box, Task &task) const {
         const Bounds bounds(trianglesOf(task));
         box = bounds.triangles.box();
@@ -103,7 +103,7 @@ class Builder {
         return task.begin + static_cast<std::uint32_t>(leftCount);
     }
 
-    /// Nothing may leave a task but through failure_.
+    /// Exceptions leave a task only through failure_.
     void grow(Branch &branch, const Task &task) {
         try {
             if (task.size() <= smallBranch)

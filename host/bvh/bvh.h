@@ -1,4 +1,4 @@
-// The bounding volume hierarchy over a scene's triangles, and the two ways to build it on the CPU.
+// The bounding volume hierarchy (BVH) over a scene's triangles, and its two CPU builders.
 #pragma once
 
 #include "host/scene/scene.h"
@@ -35,7 +35,7 @@ struct Box {
     [[nodiscard]] double halfArea() const;
 };
 
-/// What a builder needs to know of a triangle.
+/// A triangle as builders see it.
 struct BuildTriangle {
     Box box;
     glm::vec3 centroid{0.0f};
@@ -55,7 +55,7 @@ struct BvhNode {
 struct Bvh {
     std::vector<BvhNode> nodes; ///< the root first; empty without triangles. Children come after their parent
     std::vector<std::uint32_t> order; ///< input indices of the triangles, leaf by leaf
-    int depth = 0;                    ///< levels of inner nodes on the longest way down: 0 for a single leaf
+    int depth = 0;                    ///< inner nodes on the longest path to a leaf: 0 for a single leaf
 };
 
 /// The triangles of all meshes in input order. Throws Error{LimitExceeded} beyond 2^31 - 65 triangles.
@@ -65,8 +65,8 @@ struct Bvh {
 /// A leaf of the others holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize);
 
-/// The same over a scene's triangles without duplicates (duplicates.h), which the tree's order leaves out. Which they are
-/// does not depend on the tree. Throws Error{LimitExceeded} as buildTriangles does.
+/// Builds over a scene's triangles and omits duplicates (duplicates.h) from Bvh::order. The set of duplicates does not
+/// depend on the tree. Throws Error{LimitExceeded} as buildTriangles does.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize);
 
 } // namespace hyalite

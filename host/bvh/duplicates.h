@@ -1,4 +1,4 @@
-// Triangles that a scene has more than once. No tree can separate them, so every ray that meets one would test them all.
+// Duplicate triangles. No tree can separate them, so a ray that reaches one would test them all.
 #pragma once
 
 #include "host/bvh/bvh.h"
@@ -13,20 +13,19 @@ namespace hyalite {
 
 /// Knows the triangles of a scene, which must outlive it and stay as it is.
 ///
-/// Identical are triangles of one material whose corners are the same in every bit, and in the same order; and, where the
-/// material is cut out, their texture coordinates. A ray that meets
-/// one of them meets all, at one distance, and the nearest hit is that of the smallest index: the others are never
-/// seen, and without them no hit changes. (As emitters they would be chosen for shadow rays, and give their light again
-/// and again.)
+/// Triangles are identical if they have the same material and the same corners, bit for bit and in the same order. With
+/// an opacity texture their texture coordinates must be equal too. A ray that hits one hits all at the same distance,
+/// and the smallest index wins. Dropping the others therefore changes no hit. (As emitters, duplicates would be sampled
+/// by shadow rays and add their light again.)
 class Duplicates {
   public:
-    /// The input index that setAside gives to what is dropped.
+    /// The input index that setAside gives to dropped triangles.
     static constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max();
 
     explicit Duplicates(const Scene &scene);
 
-    /// Leaves one of each set of identical triangles, that of the smallest index, in front of the range and in the
-    /// order in which they were; the rest of it is dropped. Returns how many there are in front.
+    /// Moves one triangle of each set of identical ones, the one with the smallest index, to the front of the range, in
+    /// the original order. The rest is dropped. Returns the number kept.
     [[nodiscard]] std::size_t setAside(std::span<BuildTriangle> range) const;
 
   private:

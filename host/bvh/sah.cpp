@@ -13,7 +13,7 @@ using IntLanes = std::int32_t __attribute__((vector_size(16)));
 
 constexpr std::size_t binCountMax = 16;
 
-/// Few triangles are told apart by few bins: trees are no worse, and built in four fifths of the time.
+/// Small ranges use fewer bins: trees are no worse, and build time drops by a fifth.
 std::size_t binCountFor(std::size_t triangleCount) { return std::min(binCountMax, 4 + triangleCount / 4); }
 
 /// Maps centroids to bins, on all axes at once. Extents that overflow or vanish map everything to bin 0, which never
@@ -43,7 +43,7 @@ struct Binning {
     }
 };
 
-/// What lies in each bin of each axis.
+/// The contents of each bin on each axis.
 struct Bins {
     std::size_t count;
     std::array<std::array<WideBox, binCountMax>, 3> boxes;
@@ -78,7 +78,8 @@ struct Bins {
     }
 };
 
-/// Neighbours often fall into one bin, where each has to wait for the one before: so half of them fill other bins.
+/// Neighbouring triangles often share a bin, and each update would wait for the one before. Half of them therefore go
+/// to a second set of bins.
 void fill(Bins &bins, std::span<const BuildTriangle> range, const Binning &binning) {
     constexpr std::size_t worthwhile = 64;
     if (range.size() < worthwhile) {
@@ -95,7 +96,7 @@ void fill(Bins &bins, std::span<const BuildTriangle> range, const Binning &binni
     bins.add(others);
 }
 
-/// What lies on one side of a cut, for a cut on each axis.
+/// One side of a cut, for a cut on each axis.
 struct Side {
     std::array<WideBox, 3> boxes{WideBox::empty(), WideBox::empty(), WideBox::empty()};
     IntLanes triangleCounts{};
@@ -169,7 +170,7 @@ float halfArea(const WideBox &box, float unit) {
     return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
 }
 
-/// What bestCut gives for two triangles, faster: every cut costs the same.
+/// A faster bestCut for two triangles, for which every cut costs the same.
 Cut cutOfPair(std::span<const BuildTriangle> range, const Binning &binning, float unit) {
     const IntLanes first = binning.binsOf(range[0]);
     const IntLanes second = binning.binsOf(range[1]);

@@ -1,15 +1,15 @@
-// How a builder divides a range of triangles: the only thing in which builders differ.
+// Split strategies: how a builder divides a range of triangles. Builders differ in nothing else.
 #pragma once
 
 #include "host/bvh/wide_box.h"
 
 namespace hyalite {
 
-// Each reorders `range` (at least two triangles) and returns how many go to the left child: in [1, size - 1], or 0 to
-// leave the range whole: as a leaf, or, of more than `leafSize`, as one that centroids do not separate.
+// Each function reorders `range` (at least two triangles) and returns the size of the left child: in [1, size - 1], or
+// 0 for no split. No split makes a leaf; a range larger than `leafSize` gets 0 only if centroids do not separate it.
 
-/// The longest axis of `box`, which encloses the range, is cut at its midpoint and triangles go by their centroids, until
-/// `leafSize` or fewer remain.
+/// Cuts the longest axis of `box`, which encloses the range, at its midpoint and divides triangles by centroid. Returns
+/// 0 for `leafSize` triangles or fewer.
 [[nodiscard]] std::size_t splitAtMidpoint(std::span<BuildTriangle> range, const Box &box,
                                           std::size_t leafSize);
 

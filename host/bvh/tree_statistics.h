@@ -1,4 +1,4 @@
-// What a tree is like, and whether it is one.
+// BVH statistics (depth, leaf sizes, SAH cost) and a validity check.
 #pragma once
 
 #include "host/bvh/bvh.h"
@@ -24,8 +24,8 @@ struct BvhStatistics {
 
 [[nodiscard]] BvhStatistics measureBvh(const Bvh &bvh);
 
-/// Checks that every triangle, but for `droppedCount` of them, is in exactly one leaf, every box encloses what is below
-/// it, and the depth is right. Returns the first violation in words, or an empty string.
+/// Checks that every triangle except `droppedCount` of them is in exactly one leaf, that every box encloses its
+/// subtree, and that the depth is right. Returns the first violation in words, or an empty string.
 [[nodiscard]] std::string findBvhFault(const Bvh &bvh, const std::vector<BuildTriangle> &triangles,
                                        std::size_t droppedCount = 0);
 

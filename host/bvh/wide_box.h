@@ -1,5 +1,5 @@
-// Boxes in vector registers, for the builders' inner loops: one instruction for the three axes, where the compiler would
-// take three. (A fourth lane holds whatever lies behind in memory.)
+// SIMD boxes for the builders' inner loops: one instruction for three axes, where the compiler would emit three. (The
+// fourth lane holds whatever follows in memory.)
 #pragma once
 
 #include "host/bvh/bvh.h"
@@ -33,7 +33,7 @@ struct WideBox {
         return box;
     }
 
-    /// The bits are those of Box::extend, that of zeros' signs included.
+    /// Bit for bit the result of Box::extend, including the signs of zeros.
     void extend(const WideBox &other) {
         lower = other.lower < lower ? other.lower : lower;
         upper = other.upper > upper ? other.upper : upper;
