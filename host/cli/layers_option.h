@@ -9,7 +9,7 @@
 
 namespace hyalite {
 
-/// Adds --layers, with views by their names. `views` must outlive the command; it gets each of them once.
+/// Adds --layers, with views by their names. `views` must outlive the command; it receives each view once.
 void addLayersOption(CLI::App &command, std::vector<Integrator> &views);
 
 } // namespace hyalite

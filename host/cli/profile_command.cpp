@@ -74,7 +74,7 @@ void printFault(const std::string &fault, const Backend &backend) {
                    : fmt::format(" (bits are not promised here: {})", backend.unpromisedBits()));
 }
 
-/// The figures of an older report, and how much worse those of this one may be.
+/// The baseline's figures and the allowed regression.
 struct Baseline {
     std::optional<ProfileFigures> figures; ///< none: there is nothing to compare with
     double maxRegression = 0.0;

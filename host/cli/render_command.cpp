@@ -64,7 +64,7 @@ void tellDevice(const Backend &device) {
         printMessage("note: bits may differ from the CPU twin's: {}\n", device.unpromisedBits());
 }
 
-/// What the render goes on from.
+/// The checkpoint that the render resumes from.
 void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request) {
     const RenderReport &report = job.report();
     if (!job.checkpointDamage().empty())
@@ -79,7 +79,7 @@ void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request) {
         printMessage("there is no checkpoint {} yet: beginning anew\n", request.checkpoint);
 }
 
-/// What there is of an image that is not complete, and where it is.
+/// The finished part of an incomplete image, and its file.
 void tellWhatIsFinished(const RenderReport &report) {
     printMessage("stopped by {}: {} of {} pixels are finished, {:.1f} % of the samples; {} has them\n",
                  report.stoppedBy, report.finished.pixelCount, pixelCountOf(report),
@@ -126,7 +126,7 @@ ExitCode runRender(const RenderRequest &request, const std::string &commandLine)
     return signal != 0 ? exitCodeOf(errorKindOf(signal)) : ExitCode::Ok;
 }
 
-/// What only renders that take long need.
+/// Options for long renders.
 void addLongRenderOptions(CLI::App &command, RenderRequest &request) {
     const char *group = "Long renders";
     addFile(command, "--checkpoint", request.checkpoint, "FILE",
