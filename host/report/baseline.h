@@ -1,9 +1,9 @@
 // Comparison of a profile with an older one, the baseline: times and work counts.
 //
-// Times jitter, so they are judged with their noise: each side's noise is half the distance between the quartiles of
-// its frames, as a share of the median, and the noise of the ratio of the two medians is the root of the sum of their
-// squares. A kernel is a regression where its ratio is above 1 + the limit by more than the noise. Work counts do not
-// jitter: a count is a regression where it has grown by more than the limit.
+// Times jitter, so the comparison allows for noise. The noise of one side is half the interquartile range of its frames
+// divided by the median; the noise of the ratio of medians is the root of the sum of both squares. A kernel has
+// regressed if its ratio exceeds 1 + the limit by more than the noise. Work counts do not jitter: a count has regressed
+// if it grew by more than the limit.
 #pragma once
 
 #include "host/report/profile.h"
