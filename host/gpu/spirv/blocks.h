@@ -1,8 +1,9 @@
-// The basic blocks of a SPIR-V module, and which of them are reached once its constants are known.
+// The basic blocks of a SPIR-V module, and which of them are reachable once its constants are known.
 //
-// Wegman and Zadeck, "Constant Propagation with Conditional Branches", TOPLAS 13(2), 1991, without loops, whose headers
-// are taken to know nothing. What is decided are selections with two ways (OpSelectionMerge and OpBranchConditional), and
-// not those in continue constructs: a loop goes back and ends as it did, and blocks stay structured (SPIR-V, section 2.11).
+// Wegman and Zadeck, "Constant Propagation with Conditional Branches", TOPLAS 13(2), 1991, but without loops: a loop
+// header assumes no constants. Only two-way selections (OpSelectionMerge and OpBranchConditional) outside of continue
+// constructs are resolved. Loops keep their back edges and exits, so control flow stays structured (SPIR-V, section
+// 2.11).
 #pragma once
 
 #include "host/gpu/spirv/constants.h"

@@ -1,4 +1,4 @@
-// What is known of the constants of a SPIR-V module.
+// Known constant values of a SPIR-V module.
 #pragma once
 
 #include "host/gpu/spirv/instructions.h"

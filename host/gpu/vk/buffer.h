@@ -1,4 +1,4 @@
-// Buffers in device memory, filled and read by the host.
+// Vulkan buffers in device memory, written and read by the host.
 #pragma once
 
 #include "host/gpu/buffer_plan.h"

@@ -1,4 +1,4 @@
-// A compute pipeline: embedded SPIR-V, specialised, and the kinds of its bindings.
+// A compute pipeline: specialised embedded SPIR-V and the types of its bindings.
 #pragma once
 
 #include "host/gpu/vk/buffer.h"

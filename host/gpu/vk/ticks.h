@@ -1,4 +1,4 @@
-// Arithmetic on the ticks of a device's clock, a counter of 36 to 64 bits that wraps around.
+// Arithmetic on device clock ticks, a counter of 36 to 64 bits that wraps around.
 #pragma once
 
 #include <cassert>
