@@ -1,4 +1,4 @@
-// Short texts drawn into pictures, with the bitmap font of stb_easy_font.
+// Short labels drawn into images with the bitmap font of stb_easy_font.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A comparison as JSON, for the reports of commands.
+// An image comparison as JSON, for reports.
 #pragma once
 
 #include "host/image/comparison.h"

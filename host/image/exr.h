@@ -1,4 +1,4 @@
-// OpenEXR files, through the library of that name (https://openexr.com).
+// OpenEXR files, read and written with the OpenEXR library (https://openexr.com).
 #pragma once
 
 #include "host/base/atomic_file.h"

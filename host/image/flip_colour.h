@@ -1,4 +1,4 @@
-// The colour spaces of FLIP, with the constants of its publication, for one colour.
+// FLIP's colour space conversions for one colour, with the paper's constants.
 //
 //   linear RGB (sRGB primaries)  <->  XYZ relative to the white point D65
 //       -> opponent (linear: what the eye's filters work on)

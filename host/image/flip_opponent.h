@@ -1,4 +1,4 @@
-// The part that LDR-FLIP and HDR-FLIP share: from two images in opponent colours to their error map.
+// The common part of LDR-FLIP and HDR-FLIP: the error map of two images in opponent colours.
 #pragma once
 
 #include "host/image/error_map.h"

@@ -1,4 +1,4 @@
-// The differences of two images, pixel by pixel.
+// Per-pixel difference metrics of two images.
 #pragma once
 
 #include "host/image/image.h"

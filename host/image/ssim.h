@@ -1,4 +1,4 @@
-// The structural similarity of two images.
+// Structural similarity (SSIM) of two images.
 #pragma once
 
 #include "host/image/image.h"
