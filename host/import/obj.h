@@ -1,4 +1,4 @@
-// Reads Wavefront OBJ geometry: the only user of tinyobjloader.
+// Wavefront OBJ geometry reader; the only user of tinyobjloader.
 #pragma once
 
 #include "host/import/texture_library.h"

@@ -1,4 +1,4 @@
-// Collects the vertices, normals and faces of an OBJ file and makes them one triangle mesh in world space.
+// OBJ mesh builder: vertices, normals and faces of a file become one triangle mesh in world space.
 #pragma once
 
 #include "host/import/obj.h"

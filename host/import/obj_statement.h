@@ -1,4 +1,4 @@
-// The grammar of the OBJ statements that are used: what passes here, tinyobjloader reads without surprises.
+// Grammar check of the supported OBJ statements. tinyobjloader parses everything accepted here correctly.
 #pragma once
 
 #include "host/import/obj_lines.h"

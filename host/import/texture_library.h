@@ -1,4 +1,4 @@
-// The textures of a scene, each file once.
+// Texture library of a scene: each file is loaded once.
 #pragma once
 
 #include "host/image/texture.h"
