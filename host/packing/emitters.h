@@ -1,4 +1,4 @@
-// What the path integrator aims at, and how often.
+// Emitter table for next-event estimation: the emitters and their selection probabilities.
 #pragma once
 
 #include "host/packing/packed_scene.h"

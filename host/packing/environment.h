@@ -1,4 +1,4 @@
-// An image around the scene as the kernels read it.
+// The environment map in the layout that the kernels read.
 #pragma once
 
 #include "host/packing/packed_scene.h"

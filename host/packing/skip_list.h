@@ -1,4 +1,4 @@
-// The tree as skip lists: the layout of traverse_skip.glsl, packed from the node pairs.
+// The BVH as skip lists for traverse_skip.glsl, packed from the node pairs.
 #pragma once
 
 #include "host/packing/packed_scene.h"

@@ -1,4 +1,4 @@
-// Textures as the kernels read them: the rows of shaders/layout/layout.h.
+// Textures in the layout that the kernels read: the rows of shaders/layout/layout.h.
 #pragma once
 
 #include "host/packing/packed_scene.h"
