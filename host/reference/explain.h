@@ -1,4 +1,4 @@
-// Why a pixel differs from the double-precision oracle by more than rounding.
+// Explanations of pixels that differ from the double-precision oracle by more than rounding.
 #pragma once
 
 #include "host/reference/renderer.h"

@@ -1,4 +1,4 @@
-// The surface that a ray has met. Twin: hitSurface in shaders/traversal/rays.glsl.
+// The surface at a ray hit. Twin: hitSurface in shaders/traversal/rays.glsl.
 #pragma once
 
 #include "host/reference/closest_hit.h"
