@@ -1,4 +1,4 @@
-// Measures which kernels are fast on a device.
+// Kernel tuning: measures which kernels are fastest on a device.
 #pragma once
 
 #include "host/render/tuning.h"

@@ -1,4 +1,4 @@
-// Which kernels were measured to be fast on a device, kept between runs of the program.
+// Stored tuning results: the fastest kernels measured on a device, kept between runs.
 #pragma once
 
 #include "host/gpu/render_config.h"
