@@ -1,4 +1,4 @@
-// A scene around a bare mesh: a camera that sees all of it, and two lights.
+// Default framing of a bare mesh: a camera that shows all of it, and two lights.
 #pragma once
 
 #include "host/scene/scene.h"

@@ -1,4 +1,4 @@
-// The metals that scene files know by name.
+// Named metals of scene files.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,8 +15,8 @@ struct Metal {
     glm::vec3 extinction;
 };
 
-/// Interpolated between the lines of tables 3 and 5 of Hagemann, Gudat and Kunz, "Optical constants from the far infrared
-/// to the x-ray region: Mg, Al, Cu, Ag, Au, Bi, C, and Al2O3", DESY SR-74/7, 1974 (J. Opt. Soc. Am. 65, 742).
+/// Interpolated between the lines of tables 3 and 5 of Hagemann, Gudat and Kunz, "Optical constants from the far
+/// infrared to the x-ray region: Mg, Al, Cu, Ag, Au, Bi, C, and Al2O3", DESY SR-74/7, 1974 (J. Opt. Soc. Am. 65, 742).
 inline constexpr std::array<std::pair<std::string_view, Metal>, 4> metalNames{{
     {"aluminium", {{1.484f, 0.998f, 0.647f}, {7.577f, 6.508f, 5.404f}}},
     {"copper", {{0.218f, 0.943f, 1.165f}, {3.637f, 2.594f, 2.390f}}},

@@ -1,4 +1,4 @@
-// The one check of what scene.h promises, for scenes from files, from code and after overrides.
+// Scene validation: the only check of the invariants of scene.h, for scenes from files, from code and after overrides.
 #pragma once
 
 #include "host/scene/scene.h"
