@@ -1,4 +1,4 @@
-// Points on surfaces and the rays that leave them.
+// Surface points and the origins of rays that leave them.
 
 struct Surface {
     vec3 position;

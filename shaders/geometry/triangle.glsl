@@ -66,7 +66,7 @@ TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, 
     return TriangleHit(isHit ? distance : 0.0, u, v);
 }
 
-// The point with weights u, v, 1-u-v on a triangle.
+// The point at barycentric weights u, v, 1-u-v.
 vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     float w = 1.0 - u - v;
     return v0 * u + v1 * v + v2 * w;
