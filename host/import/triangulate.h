@@ -1,4 +1,4 @@
-// Polygon triangulation by ear clipping in the coordinate plane that the polygon faces most.
+// Polygon triangulation by ear clipping in the plane that the polygon faces most.
 #pragma once
 
 #include <glm/vec2.hpp>
