@@ -31,7 +31,7 @@ std::string_view wordsFor(Remedy remedy) {
     case Remedy::BeginAnew:
         return "; render as before, or begin anew without --resume";
     case Remedy::AllowPath:
-        return "; --allow-path FOLDER allows another folder";
+        return "; --allow-path PATH allows another folder or file";
     case Remedy::ProfileReport:
         return "; `hyalite profile --report` writes one";
     }

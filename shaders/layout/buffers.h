@@ -15,9 +15,10 @@ const uint bindingLights = 2u;          // room for maxLightCount
 const uint uniformBufferCount = 3u;
 const uint bindingNodes = 3u; // node pairs, or skip nodes
 
-// Scene arrays: a row each, in the order of their bindings. A row is all that there is to say: PackedScene gets a
-// vector of the name, which is planned, counted, uploaded and bound, and both renderers read a record of it by the
-// fetch function. clang-format off
+// Scene arrays: a row each, in the order of their bindings. The row is the only place to edit: PackedScene gets a
+// vector of the name, which is planned, counted, uploaded and bound, and both renderers read its records by the fetch
+// function.
+// clang-format off
 #define HYALITE_SCENE_ARRAYS(ARRAY) \
     ARRAY(bindingSpheres,   4u,  spheres,   SphereRecord,   fetchSphere) \
     ARRAY(bindingTriangles, 5u,  triangles, TriangleRecord, fetchTriangle) \
