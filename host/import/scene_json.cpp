@@ -333,7 +333,7 @@ std::vector<std::string_view> material(const MaterialRow &row) {
     for (const MaterialKey &key : row.keys)
         keys.push_back(key.key);
     if (row.textures != 0)
-        keys.push_back("textures");
+        keys.emplace_back("textures");
     return keys;
 }
 

@@ -22,6 +22,7 @@ nlohmann::ordered_json toJson(const ChoiceSetting<Value> &choice, const RenderSe
 std::string helpText(const Setting &setting) {
     if (std::holds_alternative<ChoiceSetting<Integrator>>(setting.value)) {
         std::vector<std::string> rows;
+        rows.reserve(integratorTable.size());
         for (const IntegratorRow &row : integratorTable)
             rows.push_back(fmt::format("{}: {}", row.name, row.help));
         return fmt::format("{}. {}", setting.help, fmt::join(rows, "; "));
