@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing (Debian 12 and newer, Ubuntu 24.04 and newer), builds, and runs what follows:
+# Installs missing packages (Debian 12 and 13), builds, and runs what follows:
 #
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
 #   cmake/run.sh test                builds and runs all tests

@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
     Table, SceneJsonRefusal,
     testing::Values(
         // syntax: line and column
-        Refusal{"", "1:1: ", "unexpected end of input"}, //
+        Refusal{"", "1:1: ", "input"}, //
         Refusal{"{\n  \"spheres\": [,]\n}", "2:15: ", "unexpected ','"},
         Refusal{"{\"background\": NaN}", "1:16: ", "invalid literal"},
         Refusal{"{\"background\": 1e999}", "1:20: ", "number overflow"},
