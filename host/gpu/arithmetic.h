@@ -24,7 +24,7 @@ enum class Arithmetic {
     Native,    ///< the device's own, unchecked
 };
 
-/// The choice, and its reason.
+/// The choice with its reason.
 struct ArithmeticChoice {
     bool isNative = false;
     std::string reason;

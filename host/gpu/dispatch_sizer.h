@@ -11,8 +11,7 @@ namespace hyalite::gpu {
 ///
 /// - the number of pixels and samples, by the time that recent samples took;
 /// - the work of all slots together, by the time that recent work took. If a tile is more expensive than those before,
-///   the
-///   dispatch ends soon after the wanted time, and another one continues.
+/// the dispatch ends soon after the wanted time, and another one continues.
 ///
 /// The first dispatches are small, because nothing is known yet.
 class DispatchSizer {

@@ -19,7 +19,7 @@ struct Job {
     std::uint32_t sampleEnd;
     bool isTraced;
     std::span<const layout::FilmPixel>
-        film{}; ///< samples are added to it; empty: start with none. Read only at the start
+        film{}; ///< samples are added to it; empty: start without samples. Read only at the start
 };
 
 } // namespace hyalite::gpu

@@ -16,10 +16,10 @@ struct ProcessorUse {
 [[nodiscard]] bool hasWideVectors();
 
 /// Sets environment variables that lavapipe reads when its driver is loaded (https://docs.mesa3d.org/envvars.html): the
-/// number of threads, and the width of vectors, unless the user has set it. Vectors of 512 bits take three quarters of
-/// the time in scenes without triangles, where kernels compute and rarely read, and nine tenths in others, as long as
-/// rays are coherent. Paths through a tree diverge soon, and 16 of them idle more than 8. So do the rays that glass
-/// splits off at great depth: twice the time if the glass is a mesh. Do not call it while other threads read the
+/// number of threads and, unless the user has set it, the vector width. 512-bit vectors take three quarters of the time
+/// in scenes without triangles, where kernels compute and rarely read, and nine tenths in other scenes as long as rays
+/// are coherent. Paths through a tree soon diverge, and then 16 lanes idle more than 8. So do the rays that glass
+/// splits off at great depth: twice the time if the glass is a mesh. Do not call this while other threads read the
 /// environment.
 void tellLavapipe(const ProcessorUse &use);
 

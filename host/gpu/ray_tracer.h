@@ -44,7 +44,7 @@ class RayScene {
 /// Rays in device memory, and the kernel that traces them.
 class RayTracer {
   public:
-    /// `scene` outlives the tracer and was made for the traversal of the kernel. There is at least one ray. Throws as
+    /// `scene` must outlive the tracer, and was made for the traversal of the kernel. `rays` is not empty. Throws as
     /// RayScene does.
     RayTracer(RayScene &scene, const RayKernel &kernel, RayGoal goal,
               std::span<const layout::RayRecord> rays);
@@ -55,8 +55,8 @@ class RayTracer {
     /// Traces all rays in one dispatch, and waits for it. Throws Error{DeviceLost}.
     void run();
 
-    /// The hits of the last run. Throws Error{LimitExceeded} if the traversal of a ray takes more steps than one
-    /// dispatch has.
+    /// The hits of the last run. Throws Error{LimitExceeded} if a ray needs more traversal steps than one dispatch may
+    /// take.
     [[nodiscard]] std::vector<layout::HitRecord> hits() const;
 
   private:

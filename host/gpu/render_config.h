@@ -58,7 +58,7 @@ inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNa
 /// Hash of all kernels: measurements of other kernels do not count.
 [[nodiscard]] std::uint64_t hashOfKernels();
 
-/// A kernel, as far as users choose it.
+/// The part of a kernel that users choose.
 struct KernelChoice {
     Traversal traversal = Traversal::Automatic;
     int slotsPerInvocation = 0;

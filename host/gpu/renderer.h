@@ -51,13 +51,13 @@ class Renderer {
     [[nodiscard]] std::uint64_t kernelHash(const PackedScene &scene, Integrator integrator) const;
 
     /// Renders `crop` of the scene's image. After each dispatch `onProgress` gets the finished fraction, in [0, 1], and
-    /// `timeline`, if not null, a record. `shouldStop` is asked after each dispatch; if it returns true, the film has
-    /// the samples finished so far. Where `continuation` continues from does not change any bit.
+    /// `timeline`, if not null, a record. `shouldStop` is called after each dispatch; if it returns true, the film has
+    /// the samples finished so far. The image has the same bits wherever `continuation` starts.
     ///
     /// If a Vulkan call fails, the device is opened again with half the work per dispatch, up to three times, and the
-    /// render continues from a copy of the film; after the last failure the result is that copy. Throws
-    /// Error{LimitExceeded} if the scene is too large for the device, Error{Usage} if the cost, which counts a
-    /// traversal with a stack, is asked of another kernel.
+    /// render continues from a copy of the film. After the last failure the result is that copy. Throws
+    /// Error{LimitExceeded} if the scene is too large for the device, and Error{Usage} if the cost, which counts a
+    /// traversal with a stack, is requested from another kernel.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                                 const std::function<void(double)> &onProgress = {},
                                 Timeline *timeline = nullptr, const std::function<bool()> &shouldStop = {},

@@ -43,10 +43,10 @@ void SpirvBlocks::findBlocks() {
     }
 }
 
-// What leads from continue targets back to the headers of their loops. It has to lead there from its beginning to its end,
-// so no part of it may go.
+// Finds the continue constructs: the blocks from a continue target back to the header of its loop. The back edge must
+// stay reachable from the continue target, so all of these blocks are pinned.
 void SpirvBlocks::findContinueConstructs() {
-    for (const SpirvBlock &header : blocks_) { // of loops before those within them
+    for (const SpirvBlock &header : blocks_) { // outer loops come first
         if (header.continueTarget == 0)
             continue;
         std::vector<std::uint32_t> labels{header.continueTarget};
@@ -89,7 +89,7 @@ bool SpirvBlocks::isEdge(std::uint32_t from, std::uint32_t to) const {
     return block.isReached && (block.only == 0 || block.only == to);
 }
 
-// What all ways that are left bring to a phi.
+// The common value of a phi over its remaining incoming edges; empty if they differ or one is unknown.
 SpirvValue SpirvBlocks::valueOfPhi(const SpirvBlock &block, std::span<const std::uint32_t> phi,
                                    const std::vector<SpirvValue> &known) const {
     SpirvValue value;
@@ -105,8 +105,8 @@ SpirvValue SpirvBlocks::valueOfPhi(const SpirvBlock &block, std::span<const std:
     return value;
 }
 
-// Goes through all blocks that are reached as far as is known. Returns whether something new came out: then what is known
-// may not be so any more, as another way leads to a phi.
+// One pass over all blocks known to be reachable. Returns whether it reached anything new. Known values may then be out
+// of date, because a phi has another incoming edge.
 bool SpirvBlocks::propagate() {
     bool hasChanged = false;
     std::vector<SpirvValue> known = constants_;
@@ -138,10 +138,10 @@ bool SpirvBlocks::propagate() {
     return hasChanged;
 }
 
-// A block may leave a selection by a conditional branch to where the selection ends, as long as there is a selection.
-// Returns whether there was one that is no more.
+// A conditional branch may exit a selection to its merge block only while the selection exists. Pins the selections
+// that such branches exit. Returns whether a resolved selection became unresolved.
 bool SpirvBlocks::pinSelectionsLeftOnConditions() {
-    std::vector<SpirvBlock *> headerOf(indexOf_.size()); // of selections that are no more, by where they end
+    std::vector<SpirvBlock *> headerOf(indexOf_.size()); // headers of resolved selections, by merge block
     for (SpirvBlock &block : blocks_)
         if (block.isReached && block.only != 0)
             headerOf[block.merge] = &block;
@@ -157,8 +157,8 @@ bool SpirvBlocks::pinSelectionsLeftOnConditions() {
     return hasChanged;
 }
 
-// Functions that returned early are wrapped in a switch with one target once they are inlined, so that a return is a
-// way out of the switch. Where no early return is left there need be no switch, which drivers take apart at length.
+// Inlining wraps functions with early returns in a switch with a single target, so that a return is an exit from the
+// switch. Without early returns the switch is redundant, and drivers take long to lower it.
 void SpirvBlocks::unwrapSwitches() {
     std::vector<std::uint32_t> edgeCount(indexOf_.size()); // to each block
     for (const SpirvBlock &block : blocks_)
@@ -170,7 +170,7 @@ void SpirvBlocks::unwrapSwitches() {
         const bool isWrapper = terminatorOf(block).opcode() == spv::Op::OpSwitch && last.size() == 3;
         if (!block.isReached || !isWrapper || edgeCount[block.merge] != 1)
             continue;
-        // The one way that is left has to lead through whole constructs only, and not out of one.
+        // The remaining path must go through whole constructs only and must not exit one.
         std::uint32_t label = last[2];
         while (label != block.merge && label != 0) {
             const SpirvBlock &next = at(label);

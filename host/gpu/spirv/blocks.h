@@ -15,27 +15,26 @@ struct SpirvBlock {
     std::size_t begin = 0; ///< its label, among the instructions
     std::size_t end = 0;   ///< past its terminator
     std::uint32_t label = 0;
-    std::uint32_t merge = 0;          ///< where the construct ends that it heads, or 0
-    std::uint32_t continueTarget = 0; ///< of the loop that it heads, or 0
+    std::uint32_t merge = 0;          ///< merge block of the construct that this block heads, or 0
+    std::uint32_t continueTarget = 0; ///< of the loop that this block heads, or 0
     std::uint32_t continuedLoop =
-        0; ///< the header of the innermost loop whose continue construct it is in, or 0
+        0; ///< header of the innermost loop whose continue construct contains this block, or 0
     bool isReached = false;
-    std::uint32_t only =
-        0; ///< of the successors of a selection the one that is ever taken, where that is known; or 0
-    bool isPinned = false; ///< all its successors count, whatever is known
+    std::uint32_t only = 0; ///< the only successor of a selection that can be taken, if known; or 0
+    bool isPinned = false;  ///< all successors stay reachable, whatever is known
 };
 
 class SpirvBlocks {
   public:
-    /// `known` are the constants, by id. All of them must outlive this.
+    /// `known` are the constants, by id. Both arguments must outlive this object.
     SpirvBlocks(std::span<const SpirvInstruction> instructions, const std::vector<SpirvValue> &known);
 
     [[nodiscard]] const SpirvBlock &at(std::uint32_t label) const { return blocks_[indexOf_[label]]; }
 
-    /// Whether control may go to `to` from the end of `from`, of which it is a successor in the module.
+    /// Whether control can go from the end of `from` to `to`, one of its successors in the module.
     [[nodiscard]] bool isEdge(std::uint32_t from, std::uint32_t to) const;
 
-    /// Whether a module of what is reached has to have the block, if only as the target of a merge instruction.
+    /// Whether the specialised module needs the block: it is reachable, or the target of a merge instruction.
     [[nodiscard]] bool isNeeded(std::uint32_t label) const { return isNeeded_[label]; }
 
   private:

@@ -85,7 +85,7 @@ std::vector<SpirvValue> knownConstants(std::span<const SpirvInstruction> instruc
             known[words[2]] = given(words[2], instruction.opcode() == spv::Op::OpSpecConstantTrue) != 0;
             break;
         case spv::Op::OpConstant:
-            if (words.size() == 4) // wider ones take two words
+            if (words.size() == 4) // wider constants take two words
                 known[words[2]] = words[3];
             break;
         case spv::Op::OpSpecConstant:

@@ -13,7 +13,7 @@ namespace hyalite::gpu {
 
 namespace {
 
-/// GLSL.std.450: results that are exact, and sqrt.
+/// GLSL.std.450 instructions with exact results, and sqrt.
 constexpr std::array allowedInstructions{
     GLSLstd450FAbs,   GLSLstd450SAbs,     GLSLstd450Floor,    GLSLstd450Sqrt,
     GLSLstd450FMin,   GLSLstd450UMin,     GLSLstd450SMin,     GLSLstd450FMax,
@@ -25,7 +25,7 @@ struct RefusedInstruction {
     const char *name;
 };
 
-/// Those that shaders are most likely to use, for messages.
+/// The rejected instructions that shaders are most likely to use, with their names for messages.
 constexpr std::array<RefusedInstruction, 12> refusedInstructions{{{GLSLstd450Fma, "fma"},
                                                                   {GLSLstd450FMix, "mix"},
                                                                   {GLSLstd450Normalize, "normalize"},
@@ -39,7 +39,7 @@ constexpr std::array<RefusedInstruction, 12> refusedInstructions{{{GLSLstd450Fma
                                                                   {GLSLstd450Pow, "pow"},
                                                                   {GLSLstd450Exp, "exp"}}};
 
-/// The name of an operation without a fixed order, or nothing.
+/// The name of an operation without a fixed order, or null.
 const char *refusedOperation(spv::Op opcode) {
     switch (opcode) {
     case spv::Op::OpDot:
@@ -76,7 +76,7 @@ std::string textAt(std::span<const std::uint32_t> words) {
     return text;
 }
 
-/// Throws where the module has an operation that no decoration makes exact.
+/// Throws if the module has an operation that no decoration makes exact.
 void requireFixedRounding(const std::vector<SpirvInstruction> &instructions) {
     std::map<std::uint32_t, std::string> names;
     std::string function;

@@ -14,14 +14,14 @@
 namespace hyalite::gpu {
 
 constexpr std::size_t spirvHeaderWords = 5;
-constexpr std::size_t spirvBoundWord = 3; // of the header: all ids are below it
+constexpr std::size_t spirvBoundWord = 3; // in the header: an upper bound of all ids
 
 struct SpirvInstruction {
-    std::span<const std::uint32_t> words; ///< the first one holds the opcode and how many words there are
+    std::span<const std::uint32_t> words; ///< the first one holds the opcode and the number of words
 
     [[nodiscard]] spv::Op opcode() const { return static_cast<spv::Op>(words[0] & spv::OpCodeMask); }
 
-    /// Its result, or 0, which is no id.
+    /// The id of the result, or 0 (not a valid id) if there is none.
     [[nodiscard]] std::uint32_t result() const {
         bool hasResult = false;
         bool hasType = false;
@@ -30,8 +30,8 @@ struct SpirvInstruction {
     }
 };
 
-/// All instructions of the module `spirv`, which must outlive them. Throws std::invalid_argument for what is not a header
-/// and a sequence of instructions.
+/// All instructions of the module `spirv`, which must outlive them. Throws std::invalid_argument unless it is a header
+/// followed by whole instructions.
 [[nodiscard]] inline std::vector<SpirvInstruction> instructionsOf(std::span<const std::uint32_t> spirv) {
     if (spirv.size() < spirvHeaderWords || spirv[0] != spv::MagicNumber)
         throw std::invalid_argument("no SPIR-V header");

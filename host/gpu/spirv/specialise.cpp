@@ -80,8 +80,8 @@ class Specialiser {
         copy(words, instruction);
     }
 
-    /// A phi, less the ways to it that are gone. Where a loop's continue target is never reached it brings what is
-    /// undefined.
+    /// Writes a phi without its removed incoming edges. If the continue target of a loop is never reached, its incoming
+    /// value is undefined.
     void writePhi(std::vector<std::uint32_t> &words, const SpirvBlock &block,
                   std::span<const std::uint32_t> phi) {
         std::vector<std::uint32_t> operands{phi[1], phi[2]};
@@ -137,7 +137,7 @@ class Specialiser {
         return words;
     }
 
-    /// Whether it names or decorates what is gone, or makes of a constant one for specialization.
+    /// Whether to omit the instruction: it names or decorates a removed id, or it is a SpecId decoration.
     [[nodiscard]] bool isIdle(const SpirvInstruction &instruction) const {
         switch (instruction.opcode()) {
         case spv::Op::OpDecorate:
@@ -157,9 +157,9 @@ class Specialiser {
     std::vector<SpirvValue> known_; // by id: constants
     SpirvBlocks blocks_;
     std::uint32_t boolType_ = 0;
-    std::vector<bool> isDefined_;          // by id: in what is written
+    std::vector<bool> isDefined_;          // by id: defined in the output
     std::vector<bool> isUndecided_;        // by id: constants that stay for specialization
-    std::vector<std::uint32_t> undefined_; // values for phis, as instructions
+    std::vector<std::uint32_t> undefined_; // OpUndef instructions, for phis
 };
 
 } // namespace

@@ -10,12 +10,14 @@
 
 namespace hyalite::gpu {
 
-/// The module `spirv` with the specialization constants 0, 1, ... set to `constants`, in the way of Vulkan (a boolean
-/// is true where its word is not 0); constants beyond these keep their defaults. Blocks go that only selections lead to
-/// whose conditions follow from them (blocks.h says which), and no specialization constant is left but for
-/// operations that constants.h does not know. `spirv` is a valid module for Vulkan in the byte order of this
-/// machine, as glslang writes it: blocks in the order of their constructs, scalars of 32 bits, no decorations but
-/// OpDecorate, no debug lines.
+/// The module `spirv` with the specialization constants 0, 1, ... set to `constants`, as Vulkan sets them (a boolean is
+/// true unless its word is 0). Constants beyond these keep their defaults.
+///
+/// Blocks that the resolved selections (blocks.h) make unreachable are removed. The only specialization constants left
+/// are those computed by operations that constants.h does not know.
+///
+/// `spirv` is a valid module for Vulkan in the byte order of this machine, as glslang writes it: blocks in the order of
+/// their constructs, 32-bit scalars, no decorations except OpDecorate, no debug lines.
 [[nodiscard]] std::vector<std::uint32_t> specialise(std::span<const std::uint32_t> spirv,
                                                     std::span<const std::uint32_t> constants);
 

@@ -14,7 +14,7 @@ enum class DeviceType { Discrete, Integrated, Virtual, Cpu, Other };
 class Instance;
 
 struct DeviceInfo {
-    int index = 0; ///< in the order of vkEnumeratePhysicalDevices
+    int index = 0; ///< position in vkEnumeratePhysicalDevices
     std::string name;
     DeviceType type = DeviceType::Other;
     std::string driver;     ///< name and version, from the driver

@@ -24,7 +24,7 @@ class Instance {
     /// Whether VK_EXT_debug_utils is enabled.
     [[nodiscard]] bool hasDebugUtils() const { return hasDebugUtils_; }
 
-    /// Never destroys the instance, for one with an abandoned device.
+    /// Leaves the instance undestroyed, because a device of it is abandoned.
     void abandon();
 
     /// Throws Error{DeviceLost} with the first message of the validation layer, if there is one.

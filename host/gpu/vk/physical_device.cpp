@@ -36,7 +36,7 @@ DeviceType deviceType(VkPhysicalDeviceType type) {
     }
 }
 
-/// Throws if the query fails: to treat the extension as missing would change what is rendered.
+/// Throws if the query fails, because treating the extension as missing would change what is rendered.
 bool hasExtension(VkPhysicalDevice device, const char *name) {
     const std::string action = fmt::format("vkEnumerateDeviceExtensionProperties for {}", name);
     std::uint32_t count = 0;

@@ -12,8 +12,8 @@ namespace hyalite::gpu {
     return validBits >= 64 ? ticks : ticks & ((std::uint64_t{1} << validBits) - 1);
 }
 
-/// Ticks from one timestamp to a later one. The counter may have wrapped around, even several times: of all durations
-/// that fit these bits it is the longest up to `mostTicks`, or the shortest if all are longer.
+/// Ticks from one timestamp to a later one. The counter may have wrapped around several times. Of all durations that
+/// match the bits, this is the longest up to `mostTicks`, or the shortest if all are longer.
 [[nodiscard]] inline std::uint64_t elapsedTicks(std::uint64_t begin, std::uint64_t end,
                                                 std::uint32_t validBits, std::uint64_t mostTicks) {
     const std::uint64_t shortest = validTicks(end - begin, validBits);
@@ -22,8 +22,8 @@ namespace hyalite::gpu {
     return shortest + ((mostTicks - shortest) >> validBits << validBits);
 }
 
-/// Ticks from a reference to a timestamp, which may be earlier: of all differences that fit these bits, the smallest
-/// magnitude.
+/// Ticks from a reference to a timestamp, which may be earlier. Of all differences that match the bits, this is the one
+/// with the smallest magnitude.
 [[nodiscard]] inline std::int64_t signedTicks(std::uint64_t reference, std::uint64_t ticks,
                                               std::uint32_t validBits) {
     const std::uint64_t forward = validTicks(ticks - reference, validBits);

@@ -84,7 +84,7 @@ std::optional<Span> Timestamps::read(const Span &host) {
     const std::int64_t hostLength = host.endNanos - host.beginNanos;
     const auto mostTicks =
         static_cast<std::uint64_t>(static_cast<double>(hostLength) / static_cast<double>(nanosPerTick_));
-    // Between two dispatches the rates of the clocks hardly differ, and a double holds a length in ticks exactly.
+    // Between two dispatches the clock rates hardly differ, and a double holds a length in ticks exactly.
     const std::int64_t length =
         std::min(nanosOf(elapsedTicks(ticks[0], ticks[1], validBits_, mostTicks)), hostLength);
 

@@ -22,8 +22,8 @@ class Timestamps {
     void writeBegin(VkCommandBuffer commands) const;
     void writeEnd(VkCommandBuffer commands) const;
 
-    /// The span between the two, after their submission is finished. `host` is the time from before the submission
-    /// until its end was known. Empty if the queue has no timestamps.
+    /// The span between the two timestamps, after their submission is finished. `host` is the time from before the
+    /// submission until the host knew that it was finished. Empty if the queue has no timestamps.
     [[nodiscard]] std::optional<Span> read(const Span &host);
 
     /// Description of the clock that times kernels.
