@@ -21,8 +21,8 @@ namespace hyalite {
 
 namespace {
 
-/// "Mesa 22.3.6" of "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", where the device is called "llvmpipe (LLVM 15.0.6, 256
-/// bits)".
+/// The part of `driver` that `name` does not say: "Mesa 22.3.6" for the driver "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)" of
+/// the device "llvmpipe (LLVM 15.0.6, 256 bits)".
 std::string driverBesideName(const std::string &driver, const std::string &name) {
     std::string text = driver.substr(0, driver.find(" ("));
     const std::size_t firstWordEnd = std::min(text.find(' '), text.size());
@@ -139,7 +139,7 @@ class DeviceBackend : public Backend {
     gpu::Renderer renderer_;
 };
 
-/// A film and the image made of it: tone mapping and packing come on top of that and take less.
+/// Memory for a film and its image. Tone mapping and packing come later and take less.
 std::uint64_t filmBytes(const Crop &crop) {
     return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height()) *
            (sizeof(layout::FilmPixel) + sizeof(glm::vec3));
@@ -152,7 +152,7 @@ std::uint64_t filmBytes(const Crop &crop) {
                 Remedy::SmallerImage);
 }
 
-/// The loader unloads drivers with the last instance: this one keeps them until the device that is chosen has its own.
+/// Keeps drivers loaded until the chosen device has its own instance: the loader unloads them with the last instance.
 struct DeviceList {
     std::unique_ptr<gpu::Instance> instance;
     std::vector<gpu::DeviceInfo> devices;

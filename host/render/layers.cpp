@@ -10,7 +10,7 @@ namespace hyalite {
 
 namespace {
 
-/// From what the view shows of a normal back to the normal.
+/// The normal of a colour in the normal view.
 glm::vec3 normalOf(const glm::vec3 &colour) {
     return colour == glm::vec3(0.0f) ? colour : 2.0f * colour - 1.0f;
 }

@@ -54,7 +54,7 @@ void PeriodicFiles::writeNow(Timed &timed, const Film &film, const RayCounts &ra
         timed.file.write(film, rays);
         timed.isFailing = false;
     } catch (const std::exception &error) {
-        if (!timed.isFailing) // the disk may stay full for long
+        if (!timed.isFailing) // reported once: the disk may stay full for long
             printMessage("note: {}; the render goes on, and this is tried again\n", error.what());
         timed.isFailing = true;
     }
@@ -71,7 +71,7 @@ void PeriodicFiles::run() {
             return;
         isTaken_ = false;
         const Clock::time_point now = Clock::now();
-        // The film is this thread's own until another one is wanted.
+        // Until another film is wanted, this one belongs to this thread.
         lock.unlock();
         for (Timed &timed : files_)
             if (timed.due <= now) {

@@ -25,7 +25,8 @@ namespace {
 
 glm::dvec3 toVector(const std::vector<double> &values) { return {values[0], values[1], values[2]}; }
 
-/// A bare mesh has no scene file that says where to look.
+/// The point to look at: that of --look-at or, if the camera of a bare mesh is moved, the centre of the mesh, because
+/// no scene file gives a direction.
 std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const LoadedScene &loaded) {
     if (!options.lookAt.empty())
         return toVector(options.lookAt);
@@ -34,7 +35,7 @@ std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const Loaded
     return std::nullopt;
 }
 
-/// A camera that is moved keeps its direction; one that is told where to look keeps its position.
+/// Moves the camera. A new position keeps the direction; a new target keeps the position.
 void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &camera) {
     if (!options.cameraPosition.empty())
         camera.position = toVector(options.cameraPosition);
@@ -79,7 +80,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     moveCamera(options, loaded, camera);
 }
 
-/// The override that decides how the camera stands, if one does.
+/// The override that decides the orientation of the camera, or empty.
 std::string cameraOverride(const SceneOptions &options) {
     if (!options.up.empty())
         return "up";
@@ -88,7 +89,8 @@ std::string cameraOverride(const SceneOptions &options) {
     return options.cameraPosition.empty() ? "" : "camera-position";
 }
 
-/// The scene was valid as loaded, and each override is in range: where it is refused now, they do not go together.
+/// Validates the scene with its overrides. It was valid as loaded, and each override is in range, so any failure is a
+/// conflict between them.
 void validateWithOverrides(const SceneOptions &options, const Scene &scene, const std::string &file) {
     const std::string name = cameraOverride(options);
     try {
@@ -117,12 +119,13 @@ Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
     return crop;
 }
 
-/// Meshes that a tree can separate are far from this: a sphere of eight million triangles has 14.
+/// Expected triangle tests of a line above which the tree is useless. Good meshes are far below: a sphere of eight
+/// million triangles has 14.
 constexpr double manyTrianglesTested = 1000.0;
 
 void warnOfOverlaps(const Bvh &bvh) {
     const BvhStatistics statistics = measureBvh(bvh);
-    const bool hasTree = statistics.depth > 0; // or that is what was asked for
+    const bool hasTree = statistics.depth > 0; // without a tree, many tests are what the user asked for
     if (hasTree && statistics.trianglesTested > manyTrianglesTested)
         printMessage("warning: the boxes of the scene's {} triangles overlap so much that a ray tests about "
                      "{:.0f} of them: this takes its time\n",

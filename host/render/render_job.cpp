@@ -64,7 +64,8 @@ void RenderJob::resume() {
     if (request_.isResuming)
         resumed = resumeCheckpoint(request_.checkpoint, identity, scene_->crop,
                                    static_cast<std::uint32_t>(samplesPerPixel));
-    // Without a resumed one, what is there is another render's, and may be gone with the second generation.
+    // Without a resumed checkpoint, the existing file belongs to another render and may be lost with the second
+    // generation.
     checkpoint_.emplace(request_.checkpoint, identity, !resumed || resumed->damage.empty());
     if (!resumed)
         return;
@@ -153,7 +154,7 @@ void RenderJob::writePicture(AtomicFile &file, const Film &film) const {
 void RenderJob::writeImage() {
     const Clock::time_point writeStart = Clock::now();
     if (checkpoint_) {
-        try { // first: where there is no room for the picture, nothing is lost
+        try { // the checkpoint first: if there is no room for the picture, nothing is lost
             checkpoint_->write(*film_, report_.rays);
         } catch (const Error &error) {
             checkpointFailure_.emplace(error);

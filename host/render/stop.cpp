@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<int, 3> stoppingSignals{SIGINT, SIGTERM, SIGHUP};
 
 // Signal handlers may use only lock-free atomics, and only globals.
-std::atomic<std::int64_t> firstNanoseconds{0}; ///< when the first signal came; 0: none did
+std::atomic<std::int64_t> firstNanoseconds{0}; ///< time of the first signal; 0: none
 std::atomic<int> firstSignal{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
@@ -29,7 +29,7 @@ std::int64_t nanosecondsNow() noexcept {
     return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// On a terminal it replaces the progress line.
+/// The acknowledgement of the first signal. On a terminal it replaces the progress line.
 std::string_view answerTo(bool isTerminal) {
     return isTerminal ? "\r\033[Kstopping as soon as what runs is done; again: at once\n"
                       : "stopping as soon as what runs is done; again: at once\n";
@@ -59,7 +59,7 @@ CaughtSignals::CaughtSignals(bool isQuiet) {
     action.sa_handler = noteSignal;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
-    // A reader of our messages, such as head, may end first: that must not lose the results.
+    // The reader of our messages, such as head, may exit first: that must not lose the results.
     struct sigaction ignore {};
     ignore.sa_handler = SIG_IGN;
     sigemptyset(&ignore.sa_mask);

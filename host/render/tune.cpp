@@ -66,7 +66,8 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
             rates.best = renderers.size();
         renderers.emplace_back(device, config);
     }
-    std::vector<double> leastGain(renderers.size(), std::numeric_limits<double>::max()); // over the usual one
+    std::vector<double> leastGain(renderers.size(),
+                                  std::numeric_limits<double>::max()); // over the default kernel
     std::optional<Film> wanted;
     for (int round = 0; round < rounds; ++round) {
         const double bestRate = std::ranges::max(rates.megaraysPerSecond);
@@ -101,7 +102,7 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
 
 Json toJson(const KernelRates &rates) { return {{"rates", rates.megaraysPerSecond}, {"best", rates.best}}; }
 
-/// Reads until the other side closes it.
+/// Reads until the writer closes the pipe.
 std::string drain(int pipe) {
     std::string text;
     std::array<char, 4096> block{};
@@ -128,7 +129,7 @@ std::string drain(int pipe) {
     } catch (const std::exception &error) {
         said = {{"kind", static_cast<int>(ErrorKind::Internal)}, {"error", error.what()}};
     }
-    const std::string text = said.dump(); // shorter than what a pipe holds
+    const std::string text = said.dump(); // fits into the buffer of a pipe
     const bool isWritten = write(pipe, text.data(), text.size()) == static_cast<ssize_t>(text.size());
     _exit(isWritten ? 0 : 1);
 }

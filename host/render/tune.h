@@ -9,18 +9,19 @@
 
 namespace hyalite {
 
-/// How fast the kernels are with one kind of scene.
+/// Measured rates of the kernels for one kind of scene.
 struct KernelRates {
     gpu::Workload workload = gpu::Workload::Spheres;
-    std::string scene;                     ///< a shipped one
-    std::vector<double> megaraysPerSecond; ///< of each of gpu::namedKernels, at its best
-    std::size_t best = 0;                  ///< among them; the usual one, unless another is always 5 % faster
+    std::string scene;                     ///< name of a shipped scene
+    std::vector<double> megaraysPerSecond; ///< best rate of each of gpu::namedKernels
+    std::size_t best =
+        0; ///< index of the fastest kernel; the default one unless another is always 5 % faster
 };
 
-/// Renders small images of shipped scenes with all kernels, some times in turns, and verifies that all are equal. It
-/// takes half a minute. The program must not have opened a device before: this works in a process of its own for each
-/// kind of scene, as the width of lavapipe's vectors can be chosen once. Throws what opening and rendering throw, and
-/// Error{DeviceLost} where kernels do not agree.
+/// Renders small images of shipped scenes with each kernel, in several rounds, and verifies that all images are equal.
+/// Takes half a minute. The program must not have opened a device before: each kind of scene is measured in a process
+/// of its own, because the vector width of lavapipe can be set only once per process. Throws what opening and rendering
+/// throw, and Error{DeviceLost} if the images differ.
 [[nodiscard]] std::vector<KernelRates> measureKernels(const std::string &deviceName);
 
 } // namespace hyalite

@@ -37,7 +37,7 @@ std::optional<fs::path> findFile() {
     return std::nullopt;
 }
 
-/// What the choice depends on. The device name is not part of it: that of lavapipe contains its vector width.
+/// The key of an entry. It omits the device name, because that of lavapipe contains the vector width.
 Json keyOf(const gpu::DeviceInfo &device) {
     return {{"vendorId", device.vendorId},
             {"deviceId", device.deviceId},
@@ -45,7 +45,7 @@ Json keyOf(const gpu::DeviceInfo &device) {
             {"kernels", hashText(gpu::hashOfKernels())}};
 }
 
-/// The entries of a file. Throws Error{BadInput}.
+/// Reads all entries. Throws Error{BadInput}.
 Json readEntries(const fs::path &file) {
     const Json document = readJsonFile(file);
     const auto devices = document.find("devices");

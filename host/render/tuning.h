@@ -11,20 +11,20 @@ namespace hyalite {
 
 struct Tuning {
     gpu::KernelChoices kernels{}; ///< by Workload
-    std::string date;             ///< YYYY-MM-DD, in UTC; empty: nothing was measured
+    std::string date;             ///< YYYY-MM-DD, in UTC; empty: not measured
 
     [[nodiscard]] bool isMeasured() const { return !date.empty(); }
 };
 
 /// $HYALITE_CACHE/tuning.json, or hyalite/tuning.json in $XDG_CACHE_HOME, or in ~/.cache. Throws
-/// Error{OutputNotWritten} where none of these variables is set.
+/// Error{OutputNotWritten} if none of these variables is set.
 [[nodiscard]] std::filesystem::path tuningFile();
 
-/// What was stored for this device, this version of its driver and these kernels. A file that cannot be read is told on
-/// standard error, and counts as none: it changes no bit of any image.
+/// The entry for this device, this version of its driver and these kernels. An unreadable file is reported on standard
+/// error and ignored, because tuning changes no bit of any image.
 [[nodiscard]] Tuning readTuning(const gpu::DeviceInfo &device);
 
-/// Stores it beside what is stored for other devices. Throws Error{OutputNotWritten}.
+/// Stores an entry, and keeps those of other devices. Throws Error{OutputNotWritten}.
 void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning);
 
 } // namespace hyalite
