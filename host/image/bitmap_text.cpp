@@ -4,7 +4,7 @@
 #include <array>
 #include <cstring>
 
-// stb is written in C's manner; its warnings are its own.
+// stb does not compile cleanly under our warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wold-style-cast"
@@ -32,7 +32,7 @@ void Drawing::fill(int x0, int y0, int x1, int y1, const std::array<std::uint8_t
 }
 
 int textWidth(const std::string &text, int scale) {
-    std::string copy = text; // stb takes no constant
+    std::string copy = text; // stb wants a char * that is not const
     return scale * stb_easy_font_width(copy.data());
 }
 
@@ -43,7 +43,7 @@ void drawText(Drawing &drawing, int x, int y, int scale, const std::string &text
         std::array<unsigned char, 4> colour;
     };
     std::string copy = text;
-    std::vector<Vertex> vertices(4 * 32 * text.size()); // no letter has 32 strokes
+    std::vector<Vertex> vertices(4 * 32 * text.size()); // each letter has fewer than 32 strokes
     const int quadCount = stb_easy_font_print(0.0f, 0.0f, copy.data(), nullptr, vertices.data(),
                                               static_cast<int>(vertices.size() * sizeof(Vertex)));
     for (int quad = 0; quad < quadCount; ++quad) {

@@ -18,7 +18,7 @@ Image equalOutsideOf(const Mask &mask, const Image &reference, const Image &test
 }
 
 ErrorMap flipOf(const Image &reference, const Image &test, ImageComparison &comparison) {
-    // Most comparisons are of images that are meant to be equal, and FLIP is the slowest part of them.
+    // Most compared images are meant to be equal, and FLIP is the slowest metric.
     if (comparison.pixels.identical())
         return {reference.width(), reference.height(), std::vector<float>(reference.pixels().size(), 0.0f)};
     if (comparison.encoding == Encoding::Display)
@@ -40,7 +40,7 @@ ImageComparison compareImages(const Image &reference, const Image &test, Encodin
     comparison.flipMap = mask.empty() ? flipOf(reference, test, comparison)
                                       : flipOf(reference, equalOutsideOf(mask, reference, test), comparison);
     comparison.flip = summarizeFlip(comparison.flipMap, mask);
-    // A difference has an effect on its neighbours too; the map is of what is compared.
+    // A difference also affects its neighbours; the map has only the compared pixels.
     for (std::size_t i = 0; i < comparison.flipMap.errors.size(); ++i) {
         if (!isCompared(mask, i))
             comparison.flipMap.errors[i] = 0.0f;

@@ -19,10 +19,10 @@ void writeExr(AtomicFile &file, const Picture &picture);
 /// Whether the first bytes of a file are those of an OpenEXR file.
 [[nodiscard]] bool isExr(std::span<const std::byte> head);
 
-/// Reads R, G and B, or Y as three equal channels, of the data window: of the layer with that name, or of none. A layer
-/// of one value is read likewise. Half floats and integers become float32, all compressions are read. Throws
-/// Error{BadInput}: also for tiles, deep pixels and several parts, and for a layer that is not there. Throws
-/// Error{LimitExceeded} for files that would take more memory than readingBytesMax.
+/// Reads R, G and B, or Y as three equal channels, of the data window: from the named layer, or from the channels
+/// without a layer. A layer with a single value is read as grey. Half floats and integers become float32; all
+/// compressions are supported. Throws Error{BadInput}, also for tiles, deep pixels, several parts, and a missing layer.
+/// Throws Error{LimitExceeded} for files that would take more memory than readingBytesMax.
 [[nodiscard]] Image readExr(const InputFile &file, const std::string &layer = "");
 
 /// Whether the file has that layer. Throws as readExr() does if the header cannot be read.

@@ -35,8 +35,8 @@ std::uint32_t little32(std::span<const std::byte> bytes) {
     return value;
 }
 
-/// The header as the library may see it. It asks for as much memory as some attributes say, before it looks at what
-/// there is; so these become attributes of a type that it does not know, whose bytes it keeps as they are.
+/// A header that is safe to pass to the library. For some attributes the library allocates the size that they claim
+/// before it checks the data. Here they get a type that it does not know, so that it keeps their bytes as they are.
 ///
 ///     76 2f 31 01   version and flags   (name \0 type \0 size value)...   \0
 class SafeHeader {
@@ -75,7 +75,7 @@ class SafeHeader {
             throw file_.bad(fmt::format("its OpenEXR version field is {:#x}, which is not known", version));
     }
 
-    /// The text that begins there. Its end, a zero, lies within the header.
+    /// The text that begins at `begin`. Its terminating zero lies within the header.
     [[nodiscard]] std::string_view textAt(std::size_t begin) const {
         constexpr std::size_t lengthMax = 255;
         std::size_t end = begin;
@@ -86,7 +86,7 @@ class SafeHeader {
         return {reinterpret_cast<const char *>(bytes_.data()) + begin, end - begin};
     }
 
-    /// Whether names, each with 16 bytes behind it, and an empty name take just so many bytes.
+    /// Whether the bytes are a channel list: names, each followed by 16 bytes, and an empty name at the end.
     [[nodiscard]] bool isChannelList(std::size_t begin, std::size_t size) const {
         std::size_t position = begin;
         while (position < begin + size && byteAt(position) != std::byte{0})
@@ -94,7 +94,7 @@ class SafeHeader {
         return position + 1 == begin + size;
     }
 
-    /// Returns where the next one begins.
+    /// Checks one attribute and returns the offset of the next one.
     std::size_t passAttribute(std::size_t begin) {
         const std::string_view name = textAt(begin);
         const std::size_t typeBegin = begin + name.size() + 1;
@@ -104,7 +104,7 @@ class SafeHeader {
         const std::uint32_t size = little32(std::span(bytes_).subspan(sizeBegin));
         const std::size_t valueBegin = sizeBegin + 4;
         (void)byteAt(valueBegin + size);
-        // Of these the library reads as much as their types have, whatever the size says.
+        // For these types the library reads a fixed number of bytes, whatever the size says.
         constexpr std::array<std::pair<std::string_view, std::size_t>, 7> needed{{{"compression", 1},
                                                                                   {"dataWindow", 16},
                                                                                   {"displayWindow", 16},
@@ -128,7 +128,7 @@ class SafeHeader {
     std::vector<std::byte> bytes_;
 };
 
-/// The file with the safe header in the place of its own.
+/// The input file with its header replaced by the safe one.
 class ExrInput : public Imf::IStream {
   public:
     ExrInput(const InputFile &file, const SafeHeader &header)
@@ -175,7 +175,7 @@ int linesPackedTogether(Imf::Compression compression) {
 
 std::string prefixOf(const std::string &layer) { return layer.empty() ? "" : layer + "."; }
 
-/// The names of the channels that hold R, G and B of a layer, if there are any.
+/// The names of the R, G and B channels of a layer, if it has them.
 std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &channels,
                                                        const std::string &layer) {
     const std::string prefix = prefixOf(layer);
@@ -203,7 +203,7 @@ std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &c
                                count > mostTold ? fmt::format(" and {} more", count - mostTold) : ""));
 }
 
-/// What there is to be said before memory is asked for. Throws where the file cannot be read.
+/// Checks before memory is allocated. Throws if the file cannot be read.
 void requireReadable(const InputFile &file, const Imf::Header &header) {
     const Imath::Box2i &window = header.dataWindow();
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
@@ -218,7 +218,7 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
                             excerpt(i.name(), 40), i.channel().xSampling, i.channel().ySampling));
         bytesPerPixel += i.channel().type == Imf::HALF ? 2 : 4;
     }
-    // What packed lines become, and the library's room for that: five times as much with DWA, which is the most.
+    // Decompressed lines and the buffers of the library: DWA needs the most, five copies.
     constexpr std::uint64_t copyCount = 8;
     const std::uint64_t pixelCount = static_cast<std::uint64_t>(width * height);
     const std::uint64_t packedBytes = static_cast<std::uint64_t>(width) * bytesPerPixel *
@@ -277,7 +277,7 @@ bool isExr(std::span<const std::byte> head) {
 
 namespace {
 
-/// What read() returns; what the library throws becomes an Error about the file.
+/// The result of read(). Exceptions of the library become an Error about the file.
 template <class Read> auto asked(const InputFile &file, const Read &read) {
     try {
         return read();

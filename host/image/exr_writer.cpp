@@ -22,7 +22,8 @@ namespace hyalite {
 
 namespace {
 
-/// The library ends a file in a destructor, which swallows exceptions: the first one is kept, to be thrown later.
+/// Output of the library. The library finishes a file in a destructor, which swallows exceptions, so the first
+/// exception is kept and thrown later.
 class ExrOutput : public Imf::OStream {
   public:
     explicit ExrOutput(AtomicFile &file) : Imf::OStream(file.path().c_str()), file_(file) {}
@@ -82,7 +83,7 @@ Imf::Header headerOf(const Picture &picture, const std::vector<Layer> &layers) {
     return header;
 }
 
-/// Some rows of one layer, as the library takes them.
+/// Rows of one layer in the layout of the library.
 class LayerRows {
   public:
     LayerRows(const Layer &layer, const Crop &crop, int rowCountMax)
@@ -90,7 +91,7 @@ class LayerRows {
           rowSize_(static_cast<std::size_t>(crop.width()) * names_.size()),
           values_(rowSize_ * static_cast<std::size_t>(rowCountMax)) {}
 
-    /// Rows of the crop from `y` on.
+    /// Fills in `rowCount` rows of the crop from row `y` on.
     void fill(int y, int rowCount, Imf::FrameBuffer &frameBuffer) {
         for (int row = 0; row < rowCount; ++row)
             layer_.fillRow(y + row,
@@ -113,11 +114,11 @@ class LayerRows {
 void writeRows(ExrOutput &output, const Picture &picture) {
     std::vector<Layer> layers = picture.layers;
     layers.push_back(colourLayer(picture.colour));
-    // On all processors: packing takes longer than many a render.
+    // Compression uses all processors, because it can take longer than the render.
     const int threadCount = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16);
     Imf::setGlobalThreadCount(threadCount);
     Imf::OutputFile file(output, headerOf(picture, layers), threadCount);
-    constexpr int rowCountPacked = 16; // together, by ZIP
+    constexpr int rowCountPacked = 16; // ZIP compresses 16 rows as a block
     const int rowCountMax = rowCountPacked * threadCount;
     std::vector<LayerRows> rows;
     rows.reserve(layers.size());

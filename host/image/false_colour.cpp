@@ -16,7 +16,7 @@ constexpr std::array<std::uint8_t, 3> paper{24, 24, 28};
 constexpr std::array<std::uint8_t, 3> ink{235, 235, 235};
 constexpr int divisionCount = 5;
 
-/// Where things are in the strip below the drawing, in pixels at scale 1.
+/// Layout of the strip below the drawing, in pixels at scale 1.
 namespace strip {
 constexpr int margin = 8;
 constexpr int barTop = 8;
@@ -28,7 +28,7 @@ constexpr int height = quantityTop + textHeight + 5;
 } // namespace strip
 
 void drawCentred(Drawing &drawing, int x, int y, int scale, const std::string &text) {
-    // The numbers at the ends stay inside.
+    // The numbers at both ends stay inside the drawing.
     const int width = textWidth(text, scale);
     const int most = std::max(drawing.width - width - scale, scale);
     drawText(drawing, std::clamp(x - width / 2, scale, most), y, scale, text, ink);
@@ -62,7 +62,7 @@ double scaleEndFor(std::span<const float> values) {
     if (!(wanted > 0.0))
         return 1.0;
     const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-    // A fifth of each is a short number. The logarithm may be rounded down.
+    // A fifth of each factor is a short number. The logarithm may be rounded down.
     for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 20.0})
         if (factor * power >= wanted)
             return factor * power;

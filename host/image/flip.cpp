@@ -25,7 +25,7 @@ float toneMapAces(float linear, double scale) {
         return 0.0f;
     }
     const double exposed = static_cast<double>(linear) * scale;
-    if (exposed > 1e6) { // the curve is past 1 there, and its terms would overflow far above
+    if (exposed > 1e6) { // the curve exceeds 1 here, and its terms would overflow for far larger values
         return 1.0f;
     }
     const auto x = static_cast<float>(exposed);
@@ -47,7 +47,7 @@ double luminanceOf(const glm::vec3 &linear) {
     return 0.2126 * positive(linear.x) + 0.7152 * positive(linear.y) + 0.0722 * positive(linear.z);
 }
 
-/// The upper one of the two in the middle.
+/// The median; of two middle values the upper one.
 double medianOf(std::vector<double> &values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -78,7 +78,7 @@ FlipExposures flipExposures(const Image &reference) {
     luminances.reserve(reference.pixels().size());
     for (const glm::vec3 &pixel : reference.pixels()) {
         const double luminance = luminanceOf(pixel);
-        if (std::isfinite(luminance)) { // no exposure shows an infinity
+        if (std::isfinite(luminance)) { // infinities are white at any exposure
             luminances.push_back(luminance);
         }
     }
@@ -97,7 +97,7 @@ FlipExposures flipExposures(const Image &reference) {
     FlipExposures exposures;
     exposures.startStops = std::log2(exposureTarget() / brightest);
     exposures.stopStops = std::log2(exposureTarget() / median);
-    // Two at least, as published, but one is as good as two equal ones.
+    // The paper takes at least two exposures, but two equal ones are as good as one.
     exposures.count =
         exposures.stopStops > exposures.startStops
             ? std::max(2, static_cast<int>(std::ceil(exposures.stopStops - exposures.startStops)))

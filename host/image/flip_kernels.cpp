@@ -62,7 +62,7 @@ constexpr CsfTerm redGreenTerm = {1.0, 0.0053};
 constexpr CsfTerm blueYellowTerm1 = {34.1, 0.04};
 constexpr CsfTerm blueYellowTerm2 = {13.5, 0.025};
 
-/// Three standard deviations of the widest term, which serve all of them.
+/// The common radius of all terms: three standard deviations of the widest one.
 int csfRadius(double pixelsPerDegree) {
     return static_cast<int>(
         std::ceil(3.0 * std::sqrt(blueYellowTerm1.b / (2.0 * pi * pi)) * pixelsPerDegree));

@@ -26,8 +26,8 @@ void weighRows(const std::vector<const float *> &rows, const Kernel &kernel, std
     }
 }
 
-/// Applies products of kernels to one row of one image at a time: columns first, then along the row. Beyond the
-/// borders the border pixels go on.
+/// Applies separable filters to an image, row by row: first along columns, then along the row. Border pixels repeat
+/// beyond the borders.
 class RowFilter {
   public:
     explicit RowFilter(const OpponentPlanes &image) : image_(image) {}
@@ -46,7 +46,7 @@ class RowFilter {
             rows_.push_back(plane.data() + static_cast<std::size_t>(clamped) * image_.stride);
         }
         padding_ = static_cast<std::size_t>(radius);
-        // Room for the padding on both sides and for the last block to read on.
+        // Room for the padding on both sides, and for the last block, which reads past the row.
         padded_.resize(image_.stride + 2 * padding_);
         weighRows(rows_, kernel, image_.stride, padded_.data() + padding_);
         const std::size_t end = padding_ + static_cast<std::size_t>(image_.width);
@@ -54,7 +54,7 @@ class RowFilter {
         std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(end), padded_.end(), padded_[end - 1]);
     }
 
-    /// Filters what filterColumns() left, with a kernel of the same size.
+    /// Filters the result of filterColumns() along the row, with a kernel of the same size.
     void filterRow(const Kernel &kernel, std::vector<float> &result) {
         assert(kernel.size() / 2 == padding_);
         rows_.clear();
@@ -72,7 +72,7 @@ class RowFilter {
     std::size_t padding_ = 0;
 };
 
-/// What is seen of a row of an image: its colours from the viewing distance, and its edges and points.
+/// A row of an image as the observer sees it: its filtered colours, and its edges and points.
 class RowView {
   public:
     RowView(const OpponentPlanes &image, const FlipKernels &kernels)
@@ -113,8 +113,7 @@ class RowView {
 constexpr float colourExponent = 0.7f;  // q_c
 constexpr float featureExponent = 0.5f; // q_f
 
-/// Large colour differences are compressed: what is above 0.4 of the largest gets the range 0.95 to 1
-/// (HPG 2020, section 4.1.3).
+/// Compresses large colour differences: those above 0.4 of the maximum map to [0.95, 1] (HPG 2020, section 4.1.3).
 float redistribute(float poweredDistance, float poweredMax) {
     constexpr float kneeFraction = 0.4f; // p_c
     constexpr float kneeError = 0.95f;   // p_t
@@ -155,7 +154,7 @@ ErrorMap flipOfOpponents(const OpponentPlanes &reference, const OpponentPlanes &
                 std::max(std::abs(referenceRow.edgeStrength(x) - testRow.edgeStrength(x)),
                          std::abs(referenceRow.pointStrength(x) - testRow.pointStrength(x)));
             const float featureError = std::pow(featureDifference / std::sqrt(2.0f), featureExponent);
-            // Where features differ, a colour difference is seen more easily (HPG 2020, equation 15).
+            // Different features make a colour difference more visible (HPG 2020, equation 15).
             map.errors.push_back(clampToUnit(std::pow(colourError, 1.0f - featureError)));
         }
     }

@@ -24,7 +24,7 @@ namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
 
 constexpr int exponentBias = 128;   ///< a mantissa of 256 with this exponent is 1
-constexpr int runLengthSideMin = 8; ///< rows that are shorter, or longer than the next, are stored plainly
+constexpr int runLengthSideMin = 8; ///< other rows, shorter or longer, are not encoded
 constexpr int runLengthSideMax = 32767;
 
 Rgbe encode(const glm::vec3 &colour) {
@@ -36,7 +36,7 @@ Rgbe encode(const glm::vec3 &colour) {
     const glm::vec3 positive(bounded(colour.x), bounded(colour.y), bounded(colour.z));
     const float maximum = std::max({positive.x, positive.y, positive.z});
     int exponent = 0;
-    if (std::frexp(maximum, &exponent) * 256.0f >= 255.5f) // which would be rounded to 256
+    if (std::frexp(maximum, &exponent) * 256.0f >= 255.5f) // it would be rounded to 256
         ++exponent;
     if (maximum == 0.0f || exponent <= -exponentBias)
         return {};
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> packRow(std::span<const Rgbe> row) {
     return packed;
 }
 
-/// The bytes of a file, one after the other.
+/// Buffered sequential reading of a file.
 class ByteStream {
   public:
     explicit ByteStream(const InputFile &file) : file_(file) {}
@@ -119,14 +119,14 @@ class ByteStream {
     }
 
     const InputFile &file_;
-    std::uint64_t offset_ = 0; ///< of what follows the buffer
+    std::uint64_t offset_ = 0; ///< file offset of the byte after the buffer
     std::vector<std::byte> buffer_;
     std::size_t position_ = 0;
 };
 
 constexpr std::size_t headerBytesMax = 65536;
 
-/// A line of the header, without its end.
+/// The next line of the header, without its line end.
 std::string nextLine(const InputFile &file, ByteStream &stream, std::size_t &headerBytes) {
     std::string line;
     for (char c = static_cast<char>(stream.next()); c != '\n'; c = static_cast<char>(stream.next())) {
@@ -139,7 +139,7 @@ std::string nextLine(const InputFile &file, ByteStream &stream, std::size_t &hea
     return line;
 }
 
-/// Passes the header, and returns an image of its size.
+/// Reads the header and returns an image of its size.
 Image readHeader(const InputFile &file, ByteStream &stream) {
     std::size_t headerBytes = 0;
     std::string line = nextLine(file, stream, headerBytes); // #?RADIANCE
@@ -166,7 +166,7 @@ Image readHeader(const InputFile &file, ByteStream &stream) {
             fmt::format("its size is given as '{}'; allowed: -Y HEIGHT +X WIDTH", excerpt(line, 40)));
     const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     requireImageSize(file, width, height);
-    if (stream.remaining() < 4 * static_cast<std::uint64_t>(height)) // a row's first pixel, or its own head
+    if (stream.remaining() < 4 * static_cast<std::uint64_t>(height)) // a row has a pixel or a run-length head
         throw file.bad("it is cut short");
     constexpr std::uint64_t besideBytes = std::uint64_t{4} << 20; // a row and the file's buffer
     requireReadingMemory(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
@@ -178,7 +178,7 @@ Image readHeader(const InputFile &file, ByteStream &stream) {
     throw file.bad(fmt::format("the runs of its row {} do not add up to the width", y));
 }
 
-/// Four channels one after the other, in runs, see packRuns().
+/// Reads a row of four run-length encoded channels, one after the other; see packRuns().
 void readRuns(const InputFile &file, ByteStream &stream, int y, std::span<Rgbe> row) {
     for (std::size_t channel = 0; channel < 4; ++channel)
         for (std::size_t x = 0; x < row.size();) {
@@ -196,7 +196,8 @@ void readRuns(const InputFile &file, ByteStream &stream, int y, std::span<Rgbe> 
         }
 }
 
-/// Whole pixels; (1, 1, 1, n) repeats the last one n times, and the next such, if it follows at once, 256 n times.
+/// Reads a row of whole pixels. The marker (1, 1, 1, n) repeats the last pixel n times; a marker directly after another
+/// one counts 256 times as much.
 void readPixels(const InputFile &file, ByteStream &stream, int y, const Rgbe &first, std::span<Rgbe> row) {
     unsigned shift = 0;
     Rgbe pixel = first;

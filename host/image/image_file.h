@@ -32,17 +32,18 @@ struct LoadedImage {
 /// By the name's extension, .png, .exr, .hdr or .pfm in upper or lower case. Throws Error{Usage} for any other.
 [[nodiscard]] ImageFormat imageFormatOf(const std::filesystem::path &path);
 
-/// Writes the picture, which is not empty; the caller commits the file. A PNG is brightened by 2^exposureStops and goes
-/// through the curve; the other formats hold the linear values and ignore both. Attributes go into a PNG or an EXR,
-/// layers into an EXR alone. Throws Error{OutputNotWritten}, or Error{LimitExceeded} where a PNG has more than
-/// imagePixelCountMax pixels.
+/// Writes the picture, which is not empty; the caller commits the file. A PNG is multiplied by 2^exposureStops and
+/// tone-mapped; the other formats hold the linear values and ignore both. Attributes go into a PNG or an EXR, layers
+/// into an EXR only. Throws Error{OutputNotWritten}, or Error{LimitExceeded} if a PNG has more than imagePixelCountMax
+/// pixels.
 void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops,
                 ToneCurve curve = ToneCurve::Gamma);
 
-/// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by their first bytes. Grey becomes three equal channels;
-/// alpha and layers are dropped and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does).
-/// Throws Error{BadInput}, naming the file and what was found, where it is not a regular file, too large, cut short,
-/// damaged, or, except for OpenEXR, followed by other bytes; Error{LimitExceeded} where it would take more than
+/// Reads a PNG, OpenEXR, Radiance or PFM file, told apart by its first bytes. Grey becomes three equal channels. Alpha
+/// and layers are dropped, and the colours stay as stored (PNG does not multiply them by alpha, OpenEXR does).
+///
+/// Throws Error{BadInput}, naming the file and the fault, if it is not a regular file, is too large, truncated, damaged
+/// or, except for OpenEXR, followed by other bytes. Throws Error{LimitExceeded} if it would take more than
 /// readingBytesMax.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 

@@ -21,10 +21,10 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "red is written to the lowest byte");
 
 constexpr int scanCountMax =
-    64; // each goes through the whole image: a file of a few kilobytes can have thousands
+    64; // each scan covers the whole image: a file of a few kilobytes can have thousands
 
-/// libjpeg reports errors through functions that must not return. An exception must not pass through its frames: they
-/// jump back to decode(), from where it is thrown.
+/// libjpeg with error handlers. libjpeg reports errors through functions that must not return, and an exception must
+/// not cross its frames. The handlers jump back to decode(), which throws.
 struct Decoder {
     jpeg_decompress_struct libjpeg{};
     jpeg_error_mgr errors{};
@@ -51,7 +51,7 @@ struct Decoder {
         std::longjmp(failed, 1);
     }
 
-    /// Damage is a warning to libjpeg, which makes something up and goes on.
+    /// libjpeg treats damage as a warning and continues with invented data.
     void warn(int level) {
         const bool isHarmless = errors.msg_code == JWRN_EXTRANEOUS_DATA ||
                                 errors.msg_code == JWRN_JFIF_MAJOR || errors.msg_code == JWRN_ADOBE_XFORM;
@@ -67,7 +67,7 @@ struct Decoder {
     }
 };
 
-/// Reads the header, and asks for RGBA. False where it failed. Nothing here has a destructor: see Decoder.
+/// Reads the header and requests RGBA. Returns false on failure. No object here has a destructor: see Decoder.
 bool readHeader(Decoder &decoder, std::span<const std::byte> bytes) {
     if (setjmp(decoder.failed) != 0)
         return false;
@@ -79,7 +79,7 @@ bool readHeader(Decoder &decoder, std::span<const std::byte> bytes) {
     return true;
 }
 
-/// Unpacks the rows. False where it failed.
+/// Decodes the rows. Returns false on failure.
 bool readRows(Decoder &decoder, std::uint32_t *levels) {
     if (setjmp(decoder.failed) != 0)
         return false;
@@ -93,8 +93,8 @@ bool readRows(Decoder &decoder, std::uint32_t *levels) {
     return true;
 }
 
-/// Beside the levels a progressive file takes 16 bits a coefficient, of up to three channels in blocks of up to 32 pixels
-/// a side.
+/// Bounds the memory. Besides the levels, a progressive file takes 16 bits per coefficient, in up to three channels
+/// with blocks of up to 32 pixels a side.
 void requireModestMemory(const InputFile &file, std::uint64_t width, std::uint64_t height) {
     constexpr std::uint64_t besideBytes = std::uint64_t{8} << 20; // rows and tables
     constexpr std::uint64_t blockSide = 32;

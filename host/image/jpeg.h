@@ -12,10 +12,9 @@ namespace hyalite {
 /// Whether the first bytes of a file are those of a JPEG.
 [[nodiscard]] bool isJpeg(std::span<const std::byte> head);
 
-/// Reads baseline and progressive files of 8 bits, grey or in colour, to their 8-bit levels, alpha being 255. Colour
-/// profiles, and how a camera was held, are passed over. Throws Error{BadInput}: also for CMYK, for files that are cut
-/// short or damaged, and for more than 64 scans; Error{LimitExceeded} for files that would take more memory than
-/// readingBytesMax.
+/// Reads baseline and progressive files of 8 bits, grey or colour, as 8-bit levels with an alpha of 255. Colour
+/// profiles and the orientation tag are ignored. Throws Error{BadInput} for damaged or truncated files, for CMYK, and
+/// for more than 64 scans; Error{LimitExceeded} for files that would take more memory than readingBytesMax.
 [[nodiscard]] Texture readJpeg(const InputFile &file);
 
 } // namespace hyalite

@@ -11,7 +11,7 @@ namespace hyalite {
 
 namespace {
 
-/// Negative floats count down from the middle of the range, the others up: an order-preserving map to integers.
+/// An order-preserving map of floats to integers: negative floats count down from the middle of the range, others up.
 std::uint32_t positionOnNumberLine(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     constexpr std::uint32_t sign = 0x80000000u;

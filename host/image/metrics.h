@@ -8,8 +8,8 @@
 
 namespace hyalite {
 
-/// The differences b - a over the compared pixels. Two channels with the same bits differ by 0, whatever they hold;
-/// where they differ and one of them is NaN or infinite, the difference is infinite.
+/// The differences b - a over the compared pixels. Two channels with the same bits differ by 0, even if both are NaN.
+/// Otherwise, if either is NaN or infinite, the difference is infinite.
 struct PixelMetrics {
     std::uint64_t pixelCount = 0;          ///< compared
     std::uint64_t differingPixelCount = 0; ///< with any bit different, the sign of zero included
@@ -41,8 +41,8 @@ struct PixelMetrics {
 [[nodiscard]] PixelMetrics comparePixels(const Image &a, const Image &b, double outlierThreshold = 0.0,
                                          const Mask &mask = {});
 
-/// How many steps from float to float lead from a to b, over the number line
-/// -NaN, -inf, ..., -0, +0, ..., +inf, +NaN.
+/// The number of steps between neighbouring floats from a to b, on the number line -NaN, -inf, ..., -0, +0, ..., +inf,
+/// +NaN.
 [[nodiscard]] std::uint32_t ulpDistance(float a, float b);
 
 } // namespace hyalite

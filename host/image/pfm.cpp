@@ -24,12 +24,12 @@ struct PfmHeader {
     int height = 0;
     int channelCount = 0;
     std::endian byteOrder = std::endian::little;
-    std::size_t sizeBytes = 0; ///< where the floats begin
+    std::size_t sizeBytes = 0; ///< offset of the floats
 };
 
 bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// The header's words, each ended by white space; the last one by exactly one such byte, after which data begins.
+/// The words of the header. White space ends each word; after the last one exactly one such byte, then the data begins.
 class HeaderWords {
   public:
     HeaderWords(const InputFile &file, std::string_view text) : file_(file), text_(text) {}

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-// stb is written in C's manner; its warnings are its own.
+// stb does not compile cleanly under our warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
@@ -38,7 +38,7 @@ namespace hyalite {
 
 namespace {
 
-/// stb's callback: it packs the whole file, and then calls this. An exception must not pass through its frames.
+/// Callback of stb, which calls it with the whole encoded file. An exception must not cross the frames of stb.
 void appendBytes(void *context, void *data, int sizeBytes) {
     auto &file = *static_cast<std::optional<std::vector<std::byte>> *>(context);
     const auto *begin = static_cast<const std::byte *>(data);
@@ -55,7 +55,7 @@ std::vector<std::byte> encode(const std::filesystem::path &name, int width, int 
     assert(width > 0 && height > 0);
     assert(rgb.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     requirePngSize(name, width, height);
-    // Rendered pictures have large plain parts: unfiltered rows pack twice as fast, and about as small.
+    // Rendered pictures have large flat areas: without row filters they compress twice as fast, to about the same size.
     stbi_write_force_png_filter = 0;
     stbi_write_png_compression_level = 5;
     std::optional<std::vector<std::byte>> file;
@@ -72,8 +72,8 @@ struct StbFree {
     void operator()(void *pixels) const { stbi_image_free(pixels); }
 };
 
-/// stb_image grows its buffer for as long as the stream goes on, and takes a stream that is too long. So
-/// the stream is first unpacked into a buffer of just the size that the header asks for.
+/// Checks the length of the compressed stream by decompressing it into a buffer of the size in the header. stb_image
+/// would grow its buffer as long as the stream continues, and accepts a stream that is too long.
 void requireWholeStream(const InputFile &file, const PngChunks &chunks) {
     std::vector<char> rows(static_cast<std::size_t>(chunks.rowDataBytes));
     const auto stream = chunks.compressed();
@@ -92,7 +92,7 @@ void requireWholeStream(const InputFile &file, const PngChunks &chunks) {
 
 template <typename Level> using StbLoad = Level *(const stbi_uc *, int, int *, int *, int *, int);
 
-/// `channelCount` levels a pixel; `channelCountInFile` is how many the file has.
+/// Decodes to `channelCount` levels per pixel; `channelCountInFile` is the number of channels in the file.
 template <typename Level>
 std::unique_ptr<Level, StbFree> decodeLevels(const InputFile &file, const PngChunks &chunks,
                                              StbLoad<Level> *load, int channelCount,
@@ -134,7 +134,7 @@ bool isPng(std::span<const std::byte> head) {
 
 void requirePngSize(const std::filesystem::path &name, int width, int height) {
     const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    if (pixelCount > imagePixelCountMax) { // stb counts bytes with int
+    if (pixelCount > imagePixelCountMax) { // stb counts bytes in an int
         throw Error(
             ErrorKind::LimitExceeded,
             fmt::format("'{}': a PNG of {} x {} pixels is more than {}; write a .pfm, or a smaller image",

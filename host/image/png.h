@@ -37,8 +37,8 @@ void writePng(AtomicFile &file, int width, int height, std::span<const std::uint
 /// ignored. Throws Error{BadInput} for damaged files, which includes a wrong checksum and bytes after the end.
 [[nodiscard]] Image readPng(const InputFile &file);
 
-/// Reads every kind of PNG as 8-bit levels, of 16 bits the upper 8, with its alpha where it has that channel (a
-/// palette's transparency is passed over). Throws as readPng().
+/// Reads every kind of PNG as 8-bit levels (the upper 8 of 16 bits), with its alpha channel if it has one; palette
+/// transparency is ignored. Throws as readPng().
 [[nodiscard]] Texture readPngTexture(const InputFile &file);
 
 } // namespace hyalite

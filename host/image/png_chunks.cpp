@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t signatureBytes = 8;
 constexpr std::uint64_t chunkFrameBytes = 12; ///< length, type, checksum
 constexpr std::size_t headerBytes = 13;
-/// stb_image counts with int, and the compressed data may be twice as large and a little more (see readPixels).
+/// stb_image counts in an int, and the compressed data may be a little more than twice as large (see readPixels).
 constexpr std::uint64_t rowDataBytesMax = (std::uint64_t{1} << 30) - (std::uint64_t{1} << 20);
 
 enum ColourType : int { grey = 0, rgb = 2, palette = 3, greyAlpha = 4, rgbAlpha = 6 };
@@ -44,7 +44,7 @@ void appendBigEndian32(std::vector<std::byte> &bytes, std::uint32_t value) {
     }
 }
 
-/// CRC-32 of ISO 3309, as PNG's annex D has it.
+/// CRC-32 of ISO 3309, as in annex D of the PNG standard.
 std::uint32_t checksumOf(std::span<const std::byte> bytes) {
     return static_cast<std::uint32_t>(
         crc32_z(0, reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size()));
@@ -102,7 +102,7 @@ Header parseHeader(const InputFile &file, std::span<const std::byte> data) {
     return header;
 }
 
-/// Rows with one filter byte each; an interlaced image has seven reduced images (Adam7).
+/// Size of the decompressed rows, each with a filter byte. An interlaced image has seven reduced images (Adam7).
 std::uint64_t rowDataBytesOf(const Header &header) {
     struct Pass {
         std::uint32_t x, y, stepX, stepY;
@@ -141,7 +141,7 @@ class ChunkReader {
         if (compressed_.empty()) {
             throw file_.bad("it has no pixel data");
         }
-        // Deflate packs at most 258 bytes into 2 bits, 1032 to 1.
+        // Deflate encodes at most 258 bytes in 2 bits: a ratio of 1032.
         if (rowDataBytes_ / 1032 > compressed_.size()) {
             throw file_.bad(fmt::format("{} x {} pixels cannot be packed in {} bytes", header_.width,
                                         header_.height, compressed_.size()));
@@ -180,7 +180,7 @@ class ChunkReader {
         return frame;
     }
 
-    /// The data of the chunk at hand, whose size the caller has bounded.
+    /// The data of the current chunk. The caller has checked its size.
     std::vector<std::byte> readData(const Frame &frame) {
         std::vector<std::byte> bytes(std::size_t{frame.sizeBytes} + 8); // type, data, checksum
         file_.read(offsetBytes_ + 4, bytes);
@@ -208,11 +208,12 @@ class ChunkReader {
         offsetBytes_ += chunkFrameBytes + frame.sizeBytes;
     }
 
-    /// Pixels may be packed a thousandfold, so that a small file could ask for gigabytes. Beside the levels that
-    /// stb_image gives there are an Image's floats; unpacking takes less, unless interlaced images lie beside the whole.
+    /// Bounds the memory. Pixels may be compressed a thousandfold, so that a small file could allocate gigabytes. The
+    /// peak holds the levels from stb_image and the floats of an Image. Decompression takes less, except for interlaced
+    /// images, whose reduced images exist beside the whole.
     void requireModestMemory() const {
         constexpr std::uint64_t besideBytes = std::uint64_t{16}
-                                              << 20; // the packed pixels, and what is no pixel
+                                              << 20; // the compressed pixels and the other chunks
         const std::uint64_t levelBytes = header_.bitDepth == 16 ? 2 : 1;
         const std::uint64_t pixelBytes = sizeof(glm::vec3) + levelBytes * (header_.interlaced ? 8 : 3);
         requireReadingMemory(file_, header_.width, header_.height,
@@ -237,7 +238,8 @@ class ChunkReader {
             (void)readData(frame);
             atEnd_ = true;
         } else if (frame.type[0] >= 'A' &&
-                   frame.type[0] <= 'Z') { // a reader must know it to show the picture
+                   frame.type[0] <=
+                       'Z') { // critical chunk: a reader that does not know it cannot show the picture
             throw file_.bad(
                 fmt::format("it has an unexpected {} chunk at byte {}", frame.name(), offsetBytes_));
         }
@@ -249,7 +251,7 @@ class ChunkReader {
         if (!compressed_.empty() && !lastWasPixels_) {
             throw file_.bad("its pixel data is interrupted by another chunk");
         }
-        // Stored blocks add 5 bytes each; no encoder doubles the size and adds more than this.
+        // Uncompressed blocks add 5 bytes each. No encoder exceeds twice the size by more than 64 KiB.
         const std::uint64_t boundBytes = 2 * rowDataBytes_ + 65536;
         if (compressed_.size() + std::uint64_t{frame.sizeBytes} > boundBytes) {
             throw file_.bad(fmt::format("it has more than {} bytes of pixel data for {} x {} pixels",
@@ -271,7 +273,7 @@ class ChunkReader {
             if (palette_.empty()) {
                 throw file_.bad("it has no palette, but its pixels are indices into one");
             }
-            // An index past the palette's end shows black, not what stb_image's memory happens to hold.
+            // An index past the end of the palette shows black instead of uninitialised memory of stb_image.
             palette_.resize(768, std::byte{0});
             appendChunk(chunks.minimal, "PLTE", palette_);
         }

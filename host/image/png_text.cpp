@@ -10,7 +10,7 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::size_t headerEnd = 8 + 12 + 13; // signature, and the frame and the data of IHDR
+constexpr std::size_t headerEnd = 8 + 12 + 13; // signature, frame of IHDR, data of IHDR
 constexpr std::size_t keywordBytesMax = 79;
 
 } // namespace
@@ -23,7 +23,7 @@ void insertTexts(std::vector<std::byte> &png, std::span<const Attribute> attribu
         std::string data = name == "software" ? "Software" : name;
         data += '\0';
         data.append(2, '\0'); // not compressed
-        data.append(2, '\0'); // in no language, the keyword not translated
+        data.append(2, '\0'); // empty language tag and translated keyword
         data += cleanText(text);
         appendChunk(chunks, "iTXt", std::as_bytes(std::span(data)));
     }

@@ -9,9 +9,9 @@
 
 namespace hyalite {
 
-/// Puts iTXt chunks, one for each attribute, between the header and the pixels of a PNG file that begins with its
-/// header, as all do. The other chunks stay as they are. Control characters in texts become U+FFFD, too, but for line
-/// feeds; "software" gets the keyword that the standard has for it, "Software".
+/// Inserts iTXt chunks, one per attribute, between the header and the pixels of a PNG file. Other chunks stay as they
+/// are. Control characters in texts, except line feeds, also become U+FFFD. "software" gets its standard keyword,
+/// "Software".
 void insertTexts(std::vector<std::byte> &png, std::span<const Attribute> attributes);
 
 } // namespace hyalite

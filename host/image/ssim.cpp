@@ -11,7 +11,7 @@ namespace {
 
 constexpr int radius = ssimWindowSide / 2;
 
-/// The weighted means over a window: of both images, their squares and their product.
+/// Weighted means over a window: of both images, their squares and their product.
 struct Moments {
     double a = 0.0;
     double b = 0.0;
@@ -46,7 +46,7 @@ Weights gaussianWeights() {
     return weights;
 }
 
-/// The index of one window; Wang et al. 2004, equation 13.
+/// The SSIM index of one window; Wang et al. 2004, equation 13.
 double indexOf(const Moments &m) {
     constexpr double c1 = 0.01 * 0.01;
     constexpr double c2 = 0.03 * 0.03;
@@ -57,7 +57,7 @@ double indexOf(const Moments &m) {
            ((m.a * m.a + m.b * m.b + c1) * (varianceA + varianceB + c2));
 }
 
-/// The moments of the horizontal windows of row y, of which the first has its centre at x = radius.
+/// The moments of the horizontal windows of row y. The first window has its centre at x = radius.
 void filterRow(const Image &a, const Image &b, const Mask &mask, int channel, int y, const Weights &weights,
                std::vector<Moments> &products, std::vector<Moments> &filtered) {
     for (int x = 0; x < a.width(); ++x) {

@@ -12,16 +12,15 @@ namespace hyalite {
 inline constexpr int ssimWindowSide = 11;
 
 /// The mean structural similarity index in [-1, 1]; 1 for equal images. Z. Wang, A. Bovik, H. Sheikh, E. Simoncelli,
-/// "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE TIP 13(4), 2004: a Gaussian
-/// window of 11 x 11 with sigma 1.5, K1 = 0.01, K2 = 0.03, a range of 1.
+/// "Image Quality Assessment: From Error Visibility to Structural Similarity", IEEE TIP 13(4), 2004: a Gaussian window
+/// of 11 x 11 with sigma 1.5, K1 = 0.01, K2 = 0.03, a range of 1.
 ///
-/// The index is averaged over the windows that lie within the image and over the channels R, G and B, the numbers taken
-/// as they are. That is scikit-image's structural_similarity(a, b, data_range=1, channel_axis=2,
-/// gaussian_weights=True, sigma=1.5, use_sample_covariance=False) in double.
+/// The index is averaged over the windows inside the image and over the channels R, G and B, without any conversion of
+/// the numbers. In scikit-image, in double, that is structural_similarity(a, b, data_range=1, channel_axis=2,
+/// gaussian_weights=True, sigma=1.5, use_sample_covariance=False).
 ///
-/// With a mask, the windows that have their centre on a compared pixel count, and b is taken to be a elsewhere.
-/// Nothing where no window counts, for instance in an image with a side below 11, or where the images hold
-/// NaN or infinity.
+/// With a mask, only windows centred on a compared pixel count, and b equals a outside the mask. Empty if no window
+/// counts, as in an image with a side below 11, or if an image holds NaN or infinity.
 [[nodiscard]] std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask = {});
 
 } // namespace hyalite

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double ln2 = 0.693147180559945309417;
 
-/// GLM's matrices are given by columns; these are printed by rows.
+/// A matrix from its rows, as papers print it; GLM takes columns.
 glm::dmat3 rows(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c) {
     return {a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z};
 }

@@ -22,9 +22,9 @@ float roundUpToFloat(double x) {
 
 } // namespace
 
-// A library's pow() is good to an ulp or so and differs between libraries. None of the 255 thresholds lies so close to
-// a float that this error, a billionth of the step between floats, could move it to the next one. So the table
-// is the same everywhere, and so is a level found by comparing with it; pow() for each pixel would not be.
+// pow() has an error of about an ulp and differs between C libraries. None of the 255 thresholds is close enough to a
+// rounding boundary for this error, a billionth of the step between floats, to change it. So the table is the same
+// everywhere, and so are levels found by comparison with it; pow() per pixel would not be.
 const std::array<float, 255> &toneMapThresholds() {
     static const std::array<float, 255> thresholds = [] {
         std::array<float, 255> table{};
@@ -38,7 +38,8 @@ const std::array<float, 255> &toneMapThresholds() {
 
 namespace {
 
-/// Finds levels without a search: [2^-20, 1) is cut into 32 pieces for each power of two, and few thresholds lie in one.
+/// Looks up levels without a search: [2^-20, 1) is cut into 32 pieces per power of two, and each piece contains few
+/// thresholds.
 class LevelFinder {
   public:
     LevelFinder() : thresholds_(toneMapThresholds()) {
@@ -62,7 +63,7 @@ class LevelFinder {
     }
 
   private:
-    static constexpr std::uint32_t pieceShift = 18; ///< leaves five of the 23 bits behind the exponent
+    static constexpr std::uint32_t pieceShift = 18; ///< keeps the exponent and five of the 23 mantissa bits
     static constexpr std::uint32_t firstPiece = std::bit_cast<std::uint32_t>(0x1p-20f) >> pieceShift;
     static constexpr std::uint32_t pieceCount =
         (std::bit_cast<std::uint32_t>(1.0f) >> pieceShift) - firstPiece;
@@ -84,7 +85,7 @@ std::uint8_t encodeLevel(float linear) {
 
 namespace {
 
-/// 1 is white already; the bound keeps the product within the range of float. NaN is black.
+/// Exposed radiance, bounded to the range of float; everything from 1 on is white. NaN is black.
 float exposed(float linear, double scale) {
     const double product = static_cast<double>(linear) * scale;
     return product >= 1.0 ? 1.0f : product > 0.0 ? static_cast<float>(product) : 0.0f;
@@ -98,7 +99,8 @@ std::uint8_t levelOf(double display) {
 
 std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops, ToneCurve curve) {
     assert(std::isfinite(exposureStops));
-    // 2^300 takes the smallest positive float to white and 2^-300 the largest to black: the rest changes nothing.
+    // 2^300 makes the smallest positive float white, and 2^-300 the largest one black: stronger exposures change
+    // nothing.
     const double scale = exp2Portable(std::clamp(exposureStops, -300.0, 300.0));
     const LevelFinder &finder = levelFinder();
     std::vector<std::uint8_t> bytes(image.pixels().size() * 3);
