@@ -28,7 +28,7 @@ FileReach::FileReach(const std::filesystem::path &sceneFile,
                      std::span<const std::filesystem::path> allowedPaths)
     : folder_(sceneFile.parent_path()) {
     const auto add = [&](const std::filesystem::path &path) {
-        std::error_code error; // what is not there has no files
+        std::error_code error; // a missing folder has no files
         const std::filesystem::path canonical = std::filesystem::canonical(path, error);
         if (!error)
             reachable_.push_back(canonical);

@@ -16,11 +16,12 @@
 namespace hyalite {
 namespace {
 
-/// A scene's name with an extension is a path: whoever typed one may have meant the name.
+/// Throws Error{BadInput} if there is no such file. The message suggests the shipped scene of that name, if there is
+/// one.
 void requireFile(const std::filesystem::path &file) {
     std::error_code error;
     if (std::filesystem::exists(file, error) || error)
-        return; // whoever reads it says what is wrong
+        return; // reading it reports the fault
     const std::vector<std::string> names = availableScenes();
     const std::string stem = file.stem().string();
     const bool isName = std::find(names.begin(), names.end(), stem) != names.end();
@@ -36,7 +37,7 @@ LoadedScene loadBareMesh(const std::filesystem::path &file, const LoadEvents &ev
     ObjMesh mesh = loadObj(file, {}, events.onReading, &textures);
     LoadedScene loaded;
     loaded.scene = frameMesh(std::move(mesh.mesh));
-    // The neutral one comes first, for triangles without a material.
+    // The neutral material comes first, for triangles without a material.
     loaded.scene.materials.insert(loaded.scene.materials.end(), mesh.materials.begin(), mesh.materials.end());
     loaded.scene.textures = textures.give();
     loaded.file = file;

@@ -23,7 +23,7 @@ namespace hyalite {
 
 namespace {
 
-/// What the statements of one material say.
+/// The values of the statements of one material.
 struct MtlStatements {
     std::string name;
     std::optional<glm::vec3> diffuse;
@@ -47,8 +47,8 @@ glm::vec3 fraction(const glm::vec3 &colour) {
 
 float mean(const glm::vec3 &colour) { return (colour.x + colour.y + colour.z) / 3.0f; }
 
-/// The roughness whose microfacets are spread as Blinn and Phong's with this exponent: Walter et al., "Microfacet
-/// Models for Refraction through Bsdf Surfaces", EGSR 2007, section 5.2.
+/// The roughness whose microfacets spread like those of this Blinn-Phong exponent: Walter et al., "Microfacet Models
+/// for Refraction through Rough Surfaces", EGSR 2007, section 5.2.
 float roughnessOf(float exponent) { return std::sqrt(std::sqrt(2.0f / (std::max(exponent, 0.0f) + 2.0f))); }
 
 Material materialOf(const MtlStatements &mtl) {
@@ -104,7 +104,7 @@ class Words {
         return word;
     }
 
-    /// All that is left, without blanks around it.
+    /// The rest of the line, without blanks around it.
     [[nodiscard]] std::string_view remainder() {
         const std::size_t begin = std::min(rest_.find_first_not_of(" \t"), rest_.size());
         const std::size_t end = rest_.find_last_not_of(" \t") + 1;
@@ -113,7 +113,7 @@ class Words {
 
     [[nodiscard]] float number(std::string_view keyword) { return parse(keyword, next()); }
 
-    /// The next word, if it is a number, and else nothing, and it stays.
+    /// The next word if it is a number; otherwise empty, and the word is not consumed.
     [[nodiscard]] std::optional<float> tryNumber() {
         const std::string_view before = rest_;
         std::string_view digits = next();
@@ -162,10 +162,10 @@ class Words {
     const ObjLines &lines_;
 };
 
-/// The statements of textures, and what they are for.
+/// Texture statements and the slots that they fill.
 struct TextureStatement {
     std::string_view keyword;
-    std::optional<std::uint32_t> slot; ///< none: it is passed over
+    std::optional<std::uint32_t> slot; ///< empty: ignored
 };
 
 constexpr TextureStatement textureStatements[] = {{"map_Kd", layout::slotBaseColour},
@@ -185,13 +185,13 @@ constexpr TextureStatement textureStatements[] = {{"map_Kd", layout::slotBaseCol
                                                   {"decal", {}},
                                                   {"refl", {}}};
 
-/// Reads the statements of textures of one library.
+/// Reads the texture statements of one library.
 class TextureReader {
   public:
     TextureReader(const std::filesystem::path &library, MtlTextures &textures, const ObjLines &lines)
         : base_(library.parent_path()), textures_(textures), lines_(lines) {}
 
-    /// Whether `keyword` is one of them; then it is taken.
+    /// Returns whether `keyword` is a texture statement, and reads it if so.
     bool take(MtlStatements &mtl, std::string_view keyword, Words &words) {
         const auto *const statement =
             std::ranges::find(textureStatements, keyword, &TextureStatement::keyword);
@@ -297,7 +297,7 @@ class TextureReader {
     const ObjLines &lines_;
 };
 
-/// Takes what a statement says; whatever it does not know says nothing.
+/// Reads a statement; ignores unknown ones.
 void take(MtlStatements &mtl, std::string_view keyword, Words &words) {
     if (keyword == "Kd")
         mtl.diffuse = fraction(words.colour(keyword));

@@ -6,8 +6,8 @@
 #include "host/import/obj_plain.h"
 #include "host/import/obj_statement.h"
 
-// Compiled in here, in double: the library that distributions build rounds each number to float before the
-// transform, and converts what is out of range. Rotations and large offsets would show that.
+// tinyobjloader is compiled here, in double. The library in distributions rounds each number to float before the
+// transform, and converts numbers that are out of range. Rotations and large offsets would show that.
 #define TINYOBJLOADER_IMPLEMENTATION
 #ifndef TINYOBJLOADER_USE_DOUBLE
 #define TINYOBJLOADER_USE_DOUBLE
@@ -34,12 +34,12 @@ namespace {
 /// The materials that an OBJ file names.
 class ObjMaterials {
   public:
-    /// `textureLibrary` may be null: then nothing is to be taken.
+    /// `textureLibrary` may be null: then materials are ignored.
     ObjMaterials(const std::filesystem::path &file, ObjMeshBuilder &meshBuilder,
                  TextureLibrary *textureLibrary)
         : folder(file.parent_path()), builder(meshBuilder), textures(textureLibrary) {}
 
-    /// Takes a statement, if it is one of materials.
+    /// Reads a statement if it is about materials.
     void take(std::string_view statement) {
         if (const std::optional<std::string_view> name = argumentOf(statement, "mtllib"))
             read(*name);
@@ -50,7 +50,7 @@ class ObjMaterials {
     [[nodiscard]] std::vector<Material> give() { return std::move(materials); }
 
   private:
-    /// What follows the keyword, without blanks around it.
+    /// The text after the keyword, without blanks around it; empty for another keyword.
     static std::optional<std::string_view> argumentOf(std::string_view statement, std::string_view keyword) {
         constexpr std::string_view blanks = " \t";
         statement.remove_prefix(std::min(statement.find_first_not_of(blanks), statement.size()));
@@ -61,9 +61,9 @@ class ObjMaterials {
         return statement.substr(0, statement.find_last_not_of(blanks) + 1);
     }
 
-    /// A library that is not there is no error: many meshes have lost theirs. What lies outside of the folder is not
-    /// read, as a mesh may come from a stranger; and each is read once, or a small file could ask for a large one again
-    /// and again.
+    /// Reads a library. A missing one is not an error: many meshes have lost theirs. A library outside the folder is
+    /// not read, because a mesh may come from a stranger. Each is read once, or a small file could request a large one
+    /// again and again.
     void read(std::string_view name) {
         if (!names.emplace(name).second)
             return;
@@ -89,7 +89,7 @@ class ObjMaterials {
         builder.setMaterial(index);
     }
 
-    /// From 1 on; 0: there is none.
+    /// The index of a material, from 1; 0 if there is none.
     [[nodiscard]] std::uint32_t indexOf(std::string_view name) const {
         const auto found = indices.find(name);
         return found == indices.end() ? 0 : found->second;
@@ -100,16 +100,16 @@ class ObjMaterials {
     TextureLibrary *textures;
     std::vector<Material> materials;
     std::map<std::string, std::uint32_t, std::less<>> indices; ///< of the materials, by name
-    std::set<std::string, std::less<>> names;                  ///< of libraries that were asked for
-    std::set<std::filesystem::path> libraries;                 ///< that were read
+    std::set<std::string, std::less<>> names;                  ///< names of requested libraries
+    std::set<std::filesystem::path> libraries;                 ///< files of libraries that were read
 };
 
-// Stands between the file and tinyobjloader, which knows no line numbers and trusts what it reads: hands on
-// one checked statement at a time, so that in a callback the current line is the statement's. Statements in the
-// plainest form, nearly all of a file, do not even get there.
+// A filter between the file and tinyobjloader, which knows no line numbers and trusts its input. It passes on one
+// checked statement at a time, so that the current line in a callback is the line of the statement. Plain statements,
+// nearly all of a file, bypass tinyobjloader.
 class CheckedObjSource : public std::streambuf {
   public:
-    /// `objMaterials` may be null: then materials are passed over.
+    /// `objMaterials` may be null: then materials are ignored.
     CheckedObjSource(ObjLines &objLines, ObjMeshBuilder &meshBuilder, ObjMaterials *objMaterials,
                      std::size_t &unusedCount, const OnReading &listener)
         : lines(objLines), builder(meshBuilder), materials(objMaterials), unusedStatementCount(unusedCount),
@@ -186,7 +186,7 @@ tinyobj::callback_t makeCallbacks() {
     return callbacks;
 }
 
-/// Textures that cannot be put on the mesh.
+/// Removes textures that the mesh cannot use.
 void leaveOutUselessTextures(ObjMesh &loaded) {
     const auto hasTextures = [](const Material &material) {
         return std::ranges::any_of(material.textures, [](const auto &use) { return use.has_value(); });

@@ -37,7 +37,8 @@ double ObjLines::shareRead() const {
                                 : 1.0;
 }
 
-// Appends to what is left of the current line, which moves to the front. False at the end of the file.
+// Moves the rest of the current line to the front of the buffer and appends more of the file. Returns false at the end
+// of the file.
 bool ObjLines::refill() {
     std::memmove(buffer.data(), buffer.data() + lineBegin, filled - lineBegin);
     scan -= lineBegin;
@@ -66,7 +67,7 @@ void ObjLines::skipLineFeed() {
 std::optional<std::span<char>> ObjLines::next() {
     lineBegin = scan;
     line = nextLine;
-    std::size_t indent = 0; // blanks at the front, counted once however often the line goes on
+    std::size_t indent = 0; // leading blanks, counted once for all continuations of a line
     for (;;) {
         const char *chars = buffer.data();
         while (scan < filled && chars[scan] != '\n' && chars[scan] != '\r')

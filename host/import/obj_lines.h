@@ -30,10 +30,10 @@ class ObjLines {
     /// Throws Error{BadInput} as InputFile does.
     explicit ObjLines(const std::filesystem::path &path);
 
-    /// The next logical line without its line end, which is LF, CR or CRLF. Lines that end in a backslash are
-    /// joined with the next one, except in comments. The characters may be written to, and so may the one after
-    /// the last; they live until the next call. Empty at the end of the file. Throws Error{BadInput} for a line
-    /// or a file that is too long, or that cannot be read.
+    /// The next logical line without its line end, which is LF, CR or CRLF. A line that ends in a backslash is joined
+    /// with the next one, except in comments. The caller may write to the characters and to the one after them; they
+    /// are valid until the next call. Empty at the end of the file. Throws Error{BadInput} if a line or the file is too
+    /// long, or on a read error.
     [[nodiscard]] std::optional<std::span<char>> next();
 
     /// The text from the next logical line on, without consuming it. A zero follows the last character in memory,

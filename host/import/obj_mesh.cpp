@@ -22,7 +22,7 @@ struct SinCos {
     double sine, cosine;
 };
 
-// Exact for quarter turns, so that they keep the bits of the coordinates.
+// Exact for multiples of 90 degrees, so that these rotations keep the bits of the coordinates.
 SinCos sinCosDegrees(double degrees) {
     const double turn = std::remainder(degrees, 360.0);
     if (turn == 0.0)
@@ -40,7 +40,7 @@ glm::dmat3 rotationMatrix(const glm::dvec3 &degrees) {
     const auto [sx, cx] = sinCosDegrees(degrees.x);
     const auto [sy, cy] = sinCosDegrees(degrees.y);
     const auto [sz, cz] = sinCosDegrees(degrees.z);
-    const glm::dmat3 aboutX(1.0, 0.0, 0.0, 0.0, cx, sx, 0.0, -sx, cx); // column after column
+    const glm::dmat3 aboutX(1.0, 0.0, 0.0, 0.0, cx, sx, 0.0, -sx, cx); // column-major
     const glm::dmat3 aboutY(cy, 0.0, -sy, 0.0, 1.0, 0.0, sy, 0.0, cy);
     const glm::dmat3 aboutZ(cz, sz, 0.0, -sz, cz, 0.0, 0.0, 0.0, 1.0);
     return aboutZ * aboutY * aboutX;
@@ -50,7 +50,7 @@ double largestMagnitude(const glm::dvec3 &v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// Unlike std::to_string it is short, and does not ask the locale.
+// Shorter than std::to_string, and independent of the locale.
 std::string decimal(double value) {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9).ptr};
@@ -93,7 +93,7 @@ void ObjMeshBuilder::addPosition(const glm::dvec3 &positionObject, std::size_t l
     result.mesh.positions.emplace_back(world);
 }
 
-// A uniform scale leaves its sign alone in the inverse transpose of the transform: (s R)^-T = R / s.
+// Of a uniform scale s only the sign remains in the inverse transpose of the transform: (s R)^-T = R / s.
 void ObjMeshBuilder::addNormal(const glm::dvec3 &normalObject) {
     const double size = largestMagnitude(normalObject);
     glm::vec3 normal = lostNormal;
@@ -250,7 +250,7 @@ ObjMesh ObjMeshBuilder::finish() {
                                              std::to_string(report.faceCount) + " faces (" +
                                              std::to_string(report.degenerateTriangleCount) +
                                              " dropped for having no area); at least one is needed");
-    // Lost normals are used by no triangle; what is left in their place is a unit vector all the same.
+    // No triangle uses a lost normal, but its place must hold a unit vector.
     std::replace(result.mesh.normals.begin(), result.mesh.normals.end(), lostNormal,
                  glm::vec3(0.0f, 0.0f, 1.0f));
     return std::move(result);

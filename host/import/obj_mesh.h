@@ -14,40 +14,40 @@
 
 namespace hyalite {
 
-/// A corner of a face as the file has it: from 1, or from -1 backwards; a normal or a uv of 0 is none.
+/// A corner of a face with the indices of the file: from 1, or from -1 backwards; 0 means no normal or no uv.
 struct ObjCorner {
     std::int32_t position;
     std::int32_t normal;
     std::int32_t uv;
 };
 
-/// Fed in the order of the file, at most 2^32 - 1 of each thing. OBJ files may name vertices before they define them:
-/// from the first face that does, faces wait until the end, as 12 bytes a corner and 12 a face.
+/// Takes statements in the order of the file, at most 2^32 - 1 of each kind. OBJ files may use vertices before they
+/// define them: from the first such face on, faces are kept until the end, at 12 bytes per corner and 12 per face.
 class ObjMeshBuilder {
   public:
     ObjMeshBuilder(std::string file, const MeshTransform &transform);
 
-    /// Takes a `v` of line `line`. Throws Error{BadInput} where it is no finite float, or further than 1e15
-    /// from a coordinate plane after the transform.
+    /// Adds the `v` of line `line`. Throws Error{BadInput} if it is not a finite float, or if its magnitude exceeds
+    /// 1e15 in any coordinate after the transform.
     void addPosition(const glm::dvec3 &positionObject, std::size_t line);
 
-    /// Takes a `vn`; one that is zero or not finite is kept as lost.
+    /// Adds a `vn`. One that is zero or not finite is kept as lost.
     void addNormal(const glm::dvec3 &normalObject);
 
-    /// Takes a `vt`; what is no finite float counts as 0.
+    /// Adds a `vt`. Numbers that are not finite floats count as 0.
     void addUv(const glm::dvec2 &uv);
 
-    /// Of the faces that follow: an index from 1 on, or 0 for none.
+    /// Sets the material of the following faces: an index from 1, or 0 for none.
     void setMaterial(std::uint32_t index);
 
     [[nodiscard]] MeshReport &report() { return result.report; }
 
-    /// Takes an `f` of three corners or more. Throws Error{BadInput} where a relative index leads before the first
-    /// vertex or normal.
+    /// Adds an `f` of three corners or more. Throws Error{BadInput} if a relative index points before the first vertex
+    /// or normal.
     void addFace(std::span<const ObjCorner> corners, std::size_t line);
 
-    /// Gives the mesh away; texture coordinates that the file does not have are left out. Throws Error{BadInput} for
-    /// indices past the end of the file's vertices or normals, and when no triangle is left.
+    /// Moves the mesh out. Texture coordinates that the file does not define are left out. Throws Error{BadInput} for
+    /// indices past the last vertex or normal of the file, and if no triangle is left.
     [[nodiscard]] ObjMesh finish();
 
   private:
@@ -78,12 +78,12 @@ class ObjMeshBuilder {
     glm::dmat3 rotation;
     double scale;
     glm::dvec3 translate;
-    std::uint32_t material = 0; ///< of the faces that are being cut
+    std::uint32_t material = 0; ///< of the faces being triangulated
     bool hasMaterials = false;
-    std::vector<Corner> face; ///< the one that is being added
+    std::vector<Corner> face; ///< the face being added
     std::vector<Corner> waitingCorners;
     std::vector<Face> waitingFaces;
-    std::vector<glm::vec3> polygon; ///< the positions of the face that is being cut
+    std::vector<glm::vec3> polygon; ///< positions of the face being triangulated
     Triangulator triangulator;
     ObjMesh result;
 };

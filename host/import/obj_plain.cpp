@@ -9,7 +9,7 @@ namespace hyalite {
 
 namespace {
 
-// Every scan stops at the zero behind the last character, as it stops at any other that it does not expect.
+// Every scan stops at an unexpected character; the zero after the last character is one.
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 bool isDigit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 bool endsToken(char c) { return isBlank(c) || c == '\n' || c == '\r'; }
@@ -20,21 +20,21 @@ const char *skipBlanks(const char *at) {
     return at;
 }
 
-// Past the LF or CRLF at `at`.
+// The position after the LF or CRLF at `at`.
 const char *skipLineEnd(const char *at) {
     if (*at == '\r')
         ++at;
     return *at == '\n' ? at + 1 : nullptr;
 }
 
-// Past the line end behind text that says nothing.
+// The position after the line end, which may follow ignored text.
 const char *skipToNextLine(const char *at) {
     while ((*at >= ' ' && *at != '\\') || *at == '\t')
         ++at;
     return skipLineEnd(at);
 }
 
-// What follows the e of a number, whose digits before it are `sum`.
+// Reads the exponent after the e of a number, whose digits before it are `sum`.
 const char *readExponent(const char *at, double &sum) {
     const bool isNegative = *at == '-';
     if (isNegative || *at == '+')
@@ -52,8 +52,8 @@ const char *readExponent(const char *at, double &sum) {
     return at;
 }
 
-// One number, after blanks: [-] digits [. digits] [e [sign] 1 to 3 digits], of at most 128 characters. Returns where it
-// ends. Sums up the digits as tinyobjloader does, to the same bits.
+// Reads a number after blanks: [-] digits [. digits] [e [sign] 1 to 3 digits], at most 128 characters. Returns the
+// position after it. Adds up the digits as tinyobjloader does, to the same bits.
 const char *readNumber(const char *at, double &value) {
     constexpr std::ptrdiff_t maxCharacters = 128;
     constexpr std::array<double, 8> powersOfTen{1.0, 0.1, 0.01, 0.001, 0.0001, 0.00001, 0.000001, 0.0000001};
@@ -84,14 +84,14 @@ const char *readNumber(const char *at, double &value) {
     return digitCount > 0 && endsToken(*at) && at - begin <= maxCharacters ? at : nullptr;
 }
 
-// Past the end of the line behind the numbers.
+// Reads `count` numbers and returns the position after the line end.
 const char *readNumbers(const char *at, int count, glm::dvec3 &values) {
     for (int i = 0; i < count && at; ++i)
         at = readNumber(at, values[i]);
     return at ? skipToNextLine(at) : nullptr;
 }
 
-// An index of up to nine digits, which fit any int, and perhaps a minus sign; not 0.
+// Reads an index of up to nine digits, which fit any int, with an optional minus sign; not 0.
 const char *readIndex(const char *at, std::int32_t &index) {
     const bool isNegative = *at == '-';
     if (isNegative)
@@ -100,13 +100,13 @@ const char *readIndex(const char *at, std::int32_t &index) {
     std::uint32_t value = 0;
     for (; isDigit(*at); ++at)
         value = value * 10 + static_cast<std::uint32_t>(*at - '0');
-    if (at - digits > 9 || value == 0) // no digits are 0, too
+    if (at - digits > 9 || value == 0) // without digits the value is 0, too
         return nullptr;
     index = isNegative ? -static_cast<std::int32_t>(value) : static_cast<std::int32_t>(value);
     return at;
 }
 
-// One of v, v/vt, v//vn and v/vt/vn.
+// Reads a corner: v, v/vt, v//vn or v/vt/vn.
 const char *readCorner(const char *at, ObjCorner &corner) {
     corner.normal = 0;
     corner.uv = 0;

@@ -31,9 +31,9 @@ std::string_view tokenAt(const char *begin) {
     return {begin, end};
 }
 
-// [sign] digits [. digits] [e [sign] 1 to 3 digits], at most 128 characters: then the digits are at least
-// 1e-127 or all zero, and tinyobjloader's digits * 5^exponent * 2^exponent neither overflows an int nor
-// loses the digits before the exponent brings them back. Null unless all of the token is such a number.
+// Scans a number: [sign] digits [. digits] [e [sign] 1 to 3 digits], at most 128 characters. Its digits are then at
+// least 1e-127 or all zero, and digits * 5^exponent * 2^exponent in tinyobjloader neither overflows an int nor loses
+// the digits before the exponent restores them. Returns null unless the whole token is such a number.
 char *scanNumber(char *begin) {
     constexpr std::ptrdiff_t maxCharacters = 128;
     char *at = begin;
@@ -64,7 +64,8 @@ char *scanNumber(char *begin) {
     return endsToken(*at) && at - begin <= maxCharacters ? at : nullptr;
 }
 
-// What printf writes for them: nan, -nan, inf, infinity, nan(...), and 1.#QNAN, -1.#IND, 1.#INF of old libraries.
+// Whether the token is a non-finite number as printf writes it: nan, -nan, inf, infinity, nan(...), or 1.#QNAN,
+// -1.#IND, 1.#INF of old libraries.
 bool isNotFinite(std::string_view token) {
     if (token.starts_with('+') || token.starts_with('-'))
         token.remove_prefix(1);
@@ -135,7 +136,7 @@ std::span<char> checkUv(char *keyword, const ObjLines &lines) {
     return {keyword, at};
 }
 
-// A run of digits with a sign that fits 32 bits and, if told, is not 0. Null otherwise.
+// Scans an index: digits with an optional sign that fit 32 bits; 0 only if `zeroAllowed`. Returns null otherwise.
 char *scanIndex(char *at, bool zeroAllowed) {
     constexpr std::int64_t limit = std::int64_t{1} << 31;
     const bool isNegative = *at == '-';
@@ -149,7 +150,7 @@ char *scanIndex(char *at, bool zeroAllowed) {
     return at != digits && fits && (zeroAllowed || value != 0) ? at : nullptr;
 }
 
-// One corner: v, v/vt, v//vn or v/vt/vn, and v/, v// and v/vt/ as some programs write them. Null otherwise.
+// Scans a corner: v, v/vt, v//vn or v/vt/vn, or v/, v// and v/vt/ as some programs write them. Returns null otherwise.
 char *scanCorner(char *at) {
     at = scanIndex(at, false);
     if (!at || *at != '/')

@@ -17,23 +17,23 @@ enum class ObjStatement {
     Unused,   ///< anything else: l, p, free-form geometry, unknown keywords
 };
 
-/// What `statement` says, and, for Geometry, the part of it to pass on; begins at the keyword.
+/// The kind of a statement and, for Geometry, the part to pass on, from its keyword.
 struct CheckedStatement {
     ObjStatement kind;
     std::span<char> text;
 };
 
-/// Checks and cleans one line; it is rewritten in place, and one character after its end is overwritten with
-/// a line feed. The text to pass on has one of the forms
+/// Checks and cleans one line in place; the character after its end becomes a line feed. The text to pass on has one of
+/// these forms, separated by blanks or tabs:
 ///
-///     v  number number number     decimals that tinyobjloader's own parser neither overflows on nor loses
-///     vn number number number     digits of; a vn that holds nan or inf has become 0 0 0
+///     v  number number number     decimals that the parser of tinyobjloader reads without overflow or lost digits
+///     vn number number number     0 0 0 if the file has nan or inf
 ///     vt number number            or one number; likewise
 ///     f  corner corner corner...  corner = i | i/i | i//i | i/i/i, integers of 32 bits; v and vn not 0
 ///
-/// separated by blanks or tabs. What follows the last of these numbers, or a # in the place of a token, is dropped, and
-/// so are slashes at the end of a corner (tinyobjloader would look for their number in the next corner). Throws
-/// Error{BadInput} through `lines` for all else: what was found, and what is allowed.
+/// Everything after the last of these numbers, or from a # in the place of a token, is dropped. So are slashes at the
+/// end of a corner, because tinyobjloader would look for their number in the next corner. Throws Error{BadInput}
+/// through `lines` for anything else, with what was found and what is allowed.
 [[nodiscard]] CheckedStatement checkStatement(std::span<char> statement, const ObjLines &lines);
 
 } // namespace hyalite

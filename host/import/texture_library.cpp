@@ -13,7 +13,7 @@
 namespace hyalite {
 
 std::uint32_t TextureLibrary::load(const std::filesystem::path &file) {
-    std::error_code error; // a path that has none is its own name
+    std::error_code error; // a path without a canonical form is its own key
     const std::string key = std::filesystem::weakly_canonical(file, error).string();
     const auto index = static_cast<std::uint32_t>(textures_.size());
     const auto [found, isNew] = indices_.try_emplace(key.empty() ? file.string() : key, index);

@@ -24,7 +24,7 @@ class TextureLibrary {
   private:
     std::vector<Texture> textures_;
     std::map<std::string, std::uint32_t> indices_; ///< by canonical path
-    std::size_t sizeBytes_ = 0;                    ///< on the device, of all
+    std::size_t sizeBytes_ = 0;                    ///< of all textures, on the device
 };
 
 /// Whether all 8-bit levels are grey, as in height maps but not in normal maps.

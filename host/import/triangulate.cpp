@@ -79,8 +79,8 @@ double Triangulator::turn(std::uint32_t corner) const {
     return orient(points[previous[corner]], points[corner], points[next[corner]]);
 }
 
-// Halves the corners along the longer side of their bounds until few are left: k-d tree, J. L. Bentley, "Multidimensional
-// Binary Search Trees Used for Associative Searching", Communications of the ACM 18 (1975).
+// Builds a k-d tree: halves the corners along the longer side of their bounds until few are left. J. L. Bentley,
+// "Multidimensional Binary Search Trees Used for Associative Searching", Communications of the ACM 18 (1975).
 void Triangulator::buildTree() {
     const auto count = static_cast<std::uint32_t>(points.size());
     std::size_t leafCount = 1;
@@ -108,7 +108,7 @@ void Triangulator::buildTree() {
         const int axis = node.high.x - node.low.x >= node.high.y - node.low.y ? 0 : 1;
         const std::uint32_t middle = node.begin + (node.end - node.begin) / 2;
         const auto at = [&](std::uint32_t k) { return treeOrder.begin() + k; };
-        const auto key = [&](std::uint32_t corner) { // an order needs NaN to have a place in it
+        const auto key = [&](std::uint32_t corner) { // NaN needs a place in the order
             const double coordinate = points[corner][axis];
             return std::isnan(coordinate) ? std::numeric_limits<double>::infinity() : coordinate;
         };
@@ -150,8 +150,8 @@ bool Triangulator::isBlocked(std::uint32_t corner, Ear kind) const {
     const auto isInside = [&](double ab, double bc, double ca) {
         return kind == Ear::Strict ? ab >= 0.0 && bc >= 0.0 && ca >= 0.0 : ab > 0.0 && bc > 0.0 && ca > 0.0;
     };
-    // orient(), as it rounds, is monotone in both coordinates of its last point: for no point in the box is it more than
-    // at the box' corner farthest to the left of the line. So no point is passed over that would block.
+    // With its rounding, orient() is monotone in both coordinates of its last point. So no point in a box has a larger
+    // value than the corner of the box farthest to the left of the line, and no blocking point is skipped.
     const auto highest = [](const TreeNode &node, const glm::dvec2 &from, const glm::dvec2 &to) {
         return orient(from, to,
                       {to.y > from.y ? node.low.x : node.high.x, to.x > from.x ? node.high.y : node.low.y});
@@ -173,7 +173,7 @@ bool Triangulator::isBlocked(std::uint32_t corner, Ear kind) const {
         return isInside(orient(a, b, p), orient(b, c, p), orient(c, a, p)) || p == b;
     };
 
-    std::array<std::uint32_t, 2 * std::numeric_limits<std::uint32_t>::digits> pending; // two a level
+    std::array<std::uint32_t, 2 * std::numeric_limits<std::uint32_t>::digits> pending; // two per level
     std::size_t pendingCount = 0;
     pending[pendingCount++] = 1;
     while (pendingCount > 0) {
@@ -216,8 +216,8 @@ void Triangulator::clip(std::uint32_t corner) {
     state[after] = static_cast<std::uint8_t>(state[after] | deferred);
 }
 
-// A corner is looked at once, and again after each clipping beside it: at most 3 n looks. The corner after an
-// ear waits for the next round, so that a convex polygon is cut down by halves instead of into a fan of slivers.
+// Each corner is examined once, and again after each clipping beside it: at most 3 n times. The corner after an ear is
+// deferred to the next round, so that a convex polygon is halved repeatedly instead of cut into a fan of slivers.
 void Triangulator::clipEars(Ear kind) {
     nextRound.clear();
     const auto count = static_cast<std::uint32_t>(points.size());

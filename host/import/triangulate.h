@@ -30,8 +30,8 @@ class Triangulator {
     [[nodiscard]] std::span<const glm::uvec3> triangulate(std::span<const glm::vec3> corners);
 
   private:
-    /// What may be clipped. A simple polygon always has an ear of the first kind; each further kind is tried,
-    /// once and for good, when no corner of the kind before is left.
+    /// Kinds of ears. A simple polygon always has a strict one; when no corner of a kind is left, the next kind is used
+    /// for the rest.
     enum class Ear {
         Strict,   ///< convex, and its closed triangle holds no other reflex corner
         Touching, ///< convex, and no reflex corner lies inside the triangle or on the tip
@@ -58,7 +58,7 @@ class Triangulator {
     struct TreeNode {
         glm::dvec2 low, high;          ///< bounds of all its corners
         std::uint32_t begin, end;      ///< in treeOrder
-        std::uint32_t reflexCount = 0; ///< of its corners, those left that are not strictly convex
+        std::uint32_t reflexCount = 0; ///< number of its remaining corners that are not strictly convex
     };
     std::vector<TreeNode> tree;           ///< 0 is not used, 1 is the root
     std::vector<std::uint32_t> treeOrder; ///< corners, leaf by leaf
