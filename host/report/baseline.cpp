@@ -56,7 +56,7 @@ std::string jobText(const std::filesystem::path &scene, int width, int height, J
     return fmt::format("{}, {}x{}, {}", scene.filename().string(), width, height, settings.dump());
 }
 
-/// Throws what nlohmann::json throws, or Error, where something is missing.
+/// Throws exceptions of nlohmann::json, or Error, if something is missing or wrong.
 ProfileFigures figuresOf(const Json &json) {
     ProfileFigures figures;
     const Json &device = json.at("device");

@@ -27,7 +27,7 @@ std::vector<NamedSpan> kernelSpans(const Frame &frame) {
     return spans;
 }
 
-/// What goes by one name in the frames.
+/// The summary of all spans with one name.
 StageSummary summariseSpans(const Profile &profile, const std::string &name,
                             const std::function<std::vector<NamedSpan>(const Frame &)> &spansOf) {
     StageSummary summary;

@@ -6,7 +6,7 @@ namespace hyalite {
 
 namespace {
 
-/// In quotes where RFC 4180 asks for them.
+/// A field, in quotes if RFC 4180 requires them.
 std::string field(const std::string &text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos)
         return text;

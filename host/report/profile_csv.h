@@ -7,8 +7,8 @@
 
 namespace hyalite {
 
-/// A line of column names, then a line for each dispatch of each frame, measured or not. Times are in milliseconds, and
-/// begin at the beginning of the first frame. The device's are empty where it has no timestamps.
+/// A line of column names, then a line for each dispatch of each frame, measured or not. Times are in milliseconds
+/// since the first frame began. Device times are empty if the device has no timestamps.
 [[nodiscard]] std::string profileCsv(const Profile &profile);
 
 } // namespace hyalite

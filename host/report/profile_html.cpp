@@ -16,7 +16,7 @@ namespace hyalite {
 
 namespace {
 
-/// Narrow pages have one column; tables scroll on their own, so that the page does not.
+/// Narrow pages have one column. Tables scroll by themselves, so that the page does not.
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; --ink: #1d2129; --dim: #5f6673; --line: #d9dce3; --page: #f6f7f9; --card: #fff; }
 @media (prefers-color-scheme: dark) {
@@ -60,7 +60,8 @@ code { font: 13px/1.5 ui-monospace, monospace; }
 }
 )";
 
-/// Of the bar's parts, in order; told apart by those who see no red or no green too (P. Tol, "Colour Schemes", bright).
+/// Colours of the parts of the bar, in order. They can be told apart without seeing red or green (P. Tol, "Colour
+/// Schemes", bright).
 constexpr std::array<const char *, 7> partColours{"#4477aa", "#66ccee", "#228833", "#ccbb44",
                                                   "#ee6677", "#aa3377", "#bbbbbb"};
 
@@ -106,7 +107,7 @@ std::string timesRow(const StageSummary &stage) {
     return row("td", cells);
 }
 
-/// The stages of a frame side by side, as wide as their shares.
+/// A bar of the stages of a frame; widths are their shares of the time.
 std::string phaseBar(const std::vector<StageSummary> &stages) {
     std::string bar;
     std::string key;
@@ -143,7 +144,7 @@ std::string rayTable(const std::vector<KernelSummary> &kernels) {
     return tableOf(rows);
 }
 
-/// How the work is spread over the pixels.
+/// Histogram of the work over the pixels.
 std::string histogram(const std::vector<WorkBin> &bins) {
     std::uint64_t pixelCount = 0;
     std::uint64_t most = 1;
@@ -162,7 +163,7 @@ std::string histogram(const std::vector<WorkBin> &bins) {
     return tableOf(rows);
 }
 
-/// The heat map, what it came to, and how it is spread.
+/// The heat map of the work, its totals and its histogram.
 std::string workOf(const Profile &profile, std::span<const std::byte> heatMapPng) {
     std::string html =
         fmt::format("<div class=\"top\">\n<img alt=\"Box and triangle tests of each pixel, in false "

@@ -32,7 +32,7 @@ std::string row(const StageSummary &stage) {
         millisText(stage.launch.max), stage.firstMillis ? millisText(*stage.firstMillis) : "-");
 }
 
-/// A line for each bin, with a bar as long as its share of the pixels.
+/// A line for each bin, with a bar for its share of the pixels.
 std::string workTable(const std::vector<WorkBin> &bins) {
     std::uint64_t pixelCount = 0;
     for (const WorkBin &bin : bins)

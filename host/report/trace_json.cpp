@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 /// A process of the trace, which has one thread.
 enum class Track { Host = 1, Device = 2 };
 
-/// Collects events in the order in which the format wants them.
+/// Collects events and sorts them as the format requires.
 class TraceEvents {
   public:
     explicit TraceEvents(std::int64_t epochNanos) : epochNanos_(epochNanos) {}
@@ -43,7 +43,7 @@ class TraceEvents {
         add({nanos, nanos}, event("C", track, name, {{"ts", micros(nanos)}, {"args", values}}));
     }
 
-    /// By time, and what contains others before them.
+    /// The events by time; enclosing ones come before those inside them.
     [[nodiscard]] Json take() {
         std::stable_sort(timed_.begin(), timed_.end(), [](const Timed &a, const Timed &b) {
             return std::tuple(a.span.beginNanos, -a.span.endNanos) <
@@ -78,7 +78,7 @@ class TraceEvents {
     std::vector<Timed> timed_;
 };
 
-/// Of each kind, by the time of the dispatch.
+/// Rates of each kind of ray during the dispatch.
 Json megaraysPerSecond(const DispatchRecord &dispatch) {
     const double seconds = dispatch.times.best().seconds();
     Json json;
@@ -113,7 +113,8 @@ void addFrame(TraceEvents &events, const Frame &frame) {
     }
     for (const DispatchRecord &dispatch : frame.timeline.dispatches)
         addDispatch(events, dispatch);
-    // Nothing is traced until the next frame's first dispatch, and the frame's buffers are gone.
+    // The counters drop to 0 here: nothing is traced until the first dispatch of the next frame, and the buffers of
+    // this one are gone.
     if (!frame.timeline.dispatches.empty())
         events.addCounter(Track::Device, "Mray/s", frame.timeline.dispatches.back().times.best().endNanos,
                           megaraysPerSecond({}));
