@@ -28,7 +28,7 @@ struct Task {
     std::uint32_t begin;
     std::uint32_t end;
     int depth;               ///< inner nodes above
-    bool isDistinct = false; ///< it is known that no two triangles are identical
+    bool isDistinct = false; ///< known to have no identical triangles
 
     [[nodiscard]] std::size_t size() const { return end - begin; }
 
@@ -38,10 +38,10 @@ struct Task {
     }
 };
 
-/// A part of the tree while it is built: a leaf, two branches, or everything below it in one piece.
+/// A part of the tree during the build: a leaf, an inner node with two branches, or a whole subtree in one array.
 struct Branch {
     BvhNode node;                 ///< complete for a leaf
-    std::unique_ptr<Branch> left; ///< null where there is one piece
+    std::unique_ptr<Branch> left; ///< null if the subtree is in `below`
     std::unique_ptr<Branch> right;
     std::vector<BvhNode> below; ///< numbered from 0
     int deepest = 0;            ///< inner nodes above its deepest leaf
@@ -136,7 +136,7 @@ class Builder {
 
     /// Depth-first with an explicit stack.
     void growInOnePiece(Branch &branch, const Task &whole) const {
-        // The branch's own node stands in front while its children are numbered from 0.
+        // The root of the branch is in front while its children are numbered from 0.
         std::vector<BvhNode> &nodes = branch.below;
         std::vector<Task> tasks{whole};
         while (!tasks.empty()) {
@@ -167,7 +167,7 @@ class Builder {
                            : 1 + branch.below.size();
     }
 
-    /// Numbers the nodes of a branch, depth first, and puts them behind those of `bvh`; its own one into `slot`.
+    /// Numbers the nodes of a branch depth first and appends them to `bvh`; the root goes into `slot`.
     static void join(Branch &branch, std::size_t slot, Bvh &bvh) {
         const auto first = static_cast<std::uint32_t>(bvh.nodes.size());
         bvh.depth = std::max(bvh.depth, branch.deepest);
@@ -197,7 +197,7 @@ class Builder {
     std::exception_ptr failure_; ///< of any task
 };
 
-/// Fills bvh.order, and moves leaves to where the triangles then are of which some were dropped.
+/// Fills bvh.order, and adjusts the ranges of leaves for dropped triangles.
 void orderTriangles(std::span<const BuildTriangle> triangles, Bvh &bvh) {
     bvh.order.reserve(triangles.size());
     for (const BuildTriangle &triangle : triangles)
@@ -205,7 +205,7 @@ void orderTriangles(std::span<const BuildTriangle> triangles, Bvh &bvh) {
             bvh.order.push_back(triangle.inputIndex);
     if (bvh.order.size() == triangles.size())
         return;
-    std::vector<std::uint32_t> positions; // in the order
+    std::vector<std::uint32_t> positions; // positions in the order
     positions.reserve(triangles.size());
     std::uint32_t position = 0;
     for (const BuildTriangle &triangle : triangles) {

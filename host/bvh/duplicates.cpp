@@ -8,12 +8,12 @@
 
 namespace hyalite {
 
-/// Whether two triangles are identical is whether these are, byte by byte.
+/// Triangles are identical if and only if their keys are equal, byte by byte.
 struct Duplicates::Key {
     std::array<glm::vec3, 3> corners;
     std::uint32_t material;
     std::array<glm::vec2, 3>
-        uvs; ///< where the material is cut out, as others show what is seen through one; else 0
+        uvs; ///< with an opacity texture, because triangles with other coordinates show through; else 0
 
     [[nodiscard]] std::span<const std::byte> bytes() const { return std::as_bytes(std::span(this, 1)); }
 };
@@ -43,7 +43,7 @@ Duplicates::Key Duplicates::keyOf(const BuildTriangle &triangle) const {
 }
 
 bool Duplicates::areIdentical(const BuildTriangle &a, const BuildTriangle &b) const {
-    if (a.centroid != b.centroid) // nearly always, and without a look at the mesh
+    if (a.centroid != b.centroid) // the usual case, decided without reading the mesh
         return false;
     const Key keyA = keyOf(a);
     const Key keyB = keyOf(b);
@@ -51,7 +51,7 @@ bool Duplicates::areIdentical(const BuildTriangle &a, const BuildTriangle &b) co
 }
 
 std::size_t Duplicates::setAside(std::span<BuildTriangle> range) const {
-    constexpr std::size_t few = 16; // are faster compared one by one than put into a table
+    constexpr std::size_t few = 16; // so few are compared pairwise, which is faster than a table
     const std::size_t keptCount = range.size() <= few ? setAsideFew(range) : setAsideMany(range);
     for (BuildTriangle &triangle : range.subspan(keptCount))
         triangle.inputIndex = dropped;

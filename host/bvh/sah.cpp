@@ -8,7 +8,7 @@ namespace hyalite {
 
 namespace {
 
-/// Four integers beside Lanes: one for each axis, and one that means nothing.
+/// Integer counterpart of Lanes: one for each axis, and an unused one.
 using IntLanes = std::int32_t __attribute__((vector_size(16)));
 
 constexpr std::size_t binCountMax = 16;
@@ -19,7 +19,8 @@ std::size_t binCountFor(std::size_t triangleCount) { return std::min(binCountMax
 /// Maps centroids to bins, on all axes at once. Extents that overflow or vanish map everything to bin 0, which never
 /// splits.
 struct Binning {
-    /// The fourth lane of a centroid is an index, which as a float is a denormal, and slow: less 1 it is not.
+    /// The fourth lane of a centroid is an index, which as a float is denormal and therefore slow. Subtracting 1 avoids
+    /// that.
     Lanes lower{0.0f, 0.0f, 0.0f, 1.0f};
     Lanes scale{};
 
@@ -106,7 +107,7 @@ struct Side {
             boxes[axis].extend(bins.boxes[axis][bin]);
         triangleCounts += bins.triangleCounts[bin];
     }
-    /// Half areas times counts, with lengths times `unit`. Not a number where there is nothing, which is no cut.
+    /// Half areas times counts, with lengths in units of 1 / `unit`. NaN for an empty side, which is not a cut.
     [[nodiscard]] Lanes costs(float unit) const {
         const Lanes a = boxes[0].size() * unit;
         const Lanes b = boxes[1].size() * unit;
@@ -121,13 +122,13 @@ struct Side {
 };
 
 struct Cut {
-    /// Of the triangle tests, times the parent's half area.
+    /// Expected triangle tests, times the half area of the parent.
     float cost = std::numeric_limits<float>::infinity();
     std::int32_t largerCount = 0; ///< triangles on the fuller side
     int axis = -1;
     int lastLeftBin = 0;
 
-    /// Boxes without area cost nothing wherever they are cut: then halves are best.
+    /// Boxes without area cost nothing at any cut: then equal halves are best.
     [[nodiscard]] bool isBetterThan(const Cut &other) const {
         return cost < other.cost || (cost == other.cost && largerCount < other.largerCount);
     }
@@ -136,7 +137,8 @@ struct Cut {
 Cut bestCut(std::span<const BuildTriangle> range, const Binning &binning, std::size_t binCount, float unit) {
     Bins bins(binCount);
     fill(bins, range, binning);
-    std::array<Lanes, binCountMax> rightCosts; // of a bin, other than the first, and all beyond it
+    std::array<Lanes, binCountMax>
+        rightCosts; // of each bin except the first, together with all bins after it
     Side right;
     for (std::size_t bin = binCount - 1; bin > 0; --bin) {
         right.add(bins, bin);
@@ -185,7 +187,7 @@ Cut cutOfPair(std::span<const BuildTriangle> range, const Binning &binning, floa
 std::size_t splitBySah(std::span<BuildTriangle> range, const Bounds &bounds, std::size_t leafSize) {
     const std::size_t binCount = binCountFor(range.size());
     const Binning binning(bounds.centroids, binCount);
-    // Areas of any scene are floats if the longest side is 1.
+    // If the longest side is scaled to 1, areas of any scene are finite floats.
     const Lanes size = bounds.triangles.size();
     const float unit = 1.0f / std::max({size[0], size[1], size[2]});
     const Cut cut =

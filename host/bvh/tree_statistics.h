@@ -15,9 +15,8 @@ struct BvhStatistics {
     int depth = 0;
     std::size_t largestLeaf = 0;
     double meanLeaf = 0.0; ///< triangles
-    double sahCost =
-        0.0; ///< expected node visits + triangle tests of a random line that meets the root's box
-    double trianglesTested = 0.0; ///< those of them that are triangle tests
+    double sahCost = 0.0;  ///< expected node visits + triangle tests of a random line through the root box
+    double trianglesTested = 0.0; ///< the part of sahCost from triangle tests
     /// Leaves with up to 1, 2, 4, 8, 16, 32, 64 and more triangles.
     std::array<std::size_t, 8> leafHistogram{};
 };

@@ -60,7 +60,7 @@ struct WideBox {
     }
 };
 
-/// What encloses a range of triangles, and what their centroids.
+/// Bounds of a range of triangles and of their centroids.
 struct Bounds {
     WideBox triangles = WideBox::empty();
     WideBox centroids = WideBox::empty();
