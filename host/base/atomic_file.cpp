@@ -67,7 +67,7 @@ void requireReplaceable(const fs::path &givenPath, const fs::path &targetPath) {
     }
     struct stat status {};
     if (stat(targetPath.c_str(), &status) != 0) {
-        if (errno == ENAMETOOLONG) // a file without a name could be created all the same
+        if (errno == ENAMETOOLONG) // an unnamed file could be created all the same
             refuseWithErrno(givenPath, "its name cannot be used", ENAMETOOLONG);
         return;
     }
@@ -79,7 +79,7 @@ void requireReplaceable(const fs::path &givenPath, const fs::path &targetPath) {
                "it is not a regular file but a device, pipe or socket, and results replace files as a "
                "whole; name a regular file");
     }
-    // rename() would replace a write-protected file; whoever protected it meant it to stay.
+    // rename() would replace a write-protected file, which the user wants to keep.
     if (faccessat(AT_FDCWD, targetPath.c_str(), W_OK, AT_EACCESS) != 0) {
         refuse(givenPath, "it exists and is write-protected; remove it, or name another file");
     }
@@ -100,10 +100,10 @@ std::string temporaryName(const std::string &targetName, std::random_device &ran
     return fmt::format(".{}.{:016x}.tmp", targetName.substr(0, prefixBytesMax), number);
 }
 
-/// Where the open file is seen while it has no name, and what linkat() gives it one by.
+/// The path under which linkat() finds the open unnamed file.
 std::string descriptorPath(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
 
-/// A file without a name on the folder's file system, or -1 where there is no such thing.
+/// An unnamed file on the file system of the folder, or -1 if that is not supported.
 int openUnnamed(const fs::path &folder) {
     const int descriptor = open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
     if (descriptor >= 0 && access(descriptorPath(descriptor).c_str(), F_OK) != 0) { // no /proc
@@ -113,7 +113,7 @@ int openUnnamed(const fs::path &folder) {
     return descriptor;
 }
 
-/// fsync, with "this file system cannot" taken as done. Returns errno, or 0.
+/// fsync; a file system without support for it counts as success. Returns errno, or 0.
 int synchronize(int descriptor) {
     while (fsync(descriptor) != 0) {
         if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) {
@@ -139,7 +139,7 @@ fs::path followLinks(fs::path path) {
 
 template <class Create> int AtomicFile::claimName(const Create &create) {
     std::random_device random;
-    constexpr int attemptCount = 16; // each fails only if a 64-bit random number was used before
+    constexpr int attemptCount = 16; // an attempt fails only if a 64-bit random number is already in use
     int errorNumber = EEXIST;
     for (int attempt = 0; attempt < attemptCount && (errorNumber == EEXIST || errorNumber == EINTR);
          ++attempt) {
@@ -158,7 +158,7 @@ AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(
     if (target.empty()) {
         refuse(target, "the name is empty; name a file");
     }
-    std::error_code error; // what is wrong with the path is found when the file is created
+    std::error_code error; // errors in the path show when the file is created
     targetPath_ = followLinks(fs::absolute(target, error));
     requireReplaceable(givenPath_, targetPath_);
 
@@ -168,7 +168,7 @@ AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(
     if (descriptor_ >= 0) {
         return;
     }
-    // Whatever kept it from being made: it is tried with a name, and fails for the reason to be told.
+    // Whatever the failure: a named file is tried next, and its error is the one to report.
     const int errorNumber = claimName([this](const fs::path &path) {
         descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         return descriptor_ >= 0;
@@ -260,8 +260,8 @@ void AtomicFile::commit() {
             fmt::format("what was to be in it is in '{}', as renaming that failed", temporaryPath_.string()),
             errno);
     }
-    // The file is in place; this only makes the new name outlast a power failure. A folder that may be written but
-    // not read cannot be opened for it, which is no reason to call the output missing.
+    // The file is in place; this makes its new name survive a power failure. A folder that is writable but not readable
+    // cannot be opened for it, which does not make the output missing.
     const int folder = open(targetPath_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder >= 0) {
         const int errorNumber = synchronize(folder);

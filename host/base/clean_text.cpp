@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD"; // U+FFFD
 
-/// What is not UTF-8 is replaced by the library that also writes it into reports.
+/// Replaces invalid UTF-8 with the JSON library, which also writes reports.
 std::string validUtf8(std::string_view text) {
     using Json = nlohmann::json;
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
-/// How many bytes the first character of valid UTF-8 has, if it is one that must not be shown; else 0.
+/// Length in bytes of the first character of valid UTF-8 if it must not be shown; else 0.
 std::size_t hiddenBytes(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     if ((byte(0) < 0x20 && byte(0) != '\n') || byte(0) == 0x7F)

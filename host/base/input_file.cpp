@@ -38,8 +38,8 @@ InputFile::InputFile(const std::filesystem::path &path) : path_(path) {
         if (!S_ISREG(status.st_mode))
             throw bad(fmt::format("is {}, not a regular file; name a file", kindOf(status.st_mode)));
     };
-    // Opening may itself do something to a device, so there is a look before it. If the file is exchanged in between,
-    // O_NONBLOCK keeps the opening of a pipe from waiting for its writer.
+    // Opening a device can have side effects, so the type is checked first. If the file is replaced in between,
+    // O_NONBLOCK keeps a pipe from blocking until a writer opens it.
     struct stat status {};
     requireRegular(stat(path.c_str(), &status), status);
     descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);

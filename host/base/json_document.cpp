@@ -73,8 +73,8 @@ class DocumentCheck : public json::json_sax_t {
   private:
     struct Level {
         bool isArray;
-        std::size_t begunCount = 0; ///< elements of an array
-        std::string key{};          ///< the last one of an object
+        std::size_t begunCount = 0; ///< number of elements of an array so far
+        std::string key{};          ///< last key of an object
         std::unordered_set<std::string> keys{};
     };
 

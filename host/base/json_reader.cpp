@@ -100,7 +100,7 @@ std::string JsonNode::text() const {
         refuse("a text");
     const std::string &found = value->get_ref<const std::string &>();
     if (found.find('\0') != std::string::npos)
-        refuse("a text without the character NUL"); // at which the system would cut a file name
+        refuse("a text without the character NUL"); // the system would cut a file name there
     return found;
 }
 
@@ -171,7 +171,7 @@ std::vector<std::pair<std::string, JsonNode>> JsonObject::members(std::size_t ma
 }
 
 std::string suggestion(std::string_view word, std::span<const std::string_view> candidates) {
-    constexpr std::size_t longestWord = 64; // a longer one is no slip of the pen
+    constexpr std::size_t longestWord = 64; // longer words are not typing errors
     std::string_view nearest;
     std::size_t leastDistance = std::max<std::size_t>(2, word.size() / 2);
     for (const std::string_view candidate : candidates) {

@@ -9,7 +9,7 @@ namespace hyalite {
 
 namespace {
 
-/// A value below `step`, and how often the count was divided by `step` to get there.
+/// A value below `step`, and the number of divisions by `step` that led to it.
 struct Scaled {
     double value;
     std::size_t power = 0;

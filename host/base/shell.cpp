@@ -6,7 +6,8 @@ namespace hyalite {
 
 namespace {
 
-/// In single quotes every character is itself, but for the quote: that one is closed, escaped and opened again.
+/// Quotes a word. In single quotes every character except the quote is literal; a quote is written by closing, escaping
+/// and reopening.
 std::string shellWord(std::string_view word) {
     constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
                                        "_@%+:,./-=";
