@@ -22,8 +22,8 @@ Cause causeOf(const TraceEvent &a, const TraceEvent &b) {
     return isHorizon ? Cause::LightHorizon : Cause::ShadowBoundary;
 }
 
-/// The smallest power of two of a pixel at which the oracle takes the same decisions as `wanted`, up to and including
-/// the given event, in one of eight directions.
+/// The smallest shift, a power of two in pixels and in one of eight directions, with which the oracle takes the same
+/// decisions as `wanted`, up to and including the given event.
 std::optional<double> findMargin(const PackedScene &scene, const RenderSettings &settings,
                                  const glm::uvec2 &pixel, const std::vector<TraceEvent> &wanted,
                                  std::uint32_t sampleIndex, std::size_t eventIndex) {

@@ -10,10 +10,10 @@ namespace hyalite::reference {
 
 enum class Cause {
     Edge,           ///< another primitive was hit
-    ShadowBoundary, ///< the light was seen by one and not by the other
-    LightHorizon,   ///< the light stands on the surface's horizon
-    CriticalAngle,  ///< total reflection for one, not for the other
-    Rounding,       ///< no decision differs: the numbers alone do
+    ShadowBoundary, ///< only one of the two sees the light
+    LightHorizon,   ///< the light is on the horizon of the surface
+    CriticalAngle,  ///< total reflection in only one of the two
+    Rounding,       ///< no decision differs, only numbers
 };
 
 [[nodiscard]] const char *causeName(Cause cause);
@@ -22,13 +22,13 @@ struct Explanation {
     Cause cause = Cause::Rounding;
     std::uint32_t sampleIndex = 0;
     std::uint32_t rayDepth = 0;
-    /// The oracle's margin: it decides like float32 when the sample is moved by so many pixels. Nothing if a quarter
-    /// of a pixel does not suffice.
+    /// The margin of the oracle: moved by this many pixels, the sample takes the same decisions in double precision as
+    /// in float32. Empty if a quarter of a pixel is not enough.
     std::optional<double> marginPixels;
 };
 
 /// Traces the samples of a pixel of the whole image in float32 and in double precision, and finds the first decision
-/// at which they part.
+/// that differs.
 [[nodiscard]] Explanation explainOutlier(const PackedScene &scene, const RenderSettings &settings,
                                          const glm::uvec2 &pixel);
 

@@ -5,7 +5,7 @@
 
 namespace hyalite::reference {
 
-/// Texture coordinates where a ray has met a surface, at `position`.
+/// Texture coordinates of a hit at `position`.
 template <class Real>
 [[nodiscard]] Vec2<Real> hitUv(const SceneView<Real> &scene, const Hit<Real> &hit,
                                const Vec3<Real> &position) {
@@ -24,7 +24,7 @@ template <class Real>
     return material;
 }
 
-/// Turns the surface's normal by the normal map of its material, if it has one; tangent() is asked only then.
+/// Applies the normal map of the material, if it has one; only then tangent() is called.
 template <class Real, class TangentOf>
 void mapNormal(const SceneView<Real> &scene, const Ray<Real> &ray, const Hit<Real> &hit,
                Surface<Real> &surface, std::uint32_t materialIndex, const TangentOf &tangentOf) {
@@ -37,7 +37,7 @@ void mapNormal(const SceneView<Real> &scene, const Ray<Real> &ray, const Hit<Rea
     surface.normal = visibleNormal(ray.direction, mapped, surface.geometricNormal);
 }
 
-/// `hit` is one of `ray` with a primitive of the scene.
+/// The surface at `hit`, a hit of `ray` with a primitive of the scene.
 template <class Real>
 [[nodiscard]] Surface<Real> hitSurface(const SceneView<Real> &scene, const Ray<Real> &ray,
                                        const Hit<Real> &hit, std::uint32_t &materialIndex) {

@@ -1,6 +1,6 @@
-// The path integrator: one path a sample, with next-event estimation at diffuse and rough surfaces, combined with what
-// scattered rays find by multiple importance sampling, and Russian roulette. Kajiya, "The Rendering Equation", SIGGRAPH
-// 1986; Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 9 and 10. Twin:
+// The path integrator: one path per sample, with next-event estimation at diffuse and rough surfaces, multiple
+// importance sampling of light samples and scattered rays, and Russian roulette. Kajiya, "The Rendering Equation",
+// SIGGRAPH 1986; Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 9 and 10. Twin:
 // shaders/integrators/path.comp. Here a path is followed vertex by vertex; the order of all sums is the same.
 //
 // `maxDepth` bounds the segments of a path from the eye to the light, so that neither technique finds longer paths than
@@ -17,13 +17,13 @@
 
 namespace hyalite::reference {
 
-/// Follows camera samples through the scene. One instance a thread: it keeps the counts.
+/// Traces camera samples through the scene. Each thread has its own instance, because it keeps counts.
 template <class Real, class Counter = NoCounter> class PathIntegrator {
   public:
     PathIntegrator(const PackedScene &scene, std::uint32_t samplerKind) : scene_(scene, samplerKind) {}
 
-    /// Radiance of one sample of a pixel of the whole image. `shift` moves it by so many pixels, to learn how the
-    /// picture changes around it.
+    /// Radiance of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn how
+    /// the picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
         const PrimaryRay<Real> primary = primaryRayThrough<Real>(
@@ -48,18 +48,19 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     /// Of the traversal.
     [[nodiscard]] const Counter &counter() const { return counter_; }
 
-    /// From now on, what the paths do is appended to `events`, which must outlive the integrator.
+    /// Appends all further events to `events`, which must outlive the integrator.
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
 
   private:
     static constexpr std::uint32_t pairChoice =
-        0; // an emitter, or a side of an interface; and whether the path survives
+        0; // chooses an emitter, or a side of an interface; and Russian roulette
     static constexpr std::uint32_t pairLight = 1;
     static constexpr std::uint32_t pairScatter = 2;
     static constexpr std::uint32_t pairsPerVertex = 3;
     static constexpr std::uint32_t firstPairOfLobes =
-        1 + pairsPerVertex * layout::maxPathDepth; // and one more at rough surfaces, which chooses lobes
-    static constexpr std::uint32_t firstRouletteDepth = 4; // segments that no path is denied
+        1 +
+        pairsPerVertex * layout::maxPathDepth; // one more pair per vertex at rough surfaces, to choose a lobe
+    static constexpr std::uint32_t firstRouletteDepth = 4; // every path may have this many segments
 
     void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
         if (events_ != nullptr)
@@ -84,7 +85,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceEvent(layout::traceRadiance, 0, radiance_);
     }
 
-    /// What a surface that the ray has met emits towards it, weighted against aiming at the same point.
+    /// Adds the emission of the surface that the ray has hit, with the multiple importance weight against sampling that
+    /// point as a light.
     void addEmission(const Ray<Real> &ray, const Hit<Real> &hit, const Surface<Real> &surface,
                      const MaterialRecord<Real> &material) {
         const Real facing = -dotProduct(ray.direction, surface.geometricNormal);
@@ -108,7 +110,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         addRadiance(throughput_ * weight, Vec3<Real>(material.emission));
     }
 
-    /// What comes from beyond the scene, weighted against aiming at it.
+    /// Adds the background or the environment, which has a multiple importance weight against sampling it as a light.
     void addEnvironment(const Ray<Real> &ray) {
         if ((scene_.lighting & layout::lightsByEnvironment) == 0) {
             addRadiance(throughput_, Vec3<Real>(scene_.frame.background));
@@ -120,7 +122,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         addRadiance(throughput_ * weight, found.radiance);
     }
 
-    /// What glass around the path leaves of light after this distance.
+    /// Transmittance of the glass around the path, over this distance.
     [[nodiscard]] Vec3<Real> transmittance(Real distance) const {
         const std::uint32_t medium = mediumAround(mediaInside_);
         return medium != layout::noMaterial
@@ -134,12 +136,13 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                    : Real(1);
     }
 
-    /// Lets long paths of little weight end by chance, and gives the others their weight.
+    /// Russian roulette: ends long paths of low throughput at random and raises the weight of the survivors. Returns
+    /// whether the path survives.
     [[nodiscard]] bool survivesRoulette() {
         if (depth_ < firstRouletteDepth)
             return true;
         const Real index = mediumIndex(mediumAround(mediaInside_));
-        // Radiance in glass is larger by the square of the index, which it loses on its way out.
+        // Radiance in glass is larger by the square of the refractive index; the path loses that factor on its way out.
         const Real survival = lesser(largestComponent(throughput_) * (index * index), Real(1));
         if (unitFloat<Real>(vertexBits(pairChoice).y) >= survival)
             return false;
@@ -155,16 +158,16 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return {offsetRayOrigin(scene_, surface, direction), direction, primitive};
     }
 
-    /// The glass on both sides of a surface of glass.
+    /// The media on both sides of a glass surface.
     struct Crossing {
-        std::uint32_t before; ///< counts as in media.h
+        std::uint32_t before; ///< medium counts as in shaders/bsdf/media.glsl
         std::uint32_t beyond;
         Real eta;       ///< refractive index before divided by the one beyond
-        bool isNothing; ///< glass of higher priority is on both sides
+        bool isNothing; ///< the same glass is effective on both sides
     };
 
     [[nodiscard]] Crossing crossingOf(std::uint32_t materialIndex, bool isEntering) const {
-        // A path that leaves glass which it has not entered began in it.
+        // A path that leaves glass without having entered it started inside.
         const std::uint32_t before = isEntering || mediumCount(mediaInside_, materialIndex) > 0
                                          ? mediaInside_
                                          : enterMedium(mediaInside_, materialIndex);
@@ -175,15 +178,15 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return {before, beyond, mediumIndex(medium) / mediumIndex(mediumBeyond), medium == mediumBeyond};
     }
 
-    /// At smooth glass: nothing, where glass of higher priority is on both sides; else one of reflection and
-    /// refraction, chosen with the probability of its share.
+    /// The next ray at smooth glass. It passes straight on if the same glass is effective on both sides; otherwise it
+    /// is reflected or refracted, chosen with the probability of the reflectance.
     [[nodiscard]] Ray<Real> meetGlass(const Ray<Real> &ray, const Surface<Real> &surface,
                                       std::uint32_t materialIndex, std::uint32_t primitive) {
         const bool isEntering = dotProduct(ray.direction, surface.geometricNormal) < 0;
         const Crossing crossing = crossingOf(materialIndex, isEntering);
         if (crossing.isNothing) {
             mediaInside_ = crossing.beyond;
-            scatterPdf_ = 0; // no light is aimed at through glass
+            scatterPdf_ = 0; // light is never sampled through glass
             return {offsetRayOrigin(scene_, surface, ray.direction), ray.direction, primitive};
         }
         const Vec3<Real> geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
@@ -204,7 +207,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return {offsetRayOrigin(scene_, surface, glass.refracted), glass.refracted, primitive};
     }
 
-    /// Whether light meets the material as a mirror or as clear glass. Rough glass of equal index on both sides is
+    /// Whether the material is specular here: a mirror or clear glass. Rough glass with the same index on both sides is
     /// clear.
     [[nodiscard]] bool isSpecularHere(const MaterialRecord<Real> &material, std::uint32_t materialIndex,
                                       bool isEntering) const {
@@ -215,7 +218,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return isSpecular(material);
     }
 
-    /// What the path does next, or nothing.
+    /// The next ray of the path; empty at its end.
     [[nodiscard]] std::optional<Ray<Real>> followRay(const Ray<Real> &ray) {
         traceEvent(layout::traceRayOrigin, 0, ray.origin);
         traceEvent(layout::traceRayDirection, 0, ray.direction);
@@ -256,7 +259,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return reflect(ray, surface, surface.normal, hit.primitive);
     }
 
-    /// On a diffuse surface: draws the direction in which the path goes on, and aims at a light.
+    /// At a diffuse surface: samples a light and the next direction.
     [[nodiscard]] std::optional<Ray<Real>> scatterFromDiffuse(const Surface<Real> &surface,
                                                               std::uint32_t primitive) {
         const Vec3<Real> direction = sampleCosine(surface.normal, unitFloats<Real>(vertexBits(pairScatter)));
@@ -279,7 +282,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return scatter(surface, direction, primitive);
     }
 
-    /// On a surface with lobes: draws the direction in which the path will go on, and aims at a light.
+    /// At a surface with lobes: samples a light and the next direction.
     [[nodiscard]] std::optional<Ray<Real>> scatterFromBsdf(const Ray<Real> &ray, const Surface<Real> &surface,
                                                            const MaterialRecord<Real> &material,
                                                            std::uint32_t materialIndex, bool isBehind,
@@ -321,7 +324,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return scatter(surface, direction, primitive);
     }
 
-    /// The path goes on from a surface.
+    /// Continues the path from a surface.
     [[nodiscard]] std::optional<Ray<Real>> scatter(const Surface<Real> &surface, const Vec3<Real> &direction,
                                                    std::uint32_t primitive) {
         if (!(scatterPdf_ > 0) || !survivesRoulette())
@@ -354,8 +357,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     std::uint32_t depth_ = 0; ///< segment number of the current ray
     Vec3<Real> radiance_{Real(0)};
     Vec3<Real> throughput_{Real(1)};
-    Real scatterPdf_ = 0; ///< of the direction of the current ray, per solid angle; 0: it had no choice
-    std::uint32_t mediaInside_ = 0; ///< see media.h
+    Real scatterPdf_ = 0;           ///< of the current ray, per solid angle; 0: direction not sampled
+    std::uint32_t mediaInside_ = 0; ///< medium counts: see shaders/bsdf/media.glsl
     RayCounts counts_;
     Counter counter_;
     std::vector<layout::TraceEvent> *events_ = nullptr;

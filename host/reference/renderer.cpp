@@ -17,7 +17,7 @@ namespace hyalite::reference {
 
 namespace {
 
-/// Samples of the cost are the work that they take.
+/// The cost integrator: a sample is the traversal work of a Whitted sample.
 template <class Real> class CostIntegrator : public WhittedIntegrator<Real, WorkCounter> {
   public:
     using WhittedIntegrator<Real, WorkCounter>::WhittedIntegrator;
@@ -30,7 +30,8 @@ template <class Real> class CostIntegrator : public WhittedIntegrator<Real, Work
     }
 };
 
-/// Adds samples to `film` until it has `sampleCount`: `isLast` is asked after each. Returns how many were added.
+/// Adds samples to `film` until it has `sampleCount`, or `isLast`, called after each, returns true. Returns the number
+/// of added samples.
 template <class Real, class SampleIntegrator, class IsLast>
 std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel, std::uint32_t sampleCount,
                           layout::FilmPixel &film, const IsLast &isLast) {
@@ -50,7 +51,7 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
     return finishedCount - countBefore;
 }
 
-/// The work of one render, with an integrator for each thread: it stops for snapshots and goes on.
+/// One render, with an integrator for each thread. It pauses for snapshots and continues.
 template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
   public:
     FilmRenderer(const MakeIntegrator &makeIntegrator, const RenderSettings &settings, const Crop &crop,
@@ -95,7 +96,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 #pragma omp for schedule(dynamic)
             for (std::int64_t run = firstRun_; run < runCount; ++run)
                 if (!isPaused_ &&
-                    !isStopped_) // a loop of OpenMP cannot be left: what remains of it is skipped
+                    !isStopped_) // an OpenMP loop cannot be left: its remaining iterations do nothing
                     renderRun(integrator, run);
 #pragma omp critical(hyaliteReferenceCounts)
             {
@@ -115,7 +116,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
                                    static_cast<std::uint32_t>(crop.y0 + i / crop.width()));
             addedSamples += renderPixel<Real>(
                 integrator, pixel, sampleCount_, result_.film.pixels[static_cast<std::size_t>(i)], [this] {
-                    // Sums in double precision would be rounded by a pause.
+                    // A pause inside a pixel would round its sums in double precision.
                     return isToStop() || (std::is_same_v<Real, float> && isToPause());
                 });
             (void)isToPause();
@@ -160,7 +161,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
     std::atomic<bool> isStopped_ = false;
 };
 
-/// Calls `use` with what makes an integrator of the kind that the settings ask for.
+/// Calls `use` with a factory of integrators of the requested kind.
 template <class Real, class Counter, class Use>
 auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, const Use &use) {
     const std::uint32_t sampler = samplerOf(settings);

@@ -16,12 +16,12 @@ enum class Precision { Float32, Float64 };
 struct Options {
     Precision precision =
         Precision::Float32; ///< Float64 results are rounded to float when they reach the film
-    int threadCount = 0;    ///< 0: as many as OpenMP likes
-    /// Called now and then, never by two threads at once, with the finished share of the work in [0, 1].
+    int threadCount = 0;    ///< chosen by OpenMP
+    /// Called occasionally, never by two threads at once, with the finished fraction of the work, in [0, 1].
     std::function<void(double)> onProgress = {};
     bool isCounting = false; ///< count the work of the traversal
-    /// Asked by each thread after each sample, by several at once: where it says so, the film has the samples that are
-    /// finished by then, and no others.
+    /// Called by each thread after each sample, possibly by several at once. Once it returns true, the film has exactly
+    /// the samples finished by then.
     std::function<bool()> shouldStop = {};
 };
 
@@ -32,12 +32,12 @@ struct Result {
 };
 
 /// Renders `crop` of the scene's image. The result does not depend on the number of threads, nor, with Float32, on
-/// where `continuation` goes on. With Float64 a snapshot has pixels with all samples or none besides those that it
+/// where `continuation` starts. With Float64 each pixel of a snapshot has either all its samples or only those that it
 /// began with.
 [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                             const Options &options = {}, Continuation continuation = {});
 
-/// What one sample of one pixel of the whole image does, step by step. `shift` moves the sample by so many pixels.
+/// Traces one sample of one pixel of the whole image, step by step. `shift` moves the sample by this many pixels.
 [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene, const RenderSettings &settings,
                                                     const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                                     Precision precision,

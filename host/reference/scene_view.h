@@ -68,8 +68,8 @@ template <class Real> [[nodiscard]] Vec3<Real> abs(const Vec3<Real> &v) {
             uintBitsToFloat(bits.w)};
 }
 
-// ---- Operations that are our own on devices whose own ones are not exact (shaders/math/arithmetic.glsl): here the
-// processor's, which are correctly rounded.
+// ---- Division and square root. Devices with inexact ones use our own (shaders/math/arithmetic.glsl); here the
+// correctly rounded ones of the processor run.
 
 [[nodiscard]] inline float divide(float a, float b) { return a / b; }
 [[nodiscard]] inline double divide(double a, double b) { return a / b; }

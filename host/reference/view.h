@@ -13,15 +13,15 @@
 
 namespace hyalite::reference {
 
-/// Looks at what camera samples meet. One instance a thread: it keeps the counts.
+/// Traces camera samples to their first hits. Each thread has its own instance, because it keeps counts.
 template <class Real, class Counter = NoCounter> class ViewIntegrator {
   public:
     /// `view` is one of layout::view...
     ViewIntegrator(const PackedScene &scene, std::uint32_t samplerKind, std::uint32_t view)
         : scene_(scene, samplerKind), view_(view) {}
 
-    /// What one sample of a pixel of the whole image shows. `shift` moves it by so many pixels, to learn how the
-    /// picture changes around it.
+    /// The colour of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn
+    /// how the picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
         const PrimaryRay<Real> primary = primaryRayThrough<Real>(
@@ -62,7 +62,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
     /// Of the traversal.
     [[nodiscard]] const Counter &counter() const { return counter_; }
 
-    /// From now on, what the rays do is appended to `events`, which must outlive the integrator.
+    /// Appends all further events to `events`, which must outlive the integrator.
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
 
   private:

@@ -1,5 +1,5 @@
-// The classic integrator: direct light with shadows on diffuse surfaces, both branches at glass, all of it
-// deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
+// The Whitted integrator: direct light with shadows on diffuse surfaces, and both branches at glass, all deterministic.
+// Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
 // Twin: shaders/integrators/whitted.comp. Here a path is followed ray by ray; the order of all sums is the same.
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace hyalite::reference {
 
-/// Follows camera samples through the scene. One instance a thread: it keeps the rays that wait and the counts.
+/// Traces camera samples through the scene. Each thread has its own instance, because it keeps waiting rays and counts.
 template <class Real, class Counter = NoCounter> class WhittedIntegrator {
   public:
     WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind) : scene_(scene, samplerKind) {}
 
-    /// Radiance of one sample of a pixel of the whole image. `shift` moves it by so many pixels, to learn how the
-    /// picture changes around it.
+    /// Radiance of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn how
+    /// the picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
         const PrimaryRay<Real> primary = primaryRayThrough<Real>(
@@ -38,7 +38,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     /// Of the traversal.
     [[nodiscard]] Counter &counter() { return counter_; }
 
-    /// From now on, what the paths do is appended to `events`, which must outlive the integrator.
+    /// Appends all further events to `events`, which must outlive the integrator.
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
 
   private:
@@ -94,7 +94,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                     segment.medium, hit.primitive);
     }
 
-    /// What rays find that leave the scene.
+    /// Radiance of rays that leave the scene.
     [[nodiscard]] Vec3<Real> radianceAround(const Vec3<Real> &direction) const {
         if ((scene_.lighting & layout::lightsByEnvironment) != 0)
             return environmentRadianceAt(scene_, environmentPlace(scene_, direction));
@@ -184,7 +184,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     RayCounts counts_;
     Counter counter_;
     std::vector<layout::TraceEvent> *events_ = nullptr;
-    std::uint32_t sampleIndex_ = 0; ///< and the depth of the segment that is followed: for trace events only
+    std::uint32_t sampleIndex_ = 0; ///< sample and depth of the current segment, for trace events only
     std::uint32_t depth_ = 0;
 };
 
