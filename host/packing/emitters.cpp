@@ -13,7 +13,8 @@ namespace {
 
 double mean(const glm::dvec3 &colour) { return (colour.x + colour.y + colour.z) / 3.0; }
 
-/// Power that leaves a unit of area, on average: a diffuse emitter of radiance L sends out pi L.
+/// Emitted power per unit of area, averaged over channels and texture: a diffuse emitter of radiance L emits pi L per
+/// side.
 double exitance(const PackedScene &packed, const layout::MaterialRecord &material) {
     if (material.emission == glm::vec3(0.0f))
         return 0.0;
@@ -38,8 +39,8 @@ layout::EmitterRecord surfaceEmitter(std::uint32_t kind, std::size_t record,
 
 struct Candidate {
     layout::EmitterRecord emitter;
-    double power; ///< 0 for what is infinitely far away
-    double area;  ///< 0 for what has none
+    double power; ///< 0 for infinitely distant emitters
+    double area;  ///< 0 for emitters without area
     bool isInfinite;
 };
 
@@ -55,12 +56,12 @@ layout::EmitterRecord lightEmitter(const layout::LightRecord &light) {
     return emitter;
 }
 
-/// The share of all directions that a spot lights.
+/// Fraction of all directions inside the cone of a spot.
 double coneShare(const layout::EmitterRecord &spot) { return 0.5 * (1.0 - double{spot.cosineOuter}); }
 
-/// Triangle records in the order of the input.
+/// Indices of triangle records in the order of the input.
 std::vector<std::uint32_t> inInputOrder(const std::vector<layout::TriangleRecord> &triangles) {
-    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max(); // where a triangle was dropped
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max(); // a dropped triangle
     std::vector<std::uint32_t> records(triangles.size(), none);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const std::size_t index = triangles[i].primitiveId - layout::firstTriangleId;
@@ -124,14 +125,14 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
         finiteTotal += candidate.power;
         packed.lighting |= 1u << candidate.emitter.kind;
     }
-    // What is infinitely far away has no power that could be compared: each is worth as much as all others together.
+    // Infinitely distant emitters have no comparable power: each counts as much as all finite ones together.
     double total = finiteTotal;
     for (Candidate &candidate : found)
         if (candidate.isInfinite) {
             candidate.power = finiteTotal > 0.0 ? finiteTotal : 1.0;
             total += candidate.power;
         }
-    constexpr double all = 4294967296.0; // numbers of 32 bits
+    constexpr double all = 4294967296.0; // number of 32-bit values
     double powerBefore = 0.0;
     double numbersBefore = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -140,7 +141,7 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
         powerBefore += found[i].power;
         const double numbers = i + 1 == found.size() ? all : std::floor(powerBefore / total * all);
         if (numbers <= numbersBefore)
-            continue; // chosen less than once in 2^32
+            continue; // probability below 2^-32
         emitter.cumulative = static_cast<std::uint32_t>(std::fmin(numbers, all - 1.0));
         emitter.probability = static_cast<float>((numbers - numbersBefore) / all);
         if (area > 0.0)

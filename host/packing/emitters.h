@@ -5,13 +5,13 @@
 
 namespace hyalite {
 
-/// What the path integrator calls a light of this kind: layout::emitter...
+/// The emitter kind of a light: layout::emitter...
 [[nodiscard]] std::uint32_t emitterKindOf(const layout::LightRecord &light);
 
-/// Lists the emitters of `scene` in the packed one, in the order of the input, the environment last where
-/// `isLitAround`, each with a probability that goes with its power, and tells the materials the densities that follow
-/// from it. The environment and directional lights, which have no power, count as much as all others together, each.
-/// The triangles are packed.
+/// Adds the emitters of `scene` to `packed` in the order of the input, with the environment last if `isLitAround`.
+/// Their selection probabilities are proportional to their power. The environment and directional lights have no power;
+/// each counts as much as all finite emitters together. Sets the resulting pdfs of the materials. The triangles must be
+/// packed.
 void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed);
 
 } // namespace hyalite

@@ -10,11 +10,11 @@ namespace hyalite {
 
 namespace {
 
-constexpr double all = 4294967296.0; // numbers of 32 bits
+constexpr double all = 4294967296.0; // number of 32-bit values
 
-/// What the interpolated image sends through each pixel's area of the sphere, up to a factor. Between the middles of
-/// pixels it is linear both ways, so that the mean over a pixel's area has 3/4 of itself and 1/8 of its neighbours in
-/// each.
+/// Weight of each pixel: the integral of the interpolated image over its area of the sphere, up to a factor. The image
+/// is bilinear between pixel centres, so the mean over a pixel takes 3/4 of itself and 1/8 of each neighbour along each
+/// axis.
 std::vector<double> pixelWeights(const Image &image) {
     const int width = image.width();
     const int height = image.height();
@@ -37,7 +37,7 @@ std::vector<double> pixelWeights(const Image &image) {
     return weights;
 }
 
-/// How many numbers of 32 bits are below the given share of all of them.
+/// The number of 32-bit values below the given fraction of their range.
 std::uint32_t numbersBelow(double share) {
     return static_cast<std::uint32_t>(std::min(std::floor(share * all), all - 1.0));
 }

@@ -5,8 +5,8 @@
 
 namespace hyalite {
 
-/// Appends the environment of `scene`, which has one, to packed.lookups, and describes it in packed.frame.
-/// Returns whether any of it shines, so that it can be aimed at.
+/// Appends the environment of `scene`, which has one, to packed.lookups, and describes it in packed.frame. Returns
+/// whether any of it emits light, so that it can be sampled.
 bool packEnvironment(const Scene &scene, PackedScene &packed);
 
 } // namespace hyalite

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t cosineCount = layout::energyCosines;
 constexpr std::size_t roughnessCount = layout::energyRoughnesses;
-constexpr std::size_t azimuthSteps = 32; // over half a turn: the other half is the same
+constexpr std::size_t azimuthSteps = 32; // over half a turn; the other half is symmetric
 constexpr std::size_t heightSteps = 48;
 
 struct Energy {
@@ -22,14 +22,14 @@ struct Energy {
 
 using EnergyRow = std::array<Energy, cosineCount>;
 
-/// Cosines and sines of the middles of `azimuthSteps` parts of half a turn.
+/// Cosines and sines of the midpoints of `azimuthSteps` intervals over half a turn.
 struct Azimuths {
     std::array<double, azimuthSteps> cosine;
     std::array<double, azimuthSteps> sine;
 
     Azimuths() {
         static_assert(azimuthSteps == 32);
-        double c = 0.0; // of a quarter turn, halved until it is that of a 128th: half a step
+        double c = 0.0; // cosine of a quarter turn, halved to a 128th of a turn, which is half a step
         for (int i = 0; i < 5; ++i)
             c = std::sqrt(0.5 + 0.5 * c);
         const double s = std::sqrt(1.0 - c * c);
@@ -56,7 +56,7 @@ Energy energyOf(double cosine, double alpha, const Azimuths &azimuths) {
     Energy sum;
     double totalWeight = 0.0;
     for (std::size_t k = 0; k < heightSteps; ++k) {
-        // Few facets lie flat or steep, and much depends on them: steps are narrow at both ends.
+        // The ends contain few facets but matter much, so steps are narrow there.
         const double t = (static_cast<double>(k) + 0.5) / heightSteps;
         const double share = t * t * (3.0 - 2.0 * t);
         const double weight = 6.0 * t * (1.0 - t);
@@ -92,7 +92,7 @@ EnergyRow energiesOf(double alpha) {
         const double root = static_cast<double>(i) / static_cast<double>(cosineCount - 1);
         const double cosine = root * root;
         row[i] = alpha > 0.0 ? energyOf(cosine, alpha, azimuths) : Energy{1.0, fifthPower(1.0 - cosine)};
-        // As the kernels read them: then the averages below are theirs.
+        // Rounded to float as the kernels read them, so that the averages below match theirs.
         row[i] = {static_cast<float>(row[i].white), static_cast<float>(row[i].grazing)};
     }
     return row;

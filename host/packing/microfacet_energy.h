@@ -7,13 +7,13 @@
 
 namespace hyalite {
 
-/// The first layout::energyTexelCount texels of a scene with rough surfaces; shaders/bsdf/energy.glsl reads them.
-/// Computed from + - * / and square roots alone, so that it is the same on every machine. Takes some hundredths of a
+/// The first layout::energyTexelCount lookup rows of a scene with rough surfaces; shaders/bsdf/energy.glsl reads them.
+/// Computed with + - * / and square roots only, so that they are the same on every machine. Takes some hundredths of a
 /// second.
 [[nodiscard]] std::vector<layout::LookupRow> makeEnergyTexels();
 
-/// The average over the hemisphere, weighted by the cosine, of what a metal of the complex refractive index
-/// `index` + i `extinction` reflects by Fresnel's equations.
+/// Cosine-weighted average, over the hemisphere, of the Fresnel reflectance of a conductor with the complex refractive
+/// index `index` + i `extinction`.
 [[nodiscard]] double averageConductorReflectance(double index, double extinction);
 
 } // namespace hyalite

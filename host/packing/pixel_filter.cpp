@@ -8,7 +8,7 @@ namespace hyalite {
 
 namespace {
 
-/// Where `share` of the filter lies below, in pixels from its middle. By bisection, until double precision ends it.
+/// The quantile `share` of the filter, in pixels from its centre, by bisection to the limit of double precision.
 double filterQuantile(double share) {
     double low = -filterRadius;
     double high = filterRadius;

@@ -5,15 +5,15 @@
 
 namespace hyalite {
 
-/// Half of the width of the filter, in pixels.
+/// Radius of the filter, in pixels.
 inline constexpr double filterRadius = 1.5;
 
-/// The share of the filter that lies below `x`, in pixels from its middle; 0 from -filterRadius, 1 from filterRadius
-/// on. The Blackman-Harris window of four terms: F. J. Harris, "On the Use of Windows for Harmonic Analysis with the
-/// Discrete Fourier Transform", Proc. IEEE 66(1), 1978, table 1; integrated.
+/// Integral of the filter below `x`, in pixels from its centre: 0 up to -filterRadius, 1 from filterRadius on. The
+/// filter is the four-term Blackman-Harris window: F. J. Harris, "On the Use of Windows for Harmonic Analysis with the
+/// Discrete Fourier Transform", Proc. IEEE 66(1), 1978, table 1.
 [[nodiscard]] double filterShareBelow(double x);
 
-/// Appends the filter's quantiles to packed.lookups, and says in packed.frame where.
+/// Appends the quantiles of the filter to packed.lookups, and their position to packed.frame.
 void packFilter(PackedScene &packed);
 
 } // namespace hyalite

@@ -15,22 +15,22 @@ constexpr double lowestPlane = -32768.0;
 constexpr double highestPlane = 32767.0;
 constexpr std::uint32_t listCount = 2;
 
-/// A box in cells of the grid, an axis a word: the lower plane in the low half.
+/// A box in grid cells: a word per axis, with the lower plane in the low half.
 struct GridBox {
     std::array<std::uint32_t, 3> planes;
 };
 
-/// What both lists have in common for the children of a node pair.
+/// The data of a node pair that both lists share.
 struct PairPlan {
     std::array<GridBox, 2> boxes; ///< of the left and the right child, if there is one
-    std::uint32_t nodeCount;      ///< list nodes of both children, all below included
-    float areaAround;             ///< half area of the box that a ray has met when it comes to the children
+    std::uint32_t nodeCount;      ///< list nodes of both children and their subtrees
+    float areaAround;             ///< half area of the box that a ray has hit before it comes to the children
     std::array<bool, 2> isLeftOut;
-    /// Of the right child on the axis on which their centres lie farthest apart: 1: above; -1: below; 0: neither.
+    /// Side of the right child on the axis on which the centres are farthest apart: 1: above; -1: below; 0: neither.
     std::int8_t side;
 };
 
-/// The grid on which planes lie: coordinates are rounded outwards.
+/// The grid of box planes. Coordinates are rounded outwards.
 class Grid {
   public:
     explicit Grid(const SkipList &list) : middle_(list.gridMiddle), scale_(list.gridScale) {}
@@ -40,7 +40,7 @@ class Grid {
         for (int axis = 0; axis < 3; ++axis) {
             const double low = std::floor((lower[axis] - middle_[axis]) / scale_[axis]);
             const double high = std::ceil((upper[axis] - middle_[axis]) / scale_[axis]);
-            // The grid has room beyond all boxes; a cell more on each side makes up for the rounding of the division.
+            // The grid extends beyond all boxes. One more cell on each side covers the rounding of the division.
             const auto first = static_cast<std::int32_t>(std::clamp(low - 1.0, lowestPlane, highestPlane));
             const auto last = static_cast<std::int32_t>(std::clamp(high + 1.0, lowestPlane, highestPlane));
             assert(middle_[axis] + scale_[axis] * first <= lower[axis] &&
@@ -73,8 +73,8 @@ PairPlan planPair(const layout::NodePair &pair, const Grid &grid) {
     return plan;
 }
 
-/// Leaves out inner nodes that cull too little. Of the rays that meet a box of area A, a / A meet one of area a inside of
-/// it, and only they go on to its two children; without it all do: A + 2 a steps against 2 A.
+/// Omits inner nodes that cull too little. A fraction a / A of the rays that hit a box of area A hit an inner box of
+/// area a, and only they visit its two children; without the inner box all do. That is A + 2 a steps against 2 A.
 void leaveOutNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
     plans[0].areaAround =
         static_cast<float>(Box{scene.frame.boundsLower, scene.frame.boundsUpper}.halfArea());
@@ -92,7 +92,8 @@ void leaveOutNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
     }
 }
 
-/// Pairs come before those below them: their counts are known when they are met from the end.
+/// Counts list nodes, from the last pair to the first: parents come before their descendants, so the counts below a
+/// pair are known.
 void countNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
     for (std::size_t i = plans.size(); i-- > 0;) {
         const std::array<std::uint32_t, 2> references{scene.nodes[i].left, scene.nodes[i].right};
@@ -107,9 +108,9 @@ void countNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
     }
 }
 
-/// Writes the list whose first siblings are on the `nearSide`, -1 or 1, of their axis; it begins at the index `begin`.
-/// Where a subtree begins is known before it is written, as all nodes above come first and its sibling's size is known:
-/// no stack is needed. `pairBegins` is room for an index a pair.
+/// Writes the list from index `begin` on; in it the siblings on `nearSide`, -1 or 1, of their axis come first. No stack
+/// is needed, because the nodes above a subtree come first and the size of its sibling is known, which gives its index.
+/// `pairBegins` has room for an index per pair.
 void writeList(const PackedScene &scene, std::span<const PairPlan> plans, int nearSide, std::uint32_t begin,
                std::span<std::uint32_t> pairBegins, std::span<layout::SkipNode> nodes) {
     pairBegins[0] = begin;
@@ -153,7 +154,7 @@ SkipList makeSkipList(const PackedScene &scene) {
     for (int axis = 0; axis < 3; ++axis) {
         list.gridMiddle[axis] = lower[axis] / 2.0f + upper[axis] / 2.0f;
         const double middle = list.gridMiddle[axis];
-        // Flat boxes get a grid as fine as their coordinates; 16 cells stay free on each side.
+        // The grid of a flat box is as fine as its coordinates; 16 cells stay free on each side.
         const double reach =
             std::max({upper[axis] - middle, middle - lower[axis], 1e-6 * std::max(std::abs(middle), 1e-20)});
         list.gridScale[axis] = static_cast<float>(reach / (highestPlane - 16.0));

@@ -19,7 +19,7 @@ layout::TextureRow rowOf(float x, float y, float z, float w) {
             std::bit_cast<std::uint32_t>(w)};
 }
 
-/// IEC 61966-2-1: from what a screen takes to what is proportional to light.
+/// IEC 61966-2-1: from the display encoding to linear light.
 double fromSrgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
@@ -30,7 +30,7 @@ template <class Decode> void addTable(Rows &rows, const Decode &decode) {
         rows.push_back(rowOf(entry(level), entry(level + 1), entry(level + 2), entry(level + 3)));
 }
 
-/// Of all triangle records; 0 for triangles that have none.
+/// Appends the texture coordinates of all triangle records; 0 for triangles without any.
 void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
     std::vector<std::uint32_t> firstTriangles; // of each mesh
     std::uint32_t count = 0;
@@ -45,7 +45,7 @@ void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
     for (std::int64_t i = 0; i < total; ++i) {
         const std::size_t record = static_cast<std::size_t>(i);
         const std::uint32_t index = packed.triangles[record].primitiveId - layout::firstTriangleId;
-        // Of meshes without triangles, which begin where the next one does, the last is found.
+        // Meshes without triangles begin where the next one does; this finds the last of them.
         const auto next = std::upper_bound(firstTriangles.begin(), firstTriangles.end(), index);
         const TriangleMesh &mesh = scene.meshes[static_cast<std::size_t>(next - firstTriangles.begin() - 1)];
         if (mesh.triangleUvs.empty())
@@ -62,7 +62,7 @@ void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
     }
 }
 
-/// How the texels of an image are read for a slot: bits of layout::textureIs...
+/// Format of the texels of an image in a slot: bits of layout::textureIs...
 std::uint32_t formatOf(const Texture &texture, std::uint32_t slot) {
     if (texture.isFloat())
         return layout::textureIsFloat;
@@ -71,10 +71,10 @@ std::uint32_t formatOf(const Texture &texture, std::uint32_t slot) {
     return slot == layout::slotOpacity && texture.hasAlpha ? layout::textureIsAlpha : 0u;
 }
 
-/// An image as it is stored.
+/// A stored image.
 struct StoredImage {
     const Texture *texture;
-    std::uint32_t format; ///< as slots read it; of levels that stay levels 0, for all slots
+    std::uint32_t format; ///< format in its slots; 0, for all slots, if it stays 8-bit levels
     std::size_t firstRow = 0;
 
     bool operator==(const StoredImage &other) const {
@@ -82,10 +82,10 @@ struct StoredImage {
     }
 };
 
-/// The images of a scene, each stored once: the decoded ones for each way to read them.
+/// The images of a scene. Levels are stored once, decoded images once for each format.
 class ImageStore {
   public:
-    /// Levels are decoded, for a texel is then read at once, where all images take no more than `maxDecoded` bytes so.
+    /// Decodes levels if all decoded images take at most `maxDecoded` bytes: a texel is then a single read.
     ImageStore(const Scene &scene, std::size_t maxDecoded) : scene_(scene) {
         std::size_t pixelCount = 0;
         forEachUse([&](const Texture &texture, std::uint32_t slot) {
@@ -104,7 +104,7 @@ class ImageStore {
         return std::ranges::any_of(images_, [&](const auto &image) { return isOfLevels(image); });
     }
 
-    /// Gives all images their rows, from `row` on, and returns the first row behind them.
+    /// Assigns rows to all images, from `row` on, and returns the first row after them.
     std::size_t place(std::size_t row) {
         for (StoredImage &image : images_) {
             image.firstRow = row;
@@ -113,14 +113,14 @@ class ImageStore {
         return row;
     }
 
-    /// Where a slot finds the image's texels, and their format.
+    /// Sets the first row and the format of an image in a slot.
     void describe(const Texture &texture, std::uint32_t slot, layout::TextureRecord &record) const {
         const auto image = std::ranges::find(images_, StoredImage{&texture, storedFormat(texture, slot)});
         record.firstRow = static_cast<std::uint32_t>(image->firstRow);
         record.format = isOfLevels(*image) ? formatOf(texture, slot) : layout::textureIsFloat;
     }
 
-    /// Appends all images in the order of their rows. The tables are there.
+    /// Appends all images in the order of their rows. The decoding tables must be in `rows`.
     void append(Rows &rows) const {
         for (const StoredImage &image : images_) {
             if (isOfLevels(image))
@@ -154,7 +154,7 @@ class ImageStore {
         return isOfLevels(image) ? (pixelCount + 3) / 4 : pixelCount;
     }
 
-    /// Whether it was not there.
+    /// Returns whether the image was new.
     bool add(const StoredImage &image) {
         if (std::ranges::count(images_, image) > 0)
             return false;
@@ -169,7 +169,7 @@ class ImageStore {
         std::memcpy(&rows[first], levels.data(), levels.size() * sizeof(levels[0]));
     }
 
-    /// With the numbers of the tables, so that decoded or not a kernel reads the same bits.
+    /// Decodes with the tables of the kernels, so that a lookup has the same bits either way.
     static void appendDecoded(const StoredImage &image, Rows &rows) {
         const std::size_t table =
             (image.format & layout::textureIsSrgb) != 0 ? layout::srgbTableRow : layout::linearTableRow;

@@ -8,14 +8,14 @@
 
 namespace hyalite {
 
-/// Fills packed.textures, and tells the packed materials where theirs are. `order` has the input index of each packed
-/// material; the triangles are packed. Nothing is packed where neither packed.texturing nor the integrator asks for it.
-/// Images of 8 bits are decoded to floats where all images together take no more than `maxDecoded` bytes so, else
+/// Fills packed.textures, and sets the texture positions of the packed materials. `order` has the input index of each
+/// packed material. The triangles must be packed. Does nothing unless packed.texturing or the integrator needs
+/// textures. 8-bit images are decoded to floats if all decoded images take at most `maxDecoded` bytes; otherwise
 /// texturesLevels is set in packed.texturing.
 void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std::size_t maxDecoded,
                   PackedScene &packed);
 
-/// The mean of what a packed material's emission is multiplied with; 1 where it has no texture of emission.
+/// The mean of the emission texture of a packed material; 1 without one.
 [[nodiscard]] glm::dvec3 meanEmissionFactor(const PackedScene &packed,
                                             const layout::MaterialRecord &material);
 
