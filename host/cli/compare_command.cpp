@@ -20,7 +20,7 @@ void addStatisticalOptions(CLI::App &command, CompareOptions &options) {
                                                 "estimates of one picture, as `hyalite diff` does");
     addSignificanceOption(command, options.welch)->needs(statistical);
     addNumber(command, "--against-seed", options.againstSeed, rangeOf(&RenderSettings::seed),
-              "of the second render of --statistical; default: one more than the first's")
+              "seed of the second render of --statistical; default: the first seed plus 1")
         ->needs(statistical);
     for (const char *option : {"--tolerance", "--max-outliers", "--diff"})
         statistical->excludes(command.get_option(option));
@@ -40,7 +40,8 @@ void printContestants(const PreparedScene &scene, const Contestants &contestants
 }
 
 void addCompareCommand(CLI::App &app, CommandContext &context) {
-    CLI::App *command = app.add_subcommand("compare", "render a scene twice and compare the two, to the bit");
+    CLI::App *command =
+        app.add_subcommand("compare", "render a scene twice and compare the images bit for bit");
     const auto options = std::make_shared<CompareOptions>();
     addSceneOptions(*command, options->scene);
     command->add_option("--device", options->contest.device, "the first renderer: as for `hyalite render`")
@@ -55,11 +56,11 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
         ->capture_default_str();
     command
         ->add_option("--tolerance", options->tolerance,
-                     "how far a channel may be off: linear radiance (1e-5) or ULPs (4ulp)")
+                     "allowed difference of a channel: linear radiance (1e-5) or ULPs (4ulp)")
         ->type_name("DIFFERENCE")
         ->capture_default_str();
     addNumber(*command, "--max-outliers", options->maxOutliers, limits::fraction,
-              "share of pixels that may be further off")
+              "allowed fraction of pixels beyond the tolerance")
         ->default_str("0");
     addThreadsOption(*command, options->contest.threadCount);
     addDeviceOptions(*command, options->contest.deviceOptions);

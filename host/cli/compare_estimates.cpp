@@ -13,7 +13,7 @@ namespace hyalite {
 
 namespace {
 
-/// The seeds of the two renders, which must be two.
+/// The seed of the second render, which must differ from the first.
 std::uint32_t secondSeedOf(const CompareOptions &options, std::uint32_t firstSeed) {
     const std::uint32_t secondSeed = options.againstSeed.value_or(firstSeed + 1);
     if (firstSeed == secondSeed)
@@ -32,7 +32,7 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
         reportFile.emplace(options.report);
     PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
     requireDistinctFiles({{"--report", options.report}}, scene.loaded.inputFiles);
-    requireFilmMemory(scene.crop, 4); // two of them become estimates, of about their size
+    requireFilmMemory(scene.crop, 4); // two films, and two estimates of about the same size
     RenderSettings &settings = scene.loaded.scene.settings;
     const std::uint32_t firstSeed = settings.seed;
     const std::uint32_t secondSeed = secondSeedOf(options, firstSeed);

@@ -32,7 +32,7 @@ struct Compared {
     }
 };
 
-/// What comes of it.
+/// The outcome of a comparison.
 struct Verdict {
     bool isPassed = false;
     nlohmann::ordered_json reasons = nlohmann::ordered_json::object(); ///< for the report
@@ -58,7 +58,7 @@ void printMetrics(const ImageComparison &comparison, const Image &a, const Image
     fmt::print("HDR-FLIP     mean {:.6f}, max {:.6f}\n", comparison.flip.mean, comparison.flip.max);
 }
 
-/// The files that are wanted, opened before the work begins.
+/// The requested files, opened before the work begins.
 class CompareFiles {
   public:
     explicit CompareFiles(const CompareOptions &options) : heatMapPath_(options.heatMap) {
@@ -116,7 +116,7 @@ Compared compareRenders(const CompareOptions &options, const Tolerance &toleranc
     return compared;
 }
 
-/// Against double precision: passed, too, where every outlier is explained.
+/// Comparison with double precision: also passes if every outlier is explained.
 Verdict judgeOutliers(const PreparedScene &scene, const Compared &compared, bool isWithinShare) {
     Verdict verdict;
     const std::size_t unexplained = explainOutliers(scene, compared.outliers);
@@ -128,7 +128,7 @@ Verdict judgeOutliers(const PreparedScene &scene, const Compared &compared, bool
     return verdict;
 }
 
-/// Of renders that should be equal: where they are not, tells the first step that differs.
+/// Comparison of renders that should be equal. If they are not, it reports the first step that differs.
 Verdict judgeBits(const Contestants &contestants, const PreparedScene &scene, const Compared &compared,
                   bool isWithinShare) {
     Verdict verdict;

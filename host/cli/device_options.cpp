@@ -13,12 +13,12 @@ constexpr Interval dispatchMillis{1.0, 10'000.0};
 
 void addThreadsOption(CLI::App &command, int &threadCount) {
     addNumber(command, "--threads", threadCount, limits::threadCount,
-              "of the reference renderer and of lavapipe; default: all");
+              "threads of the reference renderer and of lavapipe; default: all");
 }
 
 void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
     addChoice(command, "--kernel", options.kernel, gpu::kernelNames,
-              "how rays go through the tree on a Vulkan device; auto: as `hyalite devices` says. The image "
+              "traversal of the tree on a Vulkan device; auto: as `hyalite devices` says. The image "
               "is the same");
     addNumber(command, "--max-dispatch-ms", options.maxDispatchMillis, dispatchMillis,
               "how long a dispatch on a Vulkan device should take, in milliseconds: long ones block a "

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double bytesPerMebibyte = 1024.0 * 1024.0;
 
-/// The kernels that `auto` means, by the names of workloads.
+/// The kernel that `auto` chooses for each workload.
 std::vector<std::pair<std::string_view, std::string_view>> chosenKernels(const gpu::DeviceInfo &device,
                                                                          const Tuning &tuning) {
     std::vector<std::pair<std::string_view, std::string_view>> chosen;
@@ -102,7 +102,7 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
             entry["rejection"] = device.rejection;
         list.push_back(entry);
     }
-    nlohmann::ordered_json reference; // without an index: it is chosen by its name
+    nlohmann::ordered_json reference; // no index: it is chosen by name
     reference["name"] = "cpu";
     reference["type"] = "reference renderer";
     reference["driver"] = "hyalite " HYALITE_VERSION;
@@ -114,12 +114,12 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
 
-/// Measures the kernels on one device, and keeps which are fast.
+/// Measures the kernels on one device and stores the fastest ones.
 void tune(const std::string &deviceName) {
     const std::filesystem::path file = tuningFile();
     std::error_code error;
     if (std::filesystem::exists(file.parent_path(), error))
-        static_cast<void>(AtomicFile(file)); // throws where it could not be written half a minute later
+        static_cast<void>(AtomicFile(file)); // fails now if it cannot be written half a minute later
     const std::vector<KernelRates> all = measureKernels(deviceName);
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     fmt::print("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");
@@ -154,8 +154,8 @@ void addDevicesCommand(CLI::App &app, CommandContext &) {
     CLI::Option *json = command->add_flag("--json", options->isJson, "print JSON");
     CLI::Option *tuning =
         command->add_flag("--tune", options->isTuning,
-                          "measure which kernels are fast on a device, and keep it for all renders to "
-                          "come: half a minute. The image is the same with all");
+                          "measure the kernels on a device for half a minute; later renders use the "
+                          "fastest. The image is the same with each");
     tuning->excludes(json);
     command->add_option("--device", options->device, "for --tune: auto, an index or part of a name")
         ->type_name("DEVICE")

@@ -8,7 +8,7 @@
 namespace hyalite {
 
 void addDiffCommand(CLI::App &app, CommandContext &context) {
-    CLI::App *command = app.add_subcommand("diff", "compare two image files, and gate on how they differ");
+    CLI::App *command = app.add_subcommand("diff", "compare two image files, with gates on the difference");
     const auto options = std::make_shared<DiffOptions>();
     command->footer(
         "Values are compared as the files have them: PNG in [0, 1], EXR, HDR and PFM linear; PSNR "
@@ -17,7 +17,7 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
         "if the images "
         "are identical to the bit; and 1 if not.");
     command->add_option("A", options->reference, "the reference: PNG, EXR, HDR or PFM")->required();
-    command->add_option("B", options->test, "the image to judge: likewise")->required();
+    command->add_option("B", options->test, "the image to judge: PNG, EXR, HDR or PFM")->required();
     CLI::Option *statistical = command->add_flag(
         "--statistical", options->isStatistical,
         "ask whether two EXR renders can be estimates of one picture, by their variances: Welch's t "
@@ -32,13 +32,13 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
     addNumber(*command, "--threshold", options->outlierThreshold, distance,
               "a pixel is an outlier if a channel differs by more than this")
         ->default_str("0");
-    addNumber(*command, "--min-psnr", options->minPsnr, Interval{-1e6, 1e6}, "gate: PSNR at least, in dB");
-    addNumber(*command, "--min-ssim", options->minSsim, Interval{-1.0, 1.0}, "gate: mean SSIM at least");
-    addNumber(*command, "--max-flip", options->maxFlip, limits::fraction, "gate: mean FLIP error at most");
+    addNumber(*command, "--min-psnr", options->minPsnr, Interval{-1e6, 1e6}, "gate: minimum PSNR in dB");
+    addNumber(*command, "--min-ssim", options->minSsim, Interval{-1.0, 1.0}, "gate: minimum mean SSIM");
+    addNumber(*command, "--max-flip", options->maxFlip, limits::fraction, "gate: maximum mean FLIP error");
     addNumber(*command, "--max-diff", options->maxDifference, distance,
-              "gate: largest difference of a channel at most");
+              "gate: maximum difference of a channel");
     addNumber(*command, "--max-outliers", options->maxOutliers, limits::fraction,
-              "gate: share of outliers at most, from 0 to 1");
+              "gate: maximum fraction of outliers, from 0 to 1");
     for (const char *option : {"--mask", "--diff", "--threshold", "--min-psnr", "--min-ssim", "--max-flip",
                                "--max-diff", "--max-outliers"})
         statistical->excludes(command->get_option(option));

@@ -34,11 +34,11 @@ struct Inputs {
     Image reference;
     Image test;
     Encoding encoding = Encoding::Display;
-    std::string toneMapped; ///< the file that was tone-mapped to be compared, if one was
+    std::string toneMapped; ///< the file that was tone-mapped for the comparison, or empty
     Mask mask;
 };
 
-/// The numbers that a PNG of the image would have.
+/// The values of the image as a PNG would have them.
 Image displayed(const Image &linear) {
     Image image(linear.width(), linear.height());
     const std::vector<std::uint8_t> levels = toneMap(linear, 0.0);
@@ -78,7 +78,7 @@ Inputs readInputs(const DiffOptions &options) {
 
 std::vector<Gate> applyGates(const DiffOptions &options, const ImageComparison &comparison) {
     std::vector<Gate> gates;
-    // A NaN passes neither kind.
+    // NaN fails both kinds of gates.
     const auto atLeast = [&](const char *option, const std::optional<double> &limit, double value) {
         if (limit)
             gates.push_back({option, *limit, value, value >= *limit});

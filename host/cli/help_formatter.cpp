@@ -11,9 +11,9 @@ namespace hyalite {
 namespace {
 
 constexpr std::size_t pageWidth = 100;
-constexpr std::size_t textColumn = 32; ///< where explanations begin, right of the names
+constexpr std::size_t textColumn = 32; ///< column of the explanations, right of the names
 
-/// Appends the words of `text` to the last line of `page`, and on new lines from `indent` on where they do not fit.
+/// Appends the words of `text` to the last line of `page`, and wraps to new lines indented by `indent`.
 void appendWrapped(std::string &page, const std::string &text, std::size_t indent) {
     std::istringstream words(text);
     for (std::string word; words >> word;) {
@@ -91,7 +91,7 @@ std::string HelpFormatter::make_help(const CLI::App *app, std::string name, CLI:
     addGroup("Arguments", positionals,
              [](const CLI::Option &option) { return row(positionalName(option), option.get_description()); });
     for (const std::string &title : app->get_groups())
-        if (!title.empty()) // what has no group is not shown
+        if (!title.empty()) // options without a group are hidden
             addGroup(title, app->get_options([&](const CLI::Option *option) {
                 return option->get_group() == title && option->nonpositional();
             }),

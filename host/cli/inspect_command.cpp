@@ -85,7 +85,7 @@ void printCosts(const PreparedScene &prepared) {
                prepared.buildSeconds);
 }
 
-/// Traces primary rays spread over the image, and returns the hits and the seconds it took.
+/// Traces primary rays spread over the image. Returns the hits; `seconds` gets the time.
 std::vector<reference::Hit<float>> traceRays(const PackedScene &scene, int count, double &seconds) {
     std::vector<reference::Hit<float>> hits;
     const reference::SceneView<float> view(scene, layout::samplerCentre);
@@ -106,7 +106,7 @@ std::vector<reference::Hit<float>> traceRays(const PackedScene &scene, int count
     return hits;
 }
 
-/// The tree against all triangles one by one, with the same rays on one thread of the reference renderer.
+/// Compares the tree with a test of all triangles, with the same rays on one thread of the reference renderer.
 bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
     const Scene &scene = prepared.loaded.scene;
     const PackedScene brute = packScene(scene, buildBvh(TreeKind::None, buildTriangles(scene), 1));
@@ -123,7 +123,7 @@ bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
     const double rays = rayCount;
     fmt::print("rays         {} on one thread of the reference renderer\n",
                countText(static_cast<std::uint64_t>(rayCount), "primary ray"));
-    const bool hasTree = prepared.bvh.depth > 0; // or there is no difference to tell
+    const bool hasTree = prepared.bvh.depth > 0; // without a tree both are the same
     if (hasTree)
         fmt::print("  tree       {:.3f} us a ray\n", treeSeconds / rays * 1e6);
     fmt::print("  brute      {:.3f} us a ray{}\n", bruteSeconds / rays * 1e6,
@@ -153,11 +153,11 @@ ExitCode runInspect(const InspectOptions &options) {
 } // namespace
 
 void addInspectCommand(CLI::App &app, CommandContext &context) {
-    CLI::App *command = app.add_subcommand("inspect", "print what a scene or mesh is made of, and its tree");
+    CLI::App *command = app.add_subcommand("inspect", "print the contents of a scene or mesh, and its tree");
     const auto options = std::make_shared<InspectOptions>();
     addSceneOptions(*command, options->scene);
     addNumber(*command, "--rays", options->rayCount, limits::inspectedRays,
-              "trace so many primary rays through the tree and by brute force, and compare hits and times");
+              "trace this many primary rays through the tree and by brute force; compare hits and times");
     command->callback([options, &context] { context.exitCode = runInspect(*options); });
 }
 

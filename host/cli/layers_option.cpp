@@ -28,7 +28,7 @@ void addLayersOption(CLI::App &command, std::vector<Integrator> &views) {
     };
     command
         .add_option("--layers", CLI::callback_t(read),
-                    "of an .exr, beside its colours: what primary rays meet")
+                    "layers of an .exr, beside its colours: views of primary hits")
         ->delimiter(',')
         ->expected(1, -1)
         ->type_name(fmt::format("{},...", fmt::join(words, "|")));

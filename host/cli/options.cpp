@@ -13,7 +13,7 @@ namespace hyalite {
 
 namespace {
 
-/// All of `text` as a number, without the blanks around it and a plus sign in front.
+/// `text` as a number, without blanks around it and a leading plus sign. Empty unless all of it is a number.
 template <class Number> std::optional<Number> parse(std::string_view text) {
     constexpr std::string_view blanks = " \t";
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -26,13 +26,12 @@ template <class Number> std::optional<Number> parse(std::string_view text) {
     return result.ec == std::errc{} && result.ptr == end ? std::optional(number) : std::nullopt;
 }
 
-/// One file has one such path: absolute, without links. It need not exist, though a link may lead to it.
+/// The canonical path of a file: absolute, without links. The file need not exist, even as the target of a link.
 std::filesystem::path canonicalPath(const std::string &path) {
     std::error_code error;
     const std::filesystem::path target = followLinks(std::filesystem::absolute(path, error));
     const std::filesystem::path canonical = std::filesystem::weakly_canonical(target, error);
-    return error ? std::filesystem::path(path)
-                 : canonical; // a path that leads nowhere is refused when it is opened
+    return error ? std::filesystem::path(path) : canonical; // an invalid path is refused when it is opened
 }
 
 bool isSameFile(const std::string &a, const std::string &b) {

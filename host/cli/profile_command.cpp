@@ -76,7 +76,7 @@ void printFault(const std::string &fault, const Backend &backend) {
 
 /// The baseline's figures and the allowed regression.
 struct Baseline {
-    std::optional<ProfileFigures> figures; ///< none: there is nothing to compare with
+    std::optional<ProfileFigures> figures; ///< empty: no comparison
     double maxRegression = 0.0;
     Gate gate = Gate::All;
 };
@@ -130,18 +130,18 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
 
 void addMeasurementOptions(CLI::App &command, MeasurementRequest &request) {
     addSceneOptions(command, request.scene);
-    command.add_option("--device", request.device, "what to measure: as for `hyalite render`")
+    command.add_option("--device", request.device, "the device to measure: as for `hyalite render`")
         ->type_name("DEVICE")
         ->capture_default_str();
     addThreadsOption(command, request.threadCount);
     addDeviceOptions(command, request.deviceOptions);
     addNumber(command, "--warmup", request.warmupCount, warmupCounts,
-              "renders before those that are measured")
+              "number of renders before the measured ones")
         ->default_str("1");
-    addNumber(command, "--repeat", request.repeatCount, repeatCounts, "renders that are measured")
+    addNumber(command, "--repeat", request.repeatCount, repeatCounts, "number of measured renders")
         ->default_str("5");
     command.add_flag("--no-verify", request.isUnverified,
-                     "do not compare the image with the CPU twin's first");
+                     "skip the comparison with the image of the CPU twin");
     command.add_flag("--quiet", request.isQuiet, "show no progress");
 }
 
@@ -164,8 +164,8 @@ void addBaselineOptions(CLI::App &command, ProfileOptions &options) {
     command
         .add_option(
             "--max-regression", options.maxRegression,
-            "how much slower a kernel may be than in the baseline, beyond the noise, and how much more "
-            "work may be done")
+            "allowed slowdown of a kernel against the baseline, beyond the noise, and allowed growth of "
+            "work counts")
         ->type_name("PERCENT%")
         ->capture_default_str();
     addChoice(command, "--gate", options.gate, gateNames,
@@ -175,8 +175,7 @@ void addBaselineOptions(CLI::App &command, ProfileOptions &options) {
 } // namespace
 
 void addProfileCommand(CLI::App &app, CommandContext &context) {
-    CLI::App *command =
-        app.add_subcommand("profile", "render a scene again and again, and tell where the time goes");
+    CLI::App *command = app.add_subcommand("profile", "measure repeated renders of a scene, stage by stage");
     const auto options = std::make_shared<ProfileOptions>();
     addMeasurementOptions(*command, options->measurement);
     addFileOptions(*command, options->paths);

@@ -25,7 +25,7 @@ std::uint64_t pixelCountOf(const RenderReport &report) {
     return static_cast<std::uint64_t>(report.origin.width) * static_cast<std::uint64_t>(report.origin.height);
 }
 
-/// The share of a render's samples that is finished, in percent. Rounded down: what is not complete is never 100 %.
+/// The finished samples of a render in percent, rounded down: an incomplete render is never at 100 %.
 double percentOf(std::uint64_t sampleCount, const RenderReport &report) {
     const double share = static_cast<double>(sampleCount) / static_cast<double>(pixelCountOf(report)) /
                          report.origin.settings.samplesPerPixel;
@@ -41,7 +41,7 @@ std::vector<NamedFile> outputsOf(const RenderRequest &request) {
             {"--checkpoint", olderGeneration}};
 }
 
-/// Throws Error{Usage} for options that do not go together.
+/// Throws Error{Usage} for conflicting options.
 void requireOptionsThatGoTogether(const RenderRequest &request) {
     const ImageFormat format = imageFormatOf(request.output);
     requireDistinctFiles(outputsOf(request), {resolveScene(request.scene.scene).string()});
@@ -86,7 +86,7 @@ void tellWhatIsFinished(const RenderReport &report) {
                  percentOf(report.finished.sampleCount, report), report.output);
 }
 
-/// The closing line: of what this run has done.
+/// The last line: the speed of this run.
 void tellSpeed(const RenderReport &report) {
     const std::uint64_t rayCount = report.rays.total() - (report.resumed ? report.resumed->rays.total() : 0);
     const double megaraysPerSecond =
@@ -130,21 +130,21 @@ ExitCode runRender(const RenderRequest &request, const std::string &commandLine)
 void addLongRenderOptions(CLI::App &command, RenderRequest &request) {
     const char *group = "Long renders";
     addFile(command, "--checkpoint", request.checkpoint, "FILE",
-            "write what is finished there again and again, and when the render ends; FILE.1 is the one "
-            "before")
+            "write the finished samples to FILE at intervals, and at the end; FILE.1 is the previous "
+            "checkpoint")
         ->group(group);
     addNumber(command, "--checkpoint-interval", request.checkpointSeconds, anySeconds,
-              "between two checkpoints")
+              "time between two checkpoints")
         ->type_name("SECONDS")
         ->default_str("10")
         ->group(group);
     command
         .add_flag("--resume", request.isResuming,
-                  "go on from the checkpoint, if there is one, to the same image; --device, --threads, "
-                  "--kernel, --bvh and more --spp may be others")
+                  "continue from the checkpoint, if there is one, to the same image; --device, --threads, "
+                  "--kernel and --bvh may differ, and --spp may be larger")
         ->group(group);
     addNumber(command, "--partial", request.partialSeconds, anySeconds,
-              "replace the output by what is finished, again and again after so long")
+              "replace the output by a partial image at this interval")
         ->type_name("SECONDS")
         ->group(group);
 }
@@ -172,9 +172,10 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     addLayersOption(*command, request->layers);
     addThreadsOption(*command, request->threadCount);
     addDeviceOptions(*command, request->deviceOptions);
-    addFile(*command, "--report", request->report, "FILE.json", "write what was done and how long it took");
+    addFile(*command, "--report", request->report, "FILE.json",
+            "write a report with settings, counts and times");
     addNumber(*command, "--time-limit", request->timeLimitSeconds, anySeconds,
-              "stop then, and write what is finished; loading and building do not count")
+              "stop after this time and write the partial image; loading and building do not count")
         ->type_name("SECONDS");
     addLongRenderOptions(*command, *request);
     command->add_flag("--quiet", request->isQuiet, "print errors only");

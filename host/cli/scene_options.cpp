@@ -13,7 +13,7 @@ namespace hyalite {
 
 namespace {
 
-/// What a crop allows depends on the image.
+/// The allowed range of a crop depends on the image.
 constexpr Interval anyInteger{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 
 template <class Number>
@@ -50,9 +50,8 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     command.add_option("scene", options.scene, "a .json scene, a .obj mesh, or the name of a shipped scene")
         ->required()
         ->type_name("SCENE");
-    addFolders(
-        command, "--allow-path", options.allowedPaths,
-        "a scene file may name files in this folder, too, not only in its own and in the assets; repeatable");
+    addFolders(command, "--allow-path", options.allowedPaths,
+               "also let a scene file name files in this folder, besides its own and the assets; repeatable");
     const std::string image(imageGroup);
     addNumber(command, "--width", options.width, limits::imageSize, "pixels")->group(image);
     addNumber(command, "--height", options.height, limits::imageSize, "pixels")->group(image);
