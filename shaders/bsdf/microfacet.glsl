@@ -35,7 +35,7 @@ vec3 sampleGgxVndf(vec3 wo, float alpha, vec2 u) {
     return unitVector(vec3(vec2(cap) * alpha, cap.z));
 }
 
-// The pdf, per solid angle, of the direction that a visible facet reflects `wo` to. `density` is the pdf of the facet.
+// The pdf, per solid angle, of the direction to which a visible facet reflects `wo`. `pdf` is ggxD of the facet.
 float pdfReflection(float pdf, vec3 wo, float stretchWo) {
     float below = 2.0 * (wo.z + stretchWo);
     return divide(pdf, below);
@@ -60,8 +60,9 @@ vec3 halfVectorOfRefraction(vec3 wo, vec3 wi, float eta) {
     return m.z < 0.0 ? -m : m;
 }
 
-// The pdf, per solid angle, of the direction to which visible facets refract: the pdf of the facet times Walter's
-// Jacobian (equation 17). `viewCosine` > 0 and `lightCosine` < 0 are those to the facet.
+// The pdf, per solid angle, of the direction to which visible facets refract: the pdf of the visible facet times
+// Walter's Jacobian (equation 17). `pdf` is ggxD of the facet. `viewCosine` > 0 and `lightCosine` < 0 are the cosines
+// of both directions to the facet.
 float pdfRefraction(float pdf, vec3 wo, float stretchWo, float viewCosine, float lightCosine, float eta) {
     float seen = pdf * 2.0 * viewCosine * -lightCosine;
     float sum = eta * viewCosine + lightCosine;

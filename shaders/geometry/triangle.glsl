@@ -72,10 +72,11 @@ vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     return v0 * u + v1 * v + v2 * w;
 }
 
-// Error bound of trianglePoint, for each coordinate: its distance from the plane, by Pharr, Jakob and Humphreys,
-// "Physically Based Rendering", section 6.8.5, with 8 units of rounding in place of gamma(7); and the apparent distance
-// of a neighbour in the same plane, whose depth is uncertain by units of its size, for which the size of this triangle
-// stands. Without the second part, the triangles of a floor at y = 0 would shadow each other.
+// Error bound of trianglePoint, for each coordinate. The first part is the distance of the point from the plane, by
+// Pharr, Jakob and Humphreys, "Physically Based Rendering", section 6.8.5, with 8 units of rounding in place of
+// gamma(7). The second part is the apparent distance of a neighbour in the same plane, whose depth is uncertain by
+// units of rounding of its size; the size of this triangle stands for it. Without the second part, the triangles of a
+// floor at y = 0 would shadow each other.
 vec3 trianglePointError(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     float w = 1.0 - u - v;
     float extent = largestComponent(greater(abs(v1 - v0), abs(v2 - v0)));

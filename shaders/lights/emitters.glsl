@@ -112,7 +112,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
                        emitter.record);
 }
 
-// The emitter that a 32-bit random number selects; 0 if there is none.
+// The emitter selected by a 32-bit random number; 0 if there is none.
 uint chooseEmitter(uint bits) {
     uint first = 0u; // the cumulative values of all before it are at most `bits`
     for (int bit = findMSB(emitterCount); bit >= 0; --bit) {

@@ -1,7 +1,7 @@
 // Lights without size.
 
-// Fraction of a spot's intensity in the direction from which it is seen; `toSpot` leads to the spot. It falls off
-// between two angles by a smooth step.
+// Fraction of a spot's intensity towards a point; `toSpot` leads from that point to the spot. It falls off between two
+// angles by a smooth step.
 float spotFalloff(vec3 toSpot, vec3 axis, float cosineOuter, float falloffScale) {
     float inside = -dotProduct(toSpot, axis) - cosineOuter;
     float scaled = inside * falloffScale;

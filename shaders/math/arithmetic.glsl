@@ -9,7 +9,7 @@
 // Exactly IEEE 754 wherever inputs and result are normal, zero, infinite or NaN. Subnormal inputs count as zeros,
 // and quotients below 2^-126 become zeros, as devices may do for + - *. No picture depends on subnormal numbers.
 
-// All integers are signed, because CPUs convert and compare them faster: magnitudes have 31 bits.
+// All integers are signed, because CPUs convert and compare signed ones faster. Magnitudes have 31 bits.
 
 const int signBit = int(0x80000000u);
 const int magnitudeMask = 0x7FFFFFFF;

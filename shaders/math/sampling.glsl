@@ -34,8 +34,8 @@ vec3 sampleCosine(vec3 normal, vec2 u) {
 
 float pdfCosine(float cosine) { return cosine * inversePi; }
 
-// Barycentric weights of the first and second vertex, uniform over the area of a triangle: PBRT, section 6.5.4, before
-// it was made one with less distortion.
+// Barycentric weights of the first and second vertex, uniform over the area of a triangle: the square-root map, which
+// PBRT, section 6.5.4, has since replaced by one with less distortion.
 vec2 sampleTriangle(vec2 u) {
     float root = squareRoot(u.x);
     float first = 1.0 - root;

@@ -11,7 +11,7 @@ const float maxSpan = 1e30;          // of coordinates: the inverse is not subno
 const float minDeterminant = 1e-20; // of coordinates on one line, up to rounding
 const float minHeight = 0.01;       // of a mapped normal, and of the direction that it reflects, above the surface
 
-// Coordinates and edges are scaled first, because their products leave the range of floats.
+// Coordinates and edges are scaled first, because their products would leave the range of floats.
 Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
     vec3 edge1 = triangle.v1 - triangle.v0;
     vec3 edge2 = triangle.v2 - triangle.v0;

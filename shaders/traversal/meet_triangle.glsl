@@ -3,8 +3,8 @@
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 
-// Tests a triangle and records a hit. isShadow: an opaque hit ends the search, for which this returns true, and glass
-// only dims; otherwise the nearest hit is kept.
+// Tests a triangle and records a hit. isShadow: an opaque hit ends the search and returns true, and glass only dims;
+// otherwise the nearest hit is kept.
 bool meetTriangle(uint slot, uint record, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
                   const bool isShadow) {
     TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);

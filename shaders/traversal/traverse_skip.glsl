@@ -25,7 +25,7 @@ GridRay makeGridRay(vec3 origin, BoxRay ray) {
     return GridRay(scale, base - outward, base + outward);
 }
 
-// The list in which nearer siblings mostly come first for this direction: the second one if the largest component is
+// The list in which nearer siblings mostly come first for this direction: the second list if the largest component is
 // negative.
 uint skipListFor(vec3 direction) {
     return largestComponent(abs(direction)) != largestComponent(direction) ? 1u : 0u;
