@@ -41,7 +41,7 @@ ExitCode finishOutput(ExitCode code) {
         return code;
     if (code != ExitCode::Ok && code != ExitCode::AnswerIsNo)
         return code;
-    printMessage("hyalite: cannot write to standard output: what is printed there is incomplete\n");
+    printMessage("hyalite: cannot write to standard output: the output is incomplete\n");
     return ExitCode::OutputNotWritten;
 }
 
@@ -69,7 +69,7 @@ std::string describeMistake(const CLI::App &app, const CLI::ParseError &error) {
     if (app.get_subcommands().empty()) {
         const std::vector<std::string> unknown = app.remaining();
         if (unknown.empty())
-            return fmt::format("no command is given\n\n{}", app.help());
+            return fmt::format("no command given\n\n{}", app.help());
         const std::vector<std::string> names = commandNames(app);
         return fmt::format("there is no command \"{}\"; the commands are {}{}\n", unknown.front(),
                            fmt::join(names, ", "), suggestionFor(unknown.front(), names));

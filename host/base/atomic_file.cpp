@@ -257,7 +257,7 @@ void AtomicFile::commit() {
     if (rename(temporaryPath_.c_str(), targetPath_.c_str()) != 0) {
         refuseWithErrno(
             givenPath_,
-            fmt::format("what was to be in it is in '{}', as renaming that failed", temporaryPath_.string()),
+            fmt::format("its contents are in '{}', which could not be renamed", temporaryPath_.string()),
             errno);
     }
     // The file is in place; this makes its new name survive a power failure. A folder that is writable but not readable

@@ -173,12 +173,12 @@ std::vector<std::pair<std::string, JsonNode>> JsonObject::members(std::size_t ma
 std::string suggestion(std::string_view word, std::span<const std::string_view> candidates) {
     constexpr std::size_t longestWord = 64; // longer words are not typing errors
     std::string_view nearest;
-    std::size_t leastDistance = std::max<std::size_t>(2, word.size() / 2);
+    std::size_t minDistance = std::max<std::size_t>(2, word.size() / 2);
     for (const std::string_view candidate : candidates) {
         const std::size_t distance = word.size() > longestWord ? word.size() : editDistance(word, candidate);
-        if (distance < leastDistance || (nearest.empty() && distance == leastDistance)) {
+        if (distance < minDistance || (nearest.empty() && distance == minDistance)) {
             nearest = candidate;
-            leastDistance = distance;
+            minDistance = distance;
         }
     }
     return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", excerpt(nearest));

@@ -35,7 +35,7 @@ void printContestants(const PreparedScene &scene, const Contestants &contestants
                contestants.second->description());
     for (const Backend *backend : {contestants.first.get(), contestants.second.get()})
         if (!backend->unpromisedBits().empty())
-            fmt::print("note         bits are not promised by {}: {}\n", backend->name(),
+            fmt::print("note         equal bits are not promised by {}: {}\n", backend->name(),
                        backend->unpromisedBits());
 }
 

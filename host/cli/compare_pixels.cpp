@@ -65,7 +65,7 @@ class CompareFiles {
         if (!options.heatMap.empty()) {
             if (imageFormatOf(options.heatMap) != ImageFormat::Png)
                 throw Error(ErrorKind::Usage,
-                            fmt::format("--diff {}: the heat map is a .png", options.heatMap));
+                            fmt::format("--diff {}: the heat map must be a .png file", options.heatMap));
             heatMap_.emplace(options.heatMap);
         }
         if (!options.report.empty())

@@ -178,7 +178,8 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
     requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
                          {options.reference, options.test, options.mask});
     if (!options.heatMap.empty() && imageFormatOf(options.heatMap) != ImageFormat::Png)
-        throw Error(ErrorKind::Usage, fmt::format("--diff '{}': the heat map is a .png", options.heatMap));
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--diff '{}': the heat map must be a .png file", options.heatMap));
     // Opened before the work begins, so that an output that cannot be written is known now.
     std::optional<AtomicFile> heatMapFile;
     if (!options.heatMap.empty())

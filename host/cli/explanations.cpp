@@ -12,11 +12,13 @@ namespace hyalite {
 namespace {
 
 void printExplanation(const glm::uvec2 &pixel, const reference::Explanation &why) {
-    fmt::print("  ({}, {})  {}{}\n", pixel.x, pixel.y, reference::causeName(why.cause),
-               why.marginPixels
-                   ? fmt::format(", sample {}, bounce {}: the oracle decides so {:.2g} pixels away",
-                                 why.sampleIndex, why.rayDepth - 1, *why.marginPixels)
-                   : ", no reason found within a quarter of a pixel");
+    fmt::print(
+        "  ({}, {})  {}{}\n", pixel.x, pixel.y, reference::causeName(why.cause),
+        why.marginPixels
+            ? fmt::format(
+                  ", sample {}, bounce {}: in double precision, it would be decided so {:.2g} pixels away",
+                  why.sampleIndex, why.rayDepth - 1, *why.marginPixels)
+            : ", no reason found within a quarter of a pixel");
 }
 
 } // namespace
@@ -53,21 +55,21 @@ nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
 }
 
 std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers) {
-    constexpr std::size_t mostExplained = 2000;
-    constexpr std::size_t mostPrinted = 8;
-    std::size_t unexplained = outliers.size() > mostExplained ? outliers.size() - mostExplained : 0;
+    constexpr std::size_t maxExplained = 2000;
+    constexpr std::size_t maxPrinted = 8;
+    std::size_t unexplained = outliers.size() > maxExplained ? outliers.size() - maxExplained : 0;
     std::array<std::size_t, 5> counts{};
-    for (std::size_t i = 0; i < std::min(outliers.size(), mostExplained); ++i) {
+    for (std::size_t i = 0; i < std::min(outliers.size(), maxExplained); ++i) {
         const glm::uvec2 pixel = imagePixel(scene.crop, outliers[i]);
         const reference::Explanation why =
             reference::explainOutlier(scene.packed, scene.loaded.scene.settings, pixel);
         ++counts[static_cast<std::size_t>(why.cause)];
         const bool isExplained = why.cause != reference::Cause::Rounding && why.marginPixels;
         unexplained += isExplained ? 0u : 1u;
-        if (i < mostPrinted)
+        if (i < maxPrinted)
             printExplanation(pixel, why);
     }
-    if (outliers.size() > mostPrinted)
+    if (outliers.size() > maxPrinted)
         fmt::print("  ...\n");
     for (std::size_t cause = 0; cause < counts.size(); ++cause)
         if (counts[cause] > 0)

@@ -29,7 +29,7 @@ std::string_view wordsFor(Remedy remedy) {
     case Remedy::CompareRenders:
         return "; `hyalite compare` tells where";
     case Remedy::BeginAnew:
-        return "; render as before, or begin anew without --resume";
+        return "; render as before, or start over without --resume";
     case Remedy::AllowPath:
         return "; --allow-path PATH allows another folder or file";
     case Remedy::ProfileReport:

@@ -71,19 +71,19 @@ CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &pa
     return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);
 }
 
-CLI::Option *addFolders(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
+CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
                         const std::string &help) {
     const auto read = [name, &paths](const CLI::results_t &words) {
         for (const std::string &word : words) {
             std::error_code error;
             if (!std::filesystem::exists(word, error))
-                refuseValue(name, word, "a folder that exists");
+                refuseValue(name, word, "a file or folder that exists");
             paths.emplace_back(word);
         }
         return true;
     };
     return command.add_option(name, CLI::callback_t(read), help)
-        ->type_name("FOLDER")
+        ->type_name("PATH")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
@@ -102,9 +102,10 @@ void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vect
             continue;
         for (const std::string &input : inputs)
             if (!input.empty() && isSameFile(output.path, input))
-                throw Error(ErrorKind::Usage,
-                            fmt::format("{} {}: this would replace what is read from {}; name another output",
-                                        output.option, output.path, input));
+                throw Error(
+                    ErrorKind::Usage,
+                    fmt::format("{} {}: this would overwrite {}, which is an input; name another output",
+                                output.option, output.path, input));
         for (std::size_t j = 0; j < i; ++j)
             if (!outputs[j].path.empty() && isSameFile(output.path, outputs[j].path))
                 throw Error(ErrorKind::Usage,

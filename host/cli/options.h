@@ -119,7 +119,7 @@ CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &pa
                      const std::string &typeName, const std::string &help);
 
 /// An option that may be repeated, each time with an existing folder or file.
-CLI::Option *addFolders(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
+CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
                         const std::string &help);
 
 /// --tone, for commands that write a PNG. `curve` must outlive the command; it is empty for the default.

@@ -60,18 +60,18 @@ void printMeasured(const Profile &profile) {
     fmt::print("clock        {}\n", profile.frames.back().timeline.clock);
     fmt::print("measured     {}, after {} that {} not\n", countText(measured, "frame"),
                profile.frames.size() - measured, profile.frames.size() - measured == 1 ? "is" : "are");
-    if (const std::uint64_t bytes = mostDeviceBytes(profile); bytes > 0)
+    if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
         fmt::print("memory       {} in buffers on the device\n", sizeText(bytes));
     fmt::print("\n{}", profileTable(profile));
 }
 
 void printFault(const std::string &fault, const Backend &backend) {
-    fmt::print("NOT verified: {}. Nothing is measured: `hyalite compare` tells more, --no-verify measures "
-               "all the same{}\n",
+    fmt::print("NOT verified: {}. Nothing was measured: `hyalite compare` says more, --no-verify measures "
+               "anyway{}\n",
                fault,
                backend.unpromisedBits().empty()
                    ? ""
-                   : fmt::format(" (bits are not promised here: {})", backend.unpromisedBits()));
+                   : fmt::format(" (equal bits are not promised here: {})", backend.unpromisedBits()));
 }
 
 /// The baseline's figures and the allowed regression.

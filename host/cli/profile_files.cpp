@@ -30,7 +30,8 @@ std::vector<NamedFile> namedFiles(const ProfilePaths &paths) {
 
 ProfileFiles::ProfileFiles(const ProfilePaths &paths) : paths_(paths) {
     if (!paths.heatMap.empty() && imageFormatOf(paths.heatMap) != ImageFormat::Png)
-        throw Error(ErrorKind::Usage, fmt::format("--heatmap {}: the heat map is a .png", paths.heatMap));
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--heatmap {}: the heat map must be a .png file", paths.heatMap));
     if (!paths.output.empty())
         format_ = imageFormatOf(paths.output);
     open(image_, paths.output);

@@ -46,9 +46,9 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
     const ImageFormat format = imageFormatOf(request.output);
     requireDistinctFiles(outputsOf(request), {resolveScene(request.scene.scene).string()});
     if (request.checkpoint.empty() && request.isResuming)
-        throw Error(ErrorKind::Usage, "--resume needs --checkpoint FILE, to go on from");
+        throw Error(ErrorKind::Usage, "--resume needs --checkpoint FILE to resume from");
     if (request.checkpoint.empty() && request.checkpointSeconds)
-        throw Error(ErrorKind::Usage, "--checkpoint-interval needs --checkpoint FILE, to write each time");
+        throw Error(ErrorKind::Usage, "--checkpoint-interval needs --checkpoint FILE to write to");
     if (!request.checkpoint.empty() && request.device == "cpu-double")
         throw Error(ErrorKind::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
@@ -68,7 +68,7 @@ void tellDevice(const Backend &device) {
 void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request) {
     const RenderReport &report = job.report();
     if (!job.checkpointDamage().empty())
-        printMessage("note: {}; going on from the older {}\n", job.checkpointDamage(),
+        printMessage("note: {}; resuming from the older {}\n", job.checkpointDamage(),
                      report.resumed->checkpoint);
     if (request.isQuiet || !request.isResuming)
         return;
@@ -76,7 +76,7 @@ void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request) {
         printMessage("resuming from {}: {:.1f} % of the samples are finished\n", report.resumed->checkpoint,
                      percentOf(report.resumed->sampleCount, report));
     else
-        printMessage("there is no checkpoint {} yet: beginning anew\n", request.checkpoint);
+        printMessage("no checkpoint {} yet: starting from the beginning\n", request.checkpoint);
 }
 
 /// The finished part of an incomplete image, and its file.

@@ -50,8 +50,8 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     command.add_option("scene", options.scene, "a .json scene, a .obj mesh, or the name of a shipped scene")
         ->required()
         ->type_name("SCENE");
-    addFolders(command, "--allow-path", options.allowedPaths,
-               "also let a scene file name files in this folder, besides its own and the assets; repeatable");
+    addPaths(command, "--allow-path", options.allowedPaths,
+               "also let a scene file read this file, or files in this folder; repeatable");
     const std::string image(imageGroup);
     addNumber(command, "--width", options.width, limits::imageSize, "pixels")->group(image);
     addNumber(command, "--height", options.height, limits::imageSize, "pixels")->group(image);

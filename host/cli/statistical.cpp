@@ -31,7 +31,7 @@ WelchResult testAndPrint(const Estimate &a, const Estimate &b, const WelchOption
     if (result.testCount == 0)
         throw Error(ErrorKind::BadInput,
                     fmt::format("{}: no pixel can be tested: each needs a variance, of {} samples at least",
-                                names, options.leastSampleCount));
+                                names, options.minSampleCount));
     fmt::print("tests        {} of channels of pixels and of the image, {} untested; significance {:g}\n",
                result.testCount, result.untestedCount, options.significance);
     const glm::vec3 &meanA = a.mean.at(result.x, result.y);
@@ -52,7 +52,7 @@ WelchResult testAndPrint(const Estimate &a, const Estimate &b, const WelchOption
 nlohmann::ordered_json welchToJson(const WelchResult &result, const WelchOptions &options) {
     nlohmann::ordered_json json{
         {"significance", options.significance},
-        {"leastSamples", options.leastSampleCount},
+        {"minSamples", options.minSampleCount},
         {"tests", result.testCount},
         {"untested", result.untestedCount},
         {"threshold", result.threshold},

@@ -25,7 +25,7 @@ struct ToneMapOptions {
 
 ExitCode runToneMap(const ToneMapOptions &options, const std::string &commandLine) {
     if (imageFormatOf(options.output) != ImageFormat::Png)
-        throw Error(ErrorKind::Usage, fmt::format("'{}': what is tone-mapped is a .png", options.output));
+        throw Error(ErrorKind::Usage, fmt::format("'{}': the output must be a .png file", options.output));
     requireDistinctFiles({{"OUT", options.output}}, {options.input});
     AtomicFile file(options.output);
     const LoadedImage loaded = readImage(options.input);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view magic = "hyalite checkpoint\n";
 constexpr std::uint32_t currentVersion = 2;
-constexpr std::uint32_t mostIdentityBytes = 1u << 16;
+constexpr std::uint32_t maxIdentityBytes = 1u << 16;
 
 struct Header {
     std::uint32_t version;
@@ -63,7 +63,7 @@ std::string describeDifferences(std::string_view there, const RenderIdentity &he
         if (const std::string other = valueOf(there, name); other != excerpt(value, shownBytes))
             differences += fmt::format("{}{}: {} there, {} here", differences.empty() ? "" : "; ", name,
                                        other, excerpt(value, shownBytes));
-    return differences.empty() ? "it names settings that this program does not know" : differences;
+    return differences.empty() ? "it has settings that this program does not know" : differences;
 }
 
 class Reader {
@@ -76,13 +76,13 @@ class Reader {
         if (head.size() < magic.size() || std::memcmp(head.data(), magic.data(), magic.size()) != 0)
             throw file_.bad(file_.sizeBytes() == 0 ? "it is empty" : "it is not a checkpoint of Hyalite");
         if (head.size() < magic.size() + sizeof(Header))
-            throw file_.bad(fmt::format("it ends after {} bytes, in its header", head.size()));
+            throw file_.bad(fmt::format("it ends after {} bytes, within its header", head.size()));
         Header header{};
         std::memcpy(&header, head.data() + magic.size(), sizeof header);
         if (header.version != currentVersion)
             throw OtherRender(ErrorKind::BadInput,
                               fmt::format("cannot resume from '{}': its format has version {}, and this "
-                                          "program reads version {}; finish it with the program that began "
+                                          "program reads version {}; finish it with the version that began "
                                           "it, or remove it",
                                           file_.path().string(), header.version, currentVersion));
         const std::uint64_t pixelCount = countPixels(header);
@@ -111,27 +111,27 @@ class Reader {
         if (found.x0 != crop.x0 || found.x1 != crop.x1 || found.y0 != crop.y0 || found.y1 != crop.y1)
             throw other(fmt::format("crop: {},{},{},{} there, {},{},{},{} here", found.x0, found.x1, found.y0,
                                     found.y1, crop.x0, crop.x1, crop.y0, crop.y1));
-        std::uint32_t mostSamples = 0;
+        std::uint32_t maxSamples = 0;
         for (const layout::FilmPixel &pixel : checkpoint.film.pixels)
-            mostSamples = std::max(mostSamples, pixel.sampleCount);
-        if (mostSamples > samplesPerPixel)
+            maxSamples = std::max(maxSamples, pixel.sampleCount);
+        if (maxSamples > samplesPerPixel)
             throw other(
-                fmt::format("samples per pixel: up to {} there, {} here", mostSamples, samplesPerPixel));
+                fmt::format("samples per pixel: up to {} there, {} here", maxSamples, samplesPerPixel));
         return checkpoint;
     }
 
   private:
     /// For the crop, if the size of the file matches it.
     [[nodiscard]] std::uint64_t countPixels(const Header &header) const {
-        constexpr std::int32_t mostSide = 1 << 20;
+        constexpr std::int32_t maxSide = 1 << 20;
         const std::int64_t width = std::int64_t{header.x1} - header.x0;
         const std::int64_t height = std::int64_t{header.y1} - header.y0;
-        if (width < 1 || height < 1 || width > mostSide || height > mostSide)
+        if (width < 1 || height < 1 || width > maxSide || height > maxSide)
             throw file_.bad(fmt::format("it is damaged: its image would have {} x {} pixels", width, height));
-        if (header.identityBytes > mostIdentityBytes)
+        if (header.identityBytes > maxIdentityBytes)
             throw file_.bad(
-                fmt::format("it is damaged: its settings would take {} bytes, and {} are allowed at most",
-                            header.identityBytes, mostIdentityBytes));
+                fmt::format("it is damaged: its settings would take {} bytes, and at most {} are allowed",
+                            header.identityBytes, maxIdentityBytes));
         const auto pixelCount = static_cast<std::uint64_t>(width * height);
         const std::uint64_t expectedBytes = magic.size() + sizeof(Header) + header.identityBytes +
                                             pixelCount * sizeof(layout::FilmPixel) + sizeof(std::uint64_t);
@@ -148,7 +148,7 @@ class Reader {
 
     [[nodiscard]] OtherRender other(const std::string &difference) const {
         return OtherRender(ErrorKind::BadInput,
-                           fmt::format("cannot resume from '{}': it is of another render: {}",
+                           fmt::format("cannot resume from '{}': it belongs to another render: {}",
                                        file_.path().string(), difference),
                            Remedy::BeginAnew);
     }

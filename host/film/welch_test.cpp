@@ -17,15 +17,14 @@ struct Sample {
     double degreesOfFreedom = 0.0; ///< infinite where the variance is exact
 };
 
-std::optional<Sample> sampleAt(const Estimate &estimate, std::size_t pixel, int channel,
-                               int leastSampleCount) {
+std::optional<Sample> sampleAt(const Estimate &estimate, std::size_t pixel, int channel, int minSampleCount) {
     Sample sample;
     sample.mean = static_cast<double>(estimate.mean.pixels()[pixel][channel]);
     sample.variance = static_cast<double>(estimate.variance.pixels()[pixel][channel]);
     sample.degreesOfFreedom = std::numeric_limits<double>::infinity();
     if (estimate.counts) {
         const double count = static_cast<double>(estimate.counts->pixels()[pixel].x);
-        if (!(count >= leastSampleCount))
+        if (!(count >= minSampleCount))
             return std::nullopt;
         sample.degreesOfFreedom = count - 1.0;
     }
@@ -99,8 +98,8 @@ WelchResult welchTest(const Estimate &a, const Estimate &b, const WelchOptions &
         double variance = 0.0;
         bool isTested = false;
         for (std::size_t i = 0; i < pixelCount; ++i) {
-            const std::optional<Sample> sampleA = sampleAt(a, i, channel, options.leastSampleCount);
-            const std::optional<Sample> sampleB = sampleAt(b, i, channel, options.leastSampleCount);
+            const std::optional<Sample> sampleA = sampleAt(a, i, channel, options.minSampleCount);
+            const std::optional<Sample> sampleB = sampleAt(b, i, channel, options.minSampleCount);
             const std::optional<double> z = sampleA && sampleB ? deviate(*sampleA, *sampleB) : std::nullopt;
             if (!z) {
                 ++result.untestedCount;

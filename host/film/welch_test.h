@@ -25,7 +25,7 @@ struct Estimate {
 
 struct WelchOptions {
     double significance = 0.01; ///< in (0, 1): maximum probability that any test fails on equal pictures
-    int leastSampleCount = 16;  ///< pixels with fewer samples are skipped: their t is not Student's
+    int minSampleCount = 16;    ///< pixels with fewer samples are skipped: their t is not Student's
 };
 
 struct WelchResult {

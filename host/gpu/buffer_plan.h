@@ -23,7 +23,7 @@ struct BufferPlan {
 };
 
 /// Maximum size of one buffer of this use on the device, in bytes.
-[[nodiscard]] std::uint64_t mostBytes(BufferUse use, const DeviceInfo &device);
+[[nodiscard]] std::uint64_t maxBufferBytes(BufferUse use, const DeviceInfo &device);
 
 /// Throws Error{LimitExceeded} if the device does not allow a buffer of this size.
 void requireBuffer(const BufferPlan &plan, const DeviceInfo &device);

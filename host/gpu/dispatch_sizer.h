@@ -16,12 +16,12 @@ namespace hyalite::gpu {
 /// The first dispatches are small, because nothing is known yet.
 class DispatchSizer {
   public:
-    static constexpr std::uint64_t leastPixels = 256; ///< of a tile: enough for a few processors
+    static constexpr std::uint64_t minPixels = 256; ///< of a tile: enough for a few processors
 
     /// `seconds` > 0 is the wanted time of a dispatch. Sample counts are whole rounds of `samplesAbreast`; tiles have
-    /// at most `mostPixels` pixels.
-    DispatchSizer(double seconds, std::uint32_t samplesAbreast, std::uint64_t mostPixels)
-        : seconds_(seconds), samplesAbreast_(samplesAbreast), mostPixels_(mostPixels) {}
+    /// at most `maxPixels` pixels.
+    DispatchSizer(double seconds, std::uint32_t samplesAbreast, std::uint64_t maxPixels)
+        : seconds_(seconds), samplesAbreast_(samplesAbreast), mostPixels_(maxPixels) {}
 
     /// Maximum number of pixels of a tile that needs `samples` samples per pixel. Slots are set up once per dispatch,
     /// so a small tile with all its samples is better than a large one in several dispatches, unless it would be very
@@ -33,9 +33,8 @@ class DispatchSizer {
         const double together = std::clamp(samples, samplesAbreast_, std::max(firstSamples, samplesAbreast_));
         const double wanted =
             std::max(sampleCount / together, std::min(sampleCount / samplesAbreast_, double{firstPixels}));
-        return static_cast<std::uint64_t>(std::clamp(wanted,
-                                                     static_cast<double>(std::min(leastPixels, mostPixels_)),
-                                                     static_cast<double>(mostPixels_)));
+        return static_cast<std::uint64_t>(std::clamp(
+            wanted, static_cast<double>(std::min(minPixels, mostPixels_)), static_cast<double>(mostPixels_)));
     }
 
     /// Samples per pixel for a tile of `pixels` pixels.
@@ -44,7 +43,7 @@ class DispatchSizer {
             sampleSeconds_ == 0.0
                 ? static_cast<double>(firstSamples) / samplesAbreast_
                 : seconds_ / (sampleSeconds_ * samplesAbreast_ * static_cast<double>(pixels));
-        return static_cast<std::uint32_t>(std::clamp(rounds, 1.0, double{mostRounds})) * samplesAbreast_;
+        return static_cast<std::uint32_t>(std::clamp(rounds, 1.0, double{maxRounds})) * samplesAbreast_;
     }
 
     /// Work budget of a dispatch, in units of layout::DispatchProgress::workDone.
@@ -52,7 +51,7 @@ class DispatchSizer {
         if (workSeconds_ == 0.0)
             return firstWork;
         return static_cast<std::uint32_t>(
-            std::clamp(mostTimes * seconds_ / workSeconds_, 1.0, double{mostWork}));
+            std::clamp(maxOvershoot * seconds_ / workSeconds_, 1.0, double{maxWork}));
     }
 
     /// Learns from a dispatch. A short one gets little weight, so that it cannot hide expensive work.
@@ -71,9 +70,9 @@ class DispatchSizer {
     static constexpr std::uint64_t firstPixels = 1024;
     static constexpr std::uint32_t firstSamples = 32;
     static constexpr std::uint32_t firstWork = 1u << 20;
-    static constexpr std::uint32_t mostWork = 1u << 30; ///< leaves room in 32 bits for the work in flight
-    static constexpr std::uint32_t mostRounds = 1u << 13;
-    static constexpr double mostTimes = 1.25; ///< of the wanted time
+    static constexpr std::uint32_t maxWork = 1u << 30; ///< leaves room in 32 bits for the work in flight
+    static constexpr std::uint32_t maxRounds = 1u << 13;
+    static constexpr double maxOvershoot = 1.25; ///< of the wanted time
 
     /// A higher cost is learned at once, because the next dispatch must not be long; a lower one gradually, faster with
     /// more `weight`. No dispatch raises the cost more than fourfold: the machine may have been busy with something

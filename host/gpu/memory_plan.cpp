@@ -21,12 +21,12 @@ namespace hyalite::gpu {
 namespace {
 
 constexpr std::uint64_t bytesPerTexel = 16;
-constexpr std::uint64_t mostWaitingBytes = 256u << 20;
+constexpr std::uint64_t maxWaitingBytes = 256u << 20;
 
 /// Maximum tile size for the resumable helper kernel. It keeps the memory of waiting paths small, and its dispatches
 /// short.
-constexpr std::uint64_t mostHelperPixels = 64 * 64;
-constexpr std::uint64_t leastHelperPixels = 8 * 8; // a tile that cannot be halved
+constexpr std::uint64_t maxHelperPixels = 64 * 64;
+constexpr std::uint64_t minHelperPixels = 8 * 8; // a tile that cannot be halved
 
 /// At least 16 bytes: Vulkan has no empty buffers.
 BufferPlan plan(std::string name, BufferUse use, std::uint64_t sizeBytes) {
@@ -51,14 +51,14 @@ std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
 /// For a kernel with `slots` path slots. `isResumable`: it can stop inside a sample.
 WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::uint64_t slots) {
     const bool isSplitting = rowOf(job.integrator).splitsAtGlass && job.scene.hasDielectric;
-    const std::uint32_t mostPending = isSplitting ? job.scene.frame.maxDepth - 1 : 0;
-    const bool keepsPending = !isResumable && mostPending <= layout::maxPendingInRegisters;
+    const std::uint32_t maxPending = isSplitting ? job.scene.frame.maxDepth - 1 : 0;
+    const bool keepsPending = !isResumable && maxPending <= layout::maxPendingInRegisters;
     WaitingPlan waiting;
     waiting.paths =
         plan("the path slots", BufferUse::Storage, isResumable ? slots * sizeof(layout::PathRecord) : 0);
     waiting.pending = plan("the pending rays", bulkUse(isSkipList),
-                           keepsPending ? 0 : slots * mostPending * sizeof(layout::PendingRay));
-    waiting.pendingInRegisters = keepsPending ? mostPending : 0;
+                           keepsPending ? 0 : slots * maxPending * sizeof(layout::PendingRay));
+    waiting.pendingInRegisters = keepsPending ? maxPending : 0;
     return waiting;
 }
 
@@ -66,11 +66,11 @@ WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::
 bool haveRoom(std::initializer_list<const BufferPlan *> buffers, const DeviceInfo &device) {
     std::uint64_t sumBytes = 0;
     for (const BufferPlan *buffer : buffers) {
-        if (buffer->sizeBytes > mostBytes(buffer->use, device))
+        if (buffer->sizeBytes > maxBufferBytes(buffer->use, device))
             return false;
         sumBytes += buffer->sizeBytes;
     }
-    return sumBytes <= std::min(mostWaitingBytes, device.deviceMemoryBytes / 4);
+    return sumBytes <= std::min(maxWaitingBytes, device.deviceMemoryBytes / 4);
 }
 
 std::string listLargest(std::vector<const BufferPlan *> buffers) {
@@ -83,7 +83,7 @@ std::string listLargest(std::vector<const BufferPlan *> buffers) {
 
 } // namespace
 
-std::uint64_t mostBytes(BufferUse use, const DeviceInfo &device) {
+std::uint64_t maxBufferBytes(BufferUse use, const DeviceInfo &device) {
     if (use == BufferUse::Storage)
         return device.maxStorageBufferBytes;
     if (use == BufferUse::Texels)
@@ -92,7 +92,7 @@ std::uint64_t mostBytes(BufferUse use, const DeviceInfo &device) {
 }
 
 void requireBuffer(const BufferPlan &plan, const DeviceInfo &device) {
-    if (plan.sizeBytes <= mostBytes(plan.use, device))
+    if (plan.sizeBytes <= maxBufferBytes(plan.use, device))
         return;
     const std::string what =
         fmt::format("the buffer for {}, {} bytes, is too large", plan.name, plan.sizeBytes);
@@ -116,7 +116,7 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
     for (const SceneArray &array : scene.arrays())
         planned.buffers[array.binding] = plan(fmt::format("the {}", array.name), use, array.bytes.size());
     if (isSkipList) {
-        const std::uint64_t listBytes = scene.hasTriangles ? mostSkipListBytes(scene.nodes.size()) : 0;
+        const std::uint64_t listBytes = scene.hasTriangles ? maxSkipListBytes(scene.nodes.size()) : 0;
         planned.buffers[layout::bindingNodes] = plan("the skip lists", use, listBytes);
         planned.hostBytes = scene.hasTriangles ? listBytes + skipListWorkBytes(scene.nodes.size()) : 0;
     } else {
@@ -157,15 +157,15 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     }
     if (!planned.isDirect)
         return planned;
-    planned.mostHelperPixels = std::min(planned.largestTile.pixelCount(), mostHelperPixels);
+    planned.maxHelperPixels = std::min(planned.largestTile.pixelCount(), maxHelperPixels);
     const auto planHelper = [&] {
         planned.helperWaiting =
-            planWaiting(job, isSkipList, true, planned.mostHelperPixels * planned.samplesAbreast);
+            planWaiting(job, isSkipList, true, planned.maxHelperPixels * planned.samplesAbreast);
     };
     planHelper();
     while (!haveRoom({&planned.helperWaiting.paths, &planned.helperWaiting.pending}, device) &&
-           planned.mostHelperPixels > leastHelperPixels) {
-        planned.mostHelperPixels = std::max(planned.mostHelperPixels / 2, leastHelperPixels);
+           planned.maxHelperPixels > minHelperPixels) {
+        planned.maxHelperPixels = std::max(planned.maxHelperPixels / 2, minHelperPixels);
         planHelper();
     }
     return planned;
@@ -201,7 +201,7 @@ MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStag
     const std::optional<std::uint64_t> available = availableHostBytes();
     if (available && neededBytes > *available)
         throw Error(ErrorKind::LimitExceeded,
-                    fmt::format("the render takes {} of memory beside the scene and the image, and {} are "
+                    fmt::format("the render takes {} of memory besides the scene and the image, and {} are "
                                 "available ({})",
                                 sizeText(neededBytes), sizeText(*available), listLargest(buffers)),
                     Remedy::SmallerRender);

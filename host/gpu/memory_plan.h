@@ -35,7 +35,7 @@ struct JobPlan {
     bool isDirect =
         false; ///< dispatches end with whole samples; a resumable helper kernel does samples that are too long
     Tile largestTile;
-    std::uint64_t mostHelperPixels = 0; ///< maximum size of a tile for the helper
+    std::uint64_t maxHelperPixels = 0; ///< maximum size of a tile for the helper
     BufferPlan film;
     BufferPlan progress;
     BufferPlan stacks;

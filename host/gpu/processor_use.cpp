@@ -20,13 +20,13 @@ namespace {
 
 // Maximum depths for 512 bits with Whitted's rays: with glass they were slower for a mesh at depth 6, for spheres at
 // depth 12.
-constexpr int mostDepthInTree = 5;
-constexpr int mostDepthOfSpheres = 10;
+constexpr int maxDepthInTree = 5;
+constexpr int maxDepthOfSpheres = 10;
 
 bool areRaysTogether(const ProcessorUse &use) {
     const IntegratorRow &row = rowOf(use.integrator);
     if (row.splitsAtGlass)
-        return use.maxDepth <= (use.hasTriangles ? mostDepthInTree : mostDepthOfSpheres);
+        return use.maxDepth <= (use.hasTriangles ? maxDepthInTree : maxDepthOfSpheres);
     if (row.followsPaths)
         return !use.hasTriangles;
     return true;

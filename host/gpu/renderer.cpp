@@ -22,9 +22,9 @@ namespace {
 /// Bands of whole rows, from top to bottom, whose films fit into a storage buffer and a quarter of the device memory.
 std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
     const std::uint64_t rowBytes = static_cast<std::uint64_t>(crop.width()) * sizeof(layout::FilmPixel);
-    const std::uint64_t mostBytes = std::min(device.maxStorageBufferBytes, device.deviceMemoryBytes / 4);
+    const std::uint64_t maxFilmBytes = std::min(device.maxStorageBufferBytes, device.deviceMemoryBytes / 4);
     const int rows = static_cast<int>(
-        std::clamp<std::uint64_t>(mostBytes / rowBytes, 1, static_cast<std::uint64_t>(crop.height())));
+        std::clamp<std::uint64_t>(maxFilmBytes / rowBytes, 1, static_cast<std::uint64_t>(crop.height())));
     std::vector<Crop> bands;
     for (int y = crop.y0; y < crop.y1; y += rows)
         bands.push_back({crop.x0, crop.x1, y, std::min(y + rows, crop.y1)});
@@ -32,8 +32,8 @@ std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
 }
 
 /// Number of further attempts after a failure.
-constexpr int mostRetries = 3;
-constexpr std::uint32_t leastSteps = 256; // lower bound when dispatches are halved
+constexpr int maxRetries = 3;
+constexpr std::uint32_t minSteps = 256; // lower bound when dispatches are halved
 
 /// When to copy the film to the host, because a lost device loses its film: often, but for at most a hundredth of the
 /// time.
@@ -103,7 +103,7 @@ struct Renderer::State {
     void reopen() {
         device.reset();
         config.tileHeight = std::max(config.tileHeight / 2 / 8 * 8, 8);
-        config.steps = std::max(config.steps / 2, std::min(config.steps, leastSteps));
+        config.steps = std::max(config.steps / 2, std::min(config.steps, minSteps));
         config.dispatchSeconds /= 2.0;
         try {
             device.emplace(info, transfers(config));
@@ -146,13 +146,13 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
         } catch (const DeviceFault &fault) {
             result.faults.emplace_back(fault.what());
             isBegun = true;
-            if (retry == mostRetries) {
+            if (retry == maxRetries) {
                 const bool isGone = fault.kind == ErrorKind::NoDevice;
                 result.failure.emplace(
                     isGone ? ErrorKind::DeviceLost : fault.kind,
-                    fmt::format("{}; the device was opened anew {} times, for half as much at a "
+                    fmt::format("{}; the device was reopened {} times, for half as much at a "
                                 "time each, and failed each time",
-                                fault.what(), mostRetries));
+                                fault.what(), maxRetries));
                 return result;
             }
             if (shouldStop && shouldStop())

@@ -269,7 +269,7 @@ std::vector<TileRenderer::WorkItem> TileRenderer::cutFilm(std::uint32_t begin) c
 bool TileRenderer::mustHalve(const WorkItem &item, std::uint32_t end) const {
     const std::uint64_t most = sizer_.pixels(end - item.begin);
     return item.tile.canBeHalved() &&
-           item.tile.pixelCount() > (item.isLong ? std::min(most, plan_.mostHelperPixels) : most);
+           item.tile.pixelCount() > (item.isLong ? std::min(most, plan_.maxHelperPixels) : most);
 }
 
 void TileRenderer::readFilm(std::span<layout::FilmPixel> pixels) const {

@@ -72,7 +72,7 @@ class SafeHeader {
             if ((version & flag) != 0)
                 throw file_.bad(fmt::format("it is OpenEXR with {}; store one image of scan lines", what));
         if ((version & ~(0xffu | longNames)) != 0)
-            throw file_.bad(fmt::format("its OpenEXR version field is {:#x}, which is not known", version));
+            throw file_.bad(fmt::format("its OpenEXR version field is {:#x}, which is unknown", version));
     }
 
     /// The text that begins at `begin`. Its terminating zero lies within the header.
@@ -193,14 +193,14 @@ std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &c
                                  const std::string &layer) {
     const std::string prefix = prefixOf(layer);
     std::vector<std::string> found;
-    constexpr std::size_t mostTold = 12;
+    constexpr std::size_t maxListed = 12;
     std::size_t count = 0;
     for (Imf::ChannelList::ConstIterator i = channels.begin(); i != channels.end(); ++i)
-        if (++count <= mostTold)
+        if (++count <= maxListed)
             found.push_back(excerpt(i.name(), 40));
     throw file.bad(fmt::format("it has no channels {}R, {}G and {}B, but {}{}", prefix, prefix, prefix,
                                found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", ")),
-                               count > mostTold ? fmt::format(" and {} more", count - mostTold) : ""));
+                               count > maxListed ? fmt::format(" and {} more", count - maxListed) : ""));
 }
 
 /// Checks before memory is allocated. Throws if the file cannot be read.
@@ -213,7 +213,7 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
     for (Imf::ChannelList::ConstIterator i = header.channels().begin(); i != header.channels().end(); ++i) {
         if (i.channel().xSampling != 1 || i.channel().ySampling != 1)
             throw file.bad(
-                fmt::format("its channel {} has fewer values than pixels (sampling {} x {}); store a "
+                fmt::format("its channel {} has fewer values than pixels (subsampled {} x {}); store a "
                             "value for each pixel",
                             excerpt(i.name(), 40), i.channel().xSampling, i.channel().ySampling));
         bytesPerPixel += i.channel().type == Imf::HALF ? 2 : 4;

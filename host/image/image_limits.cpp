@@ -16,12 +16,11 @@ void requireReadingMemory(const InputFile &file, std::uint64_t width, std::uint6
     const std::uint64_t allowedBytes = readingBytesMax(file.sizeBytes());
     constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20;
     if (neededBytes > allowedBytes)
-        throw Error(
-            ErrorKind::LimitExceeded,
-            fmt::format("{}: {} x {} pixels take {} MiB to read; for a file of {} bytes {} MiB are allowed "
-                        "(256 MiB and 64 times its size); make the image smaller, or write it as PFM",
-                        file.path().string(), width, height, (neededBytes + mebibyte - 1) / mebibyte,
-                        file.sizeBytes(), allowedBytes / mebibyte));
+        throw Error(ErrorKind::LimitExceeded,
+                    fmt::format("{}: {} x {} pixels take {} MiB to read; a file of {} bytes may take {} MiB "
+                                "(256 MiB and 64 times its size); make the image smaller, or write it as PFM",
+                                file.path().string(), width, height, (neededBytes + mebibyte - 1) / mebibyte,
+                                file.sizeBytes(), allowedBytes / mebibyte));
 }
 
 } // namespace hyalite

@@ -122,7 +122,7 @@ Texture readJpeg(const InputFile &file) {
         throw file.bad(fmt::format("it is damaged: {}", decoder.message));
     const J_COLOR_SPACE space = decoder.libjpeg.jpeg_color_space;
     if (space != JCS_GRAYSCALE && space != JCS_YCbCr && space != JCS_RGB)
-        throw file.bad(fmt::format("it has {} channels, as for print; allowed: grey and RGB",
+        throw file.bad(fmt::format("it has {} channels, as images for print do; allowed: grey and RGB",
                                    decoder.libjpeg.num_components));
     const std::uint64_t width = decoder.libjpeg.image_width;
     const std::uint64_t height = decoder.libjpeg.image_height;

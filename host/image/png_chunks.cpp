@@ -203,7 +203,7 @@ class ChunkReader {
         rowDataBytes_ = rowDataBytesOf(header_);
         if (rowDataBytes_ > rowDataBytesMax) {
             throw file_.bad(
-                fmt::format("its pixels take {} bytes, more than this program unpacks", rowDataBytes_));
+                fmt::format("its pixels take {} bytes, more than this program decompresses", rowDataBytes_));
         }
         offsetBytes_ += chunkFrameBytes + frame.sizeBytes;
     }

@@ -30,10 +30,10 @@ glm::dvec3 aces(const glm::dvec3 &radiance) {
 }
 
 double agxContrast(double radiance) {
-    constexpr double leastStops = -12.47393; // log2 of radiance
-    constexpr double mostStops = 4.026069;
-    const double stops = radiance > 0.0 ? log2Portable(radiance) : leastStops;
-    const double x = (std::clamp(stops, leastStops, mostStops) - leastStops) / (mostStops - leastStops);
+    constexpr double minStops = -12.47393; // log2 of radiance
+    constexpr double maxStops = 4.026069;
+    const double stops = radiance > 0.0 ? log2Portable(radiance) : minStops;
+    const double x = (std::clamp(stops, minStops, maxStops) - minStops) / (maxStops - minStops);
     return (((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x + 0.1191) * x - 0.00232;
 }
 

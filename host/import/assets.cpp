@@ -52,7 +52,7 @@ std::filesystem::path resolveScene(const std::string &argument) {
     if (argument.empty() || argument.find_first_of("./") != std::string::npos)
         throw Error(
             ErrorKind::BadInput,
-            fmt::format("\"{}\" is no scene: give a file that ends in .json or .obj, or the name of a "
+            fmt::format("\"{}\" is not a scene: give a file that ends in .json or .obj, or the name of a "
                         "shipped scene{}",
                         argument, listOfScenes()));
     std::vector<std::string> lookedAt;

@@ -212,7 +212,7 @@ class TextureReader {
                 "{} has a -s, -o or -bm out of range; allowed are {} for -s and -o, and {} for -bm", keyword,
                 limits::texturePlacement.text(), limits::normalStrength.text()));
         if (!statement->slot)
-            warn(fmt::format("{} {} is passed over; textures are read for {}", keyword, quoteInput(name),
+            warn(fmt::format("{} {} is ignored; textures are read for {}", keyword, quoteInput(name),
                              "map_Kd, map_Ke, map_Pr, map_Pm, map_d, norm and map_Bump"));
         else if (const std::optional<std::uint32_t> index = load(keyword, name, *statement->slot)) {
             use.textureIndex = *index;
@@ -230,7 +230,8 @@ class TextureReader {
             textures_.warnings.push_back(
                 fmt::format("{}:{}: {}", lines_.fileName(), lines_.lineNumber(), text));
         else if (textures_.warnings.size() == most)
-            textures_.warnings.push_back(fmt::format("{}: and so on", lines_.fileName()));
+            textures_.warnings.push_back(
+                fmt::format("{}: further warnings are not shown", lines_.fileName()));
     }
 
     void takeOption(Words &words, TextureUse &use, float &strength) {
@@ -257,7 +258,7 @@ class TextureReader {
         const bool hasWord = option == "-blendu" || option == "-blendv" || option == "-cc" ||
                              option == "-clamp" || option == "-imfchan" || option == "-type";
         const std::string_view value = hasWord ? words.next() : std::string_view();
-        warn(fmt::format("the option {}{}{} is passed over; -s, -o and -bm are not",
+        warn(fmt::format("the option {}{}{} is ignored; only -s, -o and -bm are read",
                          excerpt(option, maxExcerptBytes), hasWord ? " " : "",
                          excerpt(value, maxExcerptBytes)));
     }
@@ -273,20 +274,20 @@ class TextureReader {
             return std::nullopt;
         }
         if (!isTextureFile(*file)) {
-            warn(fmt::format("{} {} is passed over: it is no PNG, JPEG or Radiance (HDR) file", keyword,
+            warn(fmt::format("{} {} is ignored: it is not a PNG, JPEG or Radiance (HDR) file", keyword,
                              quoteInput(name)));
             return std::nullopt;
         }
         const std::uint32_t index = textures_.library.load(*file);
         const Texture &texture = textures_.library.at(index);
         if (texture.isFloat() && slot != layout::slotEmission) {
-            warn(fmt::format("{} {} is passed over: images of floats are for map_Ke alone", keyword,
+            warn(fmt::format("{} {} is ignored: only map_Ke takes images of floats", keyword,
                              quoteInput(name)));
             return std::nullopt;
         }
         if (slot == layout::slotNormal && isGrey(texture)) {
-            warn(fmt::format("{} {} is passed over: it is grey, a height map; normal maps are read", keyword,
-                             quoteInput(name)));
+            warn(fmt::format("{} {} is ignored: it is grey, so a height map; only normal maps are read",
+                             keyword, quoteInput(name)));
             return std::nullopt;
         }
         return index;
@@ -363,7 +364,7 @@ std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures tex
             continue;
         } else if (knows(keyword)) {
             if (!current)
-                lines.fail(fmt::format("{} stands before the first newmtl", keyword));
+                lines.fail(fmt::format("{} comes before the first newmtl", keyword));
             take(*current, keyword, words);
         }
     }

@@ -196,8 +196,8 @@ void leaveOutUselessTextures(ObjMesh &loaded) {
     if (loaded.mesh.triangleUvs.empty()) {
         for (Material &material : loaded.materials)
             material.textures = {};
-        loaded.report.warnings.push_back(
-            loaded.mesh.name + ": its textures are passed over, as it has no texture coordinates (vt)");
+        loaded.report.warnings.push_back(loaded.mesh.name +
+                                         ": its textures are ignored, as it has no texture coordinates (vt)");
     } else if (loaded.report.uvLessCount > 0) {
         loaded.report.warnings.push_back(fmt::format(
             "{}: {} triangles have no texture coordinates (vt); textures show their bottom left corner there",

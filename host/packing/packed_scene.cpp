@@ -82,9 +82,9 @@ layout::LightRecord packLight(const Light &light) {
     }
     const double outer = std::cos(glm::radians(light.angleDegrees));
     const double inner = std::cos(glm::radians(light.angleDegrees * (1.0 - light.blend)));
-    constexpr double leastDifference = 1e-6; // a spot without a soft edge
+    constexpr double minDifference = 1e-6; // a spot without a soft edge
     record.cosineOuter = static_cast<float>(outer);
-    record.falloffScale = static_cast<float>(1.0 / std::max(inner - outer, leastDifference));
+    record.falloffScale = static_cast<float>(1.0 / std::max(inner - outer, minDifference));
     return record;
 }
 

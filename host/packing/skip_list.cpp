@@ -178,7 +178,7 @@ SkipList makeSkipList(const PackedScene &scene) {
     return list;
 }
 
-std::uint64_t mostSkipListBytes(std::size_t pairCount) {
+std::uint64_t maxSkipListBytes(std::size_t pairCount) {
     return (std::uint64_t{listCount} * 2 * pairCount + 1) * sizeof(layout::SkipNode);
 }
 

@@ -25,7 +25,7 @@ struct SkipList {
 [[nodiscard]] SkipList makeSkipList(const PackedScene &scene);
 
 /// Maximum size of both lists for this many node pairs, in bytes.
-[[nodiscard]] std::uint64_t mostSkipListBytes(std::size_t pairCount);
+[[nodiscard]] std::uint64_t maxSkipListBytes(std::size_t pairCount);
 /// Size of the temporary memory for making them, in bytes.
 [[nodiscard]] std::uint64_t skipListWorkBytes(std::size_t pairCount);
 

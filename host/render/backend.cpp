@@ -173,7 +173,7 @@ DeviceList listDevices() {
 std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::RenderConfig &config) {
     if (isReference(name) && config.traversal != gpu::Traversal::Automatic)
         throw Error(ErrorKind::Usage,
-                    fmt::format("kernels are for Vulkan devices: {} has none to choose from", name),
+                    fmt::format("only Vulkan devices have kernels to choose from, {} has none", name),
                     Remedy::NoKernelChoice);
     if (name == "cpu")
         return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
@@ -204,7 +204,7 @@ BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, c
             throw Error(*result.failure);
         const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);
         for (std::size_t i = 0; i < survived; ++i)
-            printMessage("note: {}; opened the device anew, for half as much at a time\n", result.faults[i]);
+            printMessage("note: {}; reopened the device to do half as much at a time\n", result.faults[i]);
         return result;
     } catch (const std::bad_alloc &) {
         refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");

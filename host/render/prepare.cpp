@@ -128,7 +128,7 @@ void warnOfOverlaps(const Bvh &bvh) {
     const bool hasTree = statistics.depth > 0; // without a tree, many tests are what the user asked for
     if (hasTree && statistics.trianglesTested > manyTrianglesTested)
         printMessage("warning: the boxes of the scene's {} triangles overlap so much that a ray tests about "
-                     "{:.0f} of them: this takes its time\n",
+                     "{:.0f} of them: rendering will be slow\n",
                      statistics.triangleCount, statistics.trianglesTested);
 }
 

@@ -31,8 +31,8 @@ std::int64_t nanosecondsNow() noexcept {
 
 /// The acknowledgement of the first signal. On a terminal it replaces the progress line.
 std::string_view answerTo(bool isTerminal) {
-    return isTerminal ? "\r\033[Kstopping as soon as what runs is done; again: at once\n"
-                      : "stopping as soon as what runs is done; again: at once\n";
+    return isTerminal ? "\r\033[Kstopping after the work in progress; repeat the signal to stop at once\n"
+                      : "stopping after the work in progress; repeat the signal to stop at once\n";
 }
 
 void noteSignal(int signal) {

@@ -66,8 +66,8 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
             rates.best = renderers.size();
         renderers.emplace_back(device, config);
     }
-    std::vector<double> leastGain(renderers.size(),
-                                  std::numeric_limits<double>::max()); // over the default kernel
+    std::vector<double> minGain(renderers.size(),
+                                std::numeric_limits<double>::max()); // over the default kernel
     std::optional<Film> wanted;
     for (int round = 0; round < rounds; ++round) {
         const double bestRate = std::ranges::max(rates.megaraysPerSecond);
@@ -90,13 +90,13 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
                          std::max(result.timing.renderSeconds, std::numeric_limits<double>::min());
         }
         for (std::size_t i = 0; i < renderers.size(); ++i) {
-            leastGain[i] = std::min(leastGain[i], rateNow[i] / rateNow[rates.best]);
+            minGain[i] = std::min(minGain[i], rateNow[i] / rateNow[rates.best]);
             rates.megaraysPerSecond[i] = std::max(rates.megaraysPerSecond[i], rateNow[i]);
         }
     }
-    const auto fastest = std::ranges::max_element(leastGain);
+    const auto fastest = std::ranges::max_element(minGain);
     if (*fastest > gainNeeded)
-        rates.best = static_cast<std::size_t>(fastest - leastGain.begin());
+        rates.best = static_cast<std::size_t>(fastest - minGain.begin());
     return rates;
 }
 
@@ -153,7 +153,7 @@ Json inOwnProcess(const std::function<Json()> &work) {
     int status = 0;
     waitpid(child, &status, 0);
     if (WIFSIGNALED(status))
-        throw Error(ErrorKind::DeviceLost, fmt::format("a measurement was ended by signal {}: {}",
+        throw Error(ErrorKind::DeviceLost, fmt::format("a measurement was killed by signal {}: {}",
                                                        WTERMSIG(status), strsignal(WTERMSIG(status))));
     const Json said = Json::parse(text);
     if (said.contains("error"))

@@ -50,7 +50,7 @@ Json readEntries(const fs::path &file) {
     const Json document = readJsonFile(file);
     const auto devices = document.find("devices");
     if (!document.is_object() || devices == document.end() || !devices->is_array())
-        throw Error(ErrorKind::BadInput, fmt::format("{}: holds no list of devices", file.string()));
+        throw Error(ErrorKind::BadInput, fmt::format("{}: has no list of devices", file.string()));
     return *devices;
 }
 
@@ -67,7 +67,7 @@ fs::path tuningFile() {
     if (const std::optional<fs::path> file = findFile())
         return *file;
     throw Error(ErrorKind::OutputNotWritten,
-                "there is no place for what is measured: set HYALITE_CACHE to a folder");
+                "there is nowhere to keep measurements: set HYALITE_CACHE to a folder");
 }
 
 Tuning readTuning(const gpu::DeviceInfo &device) {
@@ -107,7 +107,7 @@ void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning) {
                 if (entry.is_object() && entry.value("key", Json()) != key)
                     entries.push_back(entry);
         } catch (const Error &fault) {
-            printMessage("note: {}; it is written anew\n", fault.what());
+            printMessage("note: {}; it will be rewritten\n", fault.what());
         }
     }
     Json entry;

@@ -37,7 +37,7 @@ void addCounts(const Json &json, const std::string &path, std::vector<ProfileFig
         return;
     }
     if (!json.is_object())
-        throw Error(ErrorKind::BadInput, "what is below \"work\" is no count");
+        throw Error(ErrorKind::BadInput, "an entry of \"work\" is not a count");
     for (const auto &[key, value] : json.items())
         addCounts(value, path.empty() ? key : path + "." + key, counts);
 }
@@ -46,7 +46,7 @@ ProfileFigures::Times timesOf(const std::string &name, const Json &frameMillis) 
     ProfileFigures::Times times{name, frameMillis.get<std::vector<double>>()};
     if (times.frameMillis.empty() ||
         *std::min_element(times.frameMillis.begin(), times.frameMillis.end()) < 0)
-        throw Error(ErrorKind::BadInput, "frameMillis holds no times");
+        throw Error(ErrorKind::BadInput, "frameMillis has no times");
     return times;
 }
 
@@ -185,7 +185,8 @@ std::string comparisonTable(const BaselineComparison &comparison, double maxRegr
     for (const std::string &name : comparison.unmatched)
         text += fmt::format("not compared {}\n", excerpt(name));
     if (!comparison.isSameDevice)
-        text += "note         the baseline is of another device or driver: times fail nothing\n";
+        text +=
+            "note         the baseline is of another device or driver: times do not fail the comparison\n";
     return text + fmt::format("{} (limit {:g} %, beyond the noise)\n",
                               comparison.isPassed ? "no regression" : "REGRESSION", maxRegression * 100.0);
 }

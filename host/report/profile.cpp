@@ -132,7 +132,7 @@ double stageShare(const std::vector<StageSummary> &stages) {
     return share;
 }
 
-std::uint64_t mostDeviceBytes(const Profile &profile) {
+std::uint64_t maxDeviceBytes(const Profile &profile) {
     std::uint64_t most = 0;
     for (const Frame &frame : profile.frames)
         for (const StageRecord &stage : frame.timeline.stages)

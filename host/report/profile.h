@@ -80,6 +80,6 @@ struct KernelSummary {
 [[nodiscard]] double stageShare(const std::vector<StageSummary> &stages);
 
 /// Maximum size of all device buffers at the end of any stage; 0 for the reference renderer.
-[[nodiscard]] std::uint64_t mostDeviceBytes(const Profile &profile);
+[[nodiscard]] std::uint64_t maxDeviceBytes(const Profile &profile);
 
 } // namespace hyalite

@@ -294,7 +294,7 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
     html += figure(roundedText(rays.total(), "rays"), "in a frame");
     html += figure(countText(launchCount, "dispatch", "dispatches"), "in a frame");
     html += figure(sizeText(profile.sceneBytes), "of scene data");
-    if (const std::uint64_t bytes = mostDeviceBytes(profile); bytes > 0)
+    if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
         html += figure(sizeText(bytes), "in buffers on the device");
     html += "</div>\n</div>\n";
 

@@ -43,7 +43,7 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
     nlohmann::ordered_json json = provenanceToJson(profile.origin, profile.device);
     json["device"]["clock"] = profile.frames.back().timeline.clock;
     json["sceneBytes"] = profile.sceneBytes;
-    if (const std::uint64_t bytes = mostDeviceBytes(profile); bytes > 0)
+    if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
         json["deviceBytes"] = bytes;
     json["verification"] = profile.verification;
     json["isVerified"] = profile.isVerified;

@@ -10,7 +10,7 @@ namespace hyalite::limits {
 
 inline constexpr Interval coordinate{-1e15, 1e15};
 inline constexpr Interval directionLength{1e-100, 1e16}; ///< its square neither underflows nor overflows
-inline constexpr double leastSineToUp = 1e-6;            ///< of the angle from the view direction to up
+inline constexpr double minSineToUp = 1e-6;              ///< of the angle from the view direction to up
 inline constexpr Interval horizontalFovDegrees{0.0, 180.0, false, false};
 inline constexpr Interval aperture{0.0, 1e15};
 inline constexpr Interval focusDistance{0.0, 1e15, false};

@@ -86,7 +86,7 @@ void checkCamera(const Camera &camera, const Checked &checked) {
     checkDirection(checked, camera.up, "up");
     const double sineToUp =
         glm::length(glm::cross(glm::normalize(camera.direction), glm::normalize(camera.up)));
-    if (!(sineToUp >= limits::leastSineToUp))
+    if (!(sineToUp >= limits::minSineToUp))
         checked.refuse("up", "the view direction's own axis", "any other axis");
     checked.within(limits::horizontalFovDegrees, camera.horizontalFovDegrees, "horizontal field of view");
     checked.within(limits::aperture, camera.aperture, "aperture");
@@ -137,7 +137,7 @@ void checkMaterial(const Material &material, const std::vector<Texture> &texture
     if (material.clearcoat > 0.0f && material.transmission > 0.0f)
         checked.refuse("clearcoat",
                        fmt::format("{}, and a transmission of {}", material.clearcoat, material.transmission),
-                       "a clear coat on what is opaque: one of the two must be 0");
+                       "a clear coat, which only opaque materials have: one of the two must be 0");
 }
 
 void checkTextures(const std::vector<Texture> &textures, const Checked &checked) {

@@ -65,7 +65,7 @@ TEST_F(DeviceRecovery, ADeviceThatFailsForGoodLeavesWhatIsFinished) {
         SCOPED_TRACE(fault);
         EXPECT_EQ(outcome.exitCode, exitCode) << outcome;
         EXPECT_TRUE(contains(outcome.errors, "stopped by the device: ")) << outcome;
-        EXPECT_TRUE(contains(outcome.errors, "opened anew 3 times")) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, "reopened 3 times")) << outcome;
         EXPECT_EQ(lastTally.calls.at("vkCreateDevice"), 4);
         EXPECT_TRUE(lastTally.alive.empty());
         // The copies of the film are made by the clock, but for the first, after the first tile.

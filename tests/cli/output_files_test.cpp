@@ -149,9 +149,9 @@ TEST_F(OutputFiles, WhatASceneIsMadeOfIsNotReplaced) {
              {"render s.json -o o.pfm --report ", "render s.json -o o.pfm --checkpoint ",
               "compare s.json --report ", "profile s.json --csv "})
             expectFailure(line + input + (line.starts_with("profile") ? " --width 8 --height 8" : tiny), 2,
-                          {input, "this would replace what is read"});
-    expectFailure("render s.json -o sky.pfm" + tiny, 2, {"this would replace what is read"});
-    expectFailure("render s.json -o paint.png" + tiny, 2, {"this would replace what is read"});
+                          {input, "this would overwrite"});
+    expectFailure("render s.json -o sky.pfm" + tiny, 2, {"this would overwrite"});
+    expectFailure("render s.json -o paint.png" + tiny, 2, {"this would overwrite"});
     for (std::size_t i = 0; i < inputs.size(); ++i)
         EXPECT_EQ(load(inputs[i]), before[i]) << inputs[i];
 }

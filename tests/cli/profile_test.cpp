@@ -197,7 +197,7 @@ TEST_F(ProfileCommand, RefusesABaselineThatIsNone) {
     expectFailure(line + " --baseline missing.json", 3, {"missing.json"});
     expectFailure(line + " --baseline old.json --max-regression 5", 2, {"--max-regression", "a percentage"});
     expectFailure(line + " --baseline old.json --max-regression -1%", 2, {"--max-regression"});
-    expectFailure(line + " --baseline old.json --report old.json", 2, {"would replace"});
+    expectFailure(line + " --baseline old.json --report old.json", 2, {"would overwrite"});
     expectFailure("profile spheres --device cpu --width 16 --baseline old.json", 3, {"another job"});
 }
 

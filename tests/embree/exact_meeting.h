@@ -82,7 +82,7 @@ inline ExactMeeting meetExactly(const Corners &corners, const glm::vec3 &origin,
         theirError[i] = moved * (from + to + edge);
         meeting.longest = std::max(meeting.longest, edge);
     }
-    const auto leastInside = [&](const std::array<Real, 3> &error) {
+    const auto minInside = [&](const std::array<Real, 3> &error) {
         Real positive = side[0] / error[0];
         Real negative = -positive;
         for (std::size_t i = 1; i < 3; ++i) {
@@ -91,8 +91,8 @@ inline ExactMeeting meetExactly(const Corners &corners, const glm::vec3 &origin,
         }
         return std::max(positive, negative);
     };
-    meeting.ours.inside = leastInside(ourError);
-    meeting.theirs.inside = leastInside(theirError);
+    meeting.ours.inside = minInside(ourError);
+    meeting.theirs.inside = minInside(theirError);
 
     const Vector area = glm::cross(toCorner[1] - toCorner[0], toCorner[2] - toCorner[0]);
     const Real twiceArea = glm::length(area);

@@ -42,10 +42,10 @@ void fakeChain(void *next) {
 }
 
 void fakeMemory(VkPhysicalDeviceMemoryProperties &memory) {
-    for (const auto &[fake, mostBytes] : {std::pair{"small-heap", 256u << 20}, {"tiny-heap", 1u << 20}})
+    for (const auto &[fake, maxBytes] : {std::pair{"small-heap", 256u << 20}, {"tiny-heap", 1u << 20}})
         if (plan().isFaked(fake))
             for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
-                memory.memoryHeaps[i].size = std::min<VkDeviceSize>(memory.memoryHeaps[i].size, mostBytes);
+                memory.memoryHeaps[i].size = std::min<VkDeviceSize>(memory.memoryHeaps[i].size, maxBytes);
 }
 
 void fakeQueueFamily(VkQueueFamilyProperties &family) {

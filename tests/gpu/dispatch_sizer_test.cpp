@@ -80,8 +80,8 @@ TEST(DispatchSizer, DearSamplesMakeTilesSmallAndThenGiveThemFewer) {
     EXPECT_EQ(dearer.samples(1024), 8u);
     DispatchSizer dearest(wanted, 8, fullTile);
     dearest.learnSamples(1.0, 100);
-    EXPECT_EQ(dearest.pixels(64), DispatchSizer::leastPixels);
-    EXPECT_EQ(dearest.samples(DispatchSizer::leastPixels), 8u) << "whole rounds";
+    EXPECT_EQ(dearest.pixels(64), DispatchSizer::minPixels);
+    EXPECT_EQ(dearest.samples(DispatchSizer::minPixels), 8u) << "whole rounds";
 }
 
 TEST(DispatchSizer, OneSlowDispatchIsForgotten) {

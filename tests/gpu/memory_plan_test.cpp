@@ -92,7 +92,7 @@ TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
     EXPECT_EQ(plan.waiting.paths.sizeBytes, 16u);
     EXPECT_EQ(plan.waiting.pendingInRegisters, 4u);
     EXPECT_EQ(plan.stacks.sizeBytes, 16u);
-    EXPECT_EQ(plan.mostHelperPixels, 4096u);
+    EXPECT_EQ(plan.maxHelperPixels, 4096u);
     EXPECT_EQ(plan.helperWaiting.paths.sizeBytes, 4096 * 8 * sizeof(layout::PathRecord));
     EXPECT_EQ(plan.helperWaiting.pending.use, BufferUse::Texels);
 }
@@ -122,11 +122,11 @@ TEST(MemoryPlan, TheHelperIsSmallerWhereItsSlotsWouldTakeTooMuch) {
     small.maxTexelBufferElements = 1u << 16;
     const JobPlan plan =
         planJob(jobOf(scene, 512), completed({.traversal = Traversal::SkipList}, small), small);
-    EXPECT_EQ(plan.mostHelperPixels, 512u);
+    EXPECT_EQ(plan.maxHelperPixels, 512u);
     EXPECT_EQ(plan.helperWaiting.pending.sizeBytes, 512u * 8 * 4 * sizeof(layout::PendingRay));
     small.deviceMemoryBytes = 1;
     EXPECT_EQ(planJob(jobOf(scene, 512), completed({.traversal = Traversal::SkipList}, small), small)
-                  .mostHelperPixels,
+                  .maxHelperPixels,
               64u);
 }
 

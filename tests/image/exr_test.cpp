@@ -225,7 +225,7 @@ TEST_F(Exr, KindsThatAreNotReadAreNamed) {
         luminance.channels().insert("RY", Imf::Channel(Imf::HALF, 2, 2));
         const Imf::OutputFile file(path.c_str(), luminance);
     }
-    expectBad(path, "sampling 2 x 2");
+    expectBad(path, "subsampled 2 x 2");
 }
 
 TEST_F(Exr, DamagedFilesAreRefused) {
@@ -245,7 +245,7 @@ TEST_F(Exr, DamagedFilesAreRefused) {
     expectBad(damaged(4, "\3"), "OpenEXR of version 3");
     expectBad(damaged(5, "\x10"), "OpenEXR with several parts");
     expectBad(damaged(5, "\x08"), "OpenEXR with deep pixels");
-    expectBad(damaged(6, "\x01"), "is not known");
+    expectBad(damaged(6, "\x01"), "is unknown");
     // A text of 2 GiB in a file of some KiB.
     const std::size_t comments = good.find("comments\0string\0"s);
     ASSERT_NE(comments, std::string::npos);

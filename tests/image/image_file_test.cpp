@@ -310,7 +310,7 @@ TEST_F(ImageFileTest, DamagedPngIsRefused) {
     expectBadBytes(png(header(40000, 1, 8, 0), "\x00"s), "its size is 40000 x 1");
     expectBadBytes(png(header(32768, 32768, 8, 0), "\x00"s), "an image 268435456");
     expectBadBytes(png(header(16384, 16384, 8, 2), "\x00"s), "cannot be packed in 12 bytes");
-    expectBadBytes(png(header(16384, 16384, 16, 6), "\x00"s), "more than this program unpacks");
+    expectBadBytes(png(header(16384, 16384, 16, 6), "\x00"s), "more than this program decompresses");
     expectBadBytes(png(header(1, 1, 3, 0), "\x00\x33"s), "colour type 0 with 3 bits");
     expectBadBytes(png(header(1, 1, 8, 5), "\x00\x33"s), "colour type 5");
     expectBadBytes(png(header(1, 1, 8, 0, 2), "\x00\x33"s), "interlace 2");

@@ -21,7 +21,7 @@ struct Part {
 class Collector : public SnapshotTaker {
   public:
     explicit Collector(const Crop &crop, int stride = 1) : crop_(crop), stride_(stride) {}
-    [[nodiscard]] bool isWanted() const noexcept override { return parts.size() < mostParts; }
+    [[nodiscard]] bool isWanted() const noexcept override { return parts.size() < maxParts; }
     void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
               const RayCounts &rays) override {
         if (count_++ % stride_ != 0)
@@ -33,7 +33,7 @@ class Collector : public SnapshotTaker {
     std::vector<Part> parts;
 
   private:
-    static constexpr std::size_t mostParts = 12;
+    static constexpr std::size_t maxParts = 12;
     Crop crop_;
     int stride_;
     int count_ = 0;

@@ -34,12 +34,12 @@ Scene lookingAt(const glm::dvec3 &target, const glm::dvec3 &position, double fov
     return scene;
 }
 
-/// A picture with fewer shadow rays than `leastShadowRays` shows too little of the mesh to test anything.
-void expectTwins(Scene scene, std::uint64_t leastShadowRays) {
+/// A picture with fewer shadow rays than `minShadowRays` shows too little of the mesh to test anything.
+void expectTwins(Scene scene, std::uint64_t minShadowRays) {
     for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
         scene.settings.tree = tree;
         const reference::Result cpu = renderOnCpu(scene);
-        EXPECT_GE(cpu.rays.shadow, leastShadowRays);
+        EXPECT_GE(cpu.rays.shadow, minShadowRays);
         for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
             const gpu::Result device = renderOnDevice(scene, {.traversal = traversal});
             EXPECT_EQ(differingPixels(device.film, cpu.film), 0u);
@@ -112,14 +112,14 @@ void addCopy(TriangleMesh &mesh, const TriangleMesh &shape, double scale, const 
 }
 
 /// Expects twins, and of each tree the picture that there is without one.
-void expectTwinsAsWithoutTree(Scene scene, std::uint64_t leastShadowRays) {
+void expectTwinsAsWithoutTree(Scene scene, std::uint64_t minShadowRays) {
     scene.settings.tree = TreeKind::None;
     const Film plain = renderOnCpu(scene).film;
     for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
         scene.settings.tree = tree;
         EXPECT_EQ(differingPixels(renderOnCpu(scene).film, plain), 0u);
     }
-    expectTwins(scene, leastShadowRays);
+    expectTwins(scene, minShadowRays);
 }
 
 Scene smallPicture(Scene scene) {

@@ -13,7 +13,7 @@ namespace {
 
 // Of all comparisons together, 2,000 at most, one in a hundred runs with other seeds would have a difference of more
 // standard errors than this by chance (Šidák). Seeds are fixed, so a test that passes stays so until an image changes.
-constexpr double mostStandardErrors = 4.6;
+constexpr double maxStandardErrors = 4.6;
 
 constexpr std::uint64_t plainSeed = 1;
 
@@ -42,7 +42,7 @@ void expectEqualMeans(const char *renderer, const Film &film, const Scene &scene
                          << " instead of " << expected << ", which differs by " << difference / expected
                          << " of it; standard error " << error / expected << " of it");
             EXPECT_LE(error, comparison.errorLimit * expected) << "too few samples to tell";
-            EXPECT_LE(std::abs(difference), mostStandardErrors * error + comparison.allowance * expected);
+            EXPECT_LE(std::abs(difference), maxStandardErrors * error + comparison.allowance * expected);
         }
     }
 }

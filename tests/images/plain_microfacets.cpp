@@ -15,7 +15,7 @@ namespace hyalite::testing::plain {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double leastRoughness = 0.04; // what is rougher than nothing is at least so rough
+constexpr double minRoughness = 0.04; // what is rougher than nothing is at least so rough
 
 double squared(double x) { return x * x; }
 
@@ -77,7 +77,7 @@ const Row &rowAt(std::size_t index) {
 }
 
 template <class Read> Energy betweenRows(double roughness, const Read &read) {
-    const double place = std::clamp(roughness, leastRoughness, 1.0) * static_cast<double>(rowCount - 1);
+    const double place = std::clamp(roughness, minRoughness, 1.0) * static_cast<double>(rowCount - 1);
     const std::size_t cell = std::min(static_cast<std::size_t>(place), rowCount - 2);
     const double share = place - static_cast<double>(cell);
     const Energy low = read(rowAt(cell));
@@ -117,7 +117,7 @@ Vec schlickFresnel(double cosine, const Vec &normalReflectance) {
     return normalReflectance + (1.0 - normalReflectance) * fifthPower(1.0 - cosine);
 }
 
-double alphaOf(double roughness) { return squared(std::max(roughness, leastRoughness)); }
+double alphaOf(double roughness) { return squared(std::max(roughness, minRoughness)); }
 
 double ggx(const Vec &facet, double alpha) {
     const double squaredTangent = (facet.x * facet.x + facet.y * facet.y) / squared(facet.z);

@@ -34,20 +34,20 @@ std::size_t wrapped(double index, int size) {
     return static_cast<std::size_t>(rest < 0.0 ? rest + size : rest);
 }
 
-constexpr double leastHeight = 0.01; ///< of a mapped normal over the surface, and of what it reflects
+constexpr double minHeight = 0.01; ///< of a mapped normal over the surface, and of what it reflects
 
 /// Keller and others, "The Iray Light Transport Simulation and Rendering System", 2017, appendix A.3: a normal whose
 /// mirror direction dips below the surface is replaced by the one whose mirror direction is lifted just above it.
 /// Before, a normal that faces away from the viewer is tilted until it does not. `up` is on the side of the viewer.
 Vec visibleNormal(const Vec &toViewer, Vec normal, const Vec &up) {
     const double facing = glm::dot(toViewer, normal);
-    if (facing < leastHeight)
-        normal = glm::normalize(normal + (leastHeight - facing) * toViewer);
+    if (facing < minHeight)
+        normal = glm::normalize(normal + (minHeight - facing) * toViewer);
     const Vec mirrored = 2.0 * glm::dot(toViewer, normal) * normal - toViewer;
     const double height = glm::dot(mirrored, up);
-    if (height >= leastHeight)
+    if (height >= minHeight)
         return normal;
-    return glm::normalize(toViewer + glm::normalize(mirrored + (leastHeight - height) * up));
+    return glm::normalize(toViewer + glm::normalize(mirrored + (minHeight - height) * up));
 }
 
 } // namespace
@@ -116,7 +116,7 @@ void Substances::bendNormal(std::uint32_t materialIndex, const Vec &direction, S
     const Vec turned = 2.0 * lookUp(*use, layout::slotNormal, point.uv) - 1.0;
     const double strength = material.normalStrength;
     const Vec mapped = glm::normalize(strength * turned.x * x + strength * turned.y * y +
-                                      std::max(turned.z, leastHeight) * point.normal);
+                                      std::max(turned.z, minHeight) * point.normal);
     const bool isBehind = glm::dot(direction, point.geometricNormal) > 0.0;
     const double side = isBehind ? -1.0 : 1.0;
     point.normal = side * visibleNormal(-direction, side * mapped, side * point.geometricNormal);

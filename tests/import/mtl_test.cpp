@@ -91,7 +91,7 @@ TEST_F(Mtl, RefusesWhatIsNoNumber) {
         << refusalOfMtl("newmtl a\nKd 1 x 1\n");
     EXPECT_NE(refusalOfMtl("newmtl a\nKd 1 1\n").find("fewer numbers"), std::string::npos);
     EXPECT_NE(refusalOfMtl("newmtl a\nNs nan\n").find("bad.mtl:2: Ns"), std::string::npos);
-    EXPECT_NE(refusalOfMtl("\nKd 1 1 1\n").find("bad.mtl:2: Kd stands before the first newmtl"),
+    EXPECT_NE(refusalOfMtl("\nKd 1 1 1\n").find("bad.mtl:2: Kd comes before the first newmtl"),
               std::string::npos);
 }
 
@@ -152,11 +152,11 @@ TEST_F(Mtl, WhatIsPassedOverOfTexturesIsTold) {
         EXPECT_EQ(materials[0].textures[slot].has_value(), slot == layout::slotOpacity) << slot;
     const char *const parts[] = {"bad.mtl:2: map_Kd \"none.png\": there is no such file",
                                  "bad.mtl:3: map_Kd \"../outside.png\": there is no such file",
-                                 "bad.mtl:4: map_Ks \"grey.png\" is passed over",
-                                 "bad.mtl:5: bump \"grey.png\" is passed over: it is grey",
-                                 "bad.mtl:6: map_Ke \"photo.tga\" is passed over: it is no PNG",
-                                 "bad.mtl:7: the option -clamp on is passed over",
-                                 "bad.mtl:7: the option -t is passed over"};
+                                 "bad.mtl:4: map_Ks \"grey.png\" is ignored",
+                                 "bad.mtl:5: bump \"grey.png\" is ignored: it is grey",
+                                 "bad.mtl:6: map_Ke \"photo.tga\" is ignored: it is not a PNG",
+                                 "bad.mtl:7: the option -clamp on is ignored",
+                                 "bad.mtl:7: the option -t is ignored"};
     ASSERT_EQ(warnings.size(), std::size(parts));
     for (std::size_t i = 0; i < warnings.size(); ++i)
         EXPECT_NE(warnings[i].find(parts[i]), std::string::npos) << warnings[i];

@@ -236,7 +236,7 @@ TEST(Whitted, AWhiteFurnaceOfGlassIsWhite) {
             scene.spheres.push_back({{0, 0, 0}, 1.0, clear, false});
         }
         double last = 0.0;
-        double leastOfAll = 0.0;
+        double smallest = 0.0;
         for (const int depth : {2, 3, 4, 6, 9, 14, 32}) {
             scene.settings.maxDepth = depth;
             for (const Precision precision : {Precision::Float32, Precision::Float64}) {
@@ -250,7 +250,7 @@ TEST(Whitted, AWhiteFurnaceOfGlassIsWhite) {
                     sum += static_cast<double>(pixel.x);
                     least = std::min(least, static_cast<double>(pixel.x));
                 }
-                leastOfAll = least;
+                smallest = least;
                 const double mean = sum / static_cast<double>(image.pixels().size());
                 EXPECT_GE(mean, last - 1e-6) << "more segments, more light: depth " << depth;
                 last = mean;
@@ -264,7 +264,7 @@ TEST(Whitted, AWhiteFurnaceOfGlassIsWhite) {
             }
         }
         fmt::print("    mean of the furnace with a {} at depth 32: {:.7f}, least {:.7f}\n",
-                   isMesh ? "mesh" : "sphere", last, leastOfAll);
+                   isMesh ? "mesh" : "sphere", last, smallest);
     }
 }
 

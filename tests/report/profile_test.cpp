@@ -66,7 +66,7 @@ TEST(Profile, StagesKeepTheirOrderAndFillTheFrame) {
     EXPECT_DOUBLE_EQ(stages[1].medianFrameMillis(), 5.0);
     EXPECT_DOUBLE_EQ(stages[2].medianFrameMillis(), 63.0);
     EXPECT_DOUBLE_EQ(stageShare(stages), 68.0 / 70.0);
-    EXPECT_EQ(mostDeviceBytes(profile), 2500u);
+    EXPECT_EQ(maxDeviceBytes(profile), 2500u);
 }
 
 TEST(Profile, AStageThatIsRepeatedInAFrameIsAddedUp) {

@@ -41,19 +41,19 @@ TEST(Trace, HasASliceForEachDispatchWithItsArguments) {
 
 TEST(Trace, CountsRaysAndMemory) {
     const nlohmann::json trace = traceOf(handMadeProfile({1.0}));
-    double mostBytes = 0.0;
+    double maxBytes = 0.0;
     double lastSpeed = -1.0;
-    double mostSpeed = 0.0;
+    double maxSpeed = 0.0;
     for (const nlohmann::json &event : trace.at("traceEvents")) {
         if (event.at("name") == "memory (bytes)")
-            mostBytes = std::max(mostBytes, event.at("args").at("buffers").get<double>());
+            maxBytes = std::max(maxBytes, event.at("args").at("buffers").get<double>());
         if (event.at("name") != "Mray/s")
             continue;
         lastSpeed = event.at("args").at("shadow");
-        mostSpeed = std::max(mostSpeed, lastSpeed);
+        maxSpeed = std::max(maxSpeed, lastSpeed);
     }
-    EXPECT_EQ(mostBytes, 2500.0);
-    EXPECT_DOUBLE_EQ(mostSpeed, 2000 / 1e6 / 0.010);
+    EXPECT_EQ(maxBytes, 2500.0);
+    EXPECT_DOUBLE_EQ(maxSpeed, 2000 / 1e6 / 0.010);
     EXPECT_EQ(lastSpeed, 0.0) << "when nothing runs, nothing is traced";
 }
 

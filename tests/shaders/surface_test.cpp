@@ -65,10 +65,10 @@ std::optional<Landing> land(const PackedScene &scene, Random &random, double siz
                    exactNormal(triangle)};
 }
 
-glm::vec3 leavingDirection(Random &random, const glm::dvec3 &normal, double leastCosine) {
+glm::vec3 leavingDirection(Random &random, const glm::dvec3 &normal, double minCosine) {
     for (;;) {
         const glm::dvec3 any = random.direction();
-        if (std::abs(glm::dot(any, normal)) > leastCosine)
+        if (std::abs(glm::dot(any, normal)) > minCosine)
             return glm::vec3(glm::dot(any, normal) < 0 ? -any : any);
     }
 }

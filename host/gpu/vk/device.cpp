@@ -93,10 +93,10 @@ void Device::waitForFence(const std::string &action) {
     // Counted slices in place of a clock: a suspended program uses up only one of them. No dispatch should take a
     // second; a busy machine gets a hundred times that.
     constexpr std::uint64_t sliceNanos = 1'000'000'000;
-    constexpr int mostSlices = 120;
+    constexpr int maxSlices = 120;
     const VkFence fence = fence_.get();
     VkResult result = VK_TIMEOUT;
-    for (int slice = 0; slice < mostSlices && result == VK_TIMEOUT; ++slice)
+    for (int slice = 0; slice < maxSlices && result == VK_TIMEOUT; ++slice)
         result = vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, sliceNanos);
     if (result == VK_SUCCESS)
         return;
@@ -108,7 +108,7 @@ void Device::waitForFence(const std::string &action) {
         instance_.abandon();
     }
     check(result, fmt::format("vkWaitForFences for {}{}", action,
-                              result == VK_TIMEOUT ? fmt::format(", {} s", mostSlices) : ""));
+                              result == VK_TIMEOUT ? fmt::format(", {} s", maxSlices) : ""));
 }
 
 void Device::submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record) {

@@ -13,13 +13,13 @@ namespace hyalite::gpu {
 }
 
 /// Ticks from one timestamp to a later one. The counter may have wrapped around several times. Of all durations that
-/// match the bits, this is the longest up to `mostTicks`, or the shortest if all are longer.
+/// match the bits, this is the longest up to `maxTicks`, or the shortest if all are longer.
 [[nodiscard]] inline std::uint64_t elapsedTicks(std::uint64_t begin, std::uint64_t end,
-                                                std::uint32_t validBits, std::uint64_t mostTicks) {
+                                                std::uint32_t validBits, std::uint64_t maxTicks) {
     const std::uint64_t shortest = validTicks(end - begin, validBits);
-    if (validBits >= 64 || mostTicks < shortest)
+    if (validBits >= 64 || maxTicks < shortest)
         return shortest;
-    return shortest + ((mostTicks - shortest) >> validBits << validBits);
+    return shortest + ((maxTicks - shortest) >> validBits << validBits);
 }
 
 /// Ticks from a reference to a timestamp, which may be earlier. Of all differences that match the bits, this is the one

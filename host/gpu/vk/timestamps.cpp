@@ -82,11 +82,11 @@ std::optional<Span> Timestamps::read(const Span &host) {
                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "vkGetQueryPoolResults for timestamps");
     const std::int64_t hostLength = host.endNanos - host.beginNanos;
-    const auto mostTicks =
+    const auto maxTicks =
         static_cast<std::uint64_t>(static_cast<double>(hostLength) / static_cast<double>(nanosPerTick_));
     // Between two dispatches the clock rates hardly differ, and a double holds a length in ticks exactly.
     const std::int64_t length =
-        std::min(nanosOf(elapsedTicks(ticks[0], ticks[1], validBits_, mostTicks)), hostLength);
+        std::min(nanosOf(elapsedTicks(ticks[0], ticks[1], validBits_, maxTicks)), hostLength);
 
     constexpr std::int64_t freshNanos = 1'000'000'000; // clocks drift apart by microseconds a second
     if (getCalibratedTimestamps_ != nullptr &&
