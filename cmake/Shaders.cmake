@@ -113,13 +113,16 @@ endfunction()
 # hyalite_leaves(TARGET HEADER LEAVES)
 #
 # Compiles the leaf functions that the shader LEAVES includes to C++ for TARGET (cmake/glsl_to_cpp.cpp).
+set(HYALITE_LEAVES_ROOT ${PROJECT_SOURCE_DIR} CACHE PATH "Folder whose shaders/ the CPU's leaf functions are read from")
+mark_as_advanced(HYALITE_LEAVES_ROOT)
 function(hyalite_leaves target header leaves)
     set(output ${PROJECT_BINARY_DIR}/kernels/${header})
     set(layout ${PROJECT_SOURCE_DIR}/shaders/layout/layout.h)
-    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.glsl)
+    set(leaves ${HYALITE_LEAVES_ROOT}/${leaves})
+    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS ${HYALITE_LEAVES_ROOT}/shaders/*.glsl)
     add_custom_command(
         OUTPUT ${output}
-        COMMAND glsl_to_cpp ${PROJECT_SOURCE_DIR} ${layout} ${leaves} ${output}
+        COMMAND glsl_to_cpp ${HYALITE_LEAVES_ROOT} ${layout} ${leaves} ${output}
         DEPENDS glsl_to_cpp ${layout} ${shaders}
         COMMENT "Compiling leaf functions to C++"
         VERBATIM)
