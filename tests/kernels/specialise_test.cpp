@@ -5,47 +5,19 @@
 #include "host/gpu/spirv/instructions.h"
 #include "shaders/layout/layout.h"
 #include "tests/kernels/all_kernels.h"
+#include "tests/kernels/assembled_module.h"
 #include "tests/kernels/drawn_constants.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <spirv-tools/libspirv.hpp>
 
 #include <algorithm>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
 namespace hyalite::testing {
 namespace {
-
-using Words = std::vector<std::uint32_t>;
-
-/// An assembler and validator for Vulkan 1.1 that keeps what it says.
-struct Tools {
-    std::string messages;
-    spvtools::SpirvTools tools{SPV_ENV_VULKAN_1_1};
-
-    Tools() {
-        tools.SetMessageConsumer(
-            [this](spv_message_level_t, const char *, const spv_position_t &at, const char *message) {
-                messages += fmt::format("line {}: {}\n", at.line, message);
-            });
-    }
-};
-
-/// The errors of the validator in a module: empty if it is valid.
-std::string errorsIn(const Words &words) {
-    Tools validator;
-    return validator.tools.Validate(words) ? "" : validator.messages + "invalid";
-}
-
-std::size_t countOf(const Words &words, spv::Op opcode) {
-    const auto instructions = gpu::instructionsOf(words);
-    return static_cast<std::size_t>(
-        std::ranges::count(instructions, opcode, [](const auto &i) { return i.opcode(); }));
-}
 
 // ---- Our kernels
 
@@ -89,65 +61,6 @@ TEST(Specialise, LeavesOutWhatASceneDoesNotUse) {
 
 // ---- Written by hand
 
-/// A module whose function `main` has this body, between its first label and the end. There are the constants %yes and
-/// %no by SpecId 0 and 1 (true and false by default), %seven by SpecId 2, %unknown from a buffer, and %c0 to %c9.
-Words moduleWith(const std::string &body, const std::string &declarations = "") {
-    std::string text = R"(
-        OpCapability Shader
-        OpMemoryModel Logical GLSL450
-        OpEntryPoint GLCompute %main "main"
-        OpExecutionMode %main LocalSize 1 1 1
-        OpDecorate %yes SpecId 0
-        OpDecorate %no SpecId 1
-        OpDecorate %seven SpecId 2
-        OpDecorate %Block Block
-        OpMemberDecorate %Block 0 Offset 0
-        OpDecorate %buffer DescriptorSet 0
-        OpDecorate %buffer Binding 0
-        %void = OpTypeVoid
-        %bool = OpTypeBool
-        %uint = OpTypeInt 32 0
-        %function = OpTypeFunction %void
-        %yes = OpSpecConstantTrue %bool
-        %no = OpSpecConstantFalse %bool
-        %seven = OpSpecConstant %uint 7
-        %Block = OpTypeStruct %uint
-        %BlockPointer = OpTypePointer StorageBuffer %Block
-        %UintPointer = OpTypePointer StorageBuffer %uint
-        %buffer = OpVariable %BlockPointer StorageBuffer
-    )";
-    for (int i = 0; i < 10; ++i)
-        text += fmt::format("%c{} = OpConstant %uint {}\n", i, i);
-    text += declarations + R"(
-        %main = OpFunction %void None %function
-        %entry = OpLabel
-        %word = OpAccessChain %UintPointer %buffer %c0
-        %value = OpLoad %uint %word
-        %unknown = OpINotEqual %bool %value %c0
-    )" + body +
-            "\nOpFunctionEnd\n";
-    Tools assembler;
-    Words words;
-    EXPECT_TRUE(assembler.tools.Assemble(text, &words)) << assembler.messages;
-    EXPECT_EQ(errorsIn(words), "") << "before";
-    return words;
-}
-
-/// The values that are stored, in the order of the code: constants as numbers, others as "?".
-std::string storesOf(const Words &words) {
-    std::map<std::uint32_t, std::string> constants;
-    std::string stores;
-    for (const gpu::SpirvInstruction &instruction : gpu::instructionsOf(words)) {
-        if (instruction.opcode() == spv::Op::OpConstant)
-            constants[instruction.words[2]] = fmt::format("{}", instruction.words[3]);
-        if (instruction.opcode() == spv::Op::OpStore) {
-            const auto constant = constants.find(instruction.words[2]);
-            stores += (constant == constants.end() ? "?" : constant->second) + " ";
-        }
-    }
-    return stores;
-}
-
 /// The module for these constants, which must be valid.
 Words specialised(const Words &words, const Words &constants = {}) {
     Words result = gpu::specialise(words, constants);
@@ -173,9 +86,9 @@ const std::string eitherOne = R"(
 TEST(Specialise, TakesGivenValuesAndElseDefaults) {
     const Words words = moduleWith(eitherOne);
     EXPECT_EQ(storesOf(words), "1 2 ? ");
-    EXPECT_EQ(storesOf(specialised(words)), "1 ? ") << "true by default";
-    EXPECT_EQ(storesOf(specialised(words, {0})), "2 ? ");
-    EXPECT_EQ(storesOf(specialised(words, {7})), "1 ? ") << "any word but 0 is true";
+    EXPECT_EQ(storesOf(specialised(words)), "1 3 ") << "true by default";
+    EXPECT_EQ(storesOf(specialised(words, {0})), "2 4 ");
+    EXPECT_EQ(storesOf(specialised(words, {7})), "1 3 ") << "any word but 0 is true";
     EXPECT_EQ(countOf(specialised(words), spv::Op::OpBranchConditional), 0u);
     EXPECT_EQ(countOf(specialised(words), spv::Op::OpSelectionMerge), 0u);
 }

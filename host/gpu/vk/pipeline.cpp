@@ -1,5 +1,6 @@
 #include "host/gpu/vk/pipeline.h"
 
+#include "host/gpu/spirv/one_armed.h"
 #include "host/gpu/spirv/specialise.h"
 #include "host/gpu/vk/check.h"
 #include "host/gpu/vk/float_controls.h"
@@ -64,7 +65,7 @@ void Pipeline::makeLayouts(Device &device, std::span<const BufferUse> uses) {
 void Pipeline::makePipeline(Device &device, std::span<const std::uint32_t> spirv,
                             std::span<const std::uint32_t> constants) {
     const std::vector<std::uint32_t> words =
-        addFloatControls(specialise(spirv, constants),
+        addFloatControls(makeSelectionsOneArmed(specialise(spirv, constants)),
                          {device.info().canRoundToNearestEven, device.info().canPreserveSignedZeroInfNan});
     VkShaderModuleCreateInfo moduleInfo{};
     moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
