@@ -85,10 +85,11 @@ std::string listLargest(std::vector<const BufferPlan *> buffers) {
 
 std::uint64_t maxBufferBytes(BufferUse use, const DeviceInfo &device) {
     if (use == BufferUse::Storage)
-        return device.maxStorageBufferBytes;
+        return std::min(device.maxStorageBufferBytes, device.maxAllocationBytes);
     if (use == BufferUse::Texels)
-        return device.maxTexelBufferElements * bytesPerTexel + bytesPerTexel - 1;
-    return std::numeric_limits<std::uint64_t>::max();
+        return std::min(device.maxTexelBufferElements * bytesPerTexel + bytesPerTexel - 1,
+                        device.maxAllocationBytes);
+    return device.maxAllocationBytes;
 }
 
 void requireBuffer(const BufferPlan &plan, const DeviceInfo &device) {
@@ -96,6 +97,9 @@ void requireBuffer(const BufferPlan &plan, const DeviceInfo &device) {
         return;
     const std::string what =
         fmt::format("the buffer for {}, {} bytes, is too large", plan.name, plan.sizeBytes);
+    if (plan.sizeBytes > device.maxAllocationBytes)
+        throw Error(ErrorKind::LimitExceeded, fmt::format("{}: {} allows {} bytes in one piece of memory",
+                                                          what, device.name, device.maxAllocationBytes));
     if (plan.use == BufferUse::Texels)
         throw Error(ErrorKind::LimitExceeded,
                     fmt::format("{}: {} allows {} texels of {} bytes", what, device.name,

@@ -1,6 +1,7 @@
 #include "host/gpu/render_config.h"
 
 #include "host/base/hash.h"
+#include "host/gpu/kernel_needs.h"
 
 #include "shaders/embedded_kernels.h"
 
@@ -33,12 +34,12 @@ RenderConfig completed(RenderConfig config, const DeviceInfo &device, Workload w
     const bool isWaiting = workload == Workload::Triangles && device.isSoftware();
     if (config.slotsPerInvocation == 0)
         config.slotsPerInvocation = isWaiting && config.kernel.empty() ? 2 : 1;
-    // lavapipe silently stops a subgroup after 65,535 loop iterations of all its lanes together. Kernels count for each
-    // lane, and the iterations of diverging lanes add up.
-    const std::uint32_t limit = 65535u / (std::max(device.subgroupSize, 1u) + 1u);
-    if (config.traversal == Traversal::Automatic)
+    if (config.traversal == Traversal::Automatic) {
+        const bool canSkip = config.kernel.empty() && lackFor(Traversal::SkipList, device).empty();
+        const bool canStack = lackFor(Traversal::Stack, device).empty();
         config.traversal =
-            device.isSoftware() && config.kernel.empty() ? Traversal::SkipList : Traversal::Stack;
+            canSkip && (device.isSoftware() || !canStack) ? Traversal::SkipList : Traversal::Stack;
+    }
     // Samples abreast need sums across lanes, which only the kernels over texel buffers have.
     const int lanes = static_cast<int>(std::bit_floor(std::clamp(device.subgroupSize, 1u, 8u)));
     if (config.samplesAbreast == 0)
@@ -46,9 +47,11 @@ RenderConfig completed(RenderConfig config, const DeviceInfo &device, Workload w
     config.samplesAbreast =
         config.traversal == Traversal::SkipList ? std::min(config.samplesAbreast, lanes) : 1;
     if (config.steps == 0)
-        config.steps = device.isSoftware() ? limit : 4096;
-    if (device.isSoftware())
-        config.steps = std::min(config.steps, limit);
+        config.steps = 4096;
+    // lavapipe silently stops a subgroup after 65,535 loop iterations of all its lanes together. Kernels count for each
+    // lane, and the iterations of diverging lanes add up.
+    if (device.isLavapipe())
+        config.steps = std::min(config.steps, 65535u / (std::max(device.subgroupSize, 1u) + 1u));
     return config;
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/base/hash.h"
+#include "host/gpu/kernel_needs.h"
 #include "host/gpu/tile_renderer.h"
 #include "host/gpu/vk/check.h"
 #include "host/gpu/vk/device.h"
@@ -22,7 +23,8 @@ namespace {
 /// Bands of whole rows, from top to bottom, whose films fit into a storage buffer and a quarter of the device memory.
 std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
     const std::uint64_t rowBytes = static_cast<std::uint64_t>(crop.width()) * sizeof(layout::FilmPixel);
-    const std::uint64_t maxFilmBytes = std::min(device.maxStorageBufferBytes, device.deviceMemoryBytes / 4);
+    const std::uint64_t maxFilmBytes =
+        std::min(maxBufferBytes(BufferUse::Storage, device), device.deviceMemoryBytes / 4);
     const int rows = static_cast<int>(
         std::clamp<std::uint64_t>(maxFilmBytes / rowBytes, 1, static_cast<std::uint64_t>(crop.height())));
     std::vector<Crop> bands;
@@ -92,7 +94,19 @@ struct Renderer::State {
             used.traversal = choice.traversal;
             used.slotsPerInvocation = choice.slotsPerInvocation;
         }
-        return completed(used, info, workload);
+        used = completed(used, info, workload);
+        // Only the user's choice is better refused than replaced.
+        if (wanted.traversal == Traversal::Automatic && used.traversal == Traversal::SkipList &&
+            !areTexelsAllowed(scene, info) && lackFor(Traversal::Stack, info).empty()) {
+            used.traversal = Traversal::Stack;
+            used = completed(used, info, workload);
+        }
+        if (const std::string lack = lackFor(used.traversal, info); !lack.empty())
+            throw Error(
+                ErrorKind::LimitExceeded,
+                fmt::format("the kernel {} cannot run on {}: it {}", gpu::kernelName(used), info.name, lack),
+                wanted.traversal == Traversal::Automatic ? Remedy::ReferenceInstead : Remedy::NoKernelChoice);
+        return used;
     }
 
     MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job) const {

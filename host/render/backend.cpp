@@ -152,17 +152,9 @@ std::uint64_t filmBytes(const Crop &crop) {
                 Remedy::SmallerImage);
 }
 
-/// Keeps drivers loaded until the chosen device has its own instance: the loader unloads them with the last instance.
-struct DeviceList {
-    std::unique_ptr<gpu::Instance> instance;
-    std::vector<gpu::DeviceInfo> devices;
-};
-
-DeviceList listDevices() {
+gpu::LoadedDevices loadDevices() {
     try {
-        auto instance = std::make_unique<gpu::Instance>();
-        auto devices = gpu::listDevices(*instance);
-        return {std::move(instance), std::move(devices)};
+        return gpu::loadDevices();
     } catch (const Error &error) {
         if (error.kind != ErrorKind::NoDevice)
             throw;
@@ -179,8 +171,8 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
         return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
     if (name == "cpu-double")
         return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
-    const DeviceList list = listDevices();
-    return std::make_unique<DeviceBackend>(gpu::chooseDevice(list.devices, name), config);
+    const gpu::LoadedDevices loaded = loadDevices(); // until the chosen device has an instance of its own
+    return std::make_unique<DeviceBackend>(gpu::chooseDevice(loaded.devices, name), config);
 }
 
 } // namespace

@@ -30,7 +30,10 @@ TEST_F(LesserDevices, GiveTheSameBits) {
     const std::string wanted = renderHere(size + " --device cpu", "");
     for (const char *fakes :
          {"", "small-buffers", "small-heap", "tiny-heap", "workgroup-128", "no-timestamps", "calibrated",
-          "discrete", "small-buffers,small-heap,workgroup-128,no-timestamps"})
+          "discrete", "small-allocations", "few-images", "few-storage-buffers", "few-texels", "no-subgroups",
+          "portability", "other-driver", "no-float-controls",
+          "few-images,no-subgroups,small-buffers,small-heap",
+          "small-buffers,small-heap,workgroup-128,no-timestamps"})
         EXPECT_TRUE(renderHere(size + " --device 0", fakes) == wanted) << fakes;
 }
 
@@ -58,7 +61,55 @@ TEST_F(LesserDevices, AreListedAsTheyAre) {
     EXPECT_EQ(list("workgroup-128").at("maxWorkgroupInvocations"), 128);
     EXPECT_EQ(list("no-timestamps").at("hasTimestamps"), false);
     EXPECT_EQ(list("no-float-controls").at("areBitsPromised"), false);
-    EXPECT_EQ(list("no-subgroups").at("isUsable"), false);
+}
+
+TEST_F(LesserDevices, GetTheKernelThatTheyCanRun) {
+    const auto kernelOf = [&](const std::string &options, const std::string &fakes) {
+        const Outcome outcome =
+            runHere("render " + path("sheet.json") + " --quiet --width 16 --height 16 -o " + path("a.pfm") +
+                        " --report " + path("report.json") + " --device 0" + options,
+                    "", fakes);
+        EXPECT_EQ(outcome.exitCode, 0) << fakes << outcome;
+        return nlohmann::json::parse(load("report.json"))
+            .at("device")
+            .at("kernel")
+            .at("name")
+            .get<std::string>();
+    };
+    EXPECT_EQ(kernelOf("", ""), "skip-list-x2");
+    for (const char *fakes : {"few-images", "few-texels", "no-subgroups"})
+        EXPECT_EQ(kernelOf("", fakes), "stack-x2") << fakes;
+    EXPECT_EQ(kernelOf("", "few-storage-buffers"), "skip-list-x2");
+    EXPECT_EQ(kernelOf("", "few-storage-buffers,discrete"), "skip-list");
+    EXPECT_EQ(kernelOf("", "discrete"), "stack");
+}
+
+TEST_F(LesserDevices, AreRefusedByWhatTheyLack) {
+    struct Refusal {
+        std::string fakes;
+        std::string options;
+        int exitCode;
+        std::vector<std::string> parts;
+    };
+    const std::vector<Refusal> refusals{
+        {"few-images,few-storage-buffers", "", 4, {"allows 8 storage buffers in a kernel, 14 are needed"}},
+        {"vulkan-1.0", "", 4, {"offers Vulkan 1.0", "1.1 is needed"}},
+        {"no-subgroups", " --kernel skip-list", 5, {"no subgroup shuffles and sums", "leave out --kernel"}},
+        {"few-images",
+         " --kernel skip-list",
+         5,
+         {"allows 4 storage texel buffers and images in a kernel, 9 are needed", "leave out --kernel"}},
+        {"few-storage-buffers", " --kernel stack", 5, {"allows 8 storage buffers", "leave out --kernel"}},
+        {"few-storage-buffers", " --integrator cost", 5, {"allows 8 storage buffers", "--device cpu"}}};
+    for (const Refusal &refusal : refusals) {
+        const Outcome outcome =
+            runFaulty("render sheet.json -o a.pfm --device 0" + refusal.options, "", refusal.fakes);
+        EXPECT_EQ(outcome.exitCode, refusal.exitCode) << refusal.fakes << refusal.options << '\n' << outcome;
+        for (const std::string &part : refusal.parts)
+            EXPECT_TRUE(contains(outcome.errors, part)) << part << '\n' << outcome;
+        EXPECT_TRUE(lastTally.alive.empty());
+        EXPECT_FALSE(entries().contains("a.pfm"));
+    }
 }
 
 TEST_F(LesserDevices, WithoutTimestampsAreTimedByTheHost) {
@@ -75,17 +126,6 @@ TEST_F(LesserDevices, WithoutFloatControlsPromiseNoBits) {
         runFaulty("render sheet.json -o a.png --width 16 --height 16", "", "no-float-controls");
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "bits may differ")) << outcome;
-}
-
-TEST_F(LesserDevices, WithoutSubgroupShufflesAreRefused) {
-    for (const char *device : {"auto", "0"}) {
-        const Outcome outcome =
-            runFaulty("render sheet.json -o a.png --device " + std::string(device), "", "no-subgroups");
-        EXPECT_EQ(outcome.exitCode, 4) << outcome;
-        EXPECT_TRUE(contains(outcome.errors, "subgroup shuffles")) << outcome;
-        EXPECT_TRUE(lastTally.alive.empty());
-        EXPECT_FALSE(entries().contains("a.png"));
-    }
 }
 
 } // namespace

@@ -23,6 +23,14 @@ void fakeProperties(VkPhysicalDeviceProperties &properties) {
     }
     if (plan().isFaked("no-timestamps"))
         limits.timestampComputeAndGraphics = VK_FALSE;
+    if (plan().isFaked("few-images"))
+        limits.maxPerStageDescriptorStorageImages = 4;
+    if (plan().isFaked("few-storage-buffers"))
+        limits.maxPerStageDescriptorStorageBuffers = 8;
+    if (plan().isFaked("few-texels"))
+        limits.maxTexelBufferElements = 64;
+    if (plan().isFaked("vulkan-1.0"))
+        properties.apiVersion = VK_API_VERSION_1_0;
 }
 
 void fakeChain(void *next) {
@@ -31,6 +39,16 @@ void fakeChain(void *next) {
             plan().isFaked("no-subgroups")) {
             auto &subgroup = reinterpret_cast<VkPhysicalDeviceSubgroupProperties &>(*part);
             subgroup.supportedOperations = VK_SUBGROUP_FEATURE_BASIC_BIT;
+        }
+        if (part->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES &&
+            plan().isFaked("small-allocations"))
+            reinterpret_cast<VkPhysicalDeviceMaintenance3Properties &>(*part).maxMemoryAllocationSize = 1u
+                                                                                                        << 20;
+        if (part->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES &&
+            plan().isFaked("other-driver")) {
+            auto &driver = reinterpret_cast<VkPhysicalDeviceDriverProperties &>(*part);
+            driver.driverID = VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
+            std::strcpy(driver.driverName, "another driver");
         }
         if (part->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES &&
             plan().isFaked("no-float-controls")) {
@@ -59,9 +77,12 @@ void fakeExtensions(std::vector<VkExtensionProperties> &extensions) {
             return std::strcmp(extension.extensionName, name) == 0;
         });
     };
-    if (plan().isFaked("calibrated") && !has(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) {
+    for (const auto &[fake, name] : {std::pair{"calibrated", VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME},
+                                     {"portability", "VK_KHR_portability_subset"}}) {
+        if (!plan().isFaked(fake) || has(name))
+            continue;
         VkExtensionProperties extension{};
-        std::strcpy(extension.extensionName, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+        std::strcpy(extension.extensionName, name);
         extension.specVersion = 1;
         extensions.push_back(extension);
     }

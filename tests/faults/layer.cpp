@@ -187,13 +187,16 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     const PFN_vkGetDeviceProcAddr getDeviceNext = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
     const VkInstance instance = nextOf(physical).instance;
-    // An extension that only we offer.
+    // Extensions that only we offer.
     std::vector<const char *> extensions(info->ppEnabledExtensionNames,
                                          info->ppEnabledExtensionNames + info->enabledExtensionCount);
+    const auto removed = [&](const char *extension) {
+        return std::erase_if(extensions, [&](const char *name) { return std::strcmp(name, extension) == 0; });
+    };
     if (plan().isFaked("calibrated"))
-        std::erase_if(extensions, [](const char *name) {
-            return std::strcmp(name, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME) == 0;
-        });
+        removed(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+    if (plan().isFaked("portability") && removed("VK_KHR_portability_subset") == 0)
+        return VK_ERROR_INITIALIZATION_FAILED; // the specification demands it
     VkDeviceCreateInfo passed = *info;
     passed.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     passed.ppEnabledExtensionNames = extensions.data();

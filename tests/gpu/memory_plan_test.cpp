@@ -18,6 +18,7 @@ DeviceInfo device() {
     info.subgroupSize = 8;
     info.maxStorageBufferBytes = 128u << 20;
     info.maxTexelBufferElements = 1u << 24;
+    info.maxAllocationBytes = 1u << 30;
     info.deviceMemoryBytes = 1u << 30;
     return info;
 }
@@ -167,7 +168,7 @@ TEST(MemoryPlan, WhatDoesNotFitIsRefusedWithItsParts) {
 TEST(MemoryPlan, ADeviceOfSoftwareTakesTheHostsMemory) {
     PackedScene scene = sceneOf(1);
     DeviceInfo info = device();
-    info.maxStorageBufferBytes = info.deviceMemoryBytes = std::uint64_t{1} << 60;
+    info.maxAllocationBytes = info.maxStorageBufferBytes = info.deviceMemoryBytes = std::uint64_t{1} << 60;
     ScenePlan scenePlan = planScene(scene, false);
     const JobPlan job = planJob(jobOf(scene, 8), completed({.traversal = Traversal::Stack}, info), info);
     scenePlan.buffers[layout::bindingTriangles].sizeBytes = std::uint64_t{1} << 50;

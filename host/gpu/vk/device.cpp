@@ -35,6 +35,8 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
         extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
     if (info.hasCalibratedTimestamps)
         extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+    if (info.isPortabilitySubset)
+        extensions.push_back(portabilitySubset);
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     VkDevice device = VK_NULL_HANDLE;

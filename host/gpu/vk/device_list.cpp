@@ -6,6 +6,7 @@
 #include "shaders/layout/layout.h"
 
 #include <fmt/format.h>
+#include <vulkan/vulkan.h>
 
 #include <algorithm>
 #include <cctype>
@@ -86,6 +87,8 @@ const char *deviceTypeName(DeviceType type) {
     }
     return "other";
 }
+
+bool DeviceInfo::isLavapipe() const { return driverId == VK_DRIVER_ID_MESA_LLVMPIPE; }
 
 std::vector<DeviceInfo> listDevices() { return listDevices(Instance()); }
 

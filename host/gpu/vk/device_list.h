@@ -27,10 +27,14 @@ struct DeviceInfo {
     std::uint64_t maxStorageBufferBytes = 0;
     std::uint64_t maxTexelBufferElements = 0;
     std::uint32_t maxStorageBuffersPerStage = 0;
-    std::uint64_t deviceMemoryBytes = 0; ///< largest device-local heap
+    std::uint32_t maxStorageImagesPerStage = 0; ///< storage texel buffers among them
+    std::uint64_t maxAllocationBytes = 0;       ///< of one piece of memory
+    std::uint64_t deviceMemoryBytes = 0;        ///< largest device-local heap
+    bool canShuffle = false;                    ///< subgroups of compute kernels exchange and add values
     bool hasTimestamps = false;
     bool hasCalibratedTimestamps = false;
-    std::uint32_t driverId = 0; ///< VkDriverId; 0: unknown
+    bool isPortabilitySubset = false; ///< lacks a part of Vulkan, and says so by an extension
+    std::uint32_t driverId = 0;       ///< VkDriverId; 0: unknown
     bool hasExactDivisionListed =
         false; ///< its / and sqrt are known to be correctly rounded: see arithmetic.h
     // Float controls for float32. Equal bits are promised only with both.
@@ -43,6 +47,7 @@ struct DeviceInfo {
         return canRoundToNearestEven && canPreserveSignedZeroInfNan;
     }
     [[nodiscard]] bool isSoftware() const { return type == DeviceType::Cpu; }
+    [[nodiscard]] bool isLavapipe() const;
 };
 
 /// All devices that the Vulkan loader finds, usable or not. Throws Error{NoDevice}, naming what to install, if there is

@@ -46,6 +46,16 @@ bool isExtensionPresent(const char *name) {
     });
 }
 
+/// Of the loader; 1.0 does not tell.
+std::uint32_t loaderVersion() {
+    const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceVersion>(
+        vkGetInstanceProcAddr(VK_NULL_HANDLE, "vkEnumerateInstanceVersion"));
+    std::uint32_t version = VK_API_VERSION_1_0;
+    if (enumerate != nullptr)
+        check(enumerate(&version), "vkEnumerateInstanceVersion");
+    return version;
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                            VkDebugUtilsMessageTypeFlagsEXT,
                                            const VkDebugUtilsMessengerCallbackDataEXT *data, void *user) {
@@ -65,6 +75,9 @@ Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
                     fmt::format("HYALITE_VALIDATION is set, but {} is not installed: install "
                                 "the package vulkan-validationlayers",
                                 validationLayer));
+    if (loaderVersion() < VK_API_VERSION_1_1)
+        throw Error(ErrorKind::NoDevice,
+                    "the Vulkan loader is of version 1.0, and 1.1 is needed: install a newer libvulkan1");
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
     application.pApplicationName = "hyalite";
@@ -86,7 +99,7 @@ Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &synchronisation;
 
-    const char *const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    std::vector<const char *> extensions;
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
@@ -95,11 +108,16 @@ Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &validationLayer;
     }
-    hasDebugUtils_ = isValidated || isExtensionPresent(extension);
-    if (hasDebugUtils_) {
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &extension;
+    hasDebugUtils_ = isValidated || isExtensionPresent(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (hasDebugUtils_)
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    // Devices that lack a part of Vulkan, such as MoltenVK's, are listed only on request.
+    if (isExtensionPresent(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+        extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+        info.flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
     }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)

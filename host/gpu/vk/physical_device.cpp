@@ -1,20 +1,18 @@
 #include "host/gpu/vk/physical_device.h"
 
 #include "host/gpu/arithmetic.h"
+#include "host/gpu/kernel_needs.h"
 #include "host/gpu/vk/check.h"
-#include "shaders/layout/buffers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
+#include <string_view>
 
 namespace hyalite::gpu {
 
 namespace {
-
-constexpr std::uint32_t storageBuffersNeeded = layout::bindingCount - layout::uniformBufferCount;
-constexpr std::uint32_t workgroupInvocationsNeeded = 64;
 
 std::string versionText(std::uint32_t version) {
     return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
@@ -53,13 +51,6 @@ std::string findRejection(VkPhysicalDevice device, const VkPhysicalDevicePropert
         return fmt::format("offers Vulkan {}, 1.1 is needed", versionText(properties.apiVersion));
     if (findComputeQueueFamily(device) == VK_QUEUE_FAMILY_IGNORED)
         return "has no compute queue";
-    const VkPhysicalDeviceLimits &limits = properties.limits;
-    if (limits.maxPerStageDescriptorStorageBuffers < storageBuffersNeeded)
-        return fmt::format("allows {} storage buffers in a kernel, {} are needed",
-                           limits.maxPerStageDescriptorStorageBuffers, storageBuffersNeeded);
-    if (limits.maxComputeWorkGroupInvocations < workgroupInvocationsNeeded)
-        return fmt::format("allows {} invocations in a workgroup, {} are needed",
-                           limits.maxComputeWorkGroupInvocations, workgroupInvocationsNeeded);
     return {};
 }
 
@@ -91,6 +82,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     info.maxStorageBufferBytes = properties.limits.maxStorageBufferRange;
     info.maxTexelBufferElements = properties.limits.maxTexelBufferElements;
     info.maxStorageBuffersPerStage = properties.limits.maxPerStageDescriptorStorageBuffers;
+    info.maxStorageImagesPerStage = properties.limits.maxPerStageDescriptorStorageImages;
     info.rejection = findRejection(device, properties);
 
     VkPhysicalDeviceMemoryProperties memory{};
@@ -108,6 +100,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
         vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
         info.hasTimestamps = families[family].timestampValidBits > 0;
     }
+    info.isPortabilitySubset = hasExtension(device, portabilitySubset);
     info.hasCalibratedTimestamps = hasExtension(device, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     if (properties.apiVersion < VK_API_VERSION_1_1)
         return info;
@@ -123,7 +116,9 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     const bool hasDriver = is12 || hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
     // We use Vulkan 1.1, in which float controls are an extension, even if the device supports later versions.
     const bool hasFloats = hasExtension(device, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
-    void *next = nullptr;
+    VkPhysicalDeviceMaintenance3Properties allocations{};
+    allocations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    void *next = &allocations;
     if (hasFloats) {
         floats.pNext = next;
         next = &floats;
@@ -139,12 +134,15 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     vkGetPhysicalDeviceProperties2(device, &all);
     info.subgroupSize = subgroup.subgroupSize;
     constexpr VkSubgroupFeatureFlags operations =
-        VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
-    if (info.isUsable() && ((subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0 ||
-                            (subgroup.supportedOperations & operations) != operations))
-        info.rejection = "offers no subgroup shuffles in compute kernels, which ours need";
+        VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    info.canShuffle = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+                      (subgroup.supportedOperations & operations) == operations;
+    info.maxAllocationBytes = allocations.maxMemoryAllocationSize;
+    if (info.isUsable() && !lackFor(Traversal::SkipList, info).empty())
+        info.rejection = lackFor(Traversal::Stack, info);
     if (hasDriver) {
-        info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+        const std::string_view details = driver.driverInfo; // SwiftShader has none
+        info.driver = fmt::format("{}{}{}", driver.driverName, details.empty() ? "" : " ", details);
         info.driverId = static_cast<std::uint32_t>(driver.driverID);
         info.hasExactDivisionListed = isExactDivisionListed(info.driverId);
     }

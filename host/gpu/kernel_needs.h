@@ -1,0 +1,16 @@
+// What the kernels of a traversal need of a device. Vulkan guarantees less than they need of some limits.
+#pragma once
+
+#include "host/gpu/render_config.h"
+
+#include <string>
+
+namespace hyalite::gpu {
+
+/// Which limit or feature the device lacks for kernels with this traversal, which is not Automatic; empty if none.
+[[nodiscard]] std::string lackFor(Traversal traversal, const DeviceInfo &device);
+
+/// Whether the texel buffers of a scene with a skip list fit the device.
+[[nodiscard]] bool areTexelsAllowed(const PackedScene &scene, const DeviceInfo &device);
+
+} // namespace hyalite::gpu
