@@ -34,9 +34,8 @@ void printContestants(const PreparedScene &scene, const Contestants &contestants
     fmt::print("first        {}\nsecond       {}\n", contestants.first->description(),
                contestants.second->description());
     for (const Backend *backend : {contestants.first.get(), contestants.second.get()})
-        if (!backend->unpromisedBits().empty())
-            fmt::print("note         equal bits are not promised by {}: {}\n", backend->name(),
-                       backend->unpromisedBits());
+        if (const gpu::BitGuarantee bits = backend->bits(); bits.degree != gpu::BitDegree::Promised)
+            fmt::print("note         equal bits are not promised by {}: {}\n", backend->name(), bits.reason);
 }
 
 void addCompareCommand(CLI::App &app, CommandContext &context) {

@@ -4,6 +4,7 @@
 #include "host/cli/commands.h"
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/render_config.h"
+#include "host/gpu/vk/device.h"
 #include "host/gpu/vk/device_list.h"
 #include "host/render/tune.h"
 #include "host/scene/names.h"
@@ -49,6 +50,16 @@ void printKernels(const gpu::DeviceInfo &device) {
                                    : "by its type; `hyalite devices --tune` measures");
 }
 
+/// Opens the device if it promises nothing.
+std::string equalBitsOf(const gpu::DeviceInfo &device) {
+    if (device.areBitsPromised())
+        return "promised";
+    if (!device.isUsable())
+        return "none: " + gpu::explainUnpromisedBits(device);
+    gpu::Device opened(device);
+    return gpu::describe(gpu::guaranteeOf(device, gpu::checkDevice(opened)));
+}
+
 void printTable(const std::vector<gpu::DeviceInfo> &devices) {
     for (const gpu::DeviceInfo &device : devices) {
         fmt::print("{}  {}\n", device.index, device.name);
@@ -64,8 +75,7 @@ void printTable(const std::vector<gpu::DeviceInfo> &devices) {
                    device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
         fmt::print("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
         printKernels(device);
-        const std::string unpromised = gpu::explainUnpromisedBits(device);
-        fmt::print("   equal bits  {}\n", unpromised.empty() ? "promised" : "not promised: " + unpromised);
+        fmt::print("   equal bits  {}\n", equalBitsOf(device));
         fmt::print("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
     }
     fmt::print("cpu  the reference renderer, without Vulkan\n");
@@ -97,6 +107,7 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
             entry["kernels"][std::string(workload)] = kernel;
         entry["areKernelsMeasured"] = tuning.isMeasured();
         entry["areBitsPromised"] = device.areBitsPromised();
+        entry["equalBits"] = equalBitsOf(device);
         entry["isUsable"] = device.isUsable();
         if (!device.isUsable())
             entry["rejection"] = device.rejection;
@@ -107,6 +118,7 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
     reference["type"] = "reference renderer";
     reference["driver"] = "hyalite " HYALITE_VERSION;
     reference["areBitsPromised"] = true;
+    reference["equalBits"] = "promised";
     reference["isUsable"] = true;
     list.push_back(reference);
     fmt::print("{}", jsonText(list));

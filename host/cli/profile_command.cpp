@@ -69,9 +69,9 @@ void printFault(const std::string &fault, const Backend &backend) {
     fmt::print("NOT verified: {}. Nothing was measured: `hyalite compare` says more, --no-verify measures "
                "anyway{}\n",
                fault,
-               backend.unpromisedBits().empty()
+               backend.bits().degree == gpu::BitDegree::Promised
                    ? ""
-                   : fmt::format(" (equal bits are not promised here: {})", backend.unpromisedBits()));
+                   : fmt::format(" (equal bits are not promised here: {})", backend.bits().reason));
 }
 
 /// The baseline's figures and the allowed regression.

@@ -60,8 +60,8 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
 
 void tellDevice(const Backend &device) {
     printMessage("device: {}\n", device.description());
-    if (!device.unpromisedBits().empty())
-        printMessage("note: bits may differ from the CPU twin's: {}\n", device.unpromisedBits());
+    if (const gpu::BitGuarantee bits = device.bits(); bits.degree == gpu::BitDegree::None)
+        printMessage("note: bits may differ from the CPU twin's: {}\n", bits.reason);
 }
 
 /// The checkpoint that the render resumes from.

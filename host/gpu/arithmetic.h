@@ -6,17 +6,13 @@
 // passes too.
 #pragma once
 
+#include "host/gpu/startup_check.h"
 #include "host/gpu/vk/device_list.h"
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 
 namespace hyalite::gpu {
-
-class Device;
-struct HardInput;
 
 enum class Arithmetic {
     Automatic, ///< the device's own where the list and the check allow it
@@ -33,17 +29,27 @@ struct ArithmeticChoice {
 /// Whether the driver with this VkDriverId is on the list of those whose / and sqrt are correctly rounded.
 [[nodiscard]] bool isExactDivisionListed(std::uint32_t driverId);
 
+[[nodiscard]] ArithmeticChoice chooseArithmetic(const DeviceInfo &device, const StartupCheck &check,
+                                                Arithmetic wanted);
+
+/// How sure it is that images have the bits of the CPU twin's.
+enum class BitDegree {
+    Promised, ///< the driver offers the float controls that equal bits need
+    Measured, ///< it does not, but the start-up check finds no difference
+    None
+};
+
+struct BitGuarantee {
+    BitDegree degree = BitDegree::Promised;
+    std::string reason; ///< why it is no promise; empty if it is one
+};
+
+[[nodiscard]] BitGuarantee guaranteeOf(const DeviceInfo &device, const StartupCheck &check);
+
+/// "promised", or the degree and its reason.
+[[nodiscard]] std::string describe(const BitGuarantee &bits);
+
 /// The float control that equal bits need and the device lacks, or empty.
 [[nodiscard]] std::string explainUnpromisedBits(const DeviceInfo &device);
-
-/// Runs the check on the device if the choice depends on it.
-[[nodiscard]] ArithmeticChoice chooseArithmetic(Device &device, Arithmetic wanted);
-
-/// The number of device results (quotient and root of each input in turn) that differ in any bit from this machine's.
-[[nodiscard]] std::size_t countWrongResults(std::span<const HardInput> inputs,
-                                            std::span<const float> results);
-
-/// Runs the device's / and sqrt on hard inputs. Returns the number of wrong results.
-[[nodiscard]] std::size_t checkNativeArithmetic(Device &device);
 
 } // namespace hyalite::gpu

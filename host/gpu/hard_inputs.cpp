@@ -19,7 +19,7 @@ float scale(std::int64_t significand, int exponent) {
 
 /// Draws an odd B and solves 2^k A = c (mod B) for odd c: then 2^k A = N B + c, where N is odd, as B and c are. With
 /// k = 25 and A < B, or k = 24 and A >= B, N has 25 bits: the quotient is N/2, but for c / 2B.
-void drawQuotient(Generator &generator, HardInput &input) {
+void drawQuotient(Generator &generator, layout::HardInput &input) {
     for (;;) {
         const std::int64_t b = one + (generator() % one | 1);
         const bool isBelowOne = generator() % 2 == 0;
@@ -42,7 +42,7 @@ void drawQuotient(Generator &generator, HardInput &input) {
 
 /// Draws c = 1 (mod 8) and solves z^2 = c (mod 2^k) bit by bit; the other roots are -z and these plus 2^(k-1). With
 /// k = 25 or 26, M = (z^2 - c) / 2^k is an integer: its root, times a power of two, is z/2, but for c / 4z.
-void drawSquare(Generator &generator, std::size_t index, HardInput &input) {
+void drawSquare(Generator &generator, std::size_t index, layout::HardInput &input) {
     for (;;) {
         const std::int64_t magnitude = 8 * static_cast<std::int64_t>(generator() % (index + 1));
         const std::int64_t c = generator() % 2 == 0 ? 1 + magnitude : -7 - magnitude;
@@ -67,14 +67,53 @@ void drawSquare(Generator &generator, std::size_t index, HardInput &input) {
     }
 }
 
+/// Draws a float, and half of its last place but for -1, 0 or 1 in the half's own last place, so that the sum and the
+/// difference are hard to round.
+void drawSum(Generator &generator, layout::HardInput &input) {
+    const std::int64_t a = one + generator() % one;
+    const std::int64_t b = one + generator() % 3 - 1;
+    const int exponent = static_cast<int>(generator() % 61) - 30;
+    input.addend = scale(generator() % 2 == 0 ? a : -a, exponent);
+    input.otherAddend = scale(generator() % 2 == 0 ? b : -b, exponent - 24);
+}
+
+/// Draws an odd B and solves A B = 2^23 + c (mod 2^24) for c = -1, 0, 1. Where the product has 48 bits, its upper 24 are
+/// the float, and the lower ones half of its last place, but for c.
+void drawProduct(Generator &generator, layout::HardInput &input) {
+    constexpr std::int64_t modulus = 2 * one;
+    for (;;) {
+        const std::int64_t b = one + (generator() % one | 1);
+        std::int64_t inverse = b; // of b, by Newton's iteration from 3 right bits on
+        for (int rightBits = 3; rightBits < 24; rightBits *= 2)
+            inverse = inverse * ((2 - b * inverse) % modulus) % modulus;
+        const std::int64_t c = generator() % 3;
+        const std::int64_t a = ((one - 1 + c) * inverse % modulus + modulus) % modulus;
+        if (a < one || a * b < (std::int64_t{1} << 47))
+            continue;
+        input.factor = scale(generator() % 2 == 0 ? a : -a, static_cast<int>(generator() % 61) - 30);
+        input.otherFactor = scale(generator() % 2 == 0 ? b : -b, static_cast<int>(generator() % 61) - 30);
+        return;
+    }
+}
+
+/// Draws 24 bits above a one and six zeros, but for -1, 0 or 1.
+void drawInteger(Generator &generator, layout::HardInput &input) {
+    const auto magnitude =
+        static_cast<std::int32_t>((one + generator() % one) * 128 + 64 + generator() % 3 - 1);
+    input.integer = generator() % 2 == 0 ? magnitude : -magnitude;
+}
+
 } // namespace
 
-std::vector<HardInput> makeHardInputs(std::size_t count) {
+std::vector<layout::HardInput> makeHardInputs(std::size_t count) {
     Generator generator(20);
-    std::vector<HardInput> inputs(count);
+    std::vector<layout::HardInput> inputs(count);
     for (std::size_t i = 0; i < count; ++i) {
         drawQuotient(generator, inputs[i]);
         drawSquare(generator, i, inputs[i]);
+        drawSum(generator, inputs[i]);
+        drawProduct(generator, inputs[i]);
+        drawInteger(generator, inputs[i]);
     }
     return inputs;
 }

@@ -36,7 +36,8 @@ struct RayScene::State {
     State(const DeviceInfo &info, const PackedScene &scene, bool isSkipListWanted)
         : device(info), buffers(device, scene, planScene(scene, isSkipListWanted), isSkipListWanted),
           isSkipList(isSkipListWanted), stackSize(stackSizeFor(scene)),
-          isDivisionExact(chooseArithmetic(device, Arithmetic::Automatic).isNative) {}
+          isDivisionExact(
+              chooseArithmetic(device.info(), checkDevice(device), Arithmetic::Automatic).isNative) {}
 };
 
 RayScene::RayScene(const DeviceInfo &device, const PackedScene &scene, bool isSkipList)

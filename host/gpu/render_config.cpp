@@ -41,7 +41,7 @@ RenderConfig completed(RenderConfig config, const DeviceInfo &device, Workload w
             canSkip && (device.isSoftware() || !canStack) ? Traversal::SkipList : Traversal::Stack;
     }
     // Samples abreast need sums across lanes, which only the kernels over texel buffers have.
-    const int lanes = static_cast<int>(std::bit_floor(std::clamp(device.subgroupSize, 1u, 8u)));
+    const int lanes = static_cast<int>(std::bit_floor(std::clamp(device.consecutiveLanes, 1u, 8u)));
     if (config.samplesAbreast == 0)
         config.samplesAbreast = lanes;
     config.samplesAbreast =

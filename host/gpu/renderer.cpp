@@ -62,10 +62,15 @@ struct Renderer::State {
     KernelChoices preferred;
     RenderConfig config;
     ArithmeticChoice arithmetic;
+    BitGuarantee bits;
 
     State(const DeviceInfo &deviceInfo, const RenderConfig &asked, const KernelChoices &choices)
-        : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked), preferred(choices),
-          config(completed(asked, info)), arithmetic(chooseArithmetic(*device, asked.arithmetic)) {
+        : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked), preferred(choices) {
+        const StartupCheck check = checkDevice(*device);
+        info.consecutiveLanes = check.consecutiveLanes;
+        arithmetic = chooseArithmetic(info, check, asked.arithmetic);
+        bits = guaranteeOf(info, check);
+        config = completed(asked, info);
         config.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
     }
 
@@ -136,6 +141,8 @@ Renderer::Renderer(Renderer &&) noexcept = default;
 Renderer &Renderer::operator=(Renderer &&) noexcept = default;
 
 const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
+
+const BitGuarantee &Renderer::bits() const { return state_->bits; }
 
 std::string_view Renderer::kernelName(const PackedScene &scene, Integrator integrator) const {
     return gpu::kernelName(state_->configFor(scene, integrator));

@@ -45,6 +45,7 @@ class Renderer {
 
     /// The choice of division and square root.
     [[nodiscard]] const ArithmeticChoice &arithmetic() const;
+    [[nodiscard]] const BitGuarantee &bits() const;
 
     /// The word for the first kernel of an integrator's dispatches, and a hash of its SPIR-V.
     [[nodiscard]] std::string_view kernelName(const PackedScene &scene, Integrator integrator) const;

@@ -40,7 +40,13 @@ class CpuBackend : public Backend {
         return precision_ == reference::Precision::Float32 ? "cpu" : "cpu-double";
     }
     [[nodiscard]] RendererIdentity identity(const PackedScene &, Integrator) const override {
-        return {name(), "reference renderer", "native / and sqrt: IEEE 754", "", 0};
+        return {name(),
+                "reference renderer",
+                "native / and sqrt: IEEE 754",
+                precision_ == reference::Precision::Float32 ? "promised"
+                                                            : "none: it computes in double precision",
+                "",
+                0};
     }
     [[nodiscard]] std::string precision() const override {
         // A film holds sums in single precision.
@@ -105,15 +111,18 @@ class DeviceBackend : public Backend {
     [[nodiscard]] std::string name() const override { return device_.name; }
     [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
         const gpu::ArithmeticChoice &choice = renderer_.arithmetic();
-        return {device_.name, device_.driver,
+        return {device_.name,
+                device_.driver,
                 fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason),
+                gpu::describe(renderer_.bits()),
                 std::string(renderer_.kernelName(scene, integrator)),
                 renderer_.kernelHash(scene, integrator)};
     }
-    [[nodiscard]] std::string unpromisedBits() const override { return gpu::explainUnpromisedBits(device_); }
+    [[nodiscard]] gpu::BitGuarantee bits() const override { return renderer_.bits(); }
     [[nodiscard]] std::string precision() const override {
-        return unpromisedBits().empty() ? Backend::precision()
-                                        : fmt::format("float32 of {}, {}", device_.name, device_.driver);
+        return bits().degree == gpu::BitDegree::Promised
+                   ? Backend::precision()
+                   : fmt::format("float32 of {}, {}", device_.name, device_.driver);
     }
     [[nodiscard]] std::string description() const override {
         const std::string driver = driverBesideName(device_.driver, device_.name);

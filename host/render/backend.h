@@ -39,8 +39,8 @@ class Backend {
     [[nodiscard]] virtual RendererIdentity
     identity(const PackedScene &scene,
              Integrator integrator) const = 0; ///< kernel and the like, for reports
-    /// Why images may differ in bits from the CPU twin's, or empty if they may not.
-    [[nodiscard]] virtual std::string unpromisedBits() const { return {}; }
+    /// How sure it is that images have the bits of the CPU twin's.
+    [[nodiscard]] virtual gpu::BitGuarantee bits() const { return {}; }
     /// Backends with the same text add samples with the same bits to a film, and can continue one another's films;
     /// empty: this one cannot.
     [[nodiscard]] virtual std::string precision() const { return "float32"; }

@@ -42,8 +42,10 @@ nlohmann::ordered_json provenanceToJson(const Provenance &provenance, const Rend
 }
 
 nlohmann::ordered_json rendererToJson(const RendererIdentity &renderer) {
-    nlohmann::ordered_json json{
-        {"name", renderer.name}, {"driver", renderer.driver}, {"arithmetic", renderer.arithmetic}};
+    nlohmann::ordered_json json{{"name", renderer.name},
+                                {"driver", renderer.driver},
+                                {"arithmetic", renderer.arithmetic},
+                                {"equalBits", renderer.equalBits}};
     if (!renderer.kernel.empty())
         json["kernel"] = {{"name", renderer.kernel}, {"spirvHash", hashText(renderer.kernelHash)}};
     return json;

@@ -17,6 +17,7 @@ struct RendererIdentity {
     std::string name;             ///< "cpu", or the name of the device
     std::string driver;           ///< name and version
     std::string arithmetic;       ///< division and square root
+    std::string equalBits;        ///< "promised", or how sure they are, with the reason
     std::string kernel;           ///< empty for the reference renderer
     std::uint64_t kernelHash = 0; ///< of its SPIR-V for all scenes and devices
 };

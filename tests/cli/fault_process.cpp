@@ -122,3 +122,18 @@ VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceExtensionProperties(const char
                                : hyalite::testing::loadersOwn<PFN_vkEnumerateInstanceExtensionProperties>(
                                      "vkEnumerateInstanceExtensionProperties")(layer, count, extensions);
 }
+
+VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceVersion(std::uint32_t *version) {
+    const VkResult fault = hyaliteNextFault("vkEnumerateInstanceVersion");
+    return fault != VK_SUCCESS ? fault
+                               : hyalite::testing::loadersOwn<PFN_vkEnumerateInstanceVersion>(
+                                     "vkEnumerateInstanceVersion")(version);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instance, const char *name) {
+    if (instance == VK_NULL_HANDLE && std::strcmp(name, "vkEnumerateInstanceVersion") == 0)
+        return hyaliteIsFaked("loader-1.0")
+                   ? nullptr
+                   : reinterpret_cast<PFN_vkVoidFunction>(vkEnumerateInstanceVersion);
+    return hyalite::testing::loadersOwn<PFN_vkGetInstanceProcAddr>("vkGetInstanceProcAddr")(instance, name);
+}

@@ -112,6 +112,15 @@ TEST_F(LesserDevices, AreRefusedByWhatTheyLack) {
     }
 }
 
+TEST_F(LesserDevices, NeedALoaderOfVulkan11) {
+    const Outcome outcome =
+        runHere("render " + path("sheet.json") + " -o " + path("a.pfm"), "", "loader-1.0");
+    EXPECT_EQ(outcome.exitCode, 4) << outcome;
+    for (const char *part : {"the Vulkan loader is of version 1.0, and 1.1 is needed", "--device cpu"})
+        EXPECT_TRUE(contains(outcome.errors, part)) << part << '\n' << outcome;
+    EXPECT_FALSE(entries().contains("a.pfm"));
+}
+
 TEST_F(LesserDevices, WithoutTimestampsAreTimedByTheHost) {
     const std::string size = " --width 16 --height 16 --spp 1";
     const Outcome outcome =
@@ -121,11 +130,13 @@ TEST_F(LesserDevices, WithoutTimestampsAreTimedByTheHost) {
     EXPECT_FALSE(lastTally.calls.contains("vkCreateQueryPool"));
 }
 
-TEST_F(LesserDevices, WithoutFloatControlsPromiseNoBits) {
-    const Outcome outcome =
-        runFaulty("render sheet.json -o a.png --width 16 --height 16", "", "no-float-controls");
+TEST_F(LesserDevices, WithoutFloatControlsHaveTheirBitsMeasured) {
+    const Outcome outcome = runFaulty("compare sheet.json --width 16 --height 16", "", "no-float-controls");
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
-    EXPECT_TRUE(contains(outcome.errors, "bits may differ")) << outcome;
+    EXPECT_TRUE(contains(outcome.output, "equal bits are not promised by")) << outcome;
+    EXPECT_TRUE(contains(outcome.output, "but the start-up check finds no wrong result")) << outcome;
+    const auto list = nlohmann::json::parse(runHere("devices --json", "", "no-float-controls").output);
+    EXPECT_TRUE(contains(list.at(0).at("equalBits").get<std::string>(), "measured: ")) << list;
 }
 
 } // namespace

@@ -39,7 +39,7 @@ TEST_F(RenderReport, HasAllItsKeys) {
                                          "rays", "dispatches", "deviceBytes", "seconds"}));
         EXPECT_EQ(keysOf(report.at("finished")),
                   (std::set<std::string>{"isComplete", "pixels", "samples", "stoppedBy"}));
-        std::set<std::string> ofDevice{"name", "driver", "arithmetic"};
+        std::set<std::string> ofDevice{"name", "driver", "arithmetic", "equalBits"};
         if (device != "cpu")
             ofDevice.insert("kernel");
         EXPECT_EQ(keysOf(report.at("device")), ofDevice);

@@ -29,5 +29,8 @@ HYALITE_FAULT_API const char *hyaliteFaultTally();
 /// What the named function has to return now, as a call of it: for calls that no layer can see.
 HYALITE_FAULT_API VkResult hyaliteNextFault(const char *function);
 
+/// Whether something is faked, likewise.
+HYALITE_FAULT_API bool hyaliteIsFaked(const char *fake);
+
 /// Whether calls of the named function can fail.
 HYALITE_FAULT_API bool hyaliteCanFail(const char *function);

@@ -158,3 +158,5 @@ const char *hyaliteFaultTally() {
 }
 
 VkResult hyaliteNextFault(const char *function) { return hyalite::faults::plan().countCall(function); }
+
+bool hyaliteIsFaked(const char *fake) { return hyalite::faults::plan().isFaked(fake); }

@@ -15,7 +15,7 @@ DeviceInfo device() {
     DeviceInfo info;
     info.name = "a device";
     info.type = DeviceType::Discrete;
-    info.subgroupSize = 8;
+    info.subgroupSize = info.consecutiveLanes = 8;
     info.maxStorageBufferBytes = 128u << 20;
     info.maxTexelBufferElements = 1u << 24;
     info.maxAllocationBytes = 1u << 30;

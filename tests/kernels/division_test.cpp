@@ -166,10 +166,10 @@ TEST_P(Division, IsExactForAllSignificands) {
 }
 
 TEST_P(Division, IsExactNearHalfway) {
-    const std::vector<gpu::HardInput> hard = gpu::makeHardInputs(8 * probeInputCount);
+    const std::vector<layout::HardInput> hard = gpu::makeHardInputs(8 * probeInputCount);
     std::size_t i = 0;
     expectQuotients(GetParam(), 8, [&] {
-        const gpu::HardInput &input = hard[i++];
+        const layout::HardInput &input = hard[i++];
         return Pair{input.numerator, input.denominator};
     });
 }
@@ -217,43 +217,9 @@ TEST_P(SquareRoot, IsExactForAllExponents) {
 }
 
 TEST_P(SquareRoot, IsExactNearHalfway) {
-    const std::vector<gpu::HardInput> hard = gpu::makeHardInputs(probeInputCount);
+    const std::vector<layout::HardInput> hard = gpu::makeHardInputs(probeInputCount);
     std::size_t i = 0;
     expectRoots(GetParam(), 1, [&] { return hard[i++].square; });
-}
-
-// ---- The start-up check
-
-TEST(ArithmeticCheck, PassesOnTheListedDriver) {
-    ASSERT_TRUE(probeDevice().info().hasExactDivisionListed);
-    EXPECT_EQ(gpu::checkNativeArithmetic(probeDevice()), 0u);
-    EXPECT_TRUE(gpu::chooseArithmetic(probeDevice(), Arithmetic::Automatic).isNative);
-}
-
-TEST(ArithmeticCheck, RunsOurOperatorsWhereAskedFor) {
-    EXPECT_FALSE(gpu::chooseArithmetic(probeDevice(), Arithmetic::Own).isNative);
-    EXPECT_TRUE(gpu::chooseArithmetic(probeDevice(), Arithmetic::Native).isNative);
-}
-
-TEST(ArithmeticCheck, TrustsNoUnlistedDriver) {
-    EXPECT_FALSE(gpu::isExactDivisionListed(0));
-    gpu::DeviceInfo info = probeDevice().info();
-    info.hasExactDivisionListed = false;
-    gpu::Device device(info);
-    EXPECT_FALSE(gpu::chooseArithmetic(device, Arithmetic::Automatic).isNative);
-}
-
-TEST(ArithmeticCheck, CountsEveryWrongResult) {
-    const std::vector<gpu::HardInput> inputs = gpu::makeHardInputs(100);
-    std::vector<float> results;
-    for (const gpu::HardInput &input : inputs) {
-        results.push_back(input.numerator / input.denominator);
-        results.push_back(std::sqrt(input.square));
-    }
-    EXPECT_EQ(gpu::countWrongResults(inputs, results), 0u);
-    results[20] = std::nextafter(results[20], 1e30f);
-    results[31] = std::nextafter(results[31], 0.0f);
-    EXPECT_EQ(gpu::countWrongResults(inputs, results), 2u);
 }
 
 // The distance from the middle between two floats, in units of the last place: in double, within 2^-27 of it.
@@ -264,11 +230,15 @@ double distanceFromHalfway(double exact) {
 }
 
 TEST(HardInputs, LieNearTheMiddle) {
-    for (const gpu::HardInput &input : gpu::makeHardInputs(1000)) {
+    for (const layout::HardInput &input : gpu::makeHardInputs(1000)) {
         EXPECT_LT(distanceFromHalfway(double{input.numerator} / double{input.denominator}), 0x1p-22);
         EXPECT_LT(distanceFromHalfway(std::sqrt(double{input.square})), 0x1p-12);
         EXPECT_TRUE(std::isnormal(input.numerator) && std::isnormal(input.denominator));
         EXPECT_TRUE(std::isnormal(input.square) && input.square > 0.0f);
+        EXPECT_LT(distanceFromHalfway(double{input.addend} + double{input.otherAddend}), 0x1p-22);
+        EXPECT_LT(distanceFromHalfway(double{input.addend} - double{input.otherAddend}), 0x1p-22);
+        EXPECT_LT(distanceFromHalfway(double{input.factor} * double{input.otherFactor}), 0x1p-22);
+        EXPECT_LT(distanceFromHalfway(static_cast<double>(input.integer)), 0x1p-6);
     }
 }
 

@@ -24,7 +24,7 @@ bool mayDivide(const Instruction &instruction) {
 }
 
 TEST(EmbeddedKernels, AreAllListed) {
-    for (const char *name : {"checkArithmetic", "whittedStackOneSlot", "whittedStackTwoSlots",
+    for (const char *name : {"startupCheck", "whittedStackOneSlot", "whittedStackTwoSlots",
                              "pathSkipTwoSlots", "probeKernel", "unoptimisedStack", "unoptimisedSkipList"})
         EXPECT_EQ(std::ranges::count(allKernels(), name, &EmbeddedKernel::name), 1) << name;
 }

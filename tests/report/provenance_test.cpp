@@ -23,15 +23,16 @@ Provenance exampleOrigin() {
 }
 
 TEST(Provenance, AKernelHasAHashAndTheReferenceRendererHasNone) {
-    const nlohmann::ordered_json device = rendererToJson({"a GPU", "driver 1", "native", "stack", 0xabc});
+    const nlohmann::ordered_json device =
+        rendererToJson({"a GPU", "driver 1", "native", "promised", "stack", 0xabc});
     EXPECT_EQ(device["kernel"]["name"], "stack");
     EXPECT_EQ(device["kernel"]["spirvHash"], "0000000000000abc");
-    EXPECT_FALSE(rendererToJson({"cpu", "", "", "", 0}).contains("kernel"));
+    EXPECT_FALSE(rendererToJson({"cpu", "", "", "", "", 0}).contains("kernel"));
 }
 
 TEST(Provenance, PicturesSayWhatReportsSay) {
     const nlohmann::ordered_json json =
-        provenanceToJson(exampleOrigin(), {"a GPU", "driver 1", "native", "stack", 0xabc});
+        provenanceToJson(exampleOrigin(), {"a GPU", "driver 1", "native", "promised", "stack", 0xabc});
     std::map<std::string, std::string> texts;
     for (const Attribute &attribute : attributesOf(json))
         EXPECT_TRUE(texts.insert(attribute).second) << attribute.first;

@@ -30,7 +30,9 @@ struct DeviceInfo {
     std::uint32_t maxStorageImagesPerStage = 0; ///< storage texel buffers among them
     std::uint64_t maxAllocationBytes = 0;       ///< of one piece of memory
     std::uint64_t deviceMemoryBytes = 0;        ///< largest device-local heap
-    bool canShuffle = false;                    ///< subgroups of compute kernels exchange and add values
+    std::uint32_t consecutiveLanes =
+        1;                   ///< as the start-up check finds them (startup_check.h), once it has run
+    bool canShuffle = false; ///< subgroups of compute kernels exchange and add values
     bool hasTimestamps = false;
     bool hasCalibratedTimestamps = false;
     bool isPortabilitySubset = false; ///< lacks a part of Vulkan, and says so by an extension

@@ -52,7 +52,7 @@ std::uint32_t loaderVersion() {
         vkGetInstanceProcAddr(VK_NULL_HANDLE, "vkEnumerateInstanceVersion"));
     std::uint32_t version = VK_API_VERSION_1_0;
     if (enumerate != nullptr)
-        check(enumerate(&version), "vkEnumerateInstanceVersion");
+        check(enumerate(&version), "vkEnumerateInstanceVersion for the version of the loader");
     return version;
 }
 
