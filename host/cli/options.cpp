@@ -72,7 +72,7 @@ CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &pa
 }
 
 CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
-                        const std::string &help) {
+                      const std::string &help) {
     const auto read = [name, &paths](const CLI::results_t &words) {
         for (const std::string &word : words) {
             std::error_code error;

@@ -120,7 +120,7 @@ CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &pa
 
 /// An option that may be repeated, each time with an existing folder or file.
 CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
-                        const std::string &help);
+                      const std::string &help);
 
 /// --tone, for commands that write a PNG. `curve` must outlive the command; it is empty for the default.
 CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve);

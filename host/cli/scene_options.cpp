@@ -51,7 +51,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->required()
         ->type_name("SCENE");
     addPaths(command, "--allow-path", options.allowedPaths,
-               "also let a scene file read this file, or files in this folder; repeatable");
+             "also let a scene file read this file, or files in this folder; repeatable");
     const std::string image(imageGroup);
     addNumber(command, "--width", options.width, limits::imageSize, "pixels")->group(image);
     addNumber(command, "--height", options.height, limits::imageSize, "pixels")->group(image);

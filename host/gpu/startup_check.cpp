@@ -15,7 +15,7 @@ namespace hyalite::gpu {
 namespace {
 
 constexpr std::size_t inputCount = 1024;
-constexpr std::uint32_t workgroupSize = 64;
+constexpr std::uint32_t groupSize = 64;
 constexpr std::size_t divisionsPerInput = 2;
 constexpr std::size_t othersPerInput = 6;
 
@@ -78,10 +78,10 @@ StartupCheck checkDevice(Device &device) {
                               std::as_bytes(std::span(results)).size());
     const std::array<const Buffer *, 2> buffers{&inputBuffer, &resultBuffer};
     Kernel kernel(device, "startupCheck", embeddedKernel("startupCheck"), {}, buffers);
-    kernel.run({}, inputCount / workgroupSize);
+    kernel.run({}, inputCount / groupSize);
     resultBuffer.download(std::as_writable_bytes(std::span(results)));
     return {inputCount * divisionsPerInput, inputCount * othersPerInput, countWrongResults(inputs, results),
-            countConsecutiveLanes(results, workgroupSize)};
+            countConsecutiveLanes(results, groupSize)};
 }
 
 } // namespace hyalite::gpu

@@ -80,8 +80,8 @@ class Function {
                                                        : blocks_.back().instructions;
             to.push_back(std::move(instruction));
         }
-        for (auto header = blocks_.begin(); header != blocks_.end(); ++header)
-            makeOneArmed(*header);
+        for (Block &header : blocks_)
+            makeOneArmed(header);
     }
 
     void write(Words &words) const {
