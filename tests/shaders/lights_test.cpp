@@ -227,6 +227,25 @@ TEST(EnvironmentLight, DirectionsHaveTheDensityThatTheySay) {
     EXPECT_NEAR(sum / count, 4.0 * pi, 0.02 * 4.0 * pi);
 }
 
+// Radiance is interpolated between the centres of pixels: of what shines in one of them, three quarters lie within its
+// own column and an eighth in the column on each side.
+TEST(EnvironmentLight, APixelShinesIntoItsNeighboursAlike) {
+    Image image(16, 8);
+    image.at(5, 4) = glm::vec3(3.0f);
+    const PackedScene scene = packed(underSky(grey(0.5f), 1, image));
+    const SceneView<double> view(scene);
+    const auto pdfInColumn = [&](int x) {
+        const double longitude = 2.0 * pi * (x + 0.5) / image.width();
+        const double latitude = pi * (4 + 0.5) / image.height();
+        return environmentFrom(view, Direction(-std::sin(longitude) * std::sin(latitude), std::cos(latitude),
+                                               std::cos(longitude) * std::sin(latitude)))
+            .pdf;
+    };
+    EXPECT_NEAR(pdfInColumn(4), pdfInColumn(5) / 6.0, 1e-6 * pdfInColumn(5));
+    EXPECT_NEAR(pdfInColumn(6), pdfInColumn(5) / 6.0, 1e-6 * pdfInColumn(5));
+    EXPECT_EQ(pdfInColumn(7), 0.0);
+}
+
 TEST(EnvironmentLight, ABlackOneIsDark) {
     const Scene scene = underSky(grey(0.5f), 16, Image(4, 2));
     EXPECT_EQ(estimate(scene).mean, 0.0);

@@ -79,6 +79,12 @@ TEST(Texture, RepeatsForEver) {
         EXPECT_EQ(lookup.at(odd, odd), lookup.at(0.0f, 0.0f)) << odd;
 }
 
+TEST(Texture, FractionsAreLessThanOne) {
+    EXPECT_EQ(reference::fractionOf(-1e-9f), 0.0f) << "1 - 1e-9 is rounded to 1";
+    EXPECT_EQ(reference::fractionOf(-0.25f), 0.75f);
+    EXPECT_EQ(reference::fractionOf(std::nextafter(1.0f, 0.0f)), std::nextafter(1.0f, 0.0f));
+}
+
 TEST(Texture, IsScaledThenMoved) {
     Scene scene = quadScene(layout::slotBaseColour, numbered());
     const Lookup plain(scene);
