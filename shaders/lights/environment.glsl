@@ -52,7 +52,7 @@ float pdfEnvironment(uvec2 pixel, float sine) {
         return 0.0;
     uint before = pixel.x == 0u ? 0u : environmentTexel(pixel.x - 1u, pixel.y).word;
     uint numbers = environmentTexel(pixel.x, pixel.y).word - before;
-    float inRow = float(numbers) * (1.0 / 4294967296.0);
+    float inRow = floatOf(numbers) * (1.0 / 4294967296.0);
     float chance = inRow * environmentRow(pixel.y).value.x;
     float scaled = chance * (float(frame.environmentWidth) * float(frame.environmentHeight));
     float area = piSquaredTwice * sine;
@@ -87,7 +87,7 @@ uint searchTexels(uint first, uint count, uint bits) {
 }
 
 // Position in a pixel of the random number that selected it, in [0, 1].
-float shareOf(uint bits, uint before, uint end) { return divide(float(bits - before), float(end - before)); }
+float shareOf(uint bits, uint before, uint end) { return divide(floatOf(bits - before), floatOf(end - before)); }
 
 // Samples a direction by two 32-bit random numbers.
 EnvironmentLight sampleEnvironment(uvec2 random) {

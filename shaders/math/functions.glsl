@@ -1,4 +1,8 @@
-// Sine, cosine, arc tangent and exponential, made of + - * only, with the same bits everywhere.
+// Conversion, sine, cosine, arc tangent and exponential, made of + - * only, with the same bits everywhere.
+
+// The number as a float, rounded once. Of drivers, not all do so from 2^31 on: SwiftShader converts all but the highest
+// bit, and adds that.
+float floatOf(uint x) { return float(x >> 16u) * 65536.0 + float(x & 0xFFFFu); }
 
 struct SineCosine {
     float sine;

@@ -1,0 +1,27 @@
+// Functions of shaders/math/functions.glsl that have closed forms of their own.
+#include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/leaves.h"
+
+#include <gtest/gtest.h>
+
+namespace hyalite::reference {
+namespace {
+
+TEST(FloatOf, IsTheNearestFloat) {
+    hyalite::testing::Random random(811);
+    const auto expectNearest = [](std::uint32_t x) {
+        EXPECT_EQ(floatOf<float>(x), static_cast<float>(x)) << x;
+        EXPECT_EQ(floatOf<double>(x), static_cast<double>(x)) << x;
+    };
+    for (const std::uint32_t x : {0u, 1u, 0xFFFFu, 0x10000u, 0xFFFFFFu, 0x1000001u, 0x80000000u, 0xFFFFFFFFu})
+        expectNearest(x);
+    // Near the middle between two floats, from 2^31 on, where without the highest bit it would be a tie.
+    for (std::uint32_t cell = 0xC00000; cell < 0xC00400; ++cell)
+        for (const std::uint32_t beside : {127u, 128u, 129u})
+            expectNearest(cell * 256 + beside);
+    for (int i = 0; i < 100000; ++i)
+        expectNearest(static_cast<std::uint32_t>(random.bits()));
+}
+
+} // namespace
+} // namespace hyalite::reference
