@@ -93,6 +93,7 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
     app.formatter(std::make_shared<HelpFormatter>());
     addRenderCommand(app, context);
     addCompareCommand(app, context);
+    addVerifyCommand(app, context);
     addProfileCommand(app, context);
     addDevicesCommand(app, context);
     addInspectCommand(app, context);

@@ -22,5 +22,6 @@ void addDiffCommand(CLI::App &app, CommandContext &context);
 void addInspectCommand(CLI::App &app, CommandContext &context);
 void addProfileCommand(CLI::App &app, CommandContext &context);
 void addToneMapCommand(CLI::App &app, CommandContext &context);
+void addVerifyCommand(CLI::App &app, CommandContext &context);
 
 } // namespace hyalite

@@ -137,7 +137,8 @@ Verdict judgeBits(const Contestants &contestants, const PreparedScene &scene, co
     if (!areEqual) {
         const glm::uvec2 pixel =
             imagePixel(scene.crop, worstPixel(compared.imageA, compared.imageB, compared.comparison.pixels));
-        const std::optional<Divergence> divergence = findFirstDivergence(contestants, scene, pixel);
+        const std::optional<Divergence> divergence =
+            findFirstDivergence(*contestants.first, *contestants.second, scene, pixel);
         printDivergence(pixel, divergence);
         verdict.reasons["divergence"] = divergenceToJson(pixel, divergence);
     }

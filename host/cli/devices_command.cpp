@@ -9,11 +9,9 @@
 #include "host/render/tune.h"
 #include "host/scene/names.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -57,7 +55,7 @@ std::string equalBitsOf(const gpu::DeviceInfo &device) {
     if (!device.isUsable())
         return "none: " + gpu::explainUnpromisedBits(device);
     gpu::Device opened(device);
-    return gpu::describe(gpu::guaranteeOf(device, gpu::checkDevice(opened)));
+    return gpu::describe(guaranteeOf(gpu::guaranteeOf(device, gpu::checkDevice(opened)), readTuning(device)));
 }
 
 void printTable(const std::vector<gpu::DeviceInfo> &devices) {
@@ -124,8 +122,6 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
     fmt::print("{}", jsonText(list));
 }
 
-std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
-
 /// Measures the kernels on one device and stores the fastest ones.
 void tune(const std::string &deviceName) {
     const std::filesystem::path file = tuningFile();
@@ -138,7 +134,7 @@ void tune(const std::string &deviceName) {
     for (const auto &[kernel, choice] : gpu::namedKernels)
         fmt::print(" {:>12}", kernel);
     fmt::print("   auto\n");
-    Tuning tuning;
+    Tuning tuning = readTuning(device);
     tuning.date = today();
     for (const KernelRates &rates : all) {
         fmt::print("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);

@@ -35,7 +35,7 @@ struct ArithmeticChoice {
 /// How sure it is that images have the bits of the CPU twin's.
 enum class BitDegree {
     Promised, ///< the driver offers the float controls that equal bits need
-    Measured, ///< it does not, but the start-up check finds no difference
+    Measured, ///< it does not, but nothing that was compared differs
     None
 };
 

@@ -106,7 +106,7 @@ class CpuBackend : public Backend {
 class DeviceBackend : public Backend {
   public:
     DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config)
-        : device_(device), renderer_(device, config, readTuning(device).kernels) {}
+        : DeviceBackend(device, config, readTuning(device)) {}
 
     [[nodiscard]] std::string name() const override { return device_.name; }
     [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
@@ -114,11 +114,11 @@ class DeviceBackend : public Backend {
         return {device_.name,
                 device_.driver,
                 fmt::format("{} / and sqrt: {}", choice.isNative ? "native" : "own", choice.reason),
-                gpu::describe(renderer_.bits()),
+                gpu::describe(bits_),
                 std::string(renderer_.kernelName(scene, integrator)),
                 renderer_.kernelHash(scene, integrator)};
     }
-    [[nodiscard]] gpu::BitGuarantee bits() const override { return renderer_.bits(); }
+    [[nodiscard]] gpu::BitGuarantee bits() const override { return bits_; }
     [[nodiscard]] std::string precision() const override {
         return bits().degree == gpu::BitDegree::Promised
                    ? Backend::precision()
@@ -144,8 +144,13 @@ class DeviceBackend : public Backend {
     }
 
   private:
+    DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config, const Tuning &tuning)
+        : device_(device), renderer_(device, config, tuning.kernels),
+          bits_(guaranteeOf(renderer_.bits(), tuning)) {}
+
     gpu::DeviceInfo device_;
     gpu::Renderer renderer_;
+    gpu::BitGuarantee bits_;
 };
 
 /// Memory for a film and its image. Tone mapping and packing come later and take less.

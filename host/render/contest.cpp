@@ -12,14 +12,13 @@ Contestants openContestants(const ContestRequest &request, const PreparedScene &
                                           isReference(request.against) ? gpu::RenderConfig{} : config)};
 }
 
-std::optional<Divergence> findFirstDivergence(const Contestants &contestants, const PreparedScene &scene,
+std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene,
                                               const glm::uvec2 &pixel) {
     const int sampleCount = scene.loaded.scene.settings.samplesPerPixel;
     for (int sample = 0; sample < sampleCount; ++sample) {
         const std::uint32_t index = static_cast<std::uint32_t>(sample);
         if (std::optional<Divergence> divergence =
-                findDivergence(contestants.first->trace(scene, pixel, index),
-                               contestants.second->trace(scene, pixel, index)))
+                findDivergence(first.trace(scene, pixel, index), second.trace(scene, pixel, index)))
             return divergence;
     }
     return std::nullopt;

@@ -26,7 +26,7 @@ struct Contestants {
 
 /// Retraces a pixel of the whole image on both sides, sample by sample, until a step differs.
 [[nodiscard]] std::optional<Divergence>
-findFirstDivergence(const Contestants &contestants, const PreparedScene &scene, const glm::uvec2 &pixel);
+findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene, const glm::uvec2 &pixel);
 
 /// The beginning of a report on two renders.
 [[nodiscard]] nlohmann::ordered_json contestToJson(const Contestants &contestants, const PreparedScene &scene,

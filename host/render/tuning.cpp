@@ -8,11 +8,13 @@
 #include "host/base/json_text.h"
 #include "host/base/message.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <optional>
 #include <system_error>
 
@@ -81,9 +83,12 @@ Tuning readTuning(const gpu::DeviceInfo &device) {
             if (!entry.is_object() || entry.value("key", Json()) != key)
                 continue;
             Tuning tuning;
-            for (const auto &[name, workload] : gpu::workloadNames)
-                tuning.kernels[static_cast<std::size_t>(workload)] = kernelNamed(entry.value(name, Json()));
-            tuning.date = excerpt(entry.value("date", std::string("long ago")));
+            tuning.verifiedDate = excerpt(entry.value("verified", std::string()));
+            tuning.date = excerpt(entry.value("date", std::string()));
+            if (tuning.isMeasured())
+                for (const auto &[name, workload] : gpu::workloadNames)
+                    tuning.kernels[static_cast<std::size_t>(workload)] =
+                        kernelNamed(entry.value(name, Json()));
             return tuning;
         }
     } catch (const Error &fault) {
@@ -113,15 +118,31 @@ void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning) {
     Json entry;
     entry["key"] = key;
     entry["device"] = device.name;
-    entry["date"] = tuning.date;
-    for (const auto &[name, workload] : gpu::workloadNames) {
-        const gpu::KernelChoice &choice = tuning.kernels[static_cast<std::size_t>(workload)];
-        entry[std::string(name)] = gpu::kernelName(choice);
+    if (!tuning.verifiedDate.empty())
+        entry["verified"] = tuning.verifiedDate;
+    if (tuning.isMeasured()) {
+        entry["date"] = tuning.date;
+        for (const auto &[name, workload] : gpu::workloadNames) {
+            const gpu::KernelChoice &choice = tuning.kernels[static_cast<std::size_t>(workload)];
+            entry[std::string(name)] = gpu::kernelName(choice);
+        }
     }
     entries.push_back(entry);
     AtomicFile output(file);
     output.write(jsonText(Json{{"devices", entries}}));
     output.commit();
+}
+
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
+
+gpu::BitGuarantee guaranteeOf(const gpu::BitGuarantee &byStartupCheck, const Tuning &tuning) {
+    if (byStartupCheck.degree != gpu::BitDegree::Measured)
+        return byStartupCheck;
+    if (tuning.verifiedDate.empty())
+        return {gpu::BitDegree::None,
+                byStartupCheck.reason + "; `hyalite verify` has yet to compare whole kernels here"};
+    return {gpu::BitDegree::Measured,
+            fmt::format("{}, nor did `hyalite verify` on {}", byStartupCheck.reason, tuning.verifiedDate)};
 }
 
 } // namespace hyalite

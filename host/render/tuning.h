@@ -1,4 +1,4 @@
-// Stored tuning results: the fastest kernels measured on a device, kept between runs.
+// What was learnt of a device and is kept between runs: its fastest kernels, and whether its bits were verified.
 #pragma once
 
 #include "host/gpu/render_config.h"
@@ -12,6 +12,7 @@ namespace hyalite {
 struct Tuning {
     gpu::KernelChoices kernels{}; ///< by Workload
     std::string date;             ///< YYYY-MM-DD, in UTC; empty: not measured
+    std::string verifiedDate;     ///< likewise, when all shipped films had the shipped bits; empty: not yet
 
     [[nodiscard]] bool isMeasured() const { return !date.empty(); }
 };
@@ -26,5 +27,13 @@ struct Tuning {
 
 /// Stores an entry, and keeps those of other devices. Throws Error{OutputNotWritten}.
 void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning);
+
+/// YYYY-MM-DD, in UTC.
+[[nodiscard]] std::string today();
+
+/// How sure it is that a device's images have the bits of the CPU twin's, by what the start-up check found and what was
+/// verified: without a promise, bits count as measured only where all shipped films had them, because drivers can
+/// transform large kernels otherwise than the check's.
+[[nodiscard]] gpu::BitGuarantee guaranteeOf(const gpu::BitGuarantee &byStartupCheck, const Tuning &tuning);
 
 } // namespace hyalite

@@ -1,7 +1,7 @@
 #include "host/report/profile_html.h"
 
-#include "host/base/clean_text.h"
 #include "host/base/hash.h"
+#include "host/base/markup.h"
 #include "host/base/quantities.h"
 #include "host/base/version.h"
 #include "host/scene/settings_table.h"
@@ -72,15 +72,15 @@ std::string millisText(double millis) {
 std::string shareText(double share) { return fmt::format("{:.1f} %", share * 100.0); }
 
 std::string figure(const std::string &value, const std::string &meaning) {
-    return fmt::format("<div class=\"figure\"><b>{}</b><span>{}</span></div>\n", htmlText(value),
-                       htmlText(meaning));
+    return fmt::format("<div class=\"figure\"><b>{}</b><span>{}</span></div>\n", markupText(value),
+                       markupText(meaning));
 }
 
 /// A row of cells; the first one names it.
 std::string row(const char *cell, std::span<const std::string> texts, const char *rowClass = "") {
     std::string html = fmt::format("<tr{}>", *rowClass == '\0' ? "" : fmt::format(" class=\"{}\"", rowClass));
     for (const std::string &text : texts)
-        html += fmt::format("<{0}>{1}</{0}>", cell, htmlText(text));
+        html += fmt::format("<{0}>{1}</{0}>", cell, markupText(text));
     return html + "</tr>\n";
 }
 
@@ -117,8 +117,8 @@ std::string phaseBar(const std::vector<StageSummary> &stages) {
             continue;
         const char *colour = partColours[index++ % partColours.size()];
         bar += fmt::format("<div style=\"width:{:.3f}%;background:{}\" title=\"{}\"></div>",
-                           stage.share * 100.0, colour, htmlText(stage.name));
-        key += fmt::format("<li><i style=\"background:{}\"></i>{} {}</li>\n", colour, htmlText(stage.name),
+                           stage.share * 100.0, colour, markupText(stage.name));
+        key += fmt::format("<li><i style=\"background:{}\"></i>{} {}</li>\n", colour, markupText(stage.name),
                            shareText(stage.share));
     }
     return fmt::format("<div class=\"bar\">{}</div>\n<ul class=\"key\">\n{}</ul>\n", bar, key);
@@ -183,7 +183,7 @@ std::string workOf(const Profile &profile, std::span<const std::byte> heatMapPng
             fmt::format("<p>{}: {}, {}; {} of {} path slots, {} of them busy</p>\n"
                         "<p class=\"note\">Of the kernel that was measured: passes depend on the device "
                         "and on how work was cut.</p>\n",
-                        htmlText(kernel), roundedText(work.nodesVisited, "nodes"),
+                        markupText(kernel), roundedText(work.nodesVisited, "nodes"),
                         roundedText(work.trianglesTested, "triangles"), roundedText(lanes.passes, "passes"),
                         lanes.slotsPerSubgroup, shareText(lanes.busyShare()));
     }
@@ -194,9 +194,9 @@ std::string provenance(const Profile &profile) {
     const Provenance &origin = profile.origin;
     std::string html = "<dl class=\"card\">\n";
     const auto add = [&](const char *term, const std::string &text) {
-        html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, htmlText(text));
+        html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, markupText(text));
     };
-    html += fmt::format("<dt>Command line</dt><dd><code>{}</code></dd>\n", htmlText(origin.commandLine));
+    html += fmt::format("<dt>Command line</dt><dd><code>{}</code></dd>\n", markupText(origin.commandLine));
     add("Program", "hyalite " HYALITE_VERSION);
     add("Scene", fmt::format("{}, {}, {}", origin.scene, countText(origin.triangleCount, "triangle"),
                              sizeText(profile.sceneBytes)));
@@ -217,29 +217,6 @@ std::string provenance(const Profile &profile) {
 }
 
 } // namespace
-
-std::string htmlText(std::string_view text) {
-    std::string escaped;
-    for (const char letter : cleanText(text)) {
-        switch (letter) {
-        case '&':
-            escaped += "&amp;";
-            break;
-        case '<':
-            escaped += "&lt;";
-            break;
-        case '>':
-            escaped += "&gt;";
-            break;
-        case '"':
-            escaped += "&quot;";
-            break;
-        default:
-            escaped += letter;
-        }
-    }
-    return escaped;
-}
 
 std::string base64(std::span<const std::byte> bytes) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -275,12 +252,12 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
         fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                     "<title>{} on {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-                    htmlText(sceneName), htmlText(profile.device.name), style);
-    html += fmt::format("<h1>{} on {}</h1>\n<p>{} by {} pixels, {}; {}</p>\n", htmlText(sceneName),
-                        htmlText(profile.device.name), origin.width, origin.height,
+                    markupText(sceneName), markupText(profile.device.name), style);
+    html += fmt::format("<h1>{} on {}</h1>\n<p>{} by {} pixels, {}; {}</p>\n", markupText(sceneName),
+                        markupText(profile.device.name), origin.width, origin.height,
                         countText(static_cast<std::uint64_t>(origin.settings.samplesPerPixel), "sample") +
                             " per pixel",
-                        htmlText(profile.verification));
+                        markupText(profile.verification));
     html += fmt::format(
         "<div class=\"top\">\n<img alt=\"The image that was rendered\" width=\"{}\" height=\"{}\" "
         "src=\"data:image/png;base64,{}\">\n<div class=\"figures\">\n",

@@ -10,9 +10,6 @@
 
 namespace hyalite {
 
-/// `text` escaped for HTML elements and quoted attributes.
-[[nodiscard]] std::string htmlText(std::string_view text);
-
 /// RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 

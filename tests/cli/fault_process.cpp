@@ -45,6 +45,7 @@ void FaultyDevice::SetUp() {
     CommandLine::SetUp();
     for (const auto &[name, value] : layerEnvironment)
         setenv(name.c_str(), value.c_str(), 1);
+    setenv("HYALITE_CACHE", (folder / "cache").c_str(), 1); // not the user's own
     setenv("HYALITE_VALIDATION", "0", 1); // it would take most of the time, and is asked for where it matters
 }
 
@@ -80,6 +81,7 @@ Outcome FaultyDevice::runHere(const std::string &line, const std::string &faults
     addCompareCommand(app, context);
     addProfileCommand(app, context);
     addDevicesCommand(app, context);
+    addVerifyCommand(app, context);
     Outcome outcome;
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();

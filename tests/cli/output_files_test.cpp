@@ -96,8 +96,9 @@ TEST_F(OutputFiles, AFolderThatIsDeletedMeanwhileIsReported) {
     surroundings.signalWhen = [this] {
         if (!fs::exists(folder / "c"))
             return false;
-        fs::remove_all(folder / "gone");
-        return true;
+        std::error_code error; // the program may write into it meanwhile
+        fs::remove_all(folder / "gone", error);
+        return !fs::exists(folder / "gone");
     };
     const Outcome outcome =
         runIn(surroundings, "render spheres -o gone/a.png --device cpu --width 96 --height 96 "
@@ -120,8 +121,9 @@ TEST_F(OutputFiles, AFolderThatIsDeletedMeanwhileDoesNotStopTheCheckpointsOfOthe
     surroundings.signalWhen = [this] {
         if (!fs::exists(folder / "gone/c"))
             return false;
-        fs::remove_all(folder / "gone");
-        return true;
+        std::error_code error; // the program may write into it meanwhile
+        fs::remove_all(folder / "gone", error);
+        return !fs::exists(folder / "gone");
     };
     const Outcome outcome =
         runIn(surroundings, "render spheres -o a.pfm --device cpu --width 96 --height 96 --spp 256 "

@@ -38,7 +38,6 @@ namespace {
     X(vkCreateFence)                                                                                         \
     X(vkCreatePipelineLayout)                                                                                \
     X(vkCreateQueryPool)                                                                                     \
-    X(vkCreateShaderModule)                                                                                  \
     X(vkDeviceWaitIdle)                                                                                      \
     X(vkEndCommandBuffer)                                                                                    \
     X(vkGetQueryPoolResults)                                                                                 \
@@ -71,8 +70,11 @@ struct Next {
     std::map<std::string_view, PFN_vkVoidFunction> functions;
 };
 
-/// The names of all our functions.
-std::vector<const char *> ourNames();
+using Functions = std::map<std::string_view, PFN_vkVoidFunction>;
+
+const Functions &instanceFunctions();
+const Functions &deviceFunctions();
+std::vector<const char *> namesOf(const Functions &functions);
 
 std::mutex nextMutex;
 /// By the loader's dispatch table, which all objects of an instance or device begin with.
@@ -161,8 +163,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo *info,
         return result;
     plan().countCreated("vkCreateInstance");
     Next next{*instance, getNext, nullptr, {}};
-    for (const char *name : ourNames())
-        next.functions[name] = getNext(*instance, name);
+    for (const Functions *functions : {&instanceFunctions(), &deviceFunctions()})
+        for (const char *name : namesOf(*functions))
+            next.functions[name] = getNext(*instance, name);
     const std::lock_guard lock(nextMutex);
     nextOfTable[tableOf(*instance)] = std::move(next);
     return VK_SUCCESS;
@@ -206,7 +209,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
         return result;
     plan().countCreated("vkCreateDevice");
     Next next{instance, getInstanceNext, getDeviceNext, {}};
-    for (const char *name : ourNames())
+    for (const char *name : namesOf(deviceFunctions()))
         next.functions[name] = getDeviceNext(*device, name);
     const std::lock_guard lock(nextMutex);
     nextOfTable[tableOf(*device)] = std::move(next);
@@ -328,11 +331,19 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     return getDeviceFunction(device, name);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShaderModuleCreateInfo *info,
+                                                  const VkAllocationCallbacks *allocator,
+                                                  VkShaderModule *module) {
+    std::vector<std::uint32_t> words(info->pCode, info->pCode + info->codeSize / sizeof(std::uint32_t));
+    fakeArithmetic(words);
+    VkShaderModuleCreateInfo passed = *info;
+    passed.pCode = words.data();
+    return Passed<"vkCreateShaderModule", PFN_vkCreateShaderModule>::call(device, &passed, allocator, module);
+}
+
 template <class Function> PFN_vkVoidFunction erased(Function function) {
     return reinterpret_cast<PFN_vkVoidFunction>(function);
 }
-
-using Functions = std::map<std::string_view, PFN_vkVoidFunction>;
 
 const Functions &deviceFunctions() {
     static const Functions functions{
@@ -342,7 +353,8 @@ const Functions &deviceFunctions() {
 #define HYALITE_ENTRY(name, creator) {#name, erased(Destroyer<#name, creator, PFN_##name>::call)},
             HYALITE_DESTROY_CALLS(HYALITE_ENTRY)
 #undef HYALITE_ENTRY
-                {"vkDestroyDevice", erased(destroyDevice)},
+                {"vkCreateShaderModule", erased(createShaderModule)},
+        {"vkDestroyDevice", erased(destroyDevice)},
         {"vkGetDeviceProcAddr", erased(getDeviceProcAddr)},
     };
     return functions;
@@ -378,11 +390,10 @@ const Functions &calibrationFunctions() {
     return functions;
 }
 
-std::vector<const char *> ourNames() {
+std::vector<const char *> namesOf(const Functions &functions) {
     std::vector<const char *> names;
-    for (const Functions *functions : {&instanceFunctions(), &deviceFunctions()})
-        for (const auto &[name, function] : *functions)
-            names.push_back(name.data()); // of a literal
+    for (const auto &[name, function] : functions)
+        names.push_back(name.data()); // of a literal
     return names;
 }
 

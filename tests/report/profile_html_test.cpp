@@ -1,3 +1,4 @@
+#include "host/base/markup.h"
 #include "host/report/profile_html.h"
 #include "tests/fixtures/profile_fixture.h"
 
@@ -92,7 +93,7 @@ TEST(ProfileHtml, NamesMayHoldAnything) {
     EXPECT_NE(page.find("'&lt;b&gt;&amp;&quot;c&quot;&lt;/b&gt;.json'"), std::string::npos);
     EXPECT_EQ(page.find('\x1b'), std::string::npos);
     EXPECT_EQ(page.find('\xff'), std::string::npos);
-    EXPECT_EQ(htmlText("a < b & c > \"d\""), "a &lt; b &amp; c &gt; &quot;d&quot;");
+    EXPECT_EQ(markupText("a < b & c > \"d\""), "a &lt; b &amp; c &gt; &quot;d&quot;");
 }
 
 } // namespace

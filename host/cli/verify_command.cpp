@@ -1,0 +1,213 @@
+#include "host/base/atomic_file.h"
+#include "host/base/json_text.h"
+#include "host/base/message.h"
+#include "host/cli/commands.h"
+#include "host/cli/options.h"
+#include "host/cli/verify_files.h"
+#include "host/gpu/vk/device_list.h"
+#include "host/render/tuning.h"
+#include "host/report/progress.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+struct VerifyOptions {
+    std::vector<std::string> devices{"all"};
+    std::vector<std::string> scenes; ///< none: all
+    std::string junit;
+    std::string report;
+    bool isQuiet = false;
+};
+
+/// A renderer to verify.
+struct Subject {
+    std::string name;                      ///< for openBackend()
+    std::optional<gpu::DeviceInfo> device; ///< empty: the CPU twin
+};
+
+/// "all" leaves out what cannot be used, and says so.
+std::vector<Subject> allSubjects() {
+    std::vector<Subject> subjects{{"cpu", std::nullopt}};
+    const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
+    for (const gpu::DeviceInfo &device : devices)
+        if (device.isUsable())
+            subjects.push_back({std::to_string(device.index), device});
+        else
+            printMessage("note: left out {}: {}\n", device.name, device.rejection);
+    if (subjects.size() == 1) // throws why
+        static_cast<void>(gpu::chooseDevice(devices, "auto"));
+    return subjects;
+}
+
+std::vector<Subject> subjectsOf(const std::vector<std::string> &names) {
+    std::vector<Subject> subjects;
+    const auto add = [&](const Subject &subject) {
+        if (std::ranges::find(subjects, subject.name, &Subject::name) == subjects.end())
+            subjects.push_back(subject);
+    };
+    for (const std::string &name : names)
+        if (name == "all") {
+            std::ranges::for_each(allSubjects(), add);
+        } else if (name == "cpu") {
+            add({"cpu", std::nullopt});
+        } else if (isReference(name)) {
+            refuseValue("--device", name, "all, cpu or a Vulkan device: double precision has other bits");
+        } else {
+            const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), name);
+            add({std::to_string(device.index), device});
+        }
+    return subjects;
+}
+
+/// Drops the films of all scenes but these. No names: drops none.
+void keepScenes(ShippedFilms &shipped, const std::vector<std::string> &names) {
+    const std::vector<std::string> known = shipped.sceneNames();
+    const std::vector<std::string_view> words(known.begin(), known.end());
+    for (const std::string &name : names)
+        if (std::ranges::find(known, name) == known.end())
+            refuseValue("--scenes", name, quotedList(words) + suggestion(name, words));
+    if (!names.empty())
+        std::erase_if(shipped.films, [&](const ShippedFilm &film) {
+            return std::ranges::find(names, film.scene) == names.end();
+        });
+}
+
+/// The films of one kernel.
+struct Tally {
+    std::size_t equal = 0;
+    std::size_t rendered = 0;
+    double seconds = 0.0;
+    std::string lack; ///< why a film was not rendered
+
+    void add(const FilmVerdict &film) {
+        equal += film.isSkipped() || film.isFaulty() ? 0u : 1u;
+        rendered += film.isSkipped() ? 0u : 1u;
+        seconds += film.seconds;
+        if (film.isSkipped())
+            lack = film.lack;
+    }
+};
+
+void print(const DeviceVerdict &verdict) {
+    fmt::print("{}\n", verdict.description);
+    std::vector<std::pair<std::string, Tally>> kernels;
+    for (const FilmVerdict &film : verdict.films) {
+        if (kernels.empty() || std::ranges::find(kernels, film.kernel, [](const auto &entry) {
+                                   return entry.first;
+                               }) == kernels.end())
+            kernels.emplace_back(film.kernel, Tally{});
+        for (auto &[kernel, tally] : kernels)
+            if (kernel == film.kernel)
+                tally.add(film);
+    }
+    for (const auto &[kernel, tally] : kernels) {
+        if (tally.rendered > 0)
+            fmt::print("  {:<13} {} of {} films equal, {:.1f} s\n", kernel.empty() ? "cpu" : kernel,
+                       tally.equal, tally.rendered, tally.seconds);
+        if (!tally.lack.empty())
+            fmt::print("  {:<13} {}not run: {}\n", kernel, tally.rendered > 0 ? "the others were " : "",
+                       tally.lack);
+    }
+    for (const FilmVerdict &film : verdict.films)
+        if (film.isFaulty())
+            fmt::print("  {}{}: {}\n", nameOf(film.film), film.kernel.empty() ? "" : ", " + film.kernel,
+                       film.difference ? describe(*film.difference) : film.failure);
+}
+
+/// Keeps the outcome with the device's tuning, which decides whether its bits count as measured.
+void keep(const gpu::DeviceInfo &device, bool isPassed) {
+    Tuning tuning = readTuning(device);
+    if (!isPassed && tuning.verifiedDate.empty())
+        return;
+    tuning.verifiedDate = isPassed ? today() : std::string();
+    try {
+        storeTuning(device, tuning);
+    } catch (const Error &error) {
+        printMessage("note: that {} was verified is not kept: {}\n", device.name, error.what());
+    }
+}
+
+DeviceVerdict verifyWithProgress(const Subject &subject, const ShippedFilms &shipped, bool isQuiet) {
+    ProgressLine progress("verify " + (subject.device ? subject.device->name : subject.name), isQuiet);
+    return verifyDevice(subject.name, shipped,
+                        [&](const FilmVerdict &, double share) { progress.update(share); });
+}
+
+ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine) {
+    requireDistinctFiles({{"--junit", options.junit}, {"--report", options.report}}, {});
+    std::optional<AtomicFile> junit;
+    std::optional<AtomicFile> report;
+    if (!options.junit.empty())
+        junit.emplace(options.junit);
+    if (!options.report.empty())
+        report.emplace(options.report);
+    ShippedFilms shipped = readShippedFilms();
+    keepScenes(shipped, options.scenes);
+    const std::vector<Subject> subjects = subjectsOf(options.devices);
+    if (!options.isQuiet)
+        fmt::print("{} films of {}, version {}\n", shipped.films.size(),
+                   fmt::join(shipped.sceneNames(), ", "), shipped.version);
+
+    std::vector<DeviceVerdict> verdicts;
+    for (const Subject &subject : subjects) {
+        verdicts.push_back(verifyWithProgress(subject, shipped, options.isQuiet));
+        const DeviceVerdict &verdict = verdicts.back();
+        if (subject.device && options.scenes.empty())
+            keep(*subject.device, verdict.isPassed());
+        if (!options.isQuiet || !verdict.isPassed())
+            print(verdict);
+        std::fflush(stdout); // a later device may take long, or crash its driver
+    }
+    if (junit) {
+        junit->write(verificationToJunit(verdicts));
+        junit->commit();
+    }
+    if (report) {
+        report->write(jsonText(verificationToJson(shipped, verdicts, commandLine)));
+        report->commit();
+    }
+    const bool isPassed = std::ranges::all_of(verdicts, &DeviceVerdict::isPassed);
+    fmt::print("{}\n", isPassed ? "equal, bit for bit" : "NOT equal");
+    return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
+}
+
+} // namespace
+
+void addVerifyCommand(CLI::App &app, CommandContext &context) {
+    CLI::App *command = app.add_subcommand(
+        "verify", "render small shipped scenes, and compare their films with shipped hashes");
+    const auto options = std::make_shared<VerifyOptions>();
+    command->footer(
+        "The scenes reach every kernel, material, light and camera; a device renders them with every "
+        "kernel that it can run. The hashes are the same for all devices and machines. The exit "
+        "code is 0 only if all films of all devices have the shipped bits, and 1 if not.");
+    command
+        ->add_option(
+            "--device", options->devices,
+            "what to verify: all devices and the CPU renderer; cpu; or a device, by index or part of its "
+            "name. May be repeated")
+        ->type_name("DEVICE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->default_str("all");
+    command->add_option("--scenes", options->scenes, "only these of the shipped scenes")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->expected(1, -1);
+    addFile(*command, "--junit", options->junit, "FILE.xml", "write the verdicts as JUnit XML, for CI");
+    addFile(*command, "--report", options->report, "FILE.json", "write the verdicts and all hashes");
+    command->add_flag("--quiet", options->isQuiet, "print what differs, and the result only");
+    command->callback([options, &context] { context.exitCode = runVerify(*options, context.commandLine); });
+}
+
+} // namespace hyalite

@@ -1,0 +1,111 @@
+// The shipped films: their hashes, and that they reach what they are to reach.
+#include "host/render/shipped_films.h"
+
+#include "host/base/hash.h"
+#include "host/render/verify.h"
+#include "host/scene/names.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+namespace hyalite {
+namespace {
+
+class Shipped : public ::testing::Test {
+  protected:
+    void SetUp() override { setenv("HYALITE_ASSETS", HYALITE_ASSET_DIR, 1); }
+
+    [[nodiscard]] static std::vector<PreparedScene> prepareAll(const ShippedFilms &shipped) {
+        std::vector<PreparedScene> scenes;
+        for (const std::string &name : shipped.sceneNames()) {
+            SceneOptions options;
+            options.scene = (shipped.folder / (name + ".json")).string();
+            scenes.push_back(prepareScene(options, Source::Kept, true));
+        }
+        return scenes;
+    }
+};
+
+TEST_F(Shipped, HashesAreThoseOfTheReferenceRenderer) {
+    const ShippedFilms shipped = readShippedFilms();
+    ASSERT_GE(shipped.films.size(), 10u);
+    const DeviceVerdict verdict = verifyDevice("cpu", shipped);
+    ASSERT_EQ(verdict.films.size(), shipped.films.size());
+    for (const FilmVerdict &film : verdict.films)
+        EXPECT_EQ(hashText(film.hash), hashText(film.film.hash))
+            << film.film.scene << ", " << nameOf(film.film.integrator) << ": " << film.failure;
+    EXPECT_TRUE(verdict.isPassed());
+}
+
+TEST_F(Shipped, FilmsReachEveryKernel) {
+    std::set<std::string_view> missing;
+    for (const IntegratorRow &row : integratorTable)
+        missing.insert(row.kernel);
+    std::set<std::string_view> missingOfTwoSlots = missing;
+    for (const ShippedFilm &film : readShippedFilms().films) {
+        missing.erase(rowOf(film.integrator).kernel);
+        if (film.maxSlots == 2)
+            missingOfTwoSlots.erase(rowOf(film.integrator).kernel);
+    }
+    EXPECT_TRUE(missing.empty()) << *missing.begin();
+    EXPECT_TRUE(missingOfTwoSlots.empty()) << *missingOfTwoSlots.begin();
+}
+
+TEST_F(Shipped, ScenesReachEveryMaterialLightAndCamera) {
+    std::set<MaterialKind> materials;
+    std::set<LightKind> lights;
+    std::set<CameraKind> cameras;
+    std::set<FilterKind> filters;
+    std::set<std::size_t> slots;
+    std::uint32_t lighting = 0;
+    bool hasLens = false;
+    for (const PreparedScene &prepared : prepareAll(readShippedFilms())) {
+        const Scene &scene = prepared.loaded.scene;
+        for (const Material &material : scene.materials) {
+            materials.insert(material.kind);
+            for (std::size_t slot = 0; slot < material.textures.size(); ++slot)
+                if (material.textures[slot])
+                    slots.insert(slot);
+        }
+        for (const Light &light : scene.lights)
+            lights.insert(light.kind);
+        cameras.insert(scene.camera.kind);
+        filters.insert(scene.settings.filter);
+        hasLens = hasLens || scene.camera.aperture > 0.0;
+        lighting |= prepared.packed.lighting;
+    }
+    EXPECT_EQ(materials.size(), materialNames.size());
+    EXPECT_EQ(lights.size(), lightNames.size());
+    EXPECT_EQ(cameras.size(), cameraNames.size());
+    EXPECT_EQ(filters.size(), filterNames.size());
+    EXPECT_EQ(slots.size(), std::size_t{layout::textureSlotCount});
+    EXPECT_TRUE(hasLens);
+    for (const std::uint32_t kind :
+         {layout::lightsByEnvironment, layout::lightsByDirections, layout::lightsBySpots})
+        EXPECT_NE(lighting & kind, 0u) << kind;
+}
+
+TEST(FilmHash, IsOfAllThatAFilmHolds) {
+    Film film({0, 2, 0, 1});
+    film.pixels[0].sum = {1.0f, 2.0f, 3.0f};
+    film.pixels[0].sumOfSquares = {1.0f, 4.0f, 9.0f};
+    film.pixels[0].sampleCount = 1;
+    std::set<std::uint64_t> hashes{filmHash(film)};
+    film.pixels[0].pad0 = 5.0f;
+    EXPECT_EQ(filmHash(film), *hashes.begin()) << "padding is nothing that it holds";
+    for (float *value : {&film.pixels[0].sum.z, &film.pixels[1].sum.x, &film.pixels[1].sumOfSquares.y}) {
+        *value = -0.0f;
+        EXPECT_TRUE(hashes.insert(filmHash(film)).second);
+    }
+    film.pixels[1].sampleCount = 1;
+    EXPECT_TRUE(hashes.insert(filmHash(film)).second);
+    std::swap(film.pixels[0], film.pixels[1]);
+    EXPECT_TRUE(hashes.insert(filmHash(film)).second);
+}
+
+} // namespace
+} // namespace hyalite
