@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Plants small faults one at a time (mutations.txt) and counts how many the tests catch:
 #
-#   tests/mutation/run.sh [FIRST [LAST]]     by line of faults, 1 being the first; all by default
+#   tests/mutation/run.sh [NUMBER|FIRST-LAST]...     by line of faults, 1 being the first; all by default
 #
 # Works on a copy of the sources in a temporary folder. A fault in a leaf function is planted in the CPU's copy of the
 # leaves alone, and only tests that compare no twins judge it: both twins are compiled from one text, so that they agree
@@ -12,8 +12,7 @@ set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-first=${1:-1}
-last=${2:-1000000}
+ranges=("${@:-1-1000000}")
 
 original=$work/original # the sources may be edited while this runs
 sources=$work/sources
@@ -30,6 +29,11 @@ leaf_folders=$(sed -n 's|^#include "\(shaders/[a-z]*\)/.*|\1|p' "$original/shade
 oracles='FlatWall*:RoundWall*:Lights.*:Shadow*:Furnace*:BallOnTheAxis*:GlassSheet*:HollowBall*:CriticalAngle*:Depth.*'
 oracles+=':Silhouette*:*Plain*'
 
+is_wanted() {
+    local range
+    for range in "${ranges[@]}"; do [ "$1" -ge "${range%-*}" ] && [ "$1" -le "${range#*-}" ] && return; done
+    return 1
+}
 is_leaf() { grep -qxF "$(dirname "$1")" <<<"$leaf_folders"; }
 # Prints the programs of tests that judge faults in files $*, each with a filter, those first that fail soonest.
 judges() {
@@ -95,7 +99,7 @@ number=0 faults=0 caught=0
 while IFS= read -r line; do
     case $line in '' | '#'*) continue ;; esac
     number=$((number + 1))
-    [ "$number" -ge "$first" ] && [ "$number" -le "$last" ] || continue
+    is_wanted "$number" || continue
     IFS='|' read -r -a fields <<<"${line//\\|/$'\x01'}"
     for i in "${!fields[@]}"; do fields[i]=$(trim "${fields[i]//$'\x01'/|}"); done
     files=() description=
