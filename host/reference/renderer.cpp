@@ -30,8 +30,15 @@ template <class Real> class CostIntegrator : public WhittedIntegrator<Real, Work
     }
 };
 
-/// Adds samples to `film` until it has `sampleCount`, or `isLast`, called after each, returns true. Returns the number
-/// of added samples.
+/// Whether the integrator ended its last sample before it was whole.
+template <class SampleIntegrator> bool isAbandoned(const SampleIntegrator &integrator) {
+    if constexpr (requires { integrator.isAbandoned(); })
+        return integrator.isAbandoned();
+    return false;
+}
+
+/// Adds samples to `film` until it has `sampleCount`, the integrator abandons one, or `isLast`, called after each,
+/// returns true. Returns the number of added samples.
 template <class Real, class SampleIntegrator, class IsLast>
 std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel, std::uint32_t sampleCount,
                           layout::FilmPixel &film, const IsLast &isLast) {
@@ -42,6 +49,8 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
     bool isStopped = false;
     while (finishedCount < sampleCount && !isStopped) {
         const Vec3<Real> radiance = integrator.sampleRadiance(pixel, finishedCount);
+        if (isAbandoned(integrator))
+            break;
         sum = sum + radiance;
         sumOfSquares = sumOfSquares + radiance * radiance;
         ++finishedCount;
@@ -93,6 +102,8 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 #pragma omp parallel num_threads(threadCount)
         {
             auto integrator = makeIntegrator_();
+            if constexpr (requires { integrator.stopWhen(nullptr); })
+                integrator.stopWhen([this] { return isToStop(); });
 #pragma omp for schedule(dynamic)
             for (std::int64_t run = firstRun_; run < runCount; ++run)
                 if (!isPaused_ &&

@@ -7,6 +7,9 @@
 #include "host/reference/closest_hit.h"
 #include "host/reference/hit_surface.h"
 
+#include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace hyalite::reference {
@@ -22,17 +25,29 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
         const PrimaryRay<Real> primary = primaryRayThrough<Real>(
             scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
+        const RayCounts countsBefore = counts_;
         ++counts_.primary;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
         pending_.push_back({{primary.origin, primary.direction}, Vec3<Real>(Real(1)), 1, layout::noMaterial});
-        while (!pending_.empty()) {
+        for (std::uint64_t segmentCount = 1; !pending_.empty(); ++segmentCount) {
+            if (segmentCount % segmentsBetweenPolls == 0 && isToStop_ && isToStop_()) {
+                pending_.clear();
+                counts_ = countsBefore;
+                isAbandoned_ = true;
+                break;
+            }
             const Segment segment = pending_.back();
             pending_.pop_back();
             followSegment(segment);
         }
         return radiance_;
     }
+
+    /// Glass makes a sample a tree of up to 2^maxDepth segments. If `isToStop` returns true within one, the sample is
+    /// abandoned: its radiance is none, and its rays are not counted.
+    void stopWhen(std::function<bool()> isToStop) { isToStop_ = std::move(isToStop); }
+    [[nodiscard]] bool isAbandoned() const { return isAbandoned_; }
 
     [[nodiscard]] const RayCounts &counts() const { return counts_; }
     /// Of the traversal.
@@ -42,6 +57,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
 
   private:
+    static constexpr std::uint64_t segmentsBetweenPolls = 4096;
+
     struct Segment {
         Ray<Real> ray;
         Vec3<Real> throughput;
@@ -183,6 +200,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     Vec3<Real> radiance_{Real(0)};
     RayCounts counts_;
     Counter counter_;
+    std::function<bool()> isToStop_;
+    bool isAbandoned_ = false;
     std::vector<layout::TraceEvent> *events_ = nullptr;
     std::uint32_t sampleIndex_ = 0; ///< sample and depth of the current segment, for trace events only
     std::uint32_t depth_ = 0;

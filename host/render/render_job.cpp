@@ -110,7 +110,11 @@ void RenderJob::render() {
     continuation.film = std::move(filmBefore_);
     continuation.snapshots = &*snapshots_;
     BackendResult result = renderWithProgress(
-        *backend_, *scene_, "render", request_.isQuiet, nullptr, [this] { return shouldStop(); },
+        *backend_, *scene_, "render", request_.isQuiet, nullptr,
+        [this] {
+            signals_->keepResults(); // work is finished
+            return shouldStop();
+        },
         std::move(continuation));
     snapshots_->finish();
     takeResult(std::move(result));

@@ -47,13 +47,14 @@ class RenderJob {
 
     /// Loads and builds the scene, and opens the device at the same time, as soon as the outline is known.
     void prepare();
-    /// Waits for the device, and checks memory for the films. From here on signals stop the render gracefully.
+    /// Waits for the device, and checks memory for the films.
     void openDevice();
     /// Opens the checkpoint and, to resume, reads it.
     void resume();
     /// Renders the layers.
     void renderLayers();
-    /// Renders the missing samples, until it is stopped. Throws if not even one sample is finished.
+    /// Renders the missing samples, until it is stopped. Once some work is finished, signals stop it gracefully; before,
+    /// while the driver compiles, they end the program. Throws if not even one sample is finished.
     void render();
     /// Stores the checkpoint, then the image.
     void writeImage();

@@ -19,7 +19,9 @@ constexpr std::array<int, 3> stoppingSignals{SIGINT, SIGTERM, SIGHUP};
 // Signal handlers may use only lock-free atomics, and only globals.
 std::atomic<std::int64_t> firstNanoseconds{0}; ///< time of the first signal; 0: none
 std::atomic<int> firstSignal{0};
-static_assert(std::atomic<std::int64_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+std::atomic<bool> hasResults{false};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+              std::atomic<bool>::is_always_lock_free);
 
 std::string_view answer; ///< to the first signal
 std::array<struct sigaction, stoppingSignals.size()> actionsBefore;
@@ -35,16 +37,22 @@ std::string_view answerTo(bool isTerminal) {
                       : "stopping after the work in progress; repeat the signal to stop at once\n";
 }
 
+void endBy(int signal) {
+    std::signal(signal, SIG_DFL);
+    raise(signal); // blocked in its handler, and delivered on return
+}
+
 void noteSignal(int signal) {
     const int errorNumber = errno;
     const std::int64_t now = nanosecondsNow();
     std::int64_t first = 0;
-    if (firstNanoseconds.compare_exchange_strong(first, now)) {
+    if (!hasResults) {
+        endBy(signal);
+    } else if (firstNanoseconds.compare_exchange_strong(first, now)) {
         firstSignal = signal;
         static_cast<void>(!write(STDERR_FILENO, answer.data(), answer.size()));
     } else if (static_cast<double>(now - first) > CaughtSignals::echoSeconds * 1e9) {
-        std::signal(signal, SIG_DFL);
-        raise(signal); // blocked in here, and delivered on return
+        endBy(signal);
     }
     errno = errorNumber;
 }
@@ -55,6 +63,7 @@ CaughtSignals::CaughtSignals(bool isQuiet) {
     answer = isQuiet ? std::string_view() : answerTo(isatty(STDERR_FILENO) == 1);
     firstNanoseconds = 0;
     firstSignal = 0;
+    hasResults = false;
     struct sigaction action {};
     action.sa_handler = noteSignal;
     action.sa_flags = SA_RESTART;
@@ -78,8 +87,11 @@ CaughtSignals::~CaughtSignals() {
 }
 
 // Signals reach the whole process, and whoever catches them is asked.
-// NOLINTNEXTLINE(readability-convert-member-functions-to-static)
+// NOLINTBEGIN(readability-convert-member-functions-to-static)
+void CaughtSignals::keepResults() noexcept { hasResults = true; }
+
 int CaughtSignals::first() const noexcept { return firstSignal; }
+// NOLINTEND(readability-convert-member-functions-to-static)
 
 const char *signalName(int signal) {
     return signal == SIGINT ? "SIGINT" : signal == SIGHUP ? "SIGHUP" : "SIGTERM";

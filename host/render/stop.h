@@ -5,8 +5,8 @@
 
 namespace hyalite {
 
-/// During its lifetime the first SIGINT, SIGTERM or SIGHUP is only recorded, and SIGPIPE is ignored. A second one ends
-/// the program at once, by the default action. One within `echoSeconds` counts as the same signal, because `timeout`
+/// During its lifetime SIGPIPE is ignored. SIGINT, SIGTERM and SIGHUP end the program at once, by their default action,
+/// until there are results to keep: from then on the first one is only recorded, and a second one ends the program. One within `echoSeconds` counts as the same signal, because `timeout`
 /// and terminals behind wrappers send each signal twice. Signals that were ignored when the program started, as in
 /// background jobs of a script, stay ignored. At most one object exists at a time.
 class CaughtSignals {
@@ -20,6 +20,8 @@ class CaughtSignals {
     CaughtSignals(const CaughtSignals &) = delete;
     CaughtSignals &operator=(const CaughtSignals &) = delete;
 
+    /// From now on the first signal is only recorded. Thread-safe.
+    void keepResults() noexcept;
     /// The number of the first signal, or 0. Thread-safe.
     [[nodiscard]] int first() const noexcept;
 };

@@ -87,7 +87,7 @@ TEST_F(RenderCheckpoint, AStoppedRenderGoesOnFromAllThatItHad) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const std::string line = "render spheres --width 64 --height 64 --spp 65536 --device cpu";
         Surroundings surroundings;
-        surroundings.signalAfter = "device:";
+        surroundings.signalWhen = [this] { return fs::exists(folder / "c"); };
         surroundings.signal = signal;
         const Outcome outcome = runIn(surroundings, line + files);
         EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome;

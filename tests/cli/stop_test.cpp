@@ -24,7 +24,8 @@ void waitForTheEcho() {
 TEST(StopDeathTest, TheFirstSignalIsNotedAndItsEchoOverheard) {
     EXPECT_EXIT(
         {
-            const CaughtSignals signals(true);
+            CaughtSignals signals(true);
+            signals.keepResults();
             const bool wasNone = signals.first() == 0;
             std::raise(SIGTERM);
             std::raise(SIGTERM);
@@ -37,14 +38,16 @@ TEST(StopDeathTest, TheFirstSignalIsNotedAndItsEchoOverheard) {
 TEST(StopDeathTest, TheFirstSignalIsAnsweredUnlessQuiet) {
     EXPECT_EXIT(
         {
-            const CaughtSignals signals(false);
+            CaughtSignals signals(false);
+            signals.keepResults();
             std::raise(SIGINT);
             exitWith(signals.first() == SIGINT);
         },
         ::testing::ExitedWithCode(0), "^stopping .*\n$");
     EXPECT_EXIT(
         {
-            const CaughtSignals signals(true);
+            CaughtSignals signals(true);
+            signals.keepResults();
             std::raise(SIGINT);
             exitWith(true);
         },
@@ -56,7 +59,8 @@ TEST(StopDeathTest, AnotherSignalEndsTheProgram) {
         for (const int second : {SIGINT, SIGTERM})
             EXPECT_EXIT(
                 {
-                    const CaughtSignals signals(true);
+                    CaughtSignals signals(true);
+                    signals.keepResults();
                     std::raise(first);
                     waitForTheEcho();
                     std::raise(second);
@@ -65,11 +69,23 @@ TEST(StopDeathTest, AnotherSignalEndsTheProgram) {
                 ::testing::KilledBySignal(second), "");
 }
 
+TEST(StopDeathTest, BeforeThereAreResultsASignalEndsTheProgram) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        EXPECT_EXIT(
+            {
+                const CaughtSignals signals(true);
+                std::raise(signal);
+                exitWith(false);
+            },
+            ::testing::KilledBySignal(signal), "");
+}
+
 TEST(StopDeathTest, AfterwardsSignalsDoWhatTheyDidBefore) {
     EXPECT_EXIT(
         {
             std::optional<CaughtSignals> signals;
             signals.emplace(true);
+            signals->keepResults();
             std::raise(SIGINT);
             signals.reset();
             std::raise(SIGINT);
@@ -95,7 +111,8 @@ TEST(StopDeathTest, AMessageThatNobodyReadsLosesNothing) {
             int ends[2];
             const bool isReady = pipe(ends) == 0 && dup2(ends[1], STDERR_FILENO) == STDERR_FILENO;
             close(ends[0]);
-            const CaughtSignals signals(false);
+            CaughtSignals signals(false);
+            signals.keepResults();
             std::raise(SIGINT);
             exitWith(isReady && signals.first() == SIGINT);
         },
