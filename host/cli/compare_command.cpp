@@ -15,9 +15,10 @@ namespace hyalite {
 namespace {
 
 void addStatisticalOptions(CLI::App &command, CompareOptions &options) {
-    CLI::Option *statistical = command.add_flag("--statistical", options.isStatistical,
-                                                "render with two seeds, and ask whether both can be "
-                                                "estimates of one picture, as `hyalite diff` does");
+    CLI::Option *statistical =
+        command.add_flag("--statistical", options.isStatistical,
+                         "render with two seeds, and ask whether both can be "
+                         "estimates of one picture, as `hyalite diff --statistical` does");
     addSignificanceOption(command, options.welch)->needs(statistical);
     addNumber(command, "--against-seed", options.againstSeed, rangeOf(&RenderSettings::seed),
               "seed of the second render of --statistical; default: the first seed plus 1")
@@ -47,10 +48,10 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
         ->type_name("DEVICE")
         ->capture_default_str();
     command
-        ->add_option(
-            "--against", options->contest.against,
-            "the second one: cpu, the twin of the kernels; cpu-double, which tells the error of float32 and "
-            "explains every outlier; or another device")
+        ->add_option("--against", options->contest.against,
+                     "the second renderer: cpu, the twin of the kernels; cpu-double, which measures the "
+                     "error of float32 "
+                     "and explains outliers; or another device")
         ->type_name("DEVICE")
         ->capture_default_str();
     command

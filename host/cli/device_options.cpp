@@ -18,7 +18,8 @@ void addThreadsOption(CLI::App &command, int &threadCount) {
 
 void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
     addChoice(command, "--kernel", options.kernel, gpu::kernelNames,
-              "traversal of the tree on a Vulkan device; auto: as `hyalite devices` says. The image "
+              "how kernels go through the tree (x2: two paths an invocation); auto: as `hyalite devices` "
+              "says. The image "
               "is the same");
     addNumber(command, "--max-dispatch-ms", options.maxDispatchMillis, dispatchMillis,
               "how long a dispatch on a Vulkan device should take, in milliseconds: long ones block a "

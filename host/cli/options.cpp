@@ -90,9 +90,8 @@ CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<st
 
 CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve) {
     return addChoice(command, "--tone", curve, toneCurveNames,
-                     "how a PNG shows radiance: gamma 2.2, which is the default, or sRGB, both clipped; or "
-                     "like film, ACES or "
-                     "AgX");
+                     "tone curve of a PNG: gamma (2.2, the default) and srgb clip bright colours, aces and "
+                     "agx roll them off as film does");
 }
 
 void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs) {

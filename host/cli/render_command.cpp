@@ -157,7 +157,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     addSceneOptions(*command, request->scene);
     command
         ->add_option("-o,--output", request->output,
-                     ".png: 8 bits, gamma 2.2; .exr: linear float, with variance and "
+                     ".png: 8 bits, tone-mapped by --tone; .exr: linear float, with variance and "
                      "sample counts; .hdr, .pfm: linear")
         ->required()
         ->type_name("FILE");

@@ -56,7 +56,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     addNumber(command, "--width", options.width, limits::imageSize, "pixels")->group(image);
     addNumber(command, "--height", options.height, limits::imageSize, "pixels")->group(image);
     addNumbers(command, "--crop", options.crop, anyInteger, "X0,X1,Y0,Y1",
-               "render only these pixels, half open; the output has that size")
+               "render only pixels X0 <= x < X1, Y0 <= y < Y1; the output has that size")
         ->group(image);
     addSettings(command, imageGroup, options.settings);
 

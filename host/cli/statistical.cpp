@@ -11,7 +11,7 @@ namespace hyalite {
 
 CLI::Option *addSignificanceOption(CLI::App &command, WelchOptions &options) {
     return addNumber(command, "--significance", options.significance, Interval{0.0, 1.0, false, false},
-                     "how often --statistical may fail on equal pictures")
+                     "probability that --statistical fails although both estimate one picture")
         ->default_str("0.01");
 }
 

@@ -51,7 +51,7 @@ void addToneMapCommand(CLI::App &app, CommandContext &context) {
     command->add_option("IN", options->input, "EXR, HDR or PFM")->required();
     command->add_option("OUT", options->output, "the .png to write")->required();
     addNumber(*command, "--exposure", options->exposureStops, rangeOf(&RenderSettings::exposureStops),
-              "stops: radiance times 2^N")
+              "in stops: radiance is multiplied by 2^NUMBER")
         ->default_str("0");
     addToneOption(*command, options->tone);
     command->callback([options, &context] { context.exitCode = runToneMap(*options, context.commandLine); });

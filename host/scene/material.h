@@ -125,14 +125,15 @@ inline constexpr auto diffuse = std::to_array<MaterialKey>({
      "share of the light that is reflected"},
     {"twoSided", twoSided, "turn the normal towards the viewer before shading"},
     {"emission", emission,
-     "radiance on the side of the normal, on both if `twoSided`; `path` only, except that emitters are seen"},
+     "radiance on the side of the normal, on both if `twoSided`; in `whitted` it is seen, but lights "
+     "nothing"},
 });
 inline constexpr auto dielectric = std::to_array<MaterialKey>({
     {"index", refractiveIndex, "refractive index, relative to the medium around"},
     {"segmentTint", ColourKey{&Material::segmentTint, limits::fraction, &Record::segmentTint},
      "factor on everything that a segment inside returns, whatever its length; `whitted` only"},
     {"absorption", absorption, "absorption per unit of length, by Beer's law; `path` only"},
-    {"priority", priority, "where dielectrics overlap, the highest priority is there; `path` only"},
+    {"priority", priority, "where dielectrics overlap, the one of highest priority wins; `path` only"},
     {"roughness", roughness, "0 is smooth; `path` only"},
 });
 inline constexpr auto conductor = std::to_array<MaterialKey>({
@@ -145,7 +146,8 @@ inline constexpr auto conductor = std::to_array<MaterialKey>({
 });
 inline constexpr auto principled = std::to_array<MaterialKey>({
     {"baseColour", ColourKey{&Material::albedo, limits::fraction, &Record::albedo},
-     "of metal head on, of what lies below the surface of plastic, of light that passes glass"},
+     "colour of metal at normal incidence, of the base below plastic, and of light that passes through "
+     "glass"},
     {"metallic", NumberKey{&Material::metallic, limits::fraction, &Record::metallic}, "share of metal"},
     {"roughness", roughness, "at least 0.04 is used"},
     {"specular", NumberKey{&Material::specular, limits::fraction},

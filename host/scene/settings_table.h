@@ -94,7 +94,8 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
      Changes::Samples, imageGroup, "seed of the random numbers: another seed gives other noise"},
     {"clamp", "--clamp", NumberSetting<double>{&RenderSettings::radianceLimit, {0.0, 1e30}}, Changes::Samples,
      tracingGroup,
-     "maximum that indirect light may add to a sample, per channel: less noise, but less light; 0: no limit",
+     "upper limit, per channel, on each contribution of indirect light: less noise, but a darker image; 0: "
+     "no limit",
      pathOnly},
     {"exposure", "--exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
      Changes::Picture, imageGroup,
