@@ -3,6 +3,7 @@
 #
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
 #   cmake/run.sh test                builds and runs all tests
+#   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it
 #   cmake/run.sh sanitize            builds with the address and undefined behaviour sanitizers, and runs all tests
@@ -119,6 +120,11 @@ test)
     install_missing "${needed_for_tests[@]}"
     build_all ON
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
+    ;;
+test-drivers)
+    install_missing "${needed_for_tests[@]}"
+    build_all ON
+    exec "$root/tests/drivers/run.sh" "$build"
     ;;
 build)
     build_all "$(tests_as_before)"

@@ -51,7 +51,7 @@ struct Continuations : ::testing::Test {
     }
     [[nodiscard]] gpu::Result onDevice(Continuation continuation,
                                        const gpu::RenderConfig &config = {}) const {
-        gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), config);
+        gpu::Renderer renderer(testing::testDevice(), config);
         return renderer.render(packed, scene.settings, crop, {}, nullptr, {}, std::move(continuation));
     }
     template <class Result>
@@ -104,7 +104,7 @@ TEST_F(Continuations, OfADeviceGoOnAnywhere) {
 
 TEST_F(Continuations, OfABandedFilmHaveAllBands) {
     const reference::Result whole = onCpu({});
-    gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), "llvmpipe");
+    gpu::DeviceInfo device = testing::testDevice();
     device.maxStorageBufferBytes = 32 * 1024;
     gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8, .samplesAbreast = 1});
     Collector collector(crop, 3);

@@ -21,7 +21,7 @@ namespace {
 /// The first divergence of any sample of the first pixel that differs.
 std::optional<Divergence> findPlanted(const Scene &scene, std::span<const std::uint32_t> kernel) {
     const PackedScene packed = testing::pack(scene);
-    gpu::Renderer faulty(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), {.kernel = kernel});
+    gpu::Renderer faulty(testing::testDevice(), {.kernel = kernel});
     const Crop crop{0, scene.camera.width, 0, scene.camera.height};
     const Film film = faulty.render(packed, scene.settings, crop).film;
     const Film right = testing::renderOnCpu(scene).film;
@@ -83,7 +83,7 @@ TEST(Trace, OfBothTwinsIsEqual) {
     for (const char *name : {"spheres-nested", "cat", "cornell", "lamps"}) {
         const Scene scene = testing::shippedScene(name, 32, 32, 1);
         const PackedScene packed = testing::pack(scene);
-        gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"));
+        gpu::Renderer renderer(testing::testDevice());
         for (const glm::uvec2 pixel : {glm::uvec2(26, 16), glm::uvec2(16, 16), glm::uvec2(3, 30)}) {
             const auto device = renderer.trace(packed, scene.settings, pixel, 0);
             const auto cpu =

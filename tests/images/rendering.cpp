@@ -12,12 +12,6 @@ namespace {
 
 Crop wholeImage(const Scene &scene) { return {0, scene.camera.width, 0, scene.camera.height}; }
 
-/// lavapipe: the same everywhere, so that tests mean the same on every machine.
-const gpu::DeviceInfo &softwareDevice() {
-    static const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), "llvmpipe");
-    return device;
-}
-
 } // namespace
 
 Scene shippedScene(const std::string &name, int width, int height, int samplesPerPixel) {
@@ -39,7 +33,7 @@ gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config, 
 }
 
 gpu::Result renderOnDevice(const Scene &scene, const PackedScene &packed, const gpu::RenderConfig &config) {
-    return gpu::Renderer(softwareDevice(), config).render(packed, scene.settings, wholeImage(scene));
+    return gpu::Renderer(testing::testDevice(), config).render(packed, scene.settings, wholeImage(scene));
 }
 
 reference::Result renderOnCpu(const Scene &scene, const PackedScene &packed, reference::Precision precision) {

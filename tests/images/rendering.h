@@ -6,6 +6,7 @@
 #include "host/packing/packed_scene.h"
 #include "host/reference/renderer.h"
 #include "host/scene/scene.h"
+#include "tests/fixtures/test_device.h"
 
 #include <string>
 
@@ -17,7 +18,7 @@ namespace hyalite::testing {
 /// Validates, builds the tree that the settings ask for, and packs.
 [[nodiscard]] PackedScene pack(const Scene &scene, std::size_t maxDecoded = maxDecodedBytes);
 
-/// Renders all of the image on the software device of the machine, which every test run must have.
+/// Renders all of the image on the device of test_device.h.
 [[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config = {},
                                          std::size_t maxDecoded = maxDecodedBytes);
 

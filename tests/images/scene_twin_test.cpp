@@ -489,7 +489,7 @@ TEST(RenderConfig, ResumesInsideBruteForce) {
 // Films larger than a device's largest storage buffer are rendered in bands.
 TEST(RenderConfig, CutsTheFilmIntoBands) {
     const Scene scene = shippedScene("spheres", 70, 50, 2);
-    gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), "llvmpipe");
+    gpu::DeviceInfo device = testing::testDevice();
     device.maxStorageBufferBytes = 32 * 1024;
     gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8});
     const Film film = renderer.render(testing::pack(scene), scene.settings, {0, 70, 0, 50}).film;
@@ -501,7 +501,7 @@ TEST(Crop, IsThatPartOfTheWholeImage) {
     const PackedScene packed = testing::pack(scene);
     const Image whole = renderOnCpu(scene).film.toImage();
     const Crop crop{11, 47, 5, 33};
-    gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"));
+    gpu::Renderer renderer(testing::testDevice());
     const Image part = renderer.render(packed, scene.settings, crop).film.toImage();
     ASSERT_EQ(part.width(), 36);
     ASSERT_EQ(part.height(), 28);

@@ -18,7 +18,7 @@ struct Recorded {
 };
 
 Recorded record(const Scene &scene, const Crop &crop, const gpu::RenderConfig &config = {}) {
-    gpu::Renderer renderer(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"), config);
+    gpu::Renderer renderer(testing::testDevice(), config);
     const PackedScene packed = testing::pack(scene);
     Timeline timeline;
     Stopwatch watch;

@@ -1,6 +1,7 @@
 // Other tools speak our words: a message of the validation layer names our buffers.
 #include "host/base/error.h"
 #include "host/gpu/vk/buffer.h"
+#include "tests/fixtures/test_device.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace {
 
 TEST(DebugNames, StandInMessagesOfTheValidationLayer) {
     setenv("HYALITE_VALIDATION", "1", 1);
-    gpu::Device device(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"));
+    gpu::Device device(testing::testDevice());
     const gpu::Buffer buffer(device, "the buffer of the test", gpu::BufferUse::Storage, 64);
     try {
         device.submit("a fill beyond the end", [&](VkCommandBuffer commands) {

@@ -1,6 +1,7 @@
 #include "tests/kernels/probe_device.h"
 
 #include "probeKernel.h"
+#include "tests/fixtures/test_device.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ std::string describe(const std::uint32_t *words, std::size_t count) {
 } // namespace
 
 gpu::Device &probeDevice() {
-    static gpu::Device device(gpu::chooseDevice(gpu::listDevices(), "llvmpipe"));
+    static gpu::Device device(testing::testDevice());
     return device;
 }
 

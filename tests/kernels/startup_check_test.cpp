@@ -19,15 +19,17 @@ using gpu::Arithmetic;
 
 gpu::StartupCheck checkOfProbe() { return gpu::checkDevice(probeDevice()); }
 
-TEST(StartupCheck, FindsNothingOnTheListedDriver) {
-    ASSERT_TRUE(probeDevice().info().hasExactDivisionListed);
+TEST(StartupCheck, FindsNothingWrongOnThisDriver) {
+    const bool isListed = probeDevice().info().hasExactDivisionListed;
     const gpu::StartupCheck check = checkOfProbe();
     EXPECT_GT(check.divisionCount, 2000u);
     EXPECT_GT(check.otherCount, 6000u);
-    EXPECT_EQ(check.wrong.divisions, 0u);
+    if (isListed) {
+        EXPECT_EQ(check.wrong.divisions, 0u);
+    }
     EXPECT_EQ(check.wrong.others, 0u);
     EXPECT_EQ(check.consecutiveLanes, probeDevice().info().subgroupSize);
-    EXPECT_TRUE(gpu::chooseArithmetic(probeDevice().info(), check, Arithmetic::Automatic).isNative);
+    EXPECT_EQ(gpu::chooseArithmetic(probeDevice().info(), check, Arithmetic::Automatic).isNative, isListed);
 }
 
 TEST(StartupCheck, RunsOurOperatorsWhereAskedForOrWhereTheDevicesAreWrong) {
@@ -48,6 +50,7 @@ TEST(StartupCheck, TrustsNoUnlistedDriver) {
 
 TEST(StartupCheck, MeasuresBitsThatAreNotPromised) {
     gpu::DeviceInfo info = probeDevice().info();
+    info.canRoundToNearestEven = info.canPreserveSignedZeroInfNan = true;
     EXPECT_EQ(gpu::guaranteeOf(info, {}).degree, gpu::BitDegree::Promised);
     info.canRoundToNearestEven = false;
     EXPECT_EQ(gpu::guaranteeOf(info, checkOfProbe()).degree, gpu::BitDegree::Measured);

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Verifies the program and runs the tests of kernels on the drivers that fetch.sh fetches; ctest has the installed one:
+#
+#   tests/drivers/run.sh BUILD     the build folder, with the tests
+#
+# Succeeds if all of them pass on every driver.
+set -euo pipefail
+
+build=$(cd "$1" && pwd)
+drivers=$build/drivers
+"$(dirname "${BASH_SOURCE[0]}")/fetch.sh" "$drivers"
+export HYALITE_CACHE=$drivers/cache
+status=0
+# One driver, with a folder of its own for compiled kernels.
+test_on() {
+    local name=$1 log=$drivers/$1.log
+    export VK_DRIVER_FILES=$drivers/$name.json VK_ICD_FILENAMES=$drivers/$name.json # loaders before 1.3.207 know the latter
+    export MESA_SHADER_CACHE_DIR=$drivers/$name.cache HYALITE_TEST_DEVICE=0
+    "$build/bin/hyalite" verify --device 0 --junit "$drivers/$name.xml" 2>"$log" || { cat "$log"; status=1; }
+    if "$build/bin/kernels_tests" >"$log" 2>&1; then
+        tail -n 1 "$log"
+    else
+        grep -v '^\[ RUN\|^\[       OK' "$log"
+        status=1
+    fi
+}
+test_on mesa
+test_on swiftshader
+exit "$status"
