@@ -202,6 +202,8 @@ BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, c
                                  bool isQuiet, Timeline *timeline, const std::function<bool()> &shouldStop,
                                  Continuation continuation) {
     ProgressLine progress(task, isQuiet);
+    if (!isReference(backend.name()))
+        progress.expectCompiler();
     try {
         BackendResult result = backend.render(
             scene, [&](double share) { progress.update(share); }, timeline, shouldStop,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <utility>
 
 #include <unistd.h>
@@ -16,7 +17,14 @@ namespace {
 constexpr double firstPrintSeconds = 0.5;
 constexpr double terminalIntervalSeconds = 0.1;
 constexpr double logIntervalSeconds = 2.0;
+constexpr std::chrono::seconds patience{1};
 constexpr int barWidth = 24;
+
+/// The escapes are ours, and pass by what removes those of names.
+void redrawLine(const std::string &text) {
+    std::fputs("\r\033[K", stderr);
+    printMessage("{}", text);
+}
 
 } // namespace
 
@@ -34,11 +42,39 @@ ProgressLine::ProgressLine(std::string task, bool isQuiet)
     : task_(std::move(task)), isQuiet_(isQuiet), isTerminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
+    begin();
     if (isDrawn_)
-        printMessage("\r\033[K");
+        redrawLine("");
+}
+
+void ProgressLine::expectCompiler() {
+    if (isQuiet_)
+        return;
+    watch_ = std::jthread([this] {
+        std::unique_lock lock(mutex_);
+        if (begun_.wait_for(lock, patience, [this] { return hasBegun_; }))
+            return;
+        if (isTerminal_)
+            redrawLine(task_ + ": the driver compiles ...");
+        else
+            printMessage("{}: the driver compiles\n", task_);
+        isDrawn_ = isTerminal_;
+    });
+}
+
+void ProgressLine::begin() {
+    if (!watch_.joinable())
+        return;
+    {
+        const std::lock_guard lock(mutex_);
+        hasBegun_ = true;
+    }
+    begun_.notify_one();
+    watch_.join();
 }
 
 void ProgressLine::update(double share) {
+    begin();
     const Clock::time_point now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double sinceLast = std::chrono::duration<double>(now - lastPrint_).count();
@@ -49,8 +85,8 @@ void ProgressLine::update(double share) {
     const std::optional<double> left = timeLeft_.update(elapsed, share);
     if (isTerminal_) {
         const int filled = static_cast<int>(share * barWidth);
-        printMessage("\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {} left", task_, "", filled, "",
-                     barWidth - filled, share * 100.0, left ? durationText(*left) : "?");
+        redrawLine(fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} %  {} left", task_, "", filled, "",
+                               barWidth - filled, share * 100.0, left ? durationText(*left) : "?"));
         isDrawn_ = true;
     } else {
         printMessage("task={} progress={:.3f} elapsed_s={:.1f} left_s={}\n", task_, share, elapsed,

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <deque>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace hyalite {
 
@@ -34,11 +37,16 @@ class ProgressLine {
     ProgressLine(const ProgressLine &) = delete;
     ProgressLine &operator=(const ProgressLine &) = delete;
 
+    /// Unless update() is called within a second, says that a driver compiles: it may for long, and tells nobody.
+    void expectCompiler();
     /// `share` of the work is finished, in [0, 1].
     void update(double share);
 
   private:
     using Clock = std::chrono::steady_clock;
+
+    /// The work itself has begun: stops watching.
+    void begin();
 
     std::string task_;
     bool isQuiet_;
@@ -47,6 +55,10 @@ class ProgressLine {
     TimeLeft timeLeft_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point lastPrint_ = start_;
+    std::mutex mutex_; ///< of what follows
+    std::condition_variable begun_;
+    bool hasBegun_ = false;
+    std::jthread watch_; ///< until it has begun
 };
 
 } // namespace hyalite

@@ -270,11 +270,13 @@ TEST_F(RenderReport, ProgressOnATerminalIsOneLineWithTheTimeLeft) {
     const Outcome outcome = runIn(terminal, "render spheres -o a.png --device " + softwareDevice() +
                                                 " --width 128 --height 256 --spp 65536 --time-limit 1.5");
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
-    EXPECT_TRUE(contains(outcome.errors, "\r")) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "\r\033[Krender [")) << outcome;
+    EXPECT_FALSE(contains(outcome.errors, "\uFFFD")) << outcome;
     EXPECT_TRUE(std::regex_search(outcome.errors, std::regex("[0-9]+ %  .*[0-9]+ (s|min) left"))) << outcome;
     EXPECT_FALSE(contains(outcome.errors, "task=")) << outcome;
     // In the end the line is cleared, and what is left is not a ruin of it.
-    EXPECT_GT(outcome.errors.rfind("\033[K"), outcome.errors.rfind("left")) << outcome;
+    EXPECT_GT(outcome.errors.rfind("\r\033[K"), outcome.errors.rfind("left")) << outcome;
+    EXPECT_LT(outcome.errors.rfind("\r\033[K"), outcome.errors.size()) << "there is one";
 }
 
 } // namespace

@@ -1,7 +1,11 @@
-// The time left, of tasks whose parts differ in cost.
+// The time left, of tasks whose parts differ in cost, and what a progress line says.
 #include "host/report/progress.h"
 
 #include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
 
 namespace hyalite {
 namespace {
@@ -28,6 +32,21 @@ TEST(TimeLeft, FollowsASpeedThatChanges) {
     for (int second = 11; second <= 30; ++second)
         left = timeLeft.update(second, 0.5 + 0.5 * (second - 10) / 90.0).value();
     EXPECT_NEAR(left, 70.0, 1.0) << "the last half of the time was slow";
+}
+
+TEST(ProgressLine, SaysThatADriverCompilesIfItTakesLong) {
+    for (const bool takesLong : {false, true}) {
+        ::testing::internal::CaptureStderr();
+        {
+            ProgressLine progress("render", false);
+            progress.expectCompiler();
+            if (takesLong)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+            progress.update(0.0);
+        }
+        const std::string said = ::testing::internal::GetCapturedStderr();
+        EXPECT_EQ(said.starts_with("render: the driver compiles\n"), takesLong) << said;
+    }
 }
 
 TEST(TimeLeft, IsUnknownWhenWorkStandsStill) {
