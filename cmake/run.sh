@@ -54,20 +54,36 @@ install_missing() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
+# Shows on a terminal how far a build is that writes to this log, until it is killed.
+show_progress() {
+    [ -t 2 ] || exit 0
+    trap 'printf "\r\033[K" >&2; exit' TERM
+    while true; do
+        printf '\r\033[Krun.sh: building %s' "$(grep -o '^\[[^]]*\]' "$1" | tail -n 1)" >&2
+        sleep 0.5
+    done
+}
+
 # $1: ON or OFF, whether tests are built; then more options for CMake. Builds $target, in $build. The build's output is
 # shown only if it fails.
 build_all() {
-    local log tests=$1
+    local log progress tests=$1
     shift
     log=$(mktemp)
+    show_progress "$log" &
+    progress=$!
+    trap "kill $progress 2>/dev/null" EXIT
     if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$tests" \
                  ${HYALITE_WARNINGS_AS_ERRORS:+-DHYALITE_WARNINGS_AS_ERRORS="$HYALITE_WARNINGS_AS_ERRORS"} "$@" &&
            cmake --build "$build" --target "$target" --parallel "$(nproc)"; } >"$log" 2>&1; then
+        kill $progress 2>/dev/null && wait $progress || :
         cat "$log" >&2
         rm -f "$log"
         echo "run.sh: the build failed" >&2
         exit 1
     fi
+    kill $progress 2>/dev/null && wait $progress || :
+    trap - EXIT
     rm -f "$log"
 }
 
