@@ -7,6 +7,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/failure.h"
 #include "host/cli/help_formatter.h"
+#include "host/cli/manual.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -107,6 +108,19 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
     app.set_version_flag("--version", "hyalite " HYALITE_VERSION, "print the version");
     for (CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
         command->set_version_flag("--version", "hyalite " HYALITE_VERSION)->group("");
+    // For the build, which installs what they print.
+    app.add_flag_callback("--manual-page",
+                          [&app] {
+                              fmt::print("{}", manualPage(app));
+                              throw CLI::Success();
+                          })
+        ->group("");
+    app.add_flag_callback("--bash-completion",
+                          [&app] {
+                              fmt::print("{}", bashCompletion(app));
+                              throw CLI::Success();
+                          })
+        ->group("");
     try {
         app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::Success &request) { // of --help or --version

@@ -1,7 +1,7 @@
 #include "host/cli/help_formatter.h"
 
-#include <algorithm>
-#include <cctype>
+#include "host/cli/option_words.h"
+
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -45,24 +45,7 @@ std::string row(const std::string &name, const std::string &explanation) {
     return page;
 }
 
-std::string positionalName(const CLI::Option &option) {
-    std::string name = option.get_name(true);
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return name;
-}
-
-std::string optionRow(const CLI::Option &option) {
-    const bool takesValue = option.get_items_expected_max() > 0;
-    const std::string name =
-        option.get_name(false, true) + (takesValue ? " " + option.get_type_name() : std::string());
-    std::string explanation = option.get_description();
-    if (option.get_required())
-        explanation += " (required)";
-    if (!option.get_default_str().empty())
-        explanation += " (default: " + option.get_default_str() + ")";
-    return row(name, explanation);
-}
+std::string optionRow(const CLI::Option &option) { return row(nameWithValue(option), explanationOf(option)); }
 
 std::string usage(const CLI::App &app, const std::string &name,
                   const std::vector<const CLI::Option *> &positionals, bool hasCommands) {
@@ -77,8 +60,7 @@ std::string usage(const CLI::App &app, const std::string &name,
 } // namespace
 
 std::string HelpFormatter::make_help(const CLI::App *app, std::string name, CLI::AppFormatMode) const {
-    const std::vector<const CLI::Option *> positionals =
-        app->get_options([](const CLI::Option *option) { return option->get_positional(); });
+    const std::vector<const CLI::Option *> positionals = positionalsOf(*app);
     const std::vector<const CLI::App *> commands = app->get_subcommands({});
     std::vector<std::string> paragraphs{paragraph(app->get_description()),
                                         usage(*app, name, positionals, !commands.empty())};
