@@ -22,13 +22,13 @@ namespace hyalite {
 namespace {
 
 /// The part of `driver` that `name` does not say: "Mesa 22.3.6" for the driver "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)" of
-/// the device "llvmpipe (LLVM 15.0.6, 256 bits)".
+/// the device "llvmpipe (LLVM 15.0.6, 256 bits)"; empty for "SwiftShader driver".
 std::string driverBesideName(const std::string &driver, const std::string &name) {
     std::string text = driver.substr(0, driver.find(" ("));
     const std::size_t firstWordEnd = std::min(text.find(' '), text.size());
     if (name.starts_with(text.substr(0, firstWordEnd)))
         text.erase(0, firstWordEnd + 1);
-    return text;
+    return text == "driver" ? std::string() : text;
 }
 
 class CpuBackend : public Backend {

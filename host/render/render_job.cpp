@@ -112,7 +112,7 @@ void RenderJob::render() {
     BackendResult result = renderWithProgress(
         *backend_, *scene_, "render", request_.isQuiet, nullptr,
         [this] {
-            signals_->keepResults(); // work is finished
+            signals_->keepResults(); // whoever asks this ends soon, with what is finished
             return shouldStop();
         },
         std::move(continuation));

@@ -37,22 +37,17 @@ std::string_view answerTo(bool isTerminal) {
                       : "stopping after the work in progress; repeat the signal to stop at once\n";
 }
 
-void endBy(int signal) {
-    std::signal(signal, SIG_DFL);
-    raise(signal); // blocked in its handler, and delivered on return
-}
-
 void noteSignal(int signal) {
     const int errorNumber = errno;
     const std::int64_t now = nanosecondsNow();
     std::int64_t first = 0;
-    if (!hasResults) {
-        endBy(signal);
-    } else if (firstNanoseconds.compare_exchange_strong(first, now)) {
+    if (hasResults && firstNanoseconds.compare_exchange_strong(first, now)) {
         firstSignal = signal;
         static_cast<void>(!write(STDERR_FILENO, answer.data(), answer.size()));
-    } else if (static_cast<double>(now - first) > CaughtSignals::echoSeconds * 1e9) {
-        endBy(signal);
+    } else if (static_cast<double>(now - first) >
+               CaughtSignals::echoSeconds * 1e9) { // without results: first is 0
+        std::signal(signal, SIG_DFL);
+        raise(signal); // blocked in here, and delivered on return
     }
     errno = errorNumber;
 }
