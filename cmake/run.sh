@@ -54,6 +54,12 @@ install_missing() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
+# From Debian 14 on, the library of SPIRV-Tools has a package of its own.
+install_for_tests() {
+    install_missing "${needed_for_tests[@]}"
+    compgen -G '/usr/lib/*/cmake/SPIRV-Tools' >/dev/null || install_missing spirv-tools-dev
+}
+
 # Shows on a terminal how far a build is that writes to this log, until it is killed.
 show_progress() {
     [ -t 2 ] || exit 0
@@ -133,12 +139,12 @@ showcase)
     "$build/bin/hyalite" render cat -o cat.png
     ;;
 test)
-    install_missing "${needed_for_tests[@]}"
+    install_for_tests
     build_all ON
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
     ;;
 test-drivers)
-    install_missing "${needed_for_tests[@]}"
+    install_for_tests
     build_all ON
     exec "$root/tests/drivers/run.sh" "$build"
     ;;
@@ -146,7 +152,7 @@ build)
     build_all "$(tests_as_before)"
     ;;
 sanitize)
-    install_missing "${needed_for_tests[@]}"
+    install_for_tests
     build=$root/build/sanitize
     build_all ON --preset sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"

@@ -114,12 +114,14 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
                               fmt::print("{}", manualPage(app));
                               throw CLI::Success();
                           })
+        ->trigger_on_parse() // before CLI11 2.5 and later asks for a command
         ->group("");
     app.add_flag_callback("--bash-completion",
                           [&app] {
                               fmt::print("{}", bashCompletion(app));
                               throw CLI::Success();
                           })
+        ->trigger_on_parse() // before CLI11 2.5 and later asks for a command
         ->group("");
     try {
         app.parse(static_cast<int>(arguments.size()), arguments.data());

@@ -2,7 +2,7 @@
 
 #include "tests/bench/race.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -17,9 +17,12 @@ triplet=$(dpkg-architecture -qDEB_HOST_MULTIARCH 2>/dev/null || gcc -print-multi
 release=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
 # tests/README.md has the same table.
 case $release in
-bookworm | trixie) mesa_suite=$release-backports ;;
+bookworm) mesa_suite=bookworm-backports ;;
+trixie) mesa_suite=bookworm ;; # 26.1.6 of its backports crashes on one of our kernels
+forky | sid) release=sid mesa_suite=trixie ;;
 *)
-    echo "fetch.sh: no other Mesa is known for this system (${release:-without a code name}); known: Debian 12 and 13" >&2
+    echo "fetch.sh: no other Mesa is known for this system (${release:-without a code name});" \
+         "known: Debian 12, 13 and sid" >&2
     exit 1
     ;;
 esac
@@ -34,17 +37,35 @@ done >sources.list
 apt=(apt-get -qq -o Dir::Etc::SourceList="$folder/sources.list" -o Dir::Etc::SourceParts=/dev/null
      -o Dir::State::Lists="$folder/lists" -o Acquire::Languages=none -o APT::Sandbox::User=root)
 
+# unpack NAME PACKAGE=VERSION...
+unpack() {
+    local name=$1 archive
+    shift
+    "${apt[@]}" download "$@"
+    for archive in *.deb; do
+        dpkg -x "$archive" "$name"
+    done
+    rm -- *.deb
+}
+
+# missing_of FILE: its libraries that neither the system nor the folder of the driver has.
+missing_of() { LD_LIBRARY_PATH=$(dirname "$1") ldd "$1" | grep 'not found' || :; }
+
 # fetch NAME PACKAGE SUITE LIBRARY: writes NAME.json.
 fetch() {
-    local name=$1 package=$2 suite=$3 library=$4 missing
+    local name=$1 package=$2 suite=$3 library=$4
     [ -f "$name.json" ] && return
     [ -n "$(ls lists/*Packages* 2>/dev/null)" ] || "${apt[@]}" update
-    rm -rf "$name" "$package"_*.deb
-    "${apt[@]}" download "$package/$suite"
-    dpkg -x "$package"_*.deb "$name"
-    rm "$package"_*.deb
-    if missing=$(ldd "$name/$library" | grep 'not found'); then
-        echo "fetch.sh: $package of $suite needs libraries that are not installed:" $missing >&2
+    rm -rf "$name" ./*.deb
+    unpack "$name" "$package/$suite"
+    # Libraries that it needs and the system lacks: those of the packages that an installation would bring along.
+    if [ -n "$(missing_of "$name/$library")" ]; then
+        mapfile -t others < <("${apt[@]}" -s --allow-downgrades --no-install-recommends install "$package/$suite" |
+            sed -n "/^Inst $package /d; s/^Inst \([^ ]*\) \(\[[^]]*\] \)\?(\([^ ]*\) .*/\1=\3/p")
+        unpack "$name" "${others[@]}"
+    fi
+    if [ -n "$(missing_of "$name/$library")" ]; then
+        echo "fetch.sh: $package of $suite needs libraries that cannot be had:" $(missing_of "$name/$library") >&2
         exit 1
     fi
     printf '{"file_format_version": "1.0.0", "ICD": {"library_path": "%s", "api_version": "1.3.0"}}\n' \

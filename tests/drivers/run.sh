@@ -15,6 +15,8 @@ status=0
 test_on() {
     local name=$1 log=$drivers/$1.log
     export VK_DRIVER_FILES=$drivers/$name.json VK_ICD_FILENAMES=$drivers/$name.json # loaders before 1.3.207 know the latter
+    LD_LIBRARY_PATH=$(dirname "$(sed 's/.*"library_path": "\([^"]*\)".*/\1/' "$drivers/$name.json")") # what came along
+    export LD_LIBRARY_PATH
     export MESA_SHADER_CACHE_DIR=$drivers/$name.cache HYALITE_TEST_DEVICE=0
     "$build/bin/hyalite" verify --device 0 --junit "$drivers/$name.xml" 2>"$log" || { cat "$log"; status=1; }
     if "$build/bin/kernels_tests" >"$log" 2>&1; then

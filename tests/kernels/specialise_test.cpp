@@ -8,7 +8,7 @@
 #include "tests/kernels/assembled_module.h"
 #include "tests/kernels/drawn_constants.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
