@@ -13,12 +13,12 @@
 
 namespace hyalite::testing {
 
-namespace {
-
-/// Where the layer is, and that it is wanted. Mesa's layer that sorts devices makes calls of its own: it stays out.
+// Mesa's layer that sorts devices makes calls of its own: it stays out.
 const std::map<std::string, std::string> layerEnvironment{{"VK_ADD_LAYER_PATH", HYALITE_FAULT_LAYER_FOLDER},
                                                           {"VK_INSTANCE_LAYERS", "VK_LAYER_HYALITE_faults"},
                                                           {"NODEVICE_SELECT", "1"}};
+
+namespace {
 
 template <class Function> Function loadersOwn(const char *name) {
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));

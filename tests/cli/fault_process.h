@@ -9,6 +9,9 @@
 
 namespace hyalite::testing {
 
+/// Environment of a program that runs under the layer: where it is, and that it is wanted.
+extern const std::map<std::string, std::string> layerEnvironment;
+
 /// What the fault layer counted.
 struct Tally {
     std::map<std::string, long> calls; ///< by function

@@ -1,6 +1,7 @@
 // Every file that any command writes appears whole or not at all: where it cannot be stored, the one that was there
 // before stays, the exit code says so, and no other file is left behind.
 #include "tests/cli/command_line.h"
+#include "tests/cli/fault_process.h"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,9 @@ class EachFile : public OutputFiles {
 TEST_F(EachFile, StaysAsItWasOnAFullDisk) {
     Surroundings full;
     full.fileSizeLimitBytes = limitBytes;
+    full.environment = {{"HYALITE_FAKES", "unlimited-memory-files"}, {"HYALITE_VALIDATION", "0"}};
+    for (const auto &[name, value] : layerEnvironment)
+        full.environment[name] = value;
     for (const Case &each : allFiles()) {
         store(each.file, "old");
         fs::remove(folder / "b.pfm");

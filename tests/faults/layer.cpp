@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
+
 namespace hyalite::faults {
 
 namespace {
@@ -99,6 +101,34 @@ template <std::size_t size> struct Text {
     constexpr Text(const char (&text)[size]) { std::copy(text, text + size, characters); }
 };
 
+/// While it lives, and if it is wanted, no limit on the sizes of files holds: Mesa 25 and later allocate memory as files,
+/// which a limit that stands in for a full disk must not touch.
+class UnlimitedFiles {
+  public:
+    UnlimitedFiles() : isWanted_(plan().isFaked("unlimited-memory-files")) {
+        const std::lock_guard lock(mutex_);
+        if (!isWanted_ || count_++ > 0)
+            return;
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit unlimited{before_.rlim_max, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &unlimited);
+    }
+    ~UnlimitedFiles() {
+        const std::lock_guard lock(mutex_);
+        if (isWanted_ && --count_ == 0)
+            setrlimit(RLIMIT_FSIZE, &before_);
+    }
+    UnlimitedFiles(const UnlimitedFiles &) = delete;
+    UnlimitedFiles &operator=(const UnlimitedFiles &) = delete;
+
+  private:
+    // The limit is that of the process, and calls of several threads overlap.
+    static inline std::mutex mutex_;
+    static inline int count_ = 0;
+    static inline rlimit before_{};
+    bool isWanted_;
+};
+
 // ---- Calls that are passed on
 
 template <Text name, class Function> struct Passed;
@@ -106,6 +136,7 @@ template <Text name, class First, class... Rest> struct Passed<name, VkResult(VK
     using Function = VkResult(VKAPI_PTR *)(First, Rest...);
     static VKAPI_ATTR VkResult VKAPI_CALL call(First first, Rest... rest) {
         const auto next = nextFunction<Function>(first, name.characters);
+        const UnlimitedFiles unlimited;
         const VkResult fault = plan().countCall(name.characters);
         // A device that is lost does not work any more; one that only takes too long goes on.
         if (fault == VK_SUCCESS ||
@@ -185,6 +216,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
                                             const VkAllocationCallbacks *allocator, VkDevice *device) {
     if (const VkResult fault = plan().countCall("vkCreateDevice"); fault != VK_SUCCESS)
         return fault;
+    const UnlimitedFiles unlimited;
     auto *link = findLink<VkLayerDeviceCreateInfo, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO>(info->pNext);
     const PFN_vkGetInstanceProcAddr getInstanceNext = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
     const PFN_vkGetDeviceProcAddr getDeviceNext = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
