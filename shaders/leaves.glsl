@@ -9,6 +9,7 @@
 #include "shaders/geometry/triangle.glsl"
 #include "shaders/geometry/sphere.glsl"
 #include "shaders/geometry/surface.glsl"
+#include "shaders/geometry/instance.glsl"
 #include "shaders/camera/camera.glsl"
 #include "shaders/bsdf/dielectric.glsl"
 #include "shaders/bsdf/conductor.glsl"

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t maxFileBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t maxFileBytes = std::uint64_t{512} << 20;
 constexpr std::size_t maxNesting = 32;
 constexpr std::size_t maxSyntaxMessageBytes = 300;
 
@@ -114,7 +114,7 @@ std::string readText(const std::filesystem::path &path) {
     const InputFile file(path);
     if (file.sizeBytes() > maxFileBytes)
         throw file.bad(
-            fmt::format("has {} bytes; at most {} (64 MiB) are read", file.sizeBytes(), maxFileBytes));
+            fmt::format("has {} bytes; at most {} (512 MiB) are read", file.sizeBytes(), maxFileBytes));
     std::string text(static_cast<std::size_t>(file.sizeBytes()), '\0');
     file.read(0, std::as_writable_bytes(std::span(text)));
     return text;

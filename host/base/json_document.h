@@ -12,7 +12,7 @@
 
 namespace hyalite {
 
-/// Parses a regular file of at most 64 MiB, nested at most 32 deep. Throws Error{BadInput}: a syntax error
+/// Parses a regular file of at most 512 MiB, nested at most 32 deep. Throws Error{BadInput}: a syntax error
 /// says "FILE:LINE:COLUMN: ...", a key given twice says "FILE: /path/to/the/key: ...".
 [[nodiscard]] nlohmann::json readJsonFile(const std::filesystem::path &file);
 

@@ -2,19 +2,24 @@
 #include "host/bvh/bvh.h"
 #include "host/bvh/duplicates.h"
 #include "host/bvh/split.h"
+#include "host/scene/instances.h"
 #include "shaders/layout/layout.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <exception>
 #include <memory>
 
 namespace hyalite {
 
 namespace {
+
+constexpr std::uint32_t noInstances = std::numeric_limits<std::uint32_t>::max();
 
 /// Halving is forced once nothing else can keep the tree within the depth of the traversal stack.
 bool mustHalve(std::size_t count, int depth) {
@@ -51,10 +56,11 @@ struct Branch {
 /// does the tree; the thread count has no influence.
 class Builder {
   public:
-    /// `duplicates` may be null: then all triangles stay.
-    Builder(TreeKind kind, std::span<BuildTriangle> triangles, int leafSize, const Duplicates *duplicates)
-        : kind_(kind), triangles_(triangles), leafSize_(static_cast<std::size_t>(leafSize)),
-          duplicates_(duplicates) {}
+    /// `duplicates` may be null: then all triangles stay. Input indices from `firstInstance` on are those of instances.
+    Builder(TreeKind kind, std::span<BuildTriangle> triangles, std::uint32_t firstInstance, int leafSize,
+            const Duplicates *duplicates)
+        : kind_(kind), triangles_(triangles), firstInstance_(firstInstance),
+          leafSize_(static_cast<std::size_t>(leafSize)), duplicates_(duplicates) {}
 
     Bvh build() {
         const auto count = static_cast<std::uint32_t>(triangles_.size());
@@ -78,9 +84,31 @@ class Builder {
         return triangles_.subspan(task.begin, task.size());
     }
 
+    /// An instance has a leaf of its own.
+    [[nodiscard]] std::size_t leafSizeFor(std::span<const BuildTriangle> range) const {
+        const auto isInstance = [&](const BuildTriangle &one) { return one.inputIndex >= firstInstance_; };
+        return firstInstance_ != noInstances && range.size() <= leafSize_ &&
+                       std::ranges::any_of(range, isInstance)
+                   ? 1
+                   : leafSize_;
+    }
+
     [[nodiscard]] std::size_t split(std::span<BuildTriangle> range, const Bounds &bounds) const {
-        return kind_ == TreeKind::Sah ? splitBySah(range, bounds, leafSize_)
-                                      : splitAtMidpoint(range, bounds.triangles.box(), leafSize_);
+        return kind_ == TreeKind::Sah ? splitBySah(range, bounds, leafSizeFor(range))
+                                      : splitAtMidpoint(range, bounds.triangles.box(), leafSizeFor(range));
+    }
+
+    /// Drops duplicates among the triangles of the range; instances stay. Returns the number kept, at the front.
+    [[nodiscard]] std::size_t setDuplicatesAside(std::span<BuildTriangle> range) const {
+        if (firstInstance_ == noInstances)
+            return duplicates_->setAside(range);
+        const auto instances =
+            std::stable_partition(range.begin(), range.end(),
+                                  [&](const BuildTriangle &one) { return one.inputIndex < firstInstance_; });
+        const auto triangles = static_cast<std::size_t>(instances - range.begin());
+        const std::size_t kept = duplicates_->setAside(range.first(triangles));
+        std::rotate(range.begin() + static_cast<std::ptrdiff_t>(kept), instances, range.end());
+        return kept + (range.size() - triangles);
     }
 
     /// Finds the task's box and reorders its triangles; returns where the right child's begin, or the task's begin for
@@ -95,10 +123,10 @@ class Builder {
         if (task.size() > 1 && !mustHalve(task.size(), task.depth))
             leftCount = split(trianglesOf(task), bounds);
         if (leftCount == 0 && task.size() > 1 && duplicates_ != nullptr && !task.isDistinct) {
-            task.end = task.begin + static_cast<std::uint32_t>(duplicates_->setAside(trianglesOf(task)));
+            task.end = task.begin + static_cast<std::uint32_t>(setDuplicatesAside(trianglesOf(task)));
             task.isDistinct = true;
         }
-        if (leftCount == 0 && task.size() > leafSize_)
+        if (leftCount == 0 && task.size() > leafSizeFor(trianglesOf(task)))
             leftCount = splitAtMedian(trianglesOf(task), box);
         return task.begin + static_cast<std::uint32_t>(leftCount);
     }
@@ -192,6 +220,7 @@ class Builder {
 
     TreeKind kind_;
     std::span<BuildTriangle> triangles_;
+    std::uint32_t firstInstance_;
     std::size_t leafSize_;
     const Duplicates *duplicates_;
     std::exception_ptr failure_; ///< of any task
@@ -217,13 +246,15 @@ void orderTriangles(std::span<const BuildTriangle> triangles, Bvh &bvh) {
             node.first = positions[node.first];
 }
 
-Bvh buildTree(TreeKind kind, std::span<BuildTriangle> triangles, int leafSize, const Duplicates *duplicates) {
-    assert(leafSize >= 1);
+Bvh buildTree(TreeKind kind, std::span<BuildTriangle> triangles, std::uint32_t firstInstance, int leafSize,
+              const Duplicates *duplicates) {
+    assert(leafSize >= 1 && (kind != TreeKind::None || firstInstance == noInstances));
     Bvh bvh;
     if (triangles.empty())
         return bvh;
     if (kind != TreeKind::None) {
-        bvh = Builder(kind, triangles, leafSize, duplicates).build();
+        bvh = Builder(kind, triangles, firstInstance, leafSize, duplicates).build();
+        bvh.firstInstance = firstInstance;
     } else {
         const std::size_t keptCount =
             duplicates != nullptr ? duplicates->setAside(triangles) : triangles.size();
@@ -231,6 +262,92 @@ Bvh buildTree(TreeKind kind, std::span<BuildTriangle> triangles, int leafSize, c
     }
     orderTriangles(triangles, bvh);
     return bvh;
+}
+
+void addTriangles(const TriangleMesh &mesh, std::vector<BuildTriangle> &triangles) {
+    for (const MeshTriangle &corner : mesh.triangles) {
+        const glm::vec3 &a = mesh.positions[corner.positions.x];
+        const glm::vec3 &b = mesh.positions[corner.positions.y];
+        const glm::vec3 &c = mesh.positions[corner.positions.z];
+        BuildTriangle triangle;
+        triangle.box.extend(a);
+        triangle.box.extend(b);
+        triangle.box.extend(c);
+        triangle.centroid = a / 3.0f + b / 3.0f + c / 3.0f;
+        triangle.inputIndex = static_cast<std::uint32_t>(triangles.size());
+        triangles.push_back(triangle);
+    }
+}
+
+Box boxOf(std::span<const glm::vec3> points) {
+    Box box;
+    for (const glm::vec3 &point : points)
+        box.extend(point);
+    return box;
+}
+
+/// The vertices of each prototype that its triangles use.
+std::vector<std::vector<glm::vec3>> pointsOfPrototypes(const Scene &scene) {
+    std::vector<std::vector<glm::vec3>> points;
+    for (const TriangleMesh &mesh : scene.prototypes) {
+        std::vector<bool> isUsed(mesh.positions.size(), false);
+        for (const MeshTriangle &triangle : mesh.triangles)
+            for (glm::length_t corner = 0; corner < 3; ++corner)
+                isUsed[triangle.positions[corner]] = true;
+        points.emplace_back();
+        for (std::size_t i = 0; i < isUsed.size(); ++i)
+            if (isUsed[i])
+                points.back().push_back(mesh.positions[i]);
+    }
+    return points;
+}
+
+/// A box around the places of all points of a box, rounded as placedPoint rounds them.
+Box placedBox(const Placement &placement, const Box &box) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr double roundings =
+        6.0 / 16777216.0; // 5 of placedPoint (shaders/geometry/instance.glsl), and one here
+    const glm::dvec3 middle = (glm::dvec3(box.lower) + glm::dvec3(box.upper)) / 2.0;
+    const glm::dvec3 half = (glm::dvec3(box.upper) - glm::dvec3(box.lower)) / 2.0;
+    const glm::dvec3 slack =
+        placedExtent(placement, glm::dvec3(glm::max(glm::abs(box.lower), glm::abs(box.upper)))) * roundings;
+    Box placed;
+    for (glm::length_t i = 0; i < 3; ++i) {
+        const glm::dvec3 row(placement.rows[static_cast<std::size_t>(i)]);
+        const double centre = glm::dot(row, middle) + static_cast<double>(placement.offset[i]);
+        const double reach = glm::dot(glm::abs(row), half) + slack[i];
+        placed.lower[i] = std::nextafter(static_cast<float>(centre - reach), -infinity);
+        placed.upper[i] = std::nextafter(static_cast<float>(centre + reach), infinity);
+    }
+    return placed;
+}
+
+/// The box of all triangles of the scene, exactly as if instances were flattened. `boxes` enclose the instances; only
+/// those that reach beyond what is known so far are looked at point by point.
+Box exactBounds(const Scene &scene, const std::vector<std::vector<glm::vec3>> &points,
+                std::span<const Box> boxes) {
+    Box bounds;
+    for (const TriangleMesh &mesh : scene.meshes)
+        for (const MeshTriangle &triangle : mesh.triangles)
+            for (glm::length_t corner = 0; corner < 3; ++corner)
+                bounds.extend(mesh.positions[triangle.positions[corner]]);
+    const auto look = [&](std::size_t i) {
+        const Instance &instance = scene.instances[i];
+        if (!bounds.contains(boxes[i]))
+            for (const glm::vec3 &point : points[instance.prototype])
+                bounds.extend(placedPoint(instance.toWorld, point));
+    };
+    for (glm::length_t axis = 0; axis < 3; ++axis) { // first those that reach farthest
+        const auto lowest =
+            std::ranges::min_element(boxes, {}, [&](const Box &box) { return box.lower[axis]; });
+        look(static_cast<std::size_t>(lowest - boxes.begin()));
+        const auto highest =
+            std::ranges::max_element(boxes, {}, [&](const Box &box) { return box.upper[axis]; });
+        look(static_cast<std::size_t>(highest - boxes.begin()));
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        look(i);
+    return bounds;
 }
 
 } // namespace
@@ -244,38 +361,58 @@ double Box::halfArea() const {
 
 std::vector<BuildTriangle> buildTriangles(const Scene &scene) {
     const std::size_t count = triangleCount(scene);
-    // Ids and leaf references keep one bit for the leaf flag and the first ids for spheres.
-    constexpr std::size_t most = layout::leafFlag - layout::firstTriangleId - 1;
+    // Leaf references keep two bits for flags, and ids the first ones for spheres.
+    constexpr std::size_t most = layout::instanceFlag - layout::firstTriangleId - 1;
     if (count > most)
         throw Error(ErrorKind::LimitExceeded,
                     fmt::format("the scene has {} triangles; at most {} can be addressed", count, most));
     std::vector<BuildTriangle> triangles;
     triangles.reserve(count);
-    for (const TriangleMesh &mesh : scene.meshes) {
-        for (const MeshTriangle &corner : mesh.triangles) {
-            const glm::vec3 &a = mesh.positions[corner.positions.x];
-            const glm::vec3 &b = mesh.positions[corner.positions.y];
-            const glm::vec3 &c = mesh.positions[corner.positions.z];
-            BuildTriangle triangle;
-            triangle.box.extend(a);
-            triangle.box.extend(b);
-            triangle.box.extend(c);
-            triangle.centroid = a / 3.0f + b / 3.0f + c / 3.0f;
-            triangle.inputIndex = static_cast<std::uint32_t>(triangles.size());
-            triangles.push_back(triangle);
-        }
-    }
+    for (const TriangleMesh &mesh : scene.meshes)
+        addTriangles(mesh, triangles);
     return triangles;
 }
 
+std::vector<BuildTriangle> buildItems(const Scene &scene) {
+    std::vector<BuildTriangle> items = buildTriangles(scene);
+    if (scene.instances.empty())
+        return items;
+    const std::vector<std::vector<glm::vec3>> points = pointsOfPrototypes(scene);
+    std::vector<Box> own;
+    own.reserve(points.size());
+    for (const std::vector<glm::vec3> &ofPrototype : points)
+        own.push_back(boxOf(ofPrototype));
+    std::vector<Box> boxes;
+    boxes.reserve(scene.instances.size());
+    for (const Instance &instance : scene.instances)
+        boxes.push_back(placedBox(instance.toWorld, own[instance.prototype]));
+    const Box bounds = exactBounds(scene, points, boxes);
+    items.reserve(items.size() + boxes.size());
+    for (const Box &box : boxes) {
+        const Box inside{glm::max(box.lower, bounds.lower), glm::min(box.upper, bounds.upper)};
+        items.push_back(
+            {inside, inside.lower / 2.0f + inside.upper / 2.0f, static_cast<std::uint32_t>(items.size())});
+    }
+    return items;
+}
+
 Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize) {
-    return buildTree(kind, triangles, leafSize, nullptr);
+    return buildTree(kind, triangles, noInstances, leafSize, nullptr);
 }
 
 Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize) {
-    std::vector<BuildTriangle> triangles = buildTriangles(scene);
+    std::vector<BuildTriangle> items = buildItems(scene);
     const Duplicates duplicates(scene);
-    return buildTree(kind, triangles, leafSize, &duplicates);
+    if (scene.instances.empty())
+        return buildTree(kind, items, noInstances, leafSize, &duplicates);
+    const auto firstInstance = static_cast<std::uint32_t>(triangleCount(scene));
+    Bvh bvh = buildTree(kind, items, firstInstance, leafSize, &duplicates);
+    for (const TriangleMesh &prototype : scene.prototypes) {
+        std::vector<BuildTriangle> triangles;
+        addTriangles(prototype, triangles);
+        bvh.prototypes.push_back(buildTree(kind, triangles, noInstances, leafSize, nullptr));
+    }
+    return bvh;
 }
 
 } // namespace hyalite

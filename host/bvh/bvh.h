@@ -1,4 +1,4 @@
-// The bounding volume hierarchy (BVH) over a scene's triangles, and its two CPU builders.
+// The bounding volume hierarchy (BVH) over a scene's triangles and instances, and its two CPU builders.
 #pragma once
 
 #include "host/scene/scene.h"
@@ -35,11 +35,11 @@ struct Box {
     [[nodiscard]] double halfArea() const;
 };
 
-/// A triangle as builders see it.
+/// A triangle, or an instance, as builders see it.
 struct BuildTriangle {
     Box box;
     glm::vec3 centroid{0.0f};
-    std::uint32_t inputIndex = 0; ///< among the triangles of all meshes, in order
+    std::uint32_t inputIndex = 0; ///< among the triangles of all meshes, in order; then the instances
 };
 
 struct BvhNode {
@@ -54,19 +54,28 @@ struct BvhNode {
 
 struct Bvh {
     std::vector<BvhNode> nodes; ///< the root first; empty without triangles. Children come after their parent
-    std::vector<std::uint32_t> order; ///< input indices of the triangles, leaf by leaf
+    std::vector<std::uint32_t> order; ///< input indices of the triangles and instances, leaf by leaf
     int depth = 0;                    ///< inner nodes on the longest path to a leaf: 0 for a single leaf
+    std::uint32_t firstInstance = std::numeric_limits<std::uint32_t>::max(); ///< in the order: from here on
+    std::vector<Bvh> prototypes; ///< trees of Scene::prototypes, each in its own space
+
+    [[nodiscard]] bool isInstance(std::uint32_t inputIndex) const { return inputIndex >= firstInstance; }
 };
 
-/// The triangles of all meshes in input order. Throws Error{LimitExceeded} beyond 2^31 - 65 triangles.
+/// The triangles of all meshes in input order. Throws Error{LimitExceeded} beyond 2^30 - 65 triangles.
 [[nodiscard]] std::vector<BuildTriangle> buildTriangles(const Scene &scene);
+
+/// buildTriangles, and after them the instances. Their boxes enclose their triangles, and nothing that is outside the
+/// exact bounds of the scene.
+[[nodiscard]] std::vector<BuildTriangle> buildItems(const Scene &scene);
 
 /// Builds the tree of the given kind; `None` gives one leaf. No tree is deeper than layout::maxTreeDepth - 1.
 /// A leaf of the others holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize);
 
-/// Builds over a scene's triangles and omits duplicates (duplicates.h) from Bvh::order. The set of duplicates does not
-/// depend on the tree. Throws Error{LimitExceeded} as buildTriangles does.
+/// Builds over a scene's triangles and instances, which have leaves of their own, and over each prototype. Omits duplicates
+/// (duplicates.h) among the triangles of meshes from Bvh::order. The set of duplicates does not depend on the tree.
+/// Throws Error{LimitExceeded} as buildTriangles does.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize);
 
 } // namespace hyalite

@@ -7,6 +7,7 @@
 #include "host/cli/options.h"
 #include "host/cli/scene_options.h"
 #include "host/reference/closest_hit.h"
+#include "host/scene/instances.h"
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
@@ -27,13 +28,12 @@ struct InspectOptions {
 using Clock = std::chrono::steady_clock;
 
 void printMeshes(const PreparedScene &prepared) {
-    const Scene &scene = prepared.loaded.scene;
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        const TriangleMesh &mesh = scene.meshes[i];
-        const MeshReport &report = prepared.loaded.meshReports[i];
-        fmt::print("mesh         {}: {}, {}, {}\n", mesh.name, countText(mesh.triangles.size(), "triangle"),
-                   countText(mesh.positions.size(), "vertex", "vertices"),
-                   countText(mesh.normals.size(), "normal"));
+    for (const MeshReport &report : prepared.loaded.meshReports) {
+        fmt::print("mesh         {}: {}, {}, {}\n", report.name, countText(report.triangleCount, "triangle"),
+                   countText(report.vertexCount, "vertex", "vertices"),
+                   countText(report.normalCount, "normal"));
+        if (report.instanceCount > 0)
+            fmt::print("  placed     {}\n", countText(report.instanceCount, "time"));
         fmt::print("  faces      {}, {} of them polygons of more than three corners\n", report.faceCount,
                    report.polygonCount);
         fmt::print("  dropped    {}, {}\n", countText(report.degenerateTriangleCount, "degenerate triangle"),
@@ -109,7 +109,9 @@ std::vector<reference::Hit<float>> traceRays(const PackedScene &scene, int count
 /// Compares the tree with a test of all triangles, with the same rays on one thread of the reference renderer.
 bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
     const Scene &scene = prepared.loaded.scene;
-    const PackedScene brute = packScene(scene, buildBvh(TreeKind::None, buildTriangles(scene), 1));
+    Scene flattened = scene;
+    arrangeInstances(flattened, Flattening::All);
+    const PackedScene brute = packScene(flattened, buildBvh(TreeKind::None, buildTriangles(flattened), 1));
     double treeSeconds = 0.0;
     double bruteSeconds = 0.0;
     const auto treeHits = traceRays(prepared.packed, rayCount, treeSeconds);
@@ -136,13 +138,14 @@ ExitCode runInspect(const InspectOptions &options) {
     const PreparedScene prepared = prepareScene(options.scene, Source::Kept, false);
     const Scene &scene = prepared.loaded.scene;
     fmt::print("scene        {}\n", prepared.loaded.file.string());
-    fmt::print("contents     {} in {}, {}, {}, {}\n", countText(triangleCount(scene), "triangle"),
-               countText(scene.meshes.size(), "mesh", "meshes"), countText(scene.spheres.size(), "sphere"),
-               countText(scene.lights.size(), "light"), countText(scene.materials.size(), "material"));
+    fmt::print("contents     {} in {}, {}, {}, {}\n", countText(inputOrder(scene).triangleCount, "triangle"),
+               countText(prepared.loaded.meshReports.size(), "mesh", "meshes"),
+               countText(scene.spheres.size(), "sphere"), countText(scene.lights.size(), "light"),
+               countText(scene.materials.size(), "material"));
     printMeshes(prepared);
     std::vector<BuildTriangle> distinct = buildTriangles(scene);
     const std::size_t droppedCount = distinct.size() - Duplicates(scene).setAside(distinct);
-    const std::string fault = findBvhFault(prepared.bvh, buildTriangles(scene), droppedCount);
+    const std::string fault = findBvhFault(prepared.bvh, buildItems(scene), droppedCount);
     if (!prepared.bvh.nodes.empty())
         printTree(prepared, droppedCount, fault);
     printCosts(prepared);

@@ -78,6 +78,10 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->group(view);
 
     addSettings(command, tracingGroup, options.settings);
+    command
+        .add_flag("--flatten", options.isFlattened,
+                  "make every instance a mesh of its own: the same picture, with more memory")
+        ->group(std::string(tracingGroup));
 }
 
 } // namespace hyalite

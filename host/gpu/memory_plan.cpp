@@ -122,7 +122,9 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
     if (isSkipList) {
         const std::uint64_t listBytes = scene.hasTriangles ? maxSkipListBytes(scene.nodes.size()) : 0;
         planned.buffers[layout::bindingNodes] = plan("the skip lists", use, listBytes);
-        planned.hostBytes = scene.hasTriangles ? listBytes + skipListWorkBytes(scene.nodes.size()) : 0;
+        planned.hostBytes = scene.hasTriangles ? listBytes + skipListWorkBytes(scene.nodes.size()) +
+                                                     std::span(scene.instances).size_bytes()
+                                               : 0;
     } else {
         planned.buffers[layout::bindingNodes] = plan("the nodes", use, std::span(scene.nodes).size_bytes());
     }
@@ -136,8 +138,7 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     JobPlan planned;
     planned.samplesAbreast = fitSamplesAbreast(config.samplesAbreast, job.sampleEnd - job.sampleBegin);
     // At most one subtree waits per level. Powers of two keep the number of different kernels small.
-    planned.stackSize =
-        std::bit_ceil(std::clamp(static_cast<std::uint32_t>(job.scene.treeDepth), 8u, layout::maxTreeDepth));
+    planned.stackSize = std::bit_ceil(std::max(static_cast<std::uint32_t>(job.scene.treeDepth), 8u));
     // A direct kernel drops unfinished samples and repeats them, so they would be counted and traced twice.
     planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));

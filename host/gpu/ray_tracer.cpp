@@ -21,7 +21,7 @@ constexpr std::uint32_t workgroupSize = 64;
 constexpr std::uint32_t stepBudget = 60'000;
 
 std::uint32_t stackSizeFor(const PackedScene &scene) {
-    return std::bit_ceil(std::clamp(static_cast<std::uint32_t>(scene.treeDepth), 8u, layout::maxTreeDepth));
+    return std::bit_ceil(std::max(static_cast<std::uint32_t>(scene.treeDepth), 8u));
 }
 
 } // namespace
@@ -31,11 +31,13 @@ struct RayScene::State {
     SceneBuffers buffers;
     bool isSkipList;
     std::uint32_t stackSize;
+    bool hasInstances;
     bool isDivisionExact;
 
     State(const DeviceInfo &info, const PackedScene &scene, bool isSkipListWanted)
         : device(info), buffers(device, scene, planScene(scene, isSkipListWanted), isSkipListWanted),
           isSkipList(isSkipListWanted), stackSize(stackSizeFor(scene)),
+          hasInstances(!scene.instances.empty()),
           isDivisionExact(
               chooseArithmetic(device.info(), checkDevice(device), Arithmetic::Automatic).isNative) {}
 };
@@ -80,6 +82,7 @@ struct RayTracer::State {
         std::array<std::uint32_t, layout::rayConstantCount> constants{};
         constants[layout::constantWorkgroupSize] = workgroupSize;
         constants[layout::constantHasTriangles] = 1;
+        constants[layout::constantHasInstances] = scene.hasInstances;
         constants[layout::constantStackSize] = scene.stackSize;
         constants[layout::constantExactDivision] = scene.isDivisionExact;
         constants[layout::constantSamplesAbreast] = 1;

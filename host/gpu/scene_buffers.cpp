@@ -20,6 +20,7 @@ Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byt
 struct Tree {
     Buffer nodes;
     layout::FrameRecord frame;
+    std::vector<layout::InstanceRecord> instances; ///< with the constants of skip lists; or none
 };
 
 /// Uploads the tree, and adds the constants of skip lists to the frame. The lists on the host, the largest part of a
@@ -27,17 +28,20 @@ struct Tree {
 Tree uploadTree(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
     const BufferPlan &planned = plan.buffers[layout::bindingNodes];
     if (!isSkipList)
-        return {uploaded(device, planned, std::as_bytes(std::span(scene.nodes))), scene.frame};
+        return {uploaded(device, planned, std::as_bytes(std::span(scene.nodes))), scene.frame, {}};
     const SkipList list = makeSkipList(scene);
     layout::FrameRecord frame = scene.frame;
-    frame.gridMiddle = list.gridMiddle;
-    frame.gridScale = list.gridScale;
+    if (!list.trees.empty()) {
+        frame.gridMiddle = list.trees.front().grid.middle;
+        frame.gridScale = list.trees.front().grid.scale;
+        frame.topListLength = list.trees.front().end;
+    }
     frame.skipListLength = list.length;
     const std::span<const std::byte> bytes = std::as_bytes(std::span(list.nodes));
     BufferPlan nodes = planned;
     nodes.sizeBytes = bytes.size();
     assert(nodes.sizeBytes <= planned.sizeBytes);
-    return {uploaded(device, nodes, bytes), frame};
+    return {uploaded(device, nodes, bytes), frame, instancesOnGrids(scene, list)};
 }
 
 } // namespace
@@ -50,6 +54,8 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
     bytes[layout::bindingLights] = std::as_bytes(std::span(scene.lights));
     for (const SceneArray &array : scene.arrays())
         bytes[array.binding] = array.bytes;
+    if (isSkipList)
+        bytes[layout::bindingInstances] = std::as_bytes(std::span(tree.instances));
     for (std::size_t binding = 0; binding < plan.buffers.size(); ++binding)
         buffers.push_back(binding == layout::bindingNodes
                               ? std::move(tree.nodes)

@@ -129,6 +129,7 @@ Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, 
     constants[layout::constantSphereCount] = static_cast<std::uint32_t>(scene.spheres.size());
     constants[layout::constantLightCount] = static_cast<std::uint32_t>(scene.lights.size());
     constants[layout::constantHasTriangles] = scene.hasTriangles;
+    constants[layout::constantHasInstances] = !scene.instances.empty();
     constants[layout::constantHasSpecular] = scene.hasSpecular;
     constants[layout::constantHasDielectric] = scene.hasDielectric;
     constants[layout::constantHasEmission] = scene.hasEmission;

@@ -21,6 +21,12 @@ struct MeshTransform {
 
 /// Findings while reading a mesh, for `hyalite inspect` and for warnings.
 struct MeshReport {
+    std::string name;              ///< the file
+    std::size_t triangleCount = 0; ///< and so on, of the mesh
+    std::size_t vertexCount = 0;
+    std::size_t normalCount = 0;
+    std::size_t instanceCount = 0; ///< 0: the mesh is seen as it is
+
     std::size_t faceCount = 0;    ///< `f` statements
     std::size_t polygonCount = 0; ///< faces with more than three corners
 

@@ -234,7 +234,7 @@ void ObjMeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
 }
 
 ObjMesh ObjMeshBuilder::finish() {
-    const MeshReport &report = result.report;
+    MeshReport &report = result.report;
     for (std::size_t i = 0; i < waitingFaces.size(); ++i) {
         const std::size_t begin = waitingFaces[i].cornerBegin;
         const std::size_t end =
@@ -253,6 +253,10 @@ ObjMesh ObjMeshBuilder::finish() {
     // No triangle uses a lost normal, but its place must hold a unit vector.
     std::replace(result.mesh.normals.begin(), result.mesh.normals.end(), lostNormal,
                  glm::vec3(0.0f, 0.0f, 1.0f));
+    report.name = result.mesh.name;
+    report.triangleCount = result.mesh.triangles.size();
+    report.vertexCount = result.mesh.positions.size();
+    report.normalCount = result.mesh.normals.size();
     return std::move(result);
 }
 

@@ -4,7 +4,9 @@
 #include "host/base/json_reader.h"
 #include "host/image/image_file.h"
 #include "host/import/file_reach.h"
+#include "host/import/transform_json.h"
 #include "host/scene/framing.h"
+#include "host/scene/instances.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 #include "host/scene/settings_table.h"
@@ -242,6 +244,21 @@ void addMaterialsOf(ObjMesh &mesh, Scene &scene) {
     std::ranges::move(mesh.materials, std::back_inserter(scene.materials));
 }
 
+/// Adds an instance of the mesh for each transform of the array.
+void readInstances(const JsonNode &transforms, TriangleMesh &&mesh, Scene &scene) {
+    if (!transforms.value->is_array() || transforms.value->empty())
+        transforms.refuse("an array of transforms, at least one");
+    if (scene.instances.size() + transforms.value->size() > limits::instanceCount)
+        transforms.refuse(fmt::format("at most {} instances in all", limits::instanceCount));
+    std::vector<Placement> placements;
+    placements.reserve(transforms.value->size());
+    for (std::size_t i = 0; i < transforms.value->size(); ++i) {
+        const JsonNode node{&(*transforms.value)[i], transforms.fileName, transforms.path / i};
+        placements.push_back(toPlacement(readTransform(node), node));
+    }
+    addInstances(scene, std::move(mesh), placements);
+}
+
 template <class Number>
 Number readValue(const JsonObject &object, std::string_view key, const NumberSetting<Number> &number,
                  Number fallback) {
@@ -305,7 +322,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
         scene.spheres.push_back(readSphere({sphere, scene_keys::sphere}, scene.materials));
     const auto onReadingMesh = [&](double share) {
         if (events.onReading)
-            events.onReading((static_cast<double>(scene.meshes.size()) + share) /
+            events.onReading((static_cast<double>(loaded.meshReports.size()) + share) /
                              static_cast<double>(meshes.size()));
     };
     const std::vector<Material> named = scene.materials;
@@ -315,12 +332,17 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
         ObjMesh mesh = readMesh(object, named, {reach, textures}, onReadingMesh);
         if (!object.find("material"))
             addMaterialsOf(mesh, scene);
-        scene.meshes.push_back(std::move(mesh.mesh));
-        loaded.meshReports.push_back(mesh.report);
-        triangleTotal += scene.meshes.back().triangles.size();
+        triangleTotal += mesh.mesh.triangles.size();
         if (triangleTotal > limits::triangleCount) // before the next mesh takes memory
             node.fail(fmt::format("found {} triangles up to this mesh; allowed: at most {}", triangleTotal,
                                   limits::triangleCount));
+        if (const std::optional<JsonNode> transforms = object.find("instances")) {
+            mesh.report.instanceCount = transforms->value->size();
+            readInstances(*transforms, std::move(mesh.mesh), scene);
+        } else {
+            scene.meshes.push_back(std::move(mesh.mesh));
+        }
+        loaded.meshReports.push_back(std::move(mesh.report));
     }
     scene.textures = textures.give();
     return loaded;

@@ -94,7 +94,7 @@ struct LoadedScene {
     Scene scene;
     std::filesystem::path file;
     std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
-    std::vector<MeshReport> meshReports; ///< one for each of scene.meshes
+    std::vector<MeshReport> meshReports; ///< one for each mesh of the input
     bool autoFramed = false; ///< a bare mesh: where the image size is overridden, call frameCamera again
 };
 
@@ -125,7 +125,7 @@ inline constexpr auto normalMap = std::to_array<std::string_view>({"file", "scal
 inline constexpr auto sphere =
     std::to_array<std::string_view>({"centre", "radius", "material", "inwardNormal"});
 inline constexpr auto mesh =
-    std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material"});
+    std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material", "instances"});
 /// Those of the table of settings, and one that is the scene's.
 inline constexpr auto settings = [] {
     std::array<std::string_view, settingsTable.size() + 1> keys;

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -59,17 +60,15 @@ layout::EmitterRecord lightEmitter(const layout::LightRecord &light) {
 /// Fraction of all directions inside the cone of a spot.
 double coneShare(const layout::EmitterRecord &spot) { return 0.5 * (1.0 - double{spot.cosineOuter}); }
 
-/// Indices of triangle records in the order of the input.
-std::vector<std::uint32_t> inInputOrder(const std::vector<layout::TriangleRecord> &triangles) {
-    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max(); // a dropped triangle
-    std::vector<std::uint32_t> records(triangles.size(), none);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const std::size_t index = triangles[i].primitiveId - layout::firstTriangleId;
-        if (index >= records.size())
-            records.resize(index + 1, none);
-        records[index] = static_cast<std::uint32_t>(i);
-    }
-    std::erase(records, none);
+/// Indices of the records of emitting triangles, in the order of the input. Instances do not emit.
+std::vector<std::uint32_t> emittingTriangles(const PackedScene &packed,
+                                             const std::vector<double> &exitances) {
+    const std::vector<layout::TriangleRecord> &triangles = packed.triangles;
+    std::vector<std::uint32_t> records;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        if (exitances[triangles[i].materialIndex] > 0.0)
+            records.push_back(static_cast<std::uint32_t>(i));
+    std::ranges::sort(records, {}, [&](std::uint32_t record) { return triangles[record].primitiveId; });
     return records;
 }
 
@@ -106,7 +105,7 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
             area);
     }
     if (packed.hasEmission)
-        for (const std::uint32_t record : inInputOrder(packed.triangles)) {
+        for (const std::uint32_t record : emittingTriangles(packed, exitances)) {
             const layout::TriangleRecord &triangle = packed.triangles[record];
             const layout::MaterialRecord &material = packed.materials[triangle.materialIndex];
             const double area = areaOf(triangle);

@@ -4,6 +4,7 @@
 #include "host/packing/emitters.h"
 #include "host/packing/environment.h"
 #include "host/packing/microfacet_energy.h"
+#include "host/packing/packed_trees.h"
 #include "host/packing/pixel_filter.h"
 #include "host/packing/texture_rows.h"
 
@@ -139,95 +140,6 @@ std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials)
     return order;
 }
 
-/// Whether a loop of `count` iterations is long enough for several threads.
-bool isLong(std::int64_t count) { return count > 8192; }
-
-void packTriangles(const Scene &scene, const Bvh &bvh, const std::vector<std::uint32_t> &packedMaterial,
-                   PackedScene &packed) {
-    constexpr std::uint32_t nowhere =
-        std::numeric_limits<std::uint32_t>::max(); // triangles that the tree dropped
-    std::vector<std::uint32_t> positionInTree(triangleCount(scene), nowhere);
-    const auto total = static_cast<std::int64_t>(bvh.order.size());
-#pragma omp parallel for schedule(static) if (isLong(total))
-    for (std::int64_t i = 0; i < total; ++i)
-        positionInTree[bvh.order[static_cast<std::size_t>(i)]] = static_cast<std::uint32_t>(i);
-    packed.triangles.resize(bvh.order.size());
-    packed.normals.resize(bvh.order.size());
-    std::uint32_t firstIndex = 0; // of the mesh's triangles in the input
-    for (const TriangleMesh &mesh : scene.meshes) {
-        const auto count = static_cast<std::int64_t>(mesh.triangles.size());
-#pragma omp parallel for schedule(static) if (isLong(count))
-        for (std::int64_t i = 0; i < count; ++i) {
-            const MeshTriangle &corner = mesh.triangles[static_cast<std::size_t>(i)];
-            const std::uint32_t inputIndex = firstIndex + static_cast<std::uint32_t>(i);
-            const std::uint32_t position = positionInTree[inputIndex];
-            if (position == nowhere)
-                continue;
-            layout::TriangleRecord &triangle = packed.triangles[position];
-            triangle.v0 = mesh.positions[corner.positions.x];
-            triangle.v1 = mesh.positions[corner.positions.y];
-            triangle.v2 = mesh.positions[corner.positions.z];
-            triangle.primitiveId = layout::firstTriangleId + inputIndex;
-            const std::uint32_t material = mesh.materialOf(static_cast<std::size_t>(i));
-            const bool isTransmissive = scene.materials[material].kind == MaterialKind::Dielectric;
-            triangle.materialIndex = packedMaterial[material];
-            const bool isCutOut = scene.materials[material].textures[layout::slotOpacity].has_value();
-            triangle.flags = (isTransmissive ? layout::triangleIsTransmissive : 0u) |
-                             (isCutOut ? layout::triangleIsCutOut : 0u);
-            layout::NormalRecord &normals = packed.normals[position];
-            const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
-            normals.n0 = hasNormals ? mesh.normals[corner.normals.x] : glm::vec3(0.0f);
-            normals.n1 = hasNormals ? mesh.normals[corner.normals.y] : glm::vec3(0.0f);
-            normals.n2 = hasNormals ? mesh.normals[corner.normals.z] : glm::vec3(0.0f);
-        }
-        firstIndex += static_cast<std::uint32_t>(count);
-    }
-    for (const BvhNode &node : bvh.nodes)
-        if (node.isLeaf())
-            packed.triangles[node.first + node.count - 1].flags |= layout::triangleEndsLeaf;
-}
-
-/// Inner nodes in the order of their creation, which is depth first, so that a left child is close to its parent.
-void packNodes(const Bvh &bvh, PackedScene &packed) {
-    const auto emptyPair = [] {
-        layout::NodePair pair{};
-        pair.left = layout::noNode;
-        pair.right = layout::noNode;
-        return pair;
-    };
-    if (bvh.nodes.empty() || bvh.nodes.front().isLeaf()) {
-        layout::NodePair root = emptyPair();
-        if (!bvh.nodes.empty()) {
-            root.leftLower = bvh.nodes.front().box.lower;
-            root.leftUpper = bvh.nodes.front().box.upper;
-            root.left = layout::leafFlag | 0u;
-        }
-        packed.nodes.push_back(root);
-        return;
-    }
-    std::vector<std::uint32_t> reference(bvh.nodes.size());
-    std::uint32_t innerCount = 0;
-    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
-        reference[i] = bvh.nodes[i].isLeaf() ? layout::leafFlag | bvh.nodes[i].first : innerCount++;
-    packed.nodes.resize(innerCount);
-    const auto nodeCount = static_cast<std::int64_t>(bvh.nodes.size());
-#pragma omp parallel for schedule(static) if (isLong(nodeCount))
-    for (std::int64_t i = 0; i < nodeCount; ++i) {
-        const BvhNode &node = bvh.nodes[static_cast<std::size_t>(i)];
-        if (node.isLeaf())
-            continue;
-        layout::NodePair &pair = packed.nodes[reference[static_cast<std::size_t>(i)]];
-        const BvhNode &left = bvh.nodes[node.first];
-        const BvhNode &right = bvh.nodes[node.first + 1];
-        pair.leftLower = left.box.lower;
-        pair.leftUpper = left.box.upper;
-        pair.left = reference[node.first];
-        pair.rightLower = right.box.lower;
-        pair.rightUpper = right.box.upper;
-        pair.right = reference[node.first + 1];
-    }
-}
-
 } // namespace
 
 std::array<SceneArray, layout::sceneArrayCount> PackedScene::arrays() const {
@@ -272,7 +184,7 @@ std::uint64_t PackedScene::contentHash() const {
     // The order of triangles depends on the tree, but a sum of hashes does not; each hash includes the triangle's id.
     std::uint64_t sum = 0;
     const auto triangleTotal = static_cast<std::int64_t>(triangles.size());
-#pragma omp parallel for schedule(static) reduction(+ : sum) if (isLong(triangleTotal))
+#pragma omp parallel for schedule(static) reduction(+ : sum) if (triangleTotal > 8192)
     for (std::int64_t index = 0; index < triangleTotal; ++index) {
         const auto i = static_cast<std::size_t>(index);
         struct {
@@ -288,7 +200,14 @@ std::uint64_t PackedScene::contentHash() const {
                 triangleHash);
         sum += triangleHash;
     }
-    return hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
+    hash = hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
+    std::uint64_t instanceSum = 0;
+    for (const layout::InstanceRecord &instance : instances) {
+        layout::InstanceRecord seenInstance = instance;
+        seenInstance.root = 0;
+        instanceSum += hashBytes(std::as_bytes(std::span(&seenInstance, 1)));
+    }
+    return instances.empty() ? hash : hashBytes(std::as_bytes(std::span(&instanceSum, 1)), hash);
 }
 
 std::uint32_t samplerOf(const RenderSettings &settings) {
@@ -298,11 +217,10 @@ std::uint32_t samplerOf(const RenderSettings &settings) {
 }
 
 PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded) {
-    assert(bvh.order.size() <= triangleCount(scene));
+    assert(bvh.order.size() <= triangleCount(scene) + scene.instances.size());
     PackedScene packed;
     packed.frame = packFrame(scene);
     packed.camera = cameraOf(scene.camera);
-    packed.treeDepth = bvh.depth;
     packed.hasTriangles = !bvh.order.empty();
 
     const std::vector<std::uint32_t> order = materialOrder(scene.materials);
@@ -344,12 +262,13 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     }
     for (const TriangleMesh &mesh : scene.meshes)
         useMaterials(mesh);
+    for (const TriangleMesh &prototype : scene.prototypes)
+        useMaterials(prototype);
     for (const Light &light : scene.lights) {
         packed.lights.push_back(packLight(light));
         packed.lighting |= 1u << emitterKindOf(packed.lights.back());
     }
-    packTriangles(scene, bvh, packedMaterial, packed);
-    packNodes(bvh, packed);
+    packTrees(scene, bvh, packedMaterial, packed);
     packTextures(scene, order, maxDecoded, packed);
     const bool aimsAtEmitters = rowOf(scene.settings.integrator).aimsAtEmitters;
     if (aimsAtEmitters && (packed.scattering & layout::scattersAtRough) != 0)

@@ -20,11 +20,20 @@ struct SceneArray {
     std::span<const std::byte> bytes;
 };
 
+/// A tree among the node pairs.
+struct PackedTree {
+    std::uint32_t firstPair = 0;   ///< its root; its other pairs follow
+    std::uint32_t firstRecord = 0; ///< of its triangles
+    Box box;                       ///< around all of it
+};
+
 struct PackedScene {
     layout::FrameRecord frame{};
     std::vector<layout::LightRecord> lights;
     std::vector<layout::NodePair> nodes; ///< never empty
-    int treeDepth = 0;
+    /// The scene's own tree, then those of the prototypes. The triangle records are in the same order.
+    std::vector<PackedTree> trees;
+    int treeDepth = 0; ///< subtrees that can wait on a traversal stack
 
     // The scene arrays, by the names that shaders/layout/buffers.h gives them.
 #define HYALITE_MEMBER(number, value, name, Record, fetch) std::vector<layout::Record> name;
@@ -32,7 +41,7 @@ struct PackedScene {
 #undef HYALITE_MEMBER
 
     // Features of the scene: kernels leave out what it does not use.
-    bool hasTriangles = false;
+    bool hasTriangles = false; ///< instances included
     bool hasSpecular = false;
     bool hasDielectric = false;
     bool hasEmission = false;

@@ -1,5 +1,7 @@
 #include "host/packing/skip_list.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -33,7 +35,7 @@ struct PairPlan {
 /// The grid of box planes. Coordinates are rounded outwards.
 class Grid {
   public:
-    explicit Grid(const SkipList &list) : middle_(list.gridMiddle), scale_(list.gridScale) {}
+    explicit Grid(const SkipGrid &grid) : middle_(grid.middle), scale_(grid.scale) {}
 
     [[nodiscard]] GridBox enclose(const glm::vec3 &lower, const glm::vec3 &upper) const {
         GridBox box{};
@@ -76,8 +78,8 @@ PairPlan planPair(const layout::NodePair &pair, const Grid &grid) {
 /// Omits inner nodes that cull too little. A fraction a / A of the rays that hit a box of area A hit an inner box of
 /// area a, and only they visit its two children; without the inner box all do. That is A + 2 a steps against 2 A.
 void leaveOutNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
-    plans[0].areaAround =
-        static_cast<float>(Box{scene.frame.boundsLower, scene.frame.boundsUpper}.halfArea());
+    for (const PackedTree &tree : scene.trees)
+        plans[tree.firstPair].areaAround = static_cast<float>(tree.box.halfArea());
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const layout::NodePair &pair = scene.nodes[i];
         const auto decide = [&](std::size_t child, std::uint32_t reference, const Box &box) {
@@ -112,8 +114,10 @@ void countNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
 /// is needed, because the nodes above a subtree come first and the size of its sibling is known, which gives its index.
 /// `pairBegins` has room for an index per pair.
 void writeList(const PackedScene &scene, std::span<const PairPlan> plans, int nearSide, std::uint32_t begin,
-               std::span<std::uint32_t> pairBegins, std::span<layout::SkipNode> nodes) {
-    pairBegins[0] = begin;
+               std::span<const SkipTree> trees, std::span<std::uint32_t> pairBegins,
+               std::span<layout::SkipNode> nodes) {
+    for (std::size_t i = 0; i < trees.size(); ++i)
+        pairBegins[scene.trees[i].firstPair] = begin + trees[i].begin;
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const PairPlan &plan = plans[i];
         const std::array<std::uint32_t, 2> references{scene.nodes[i].left, scene.nodes[i].right};
@@ -143,39 +147,75 @@ void writeList(const PackedScene &scene, std::span<const PairPlan> plans, int ne
     }
 }
 
+/// The grid over a tree.
+SkipGrid gridOver(const Box &box) {
+    SkipGrid grid;
+    if (box.isEmpty())
+        return grid;
+    for (int axis = 0; axis < 3; ++axis) {
+        grid.middle[axis] = box.lower[axis] / 2.0f + box.upper[axis] / 2.0f;
+        const double middle = grid.middle[axis];
+        // The grid of a flat box is as fine as its coordinates; 16 cells stay free on each side.
+        const double reach = std::max(
+            {box.upper[axis] - middle, middle - box.lower[axis], 1e-6 * std::max(std::abs(middle), 1e-20)});
+        grid.scale[axis] = static_cast<float>(reach / (highestPlane - 16.0));
+    }
+    return grid;
+}
+
 } // namespace
 
 SkipList makeSkipList(const PackedScene &scene) {
     SkipList list;
     if (!scene.hasTriangles)
         return list;
-    const glm::vec3 lower = scene.frame.boundsLower;
-    const glm::vec3 upper = scene.frame.boundsUpper;
-    for (int axis = 0; axis < 3; ++axis) {
-        list.gridMiddle[axis] = lower[axis] / 2.0f + upper[axis] / 2.0f;
-        const double middle = list.gridMiddle[axis];
-        // The grid of a flat box is as fine as its coordinates; 16 cells stay free on each side.
-        const double reach =
-            std::max({upper[axis] - middle, middle - lower[axis], 1e-6 * std::max(std::abs(middle), 1e-20)});
-        list.gridScale[axis] = static_cast<float>(reach / (highestPlane - 16.0));
-    }
-    const auto pairCount = static_cast<std::int64_t>(scene.nodes.size());
     std::vector<PairPlan> plans(scene.nodes.size());
-    const Grid grid(list);
+    for (std::size_t tree = 0; tree < scene.trees.size(); ++tree) {
+        list.trees.push_back({0, 0, gridOver(scene.trees[tree].box)});
+        const Grid grid(list.trees.back().grid);
+        const std::int64_t first = scene.trees[tree].firstPair;
+        const auto end = static_cast<std::int64_t>(
+            tree + 1 < scene.trees.size() ? scene.trees[tree + 1].firstPair : scene.nodes.size());
 #pragma omp parallel for schedule(static)
-    for (std::int64_t i = 0; i < pairCount; ++i)
-        plans[static_cast<std::size_t>(i)] = planPair(scene.nodes[static_cast<std::size_t>(i)], grid);
+        for (std::int64_t i = first; i < end; ++i)
+            plans[static_cast<std::size_t>(i)] = planPair(scene.nodes[static_cast<std::size_t>(i)], grid);
+    }
     leaveOutNodes(scene, plans);
     countNodes(scene, plans);
-
-    list.length = plans.front().nodeCount;
+    for (std::size_t tree = 0; tree < scene.trees.size(); ++tree) {
+        list.trees[tree].begin = list.length;
+        list.length += plans[scene.trees[tree].firstPair].nodeCount;
+        list.trees[tree].end = list.length;
+    }
     list.nodes.resize(std::size_t{listCount} * list.length + 1);
     std::vector<std::uint32_t> pairBegins(plans.size() * listCount);
 #pragma omp parallel for schedule(static) num_threads(listCount)
     for (std::uint32_t i = 0; i < listCount; ++i)
-        writeList(scene, plans, i == 0 ? -1 : 1, i * list.length,
+        writeList(scene, plans, i == 0 ? -1 : 1, i * list.length, list.trees,
                   std::span(pairBegins).subspan(plans.size() * i, plans.size()), list.nodes);
     return list;
+}
+
+std::vector<layout::InstanceRecord> instancesOnGrids(const PackedScene &scene, const SkipList &list) {
+    std::vector<layout::InstanceRecord> instances = scene.instances;
+    const auto count = static_cast<std::int64_t>(instances.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < count; ++i) {
+        layout::InstanceRecord &instance = instances[static_cast<std::size_t>(i)];
+        const SkipTree &tree = list.trees[instance.tree + 1];
+        const glm::dvec3 middle(tree.grid.middle);
+        const glm::dvec3 halfCell = glm::dvec3(tree.grid.scale) / 2.0;
+        const auto toGrid = [&](const glm::vec3 &row, float offset, glm::vec3 &gridRow, float &gridOffset) {
+            gridRow = glm::vec3(glm::dvec3(row) * halfCell);
+            gridOffset = static_cast<float>(glm::dot(glm::dvec3(row), middle) + double{offset});
+        };
+        toGrid(instance.toX, instance.offsetX, instance.gridToX, instance.gridOffsetX);
+        toGrid(instance.toY, instance.offsetY, instance.gridToY, instance.gridOffsetY);
+        toGrid(instance.toZ, instance.offsetZ, instance.gridToZ, instance.gridOffsetZ);
+        instance.listBegin = tree.begin;
+        instance.listEnd = tree.end;
+    }
+    return instances;
 }
 
 std::uint64_t maxSkipListBytes(std::size_t pairCount) {

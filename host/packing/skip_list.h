@@ -9,12 +9,24 @@
 
 namespace hyalite {
 
+/// The grid of a tree's box planes: plane q, in [-32768, 32767], is at middle + scale * q.
+struct SkipGrid {
+    glm::vec3 middle{0.0f};
+    glm::vec3 scale{1.0f}; ///< > 0
+};
+
+/// Where a tree is in each of the two lists, and its grid.
+struct SkipTree {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    SkipGrid grid;
+};
+
 struct SkipList {
     std::vector<layout::SkipNode>
-        nodes;                ///< two lists of `length`, and a node for rays that have reached the end
-    std::uint32_t length = 0; ///< of one list
-    glm::vec3 gridMiddle{0.0f};
-    glm::vec3 gridScale{1.0f}; ///< > 0; a plane is at gridMiddle + gridScale * q, q in [-32768, 32767]
+        nodes;                   ///< two lists of `length`, and a node for rays that have reached the end
+    std::uint32_t length = 0;    ///< of one list
+    std::vector<SkipTree> trees; ///< in the order of PackedScene::trees
 };
 
 /// Empty without triangles. Every box of the list encloses the box from which it was made.
@@ -23,6 +35,10 @@ struct SkipList {
 /// list upper siblings do. A list for each octant of directions would save diffuse rays 3 % of their steps, but costs
 /// more than that, because less of eight lists fits into caches.
 [[nodiscard]] SkipList makeSkipList(const PackedScene &scene);
+
+/// The instances of the scene, with where their trees are in the list and the maps from the grids.
+[[nodiscard]] std::vector<layout::InstanceRecord> instancesOnGrids(const PackedScene &scene,
+                                                                   const SkipList &list);
 
 /// Maximum size of both lists for this many node pairs, in bytes.
 [[nodiscard]] std::uint64_t maxSkipListBytes(std::size_t pairCount);

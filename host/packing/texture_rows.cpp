@@ -1,5 +1,7 @@
 #include "host/packing/texture_rows.h"
 
+#include "host/scene/instances.h"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -30,27 +32,50 @@ template <class Decode> void addTable(Rows &rows, const Decode &decode) {
         rows.push_back(rowOf(entry(level), entry(level + 1), entry(level + 2), entry(level + 3)));
 }
 
+/// A triangle of a mesh.
+struct TriangleOfMesh {
+    const TriangleMesh *mesh;
+    std::uint32_t index;
+};
+
+/// Finds the mesh of a triangle record.
+class MeshOfRecord {
+  public:
+    MeshOfRecord(const Scene &scene, const PackedScene &packed)
+        : scene_(scene), packed_(packed), firstTriangles_(inputOrder(scene).meshes) {}
+
+    [[nodiscard]] TriangleOfMesh operator()(std::uint32_t record) const {
+        const std::uint32_t id = packed_.triangles[record].primitiveId;
+        const auto nextTree = std::ranges::upper_bound(packed_.trees, record, {}, &PackedTree::firstRecord);
+        if (const auto tree = nextTree - packed_.trees.begin(); tree > 1)
+            return {&scene_.prototypes[static_cast<std::size_t>(tree) - 2], id};
+        const std::uint32_t index = id - layout::firstTriangleId;
+        // Meshes without triangles begin where the next one does; this finds the last of them.
+        const auto next = std::ranges::upper_bound(firstTriangles_, index);
+        return {&scene_.meshes[static_cast<std::size_t>(next - firstTriangles_.begin() - 1)],
+                index - *(next - 1)};
+    }
+
+  private:
+    const Scene &scene_;
+    const PackedScene &packed_;
+    std::vector<std::uint32_t> firstTriangles_;
+};
+
 /// Appends the texture coordinates of all triangle records; 0 for triangles without any.
 void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
-    std::vector<std::uint32_t> firstTriangles; // of each mesh
-    std::uint32_t count = 0;
-    for (const TriangleMesh &mesh : scene.meshes) {
-        firstTriangles.push_back(count);
-        count += static_cast<std::uint32_t>(mesh.triangles.size());
-    }
+    const MeshOfRecord meshOfRecord(scene, packed);
     const std::size_t first = rows.size();
     rows.resize(first + layout::rowsPerCoordinates * packed.triangles.size());
     const auto total = static_cast<std::int64_t>(packed.triangles.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t i = 0; i < total; ++i) {
         const std::size_t record = static_cast<std::size_t>(i);
-        const std::uint32_t index = packed.triangles[record].primitiveId - layout::firstTriangleId;
-        // Meshes without triangles begin where the next one does; this finds the last of them.
-        const auto next = std::upper_bound(firstTriangles.begin(), firstTriangles.end(), index);
-        const TriangleMesh &mesh = scene.meshes[static_cast<std::size_t>(next - firstTriangles.begin() - 1)];
+        const auto [meshAt, index] = meshOfRecord(static_cast<std::uint32_t>(i));
+        const TriangleMesh &mesh = *meshAt;
         if (mesh.triangleUvs.empty())
             continue;
-        const glm::uvec3 &corners = mesh.triangleUvs[index - *(next - 1)];
+        const glm::uvec3 &corners = mesh.triangleUvs[index];
         if (corners.x == TriangleMesh::noUv)
             continue;
         const glm::vec2 a = mesh.uvs[corners.x];

@@ -24,40 +24,96 @@ template <class Real> struct Hit {
     std::uint32_t record = 0;                      ///< its index among the sphere or the triangle records
     Real u = 0;                                    ///< weights of a triangle's first and second vertex
     Real v = 0;
+    std::uint32_t instance = layout::noInstance; ///< of a triangle
 };
 
 /// Whether the opacity texture cuts out the triangle at the hit.
 template <class Real>
-[[nodiscard]] bool isCutOut(const SceneView<Real> &scene, const layout::TriangleRecord &triangle,
+[[nodiscard]] bool isCutOut(const SceneView<Real> &scene, const TriangleRecord<Real> &triangle,
                             std::uint32_t record, const TriangleHit<Real> &hit) {
     return (triangle.flags & layout::triangleIsCutOut) != 0 &&
            isCutAway<Real>(scene, triangle.materialIndex, record, hit.u, hit.v);
 }
 
-/// Calls visit(record, hit) for every triangle that the ray hits, unless it is cut out there, in subtrees whose box it
+/// A ray in the scene's tree or, if there are instances, in that of a mesh where an instance places it.
+template <class Real, bool hasInstances> class TreeRay {
+  public:
+    TreeRay(const SceneView<Real> &scene, const Ray<Real> &ray)
+        : scene_(scene),
+          boxRay_(makeBoxRay(ray.origin, ray.direction, scene.frame.boundsLower, scene.frame.boundsUpper)),
+          triangleRay_(makeTriangleRay(ray.origin, ray.direction)) {}
+
+    /// An index of an instance, or layout::noInstance.
+    [[nodiscard]] std::uint32_t instance() const { return instance_; }
+
+    void enter(std::uint32_t instance) {
+        instance_ = instance;
+        if (instance == layout::noInstance)
+            return;
+        place_ = scene_.fetchInstance(instance);
+        placedRay_ = makePlacedBoxRay(boxRay_, place_);
+    }
+
+    [[nodiscard]] Vec2<Real> interval(const Vec3<Real> &lower, const Vec3<Real> &upper) const {
+        if (!hasInstances || instance_ == layout::noInstance)
+            return boxInterval(boxRay_, lower, upper);
+        return placedBoxInterval<Real>(placedRay_, Real(0.5) * (lower + upper), Real(0.5) * (upper - lower));
+    }
+
+    [[nodiscard]] TriangleRecord<Real> triangle(std::uint32_t record) const {
+        const TriangleRecord<Real> triangle = scene_.fetchTriangle(record);
+        return !hasInstances || instance_ == layout::noInstance ? triangle : placedTriangle(place_, triangle);
+    }
+
+    [[nodiscard]] TriangleHit<Real> meet(const TriangleRecord<Real> &triangle) const {
+        return intersectTriangle(triangleRay_, boxRay_, triangle.v0, triangle.v1, triangle.v2);
+    }
+
+  private:
+    const SceneView<Real> &scene_;
+    BoxRay<Real> boxRay_;
+    TriangleRay<Real> triangleRay_;
+    std::uint32_t instance_ = layout::noInstance;
+    InstanceRecord<Real> place_{};
+    PlacedBoxRay<Real> placedRay_{};
+};
+
+/// A triangle that a ray hits.
+template <class Real> struct Meeting {
+    TriangleRecord<Real> triangle; ///< in world space
+    std::uint32_t record;
+    std::uint32_t instance; ///< or layout::noInstance
+    TriangleHit<Real> hit;
+};
+
+/// Calls visit(meeting) for every triangle that the ray hits, unless it is cut out there, in subtrees whose box it
 /// enters at or before `reach`, which is read again at each node. `visit` returns false to stop. `counter` counts the
 /// work.
-template <class Real, class Counter, class Visitor>
+template <bool hasInstances, class Real, class Counter, class Visitor>
 [[gnu::flatten]] // GCC would call the triangle test in some builds and inline it in others: a quarter of the time
-void visitTriangles(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
-                    Visitor &&visit) {
-    if (!scene.hasTriangles)
-        return;
-    const BoxRay<Real> boxRay =
-        makeBoxRay(ray.origin, ray.direction, scene.frame.boundsLower, scene.frame.boundsUpper);
-    const TriangleRay<Real> triangleRay = makeTriangleRay(ray.origin, ray.direction);
-    std::array<std::uint32_t, layout::maxTreeDepth + 1> waiting;
+void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
+               const Visitor &visit) {
+    TreeRay<Real, hasInstances> treeRay(scene, ray);
+    std::array<std::uint32_t, 2 * layout::maxTreeDepth + 1> waiting;
     std::size_t waitingCount = 0;
     waiting[waitingCount++] = 0;
     while (waitingCount > 0) {
-        const std::uint32_t subtree = waiting[--waitingCount];
+        std::uint32_t subtree = waiting[--waitingCount];
+        if (hasInstances && subtree == layout::leaveInstance) {
+            treeRay.enter(layout::noInstance);
+            continue;
+        }
+        if (hasInstances && layout::isInstance(subtree)) {
+            treeRay.enter(layout::instanceOf(subtree));
+            waiting[waitingCount++] = layout::leaveInstance;
+            counter.waitSubtrees(waitingCount);
+            subtree = scene.packed.instances[treeRay.instance()].root;
+        }
         if ((subtree & layout::leafFlag) == 0) {
             const layout::NodePair &node = scene.packed.nodes[subtree];
             counter.visitNode(node);
-            const Vec2<Real> left =
-                boxInterval(boxRay, Vec3<Real>(node.leftLower), Vec3<Real>(node.leftUpper));
-            const Vec2<Real> right =
-                boxInterval(boxRay, Vec3<Real>(node.rightLower), Vec3<Real>(node.rightUpper));
+            const Vec2<Real> left = treeRay.interval(node.leftLower, node.leftUpper);
+            const Vec2<Real> right = treeRay.interval(node.rightLower, node.rightUpper);
             const bool isLeftHit = node.left != layout::noNode && left.x <= lesser(left.y, reach);
             const bool isRightHit = node.right != layout::noNode && right.x <= lesser(right.y, reach);
             const bool isRightNearer = right.x < left.x;
@@ -73,17 +129,26 @@ void visitTriangles(const SceneView<Real> &scene, const Ray<Real> &ray, const Re
             continue;
         }
         for (std::uint32_t record = subtree & ~layout::leafFlag;; ++record) {
-            const layout::TriangleRecord &triangle = scene.packed.triangles[record];
+            const TriangleRecord<Real> triangle = treeRay.triangle(record);
             counter.testTriangle();
-            const TriangleHit<Real> hit = intersectTriangle(triangleRay, boxRay, Vec3<Real>(triangle.v0),
-                                                            Vec3<Real>(triangle.v1), Vec3<Real>(triangle.v2));
+            const TriangleHit<Real> hit = treeRay.meet(triangle);
             if (hit.distance > 0 && triangle.primitiveId != ray.excluded &&
-                !isCutOut(scene, triangle, record, hit) && !visit(record, hit))
+                !isCutOut(scene, triangle, record, hit) &&
+                !visit(Meeting<Real>{triangle, record, treeRay.instance(), hit}))
                 return;
             if ((triangle.flags & layout::triangleEndsLeaf) != 0)
                 break;
         }
     }
+}
+
+template <class Real, class Counter, class Visitor>
+void visitTriangles(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
+                    const Visitor &visit) {
+    if (!scene.packed.instances.empty())
+        visitTree<true>(scene, ray, reach, counter, visit);
+    else if (scene.hasTriangles)
+        visitTree<false>(scene, ray, reach, counter, visit);
 }
 
 template <class Real, class Counter>
@@ -95,14 +160,13 @@ template <class Real, class Counter>
         if (distance > 0 && distance < nearest.distance)
             nearest = {distance, i, i};
     }
-    visitTriangles(scene, ray, nearest.distance, counter,
-                   [&](std::uint32_t record, const TriangleHit<Real> &hit) {
-                       const std::uint32_t id = scene.packed.triangles[record].primitiveId;
-                       if (hit.distance < nearest.distance ||
-                           (hit.distance == nearest.distance && id < nearest.primitive))
-                           nearest = {hit.distance, id, record, hit.u, hit.v};
-                       return true;
-                   });
+    visitTriangles(scene, ray, nearest.distance, counter, [&](const Meeting<Real> &found) {
+        const TriangleHit<Real> &hit = found.hit;
+        const std::uint32_t id = found.triangle.primitiveId;
+        if (hit.distance < nearest.distance || (hit.distance == nearest.distance && id < nearest.primitive))
+            nearest = {hit.distance, id, found.record, hit.u, hit.v, found.instance};
+        return true;
+    });
     return nearest;
 }
 
@@ -134,10 +198,10 @@ template <class Real, class Counter>
     }
     if (shadow.isBlocked)
         return shadow;
-    visitTriangles(scene, ray, length, counter, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
-        if (!(hit.distance < length))
+    visitTriangles(scene, ray, length, counter, [&](const Meeting<Real> &found) {
+        if (!(found.hit.distance < length))
             return true;
-        if ((scene.packed.triangles[record].flags & layout::triangleIsTransmissive) != 0)
+        if ((found.triangle.flags & layout::triangleIsTransmissive) != 0)
             shadow.isDimmed = true;
         else
             shadow.isBlocked = true;
@@ -164,8 +228,8 @@ template <class Real, class Counter>
     }
     if (isBlocked)
         return true;
-    visitTriangles(scene, ray, length, counter, [&](std::uint32_t record, const TriangleHit<Real> &hit) {
-        isBlocked = hit.distance < length && scene.packed.triangles[record].primitiveId != target;
+    visitTriangles(scene, ray, length, counter, [&](const Meeting<Real> &found) {
+        isBlocked = found.hit.distance < length && found.triangle.primitiveId != target;
         return !isBlocked;
     });
     return isBlocked;

@@ -42,9 +42,15 @@ template <class Real>
 [[nodiscard]] Surface<Real> hitSurface(const SceneView<Real> &scene, const Ray<Real> &ray,
                                        const Hit<Real> &hit, std::uint32_t &materialIndex) {
     if (hit.primitive >= layout::firstTriangleId) {
-        const TriangleRecord<Real> triangle = scene.fetchTriangle(hit.record);
+        TriangleRecord<Real> triangle = scene.fetchTriangle(hit.record);
+        NormalRecord<Real> normals = scene.fetchNormals(hit.record);
+        if (hit.instance != layout::noInstance) {
+            const InstanceRecord<Real> instance = scene.fetchInstance(hit.instance);
+            triangle = placedTriangle(instance, triangle);
+            normals = placedNormals(instance, normals);
+        }
         materialIndex = triangle.materialIndex;
-        Surface<Real> surface = triangleSurface(triangle, scene.fetchNormals(hit.record), hit.u, hit.v);
+        Surface<Real> surface = triangleSurface(triangle, normals, hit.u, hit.v);
         mapNormal(scene, ray, hit, surface, materialIndex,
                   [&] { return triangleTangent(triangle, fetchCoordinates(scene, hit.record)); });
         return surface;

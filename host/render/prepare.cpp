@@ -7,6 +7,7 @@
 #include "host/import/load.h"
 #include "host/report/progress.h"
 #include "host/scene/framing.h"
+#include "host/scene/instances.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 #include "host/scene/validate.h"
@@ -162,11 +163,16 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     validateWithOverrides(options, scene, prepared.loaded.file.string());
     prepared.crop = chooseCrop(options.crop, scene.camera);
     const Clock::time_point loaded = Clock::now();
+    // Without a tree all triangles are tested one by one, and have to be in one space.
+    const bool isFlattened = options.isFlattened || scene.settings.tree == TreeKind::None;
+    arrangeInstances(scene, isFlattened ? Flattening::All : Flattening::Useful);
     prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);
     warnOfOverlaps(prepared.bvh);
     prepared.packed = packScene(scene, prepared.bvh);
     if (source == Source::Dropped) {
         scene.meshes = {};
+        scene.prototypes = {};
+        scene.instances = {};
         scene.textures = {};
         prepared.bvh = {};
     }

@@ -31,6 +31,7 @@ struct SceneOptions {
     std::vector<double> background;
     std::vector<int> crop;
     std::vector<std::filesystem::path> allowedPaths;
+    bool isFlattened = false; ///< instances become meshes
 };
 
 /// An override that conflicts with the scene or with another one. `name` is that of the override: "crop", "look-at".

@@ -45,6 +45,9 @@ inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 22; ///< 
 inline constexpr std::size_t textureBytes = std::size_t{1} << 30; ///< of all textures together, on the device
 inline constexpr std::size_t materialCount = 65536;
 inline constexpr std::size_t meshCount = 4096;
-inline constexpr std::size_t triangleCount = std::size_t{1} << 30; ///< of all meshes together
+inline constexpr std::size_t triangleCount = (std::size_t{1} << 30) - 128; ///< of all meshes together
+inline constexpr std::size_t instanceCount = (std::size_t{1} << 30) - 128;
+/// Triangles of meshes and instances together: each has an id.
+inline constexpr std::size_t placedTriangleCount = layout::noPrimitive - layout::firstTriangleId;
 
 } // namespace hyalite::limits

@@ -93,6 +93,21 @@ struct TriangleMesh {
     }
 };
 
+/// An affine map to world space. A coordinate is ((row.x x + row.y y) + row.z z) + offset, each operation rounded to
+/// float: so that an instance and its flattened copy have the same bits (shaders/geometry/instance.glsl).
+struct Placement {
+    std::array<glm::vec3, 3> rows{glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f),
+                                  glm::vec3(0.0f, 0.0f, 1.0f)};
+    glm::vec3 offset{0.0f};
+};
+
+/// A place of a prototype. addInstances in instances.h adds them.
+struct Instance {
+    std::uint32_t prototype = 0;    ///< index in Scene::prototypes; of mirrored() ones where the map mirrors
+    Placement toWorld;              ///< its determinant is not 0
+    std::uint32_t meshesBefore = 0; ///< how many of Scene::meshes come before it in the input
+};
+
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 
@@ -127,11 +142,13 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Material> materials;
     std::vector<Sphere> spheres;
-    std::vector<TriangleMesh> meshes;
+    std::vector<TriangleMesh> meshes;     ///< in world space
+    std::vector<TriangleMesh> prototypes; ///< meshes in a space of their own, seen only as instances
+    std::vector<Instance> instances;      ///< in the order of the input
     RenderSettings settings;
 };
 
-/// Triangles of all meshes together.
+/// Triangles of all meshes together, without instances.
 [[nodiscard]] inline std::size_t triangleCount(const Scene &scene) {
     std::size_t count = 0;
     for (const TriangleMesh &mesh : scene.meshes)

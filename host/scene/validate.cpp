@@ -2,6 +2,7 @@
 
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
+#include "host/scene/instances.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 #include "host/scene/settings_table.h"
@@ -207,6 +208,44 @@ void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checke
     }
 }
 
+/// `sizes` are the largest coordinates of each prototype.
+void checkInstance(const Instance &instance, const std::vector<glm::dvec3> &sizes, const Checked &checked) {
+    checked.indexBelow(sizes.size(), instance.prototype, "prototype");
+    for (const glm::vec3 &row : instance.toWorld.rows)
+        checked.within(limits::coordinate, row, "row of its transform");
+    checked.within(limits::coordinate, instance.toWorld.offset, "offset of its transform");
+    if (determinant(instance.toWorld) == 0.0)
+        checked.refuse("transform", "one that makes everything flat", "one with a volume");
+    checked.within(limits::coordinate, placedExtent(instance.toWorld, sizes[instance.prototype]),
+                   "extent in world space");
+}
+
+void checkInstances(const Scene &scene, const std::string &sourceName) {
+    std::vector<glm::dvec3> sizes;
+    for (std::size_t i = 0; i < scene.prototypes.size(); ++i) {
+        const Checked checked(sourceName, "mesh with instances", i, scene.prototypes[i].name);
+        checkMesh(scene.prototypes[i], scene.materials.size(), checked);
+        checkTexturable(scene.prototypes[i], scene.materials, checked);
+        if (scene.prototypes[i].triangles.empty())
+            checked.refuse("triangles", "none", "at least one");
+        glm::vec3 size(0.0f);
+        for (const glm::vec3 &position : scene.prototypes[i].positions)
+            size = glm::max(size, glm::abs(position));
+        sizes.emplace_back(size);
+    }
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Checked checked(sourceName, "instance", i);
+        checkInstance(scene.instances[i], sizes, checked);
+        const std::uint32_t before = i == 0 ? 0 : scene.instances[i - 1].meshesBefore;
+        if (scene.instances[i].meshesBefore < before)
+            checked.refuse("meshes before it", fmt::format("{}", scene.instances[i].meshesBefore),
+                           fmt::format("at least {}, as for the instance before", before));
+    }
+    Checked(sourceName, "scene")
+        .atMost(limits::placedTriangleCount, inputOrder(scene).triangleCount,
+                "triangles, instances included");
+}
+
 void checkEnvironment(const Environment &environment, const Checked &checked) {
     checked.within(limits::rotateDegrees, environment.rotateDegrees, "rotateDegrees");
     checked.within(limits::environmentScale, environment.scale, "scale");
@@ -245,7 +284,9 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     whole.atMost(limits::materialCount, scene.materials.size(), "materials");
     whole.atMost(limits::sphereCount, scene.spheres.size(), "spheres");
     whole.atMost(limits::meshCount, scene.meshes.size(), "meshes");
+    whole.atMost(limits::meshCount, scene.prototypes.size(), "meshes with instances");
     whole.atMost(limits::triangleCount, triangleCount(scene), "triangles");
+    whole.atMost(limits::instanceCount, scene.instances.size(), "instances");
     whole.within(limits::radiance, scene.background, "background");
     checkEnvironment(scene.environment, {sourceName, "environment"});
     whole.within(limits::fraction, scene.shadowThroughGlass, "shadowThroughGlass");
@@ -287,6 +328,7 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
         checkMesh(scene.meshes[i], scene.materials.size(), checked);
         checkTexturable(scene.meshes[i], scene.materials, checked);
     }
+    checkInstances(scene, sourceName);
 }
 
 } // namespace hyalite

@@ -89,6 +89,7 @@ void loadSlot(uint slot, uint samplesInFilm) {
     path[slot].stackSize = 0u;
     path[slot].cursorNode = noNode;
     path[slot].cursorTriangle = noNode;
+    path[slot].cursorInstance = noInstance;
 }
 
 void storeSlot(uint slot) {

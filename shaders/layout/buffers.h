@@ -26,7 +26,8 @@ const uint bindingNodes = 3u; // node pairs, or skip nodes
     ARRAY(bindingMaterials, 7u,  materials, MaterialRecord, fetchMaterial) \
     ARRAY(bindingEmitters,  8u,  emitters,  EmitterRecord,  fetchEmitter) \
     ARRAY(bindingLookups,   9u,  lookups,   LookupRow,      fetchLookupRow) \
-    ARRAY(bindingTextures,  10u, textures,  TextureRow,     fetchTextureRow)
+    ARRAY(bindingTextures,  10u, textures,  TextureRow,     fetchTextureRow) \
+    ARRAY(bindingInstances, 11u, instances, InstanceRecord, fetchInstance)
 // clang-format on
 
 #define HYALITE_BINDING(number, value, name, Record, fetch) const uint number = value;

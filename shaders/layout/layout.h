@@ -76,12 +76,51 @@ struct NormalRecord {
     float pad2;
 };
 
+// ---- Instances A mesh that is stored once, in its own space, and placed many times. Its triangle records come after those
+// of the scene, and their primitiveId is the index in the mesh. Each coordinate of a vertex in world space is
+// ((m.x x + m.y y) + m.z z) + t, where every operation rounds: the host flattens instances by the same operations
+// (host/scene/instances.h), so that an instance and its flattened copy are hit alike, bit for bit.
+
+const uint noInstance = 0xFFFFFFFFu;
+
+struct InstanceRecord {
+    vec3 toX; // m, for the x coordinate
+    float offsetX;
+    vec3 toY;
+    float offsetY;
+    vec3 toZ;
+    float offsetZ;
+    // The same map from the grid of the mesh's skip lists, in halves of a cell.
+    vec3 gridToX;
+    float gridOffsetX;
+    vec3 gridToY;
+    float gridOffsetY;
+    vec3 gridToZ;
+    float gridOffsetZ;
+    vec3 slack;          // bound on the rounding of vertices and boxes, in world space (box.glsl)
+    uint firstPrimitive; // id of its first triangle
+    uint tree;           // index of the mesh among the meshes with instances
+    uint root;           // of the mesh's tree: a node pair
+    uint listBegin;      // of the mesh's tree in each of the two skip lists
+    uint listEnd;
+};
+
 // ---- The tree An inner node holds the boxes of both children, so that one fetch decides about two subtrees. A child
 // is an inner node (its index in the node array), a leaf (leafFlag | index of its first triangle; triangleEndsLeaf
-// marks the last one), or nothing (noNode). Node 0 is the root; every scene has one.
+// marks the last one), an instance (leafFlag | instanceFlag | its index), or nothing (noNode). Node 0 is the root; every
+// scene has one. The trees of meshes with instances come after it.
 
 const uint leafFlag = 0x80000000u;
+const uint instanceFlag = 0x40000000u; // beside leafFlag
 const uint noNode = 0xFFFFFFFFu;
+const uint leaveInstance = 0xFFFFFFFEu; // on a traversal stack: back to the scene's own tree
+
+// Whether a reference is that of an instance.
+HYALITE_INLINE bool isInstance(uint reference) {
+    return reference >= (leafFlag | instanceFlag) && reference < leaveInstance;
+}
+
+HYALITE_INLINE uint instanceOf(uint reference) { return reference & ~(leafFlag | instanceFlag); }
 
 struct NodePair {
     vec3 leftLower;
@@ -336,9 +375,10 @@ struct FrameRecord {
     float focusDistance;          // along the view direction
     float radianceLimit; // path: maximum that indirect light adds to a sample, per channel; or infinity
     uint filterTexels;   // the first one
+    uint
+        topListLength; // nodes of the scene's own tree in each skip list; those of meshes with instances follow
     uint pad0;
     uint pad1;
-    uint pad2;
 };
 
 // ---- Dispatch constants A dispatch works on one tile of the film, with `samplesAbreast` path slots for each pixel.
@@ -466,6 +506,10 @@ struct PathRecord {
     uint cursorTriangle; // the triangle of the leaf to test next, or noNode
     uint stackSize;      // subtrees in the stack buffer
     uint isLightDimmed;  // 1: the shadow ray has passed glass
+    uint cursorInstance; // whose tree the cursor is in, or noInstance
+    uint cursorReturn;   // skip lists: the node after the instance's own
+    uint hitInstance;    // of the triangle at the nearest hit so far, or noInstance
+    uint pad0;
     // Of the path integrator:
     vec3 scatterDirection; // of the ray that leaves the surface
     float scatterPdf;      // of the current ray's direction, per solid angle; 0: a specular direction
@@ -516,12 +560,14 @@ const uint constantScattering = 18u;  // path: bits scattersAt...
 const uint constantLighting = 19u;
 const uint constantCamera = 20u;
 const uint constantTexturing = 21u;
-const uint constantCount = 22u;
+const uint constantHasInstances = 22u;
+const uint constantCount = 23u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, radius) == 16);
 static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) == 44);
 static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
+static_assert(sizeof(InstanceRecord) == 128 && offsetof(InstanceRecord, slack) == 96);
 static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
 static_assert(sizeof(MaterialRecord) == 128 && offsetof(MaterialRecord, normalReflectance) == 112);
@@ -537,7 +583,7 @@ static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 byte
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
 static_assert(sizeof(DispatchProgress) == 64);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
-static_assert(sizeof(PathRecord) == 224 && offsetof(PathRecord, rayTarget) == 192);
+static_assert(sizeof(PathRecord) == 240 && offsetof(PathRecord, rayTarget) == 208);
 static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
 } // namespace hyalite::layout
 #endif

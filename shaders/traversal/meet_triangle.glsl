@@ -3,9 +3,9 @@
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 
-// Tests a triangle and records a hit. isShadow: an opaque hit ends the search and returns true, and glass only dims;
+// Tests a triangle in world space and records a hit; `record` and `instance` are where it comes from. isShadow: an opaque hit ends the search and returns true, and glass only dims;
 // otherwise the nearest hit is kept.
-bool meetTriangle(uint slot, uint record, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
+bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
                   const bool isShadow) {
     TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
     uint id = triangle.primitiveId;
@@ -31,6 +31,7 @@ bool meetTriangle(uint slot, uint record, TriangleRecord triangle, TriangleRay r
         path[slot].hitV = hit.v;
         path[slot].hitPrimitive = id;
         path[slot].hitRecord = record;
+        path[slot].hitInstance = instance;
     }
     return false;
 }

@@ -125,13 +125,27 @@ void mapNormal(uint slot, inout Surface surface, uint materialIndex, Tangent tan
     surface.normal = visibleNormal(path[slot].rayDirection, mapped, surface.geometricNormal);
 }
 
+// The triangle at the hit, in world space.
+TriangleRecord hitTriangle(uint slot) {
+    TriangleRecord triangle = fetchTriangle(path[slot].hitRecord);
+    if (hasInstances && path[slot].hitInstance != noInstance)
+        return placedTriangle(fetchInstance(path[slot].hitInstance), triangle);
+    return triangle;
+}
+
+NormalRecord hitNormals(uint slot) {
+    NormalRecord normals = fetchNormals(path[slot].hitRecord);
+    if (hasInstances && path[slot].hitInstance != noInstance)
+        return placedNormals(fetchInstance(path[slot].hitInstance), normals);
+    return normals;
+}
+
 // The surface at the hit.
 Surface hitSurface(uint slot, out uint materialIndex) {
     if (isTriangle(path[slot].hitPrimitive)) {
-        TriangleRecord triangle = fetchTriangle(path[slot].hitRecord);
+        TriangleRecord triangle = hitTriangle(slot);
         materialIndex = triangle.materialIndex;
-        Surface surface =
-            triangleSurface(triangle, fetchNormals(path[slot].hitRecord), path[slot].hitU, path[slot].hitV);
+        Surface surface = triangleSurface(triangle, hitNormals(slot), path[slot].hitU, path[slot].hitV);
         if ((texturing & texturesNormal) != 0u)
             mapNormal(slot, surface, materialIndex, triangleTangent(triangle, fetchCoordinates(path[slot].hitRecord)));
         return surface;

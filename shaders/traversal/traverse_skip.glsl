@@ -25,20 +25,44 @@ GridRay makeGridRay(vec3 origin, BoxRay ray) {
     return GridRay(scale, base - outward, base + outward);
 }
 
+// Where there are instances, boxes are tested as those of placed meshes (instance.glsl), the scene's own tree included:
+// its coordinates are those of its grid, in halves of a cell. The slack is 24 units of rounding of the grid's extent.
+PlacedBoxRay makeTopRay(BoxRay ray) {
+    vec3 cell = frame.gridScale * 0.5;
+    return makePlacedBoxRay(ray, vec3(cell.x, 0.0, 0.0), vec3(0.0, cell.y, 0.0), vec3(0.0, 0.0, cell.z),
+                            frame.gridMiddle, frame.gridScale * (24.0 * 32768.0 / 16777216.0));
+}
+
+PlacedBoxRay makeInstanceRay(BoxRay ray, InstanceRecord instance) {
+    return makePlacedBoxRay(ray, instance.gridToX, instance.gridToY, instance.gridToZ,
+                            vec3(instance.gridOffsetX, instance.gridOffsetY, instance.gridOffsetZ), instance.slack);
+}
+
 // The list in which nearer siblings mostly come first for this direction: the second list if the largest component is
 // negative.
 uint skipListFor(vec3 direction) {
     return largestComponent(abs(direction)) != largestComponent(direction) ? 1u : 0u;
 }
 
+// The end of the scene's own tree in that list.
+int topEnd(vec3 direction) { return int(skipListFor(direction) * frame.skipListLength + frame.topListLength); }
+
+// The list for a mesh which an instance places.
+uint skipListFor(vec3 direction, InstanceRecord instance) {
+    vec3 turned = instance.toX * direction.x + instance.toY * direction.y + instance.toZ * direction.z;
+    return skipListFor(turned);
+}
+
 void enterTree(uint slot) {
     path[slot].cursorNode = skipListFor(path[slot].rayDirection) * frame.skipListLength;
     path[slot].cursorTriangle = noNode;
+    path[slot].cursorInstance = noInstance;
 }
 
 void stopTraversal(uint slot) {
     path[slot].cursorNode = noNode;
     path[slot].cursorTriangle = noNode;
+    path[slot].cursorInstance = noInstance;
 }
 
 // Cursor of a ray in the tree, in signed integers, which CPUs compare faster.
@@ -47,20 +71,36 @@ struct Cursor {
     int end;          // of its list; 0: the slot has no ray to trace
     int leaf;         // leafFlag | the next triangle to test, or 0
     bool isSearching; // for the next leaf
+    uint instance;    // whose tree it is in, or noInstance
+    int following;    // then the node after the instance's own
 };
 
 bool isBeforeLeaf(Cursor cursor) { return cursor.leaf == 0 && cursor.node < cursor.end; }
 
-// A cursor on a triangle, or at the end, does not move.
-void visitNode(inout Cursor cursor, GridRay ray, float rayLength) {
-    SkipNode node = fetchSkipNode(uint(cursor.node));
-    ivec3 planes = ivec3(node.x, node.y, node.z);
-    int link = int(node.link);
+vec2 gridBoxInterval(GridRay ray, ivec3 planes) {
     vec3 toLower = ray.lower + vec3(planes << 16u) * ray.scale;
     vec3 toUpper = ray.upper + vec3(planes) * ray.scale;
     float enter = greater(largestComponent(lesser(toLower, toUpper)), 0.0);
-    float leave = lesser(smallestComponent(greater(toLower, toUpper)), rayLength);
-    bool isHit = enter <= leave;
+    return vec2(enter, smallestComponent(greater(toLower, toUpper)));
+}
+
+vec2 gridBoxInterval(PlacedBoxRay ray, ivec3 planes) {
+    ivec3 lower = planes << 16u >> 16u;
+    ivec3 upper = planes >> 16u;
+    return placedBoxInterval(ray, vec3(lower + upper), vec3(upper - lower));
+}
+
+// A cursor on a triangle, or at the end, does not move.
+void visitNode(inout Cursor cursor, GridRay ray, PlacedBoxRay placedRay, float rayLength) {
+    SkipNode node = fetchSkipNode(uint(cursor.node));
+    ivec3 planes = ivec3(node.x, node.y, node.z);
+    int link = int(node.link);
+    vec2 interval;
+    if (hasInstances)
+        interval = gridBoxInterval(placedRay, planes);
+    else
+        interval = gridBoxInterval(ray, planes);
+    bool isHit = interval.x <= lesser(interval.y, rayLength);
     int following = cursor.node + 1;
     int next = isHit ? following : max(link, following); // the link of a leaf is negative
     int leaf = isHit ? min(link, 0) : 0;
@@ -69,8 +109,26 @@ void visitNode(inout Cursor cursor, GridRay ray, float rayLength) {
     cursor.isSearching = isBeforeLeaf(cursor);
 }
 
+// Moves a cursor that has found an instance to the tree of its mesh.
+void enterInstance(inout Cursor cursor, vec3 direction, InstanceRecord instance) {
+    int list = int(skipListFor(direction, instance) * frame.skipListLength);
+    cursor.following = cursor.node;
+    cursor.node = list + int(instance.listBegin);
+    cursor.end = list + int(instance.listEnd);
+    cursor.leaf = 0;
+}
+
+// Moves a cursor out of the tree of an instance's mesh, to `node` of the scene's own.
+void leaveTree(inout Cursor cursor, vec3 direction, int node) {
+    cursor.node = node;
+    cursor.end = topEnd(direction);
+    cursor.instance = noInstance;
+}
+
 void traverse(uint stage, const bool isShadow) {
     GridRay gridRay[RAYS];
+    PlacedBoxRay placedRay[RAYS];
+    InstanceRecord instance[RAYS];
     BoxRay boxRay[RAYS];
     TriangleRay triangleRay[RAYS];
     Cursor cursor[RAYS];
@@ -79,12 +137,24 @@ void traverse(uint stage, const bool isShadow) {
         vec3 direction = path[slot].rayDirection;
         boxRay[slot] = makeBoxRay(origin, direction, frame.boundsLower, frame.boundsUpper);
         triangleRay[slot] = makeTriangleRay(origin, direction);
-        gridRay[slot] = makeGridRay(origin, boxRay[slot]);
+        if (hasInstances)
+            placedRay[slot] = makeTopRay(boxRay[slot]);
+        else
+            gridRay[slot] = makeGridRay(origin, boxRay[slot]);
         bool isMine = path[slot].stage == stage && isTraversing(slot);
         bool isAtLeaf = path[slot].cursorTriangle != noNode;
         cursor[slot].node = isMine ? int(path[slot].cursorNode) : 0;
-        cursor[slot].end = isMine ? int((skipListFor(direction) + 1u) * frame.skipListLength) : 0;
+        cursor[slot].end = isMine ? topEnd(direction) : 0;
         cursor[slot].leaf = isMine && isAtLeaf ? int(path[slot].cursorTriangle | leafFlag) : 0;
+        cursor[slot].instance = noInstance;
+        if (hasInstances && isMine && path[slot].cursorInstance != noInstance) {
+            cursor[slot].instance = path[slot].cursorInstance;
+            cursor[slot].following = int(path[slot].cursorReturn);
+            instance[slot] = fetchInstance(cursor[slot].instance);
+            placedRay[slot] = makeInstanceRay(boxRay[slot], instance[slot]);
+            cursor[slot].end =
+                int(skipListFor(direction, instance[slot]) * frame.skipListLength + instance[slot].listEnd);
+        }
     }
     bool isRunning;
     do {
@@ -95,12 +165,20 @@ void traverse(uint stage, const bool isShadow) {
             isAnySearching = false;
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
                 countSlot(slot, cursor[slot].isSearching, uvec3(1u, 1u, 0u));
-                visitNode(cursor[slot], gridRay[slot], path[slot].rayLength);
+                visitNode(cursor[slot], gridRay[slot], placedRay[slot], path[slot].rayLength);
                 isAnySearching = isAnySearching || cursor[slot].isSearching;
             }
             countPass();
             stepsTaken += 1u;
         } while (isAnySearching && stepsTaken < dispatch.stepBudget);
+        if (hasInstances)
+            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+                if (isInstance(uint(cursor[slot].leaf))) {
+                    cursor[slot].instance = instanceOf(uint(cursor[slot].leaf));
+                    instance[slot] = fetchInstance(cursor[slot].instance);
+                    placedRay[slot] = makeInstanceRay(boxRay[slot], instance[slot]);
+                    enterInstance(cursor[slot], path[slot].rayDirection, instance[slot]);
+                }
         do {
             isRunning = false;
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
@@ -109,9 +187,13 @@ void traverse(uint stage, const bool isShadow) {
                     uint record = uint(cursor[slot].leaf) & ~leafFlag;
                     TriangleRecord triangle = fetchTriangle(record);
                     cursor[slot].leaf = (triangle.flags & triangleEndsLeaf) != 0u ? 0 : cursor[slot].leaf + 1;
-                    if (meetTriangle(slot, record, triangle, triangleRay[slot], boxRay[slot], isShadow)) {
+                    if (hasInstances && cursor[slot].instance != noInstance)
+                        triangle = placedTriangle(instance[slot], triangle);
+                    if (meetTriangle(slot, record, cursor[slot].instance, triangle, triangleRay[slot], boxRay[slot],
+                                     isShadow)) {
                         cursor[slot].leaf = 0;
                         cursor[slot].node = cursor[slot].end;
+                        cursor[slot].following = topEnd(path[slot].rayDirection);
                     }
                 }
                 isRunning = isRunning || cursor[slot].leaf != 0;
@@ -119,8 +201,14 @@ void traverse(uint stage, const bool isShadow) {
             countPass();
             stepsTaken += 1u;
         } while (isRunning && stepsTaken < dispatch.stepBudget);
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+            bool hasLeft = cursor[slot].leaf == 0 && cursor[slot].node >= cursor[slot].end;
+            if (hasInstances && cursor[slot].instance != noInstance && hasLeft) {
+                placedRay[slot] = makeTopRay(boxRay[slot]);
+                leaveTree(cursor[slot], path[slot].rayDirection, cursor[slot].following);
+            }
             isRunning = isRunning || cursor[slot].node < cursor[slot].end;
+        }
         stepsTaken += 1u;
     } while (isRunning && stepsTaken < dispatch.stepBudget);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
@@ -130,5 +218,7 @@ void traverse(uint stage, const bool isShadow) {
         bool isDone = !isAtLeaf && cursor[slot].node >= cursor[slot].end;
         path[slot].cursorNode = isDone ? noNode : uint(cursor[slot].node);
         path[slot].cursorTriangle = isAtLeaf ? uint(cursor[slot].leaf) & ~leafFlag : noNode;
+        path[slot].cursorInstance = cursor[slot].instance;
+        path[slot].cursorReturn = uint(cursor[slot].following);
     }
 }

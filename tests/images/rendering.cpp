@@ -24,8 +24,7 @@ Scene shippedScene(const std::string &name, int width, int height, int samplesPe
 
 PackedScene pack(const Scene &scene, std::size_t maxDecoded) {
     validateScene(scene, "the test");
-    return packScene(scene, buildBvh(scene.settings.tree, buildTriangles(scene), scene.settings.leafSize),
-                     maxDecoded);
+    return packScene(scene, buildBvh(scene.settings.tree, scene, scene.settings.leafSize), maxDecoded);
 }
 
 gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config, std::size_t maxDecoded) {

@@ -77,16 +77,18 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(ice.priority, -2);
     EXPECT_EQ(ice.roughness, 0.3f);
 
-    ASSERT_EQ(scene.meshes.size(), 1u);
-    ASSERT_EQ(scene.meshes[0].triangles.size(), 1u);
-    const Material &paper = scene.materials.at(scene.meshes[0].materialIndex);
+    ASSERT_EQ(scene.prototypes.size(), 1u);
+    EXPECT_EQ(scene.instances.size(), 1u);
+    EXPECT_TRUE(scene.meshes.empty());
+    ASSERT_EQ(scene.prototypes[0].triangles.size(), 1u);
+    const Material &paper = scene.materials.at(scene.prototypes[0].materialIndex);
     EXPECT_EQ(paper.name, "paper");
     EXPECT_EQ(paper.kind, MaterialKind::Diffuse);
     EXPECT_EQ(paper.albedo, glm::vec3(0.25f, 0.5f, 1.0f));
     EXPECT_TRUE(paper.twoSided);
     EXPECT_EQ(paper.emission, glm::vec3(1.0f, 2.0f, 3.0f));
     // The corner (1, 0, 0): scaled to (2, 0, 0), turned about z to (0, 2, 0), moved to (0, 2, -5).
-    const glm::vec3 corner = scene.meshes[0].positions.at(scene.meshes[0].triangles[0].positions[1]);
+    const glm::vec3 corner = scene.prototypes[0].positions.at(scene.prototypes[0].triangles[0].positions[1]);
     EXPECT_NEAR(corner.x, 0.0, 1e-6);
     EXPECT_NEAR(corner.y, 2.0, 1e-6);
     EXPECT_NEAR(corner.z, -5.0, 1e-6);
@@ -308,8 +310,8 @@ TEST_F(SceneJson, OnlyRegularFilesOfAModestSizeAreRead) {
     EXPECT_EQ(refusalOf(pipe), " is a pipe, not a regular file; name a file");
 
     const std::filesystem::path large = write("large.json", "{}");
-    std::filesystem::resize_file(large, (64u << 20) + 1); // sparse
-    EXPECT_NE(refusalOf(large).find("64 MiB"), std::string::npos);
+    std::filesystem::resize_file(large, (512u << 20) + 1); // sparse
+    EXPECT_NE(refusalOf(large).find("512 MiB"), std::string::npos);
 }
 
 TEST_F(SceneJson, TexturesAreFactors) {

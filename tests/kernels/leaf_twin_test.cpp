@@ -88,6 +88,24 @@ vec3 drawOrigin(Draw &draw, const Box &box) {
     return origin;
 }
 
+// ---- Instances
+
+/// The members that leaves read. Rows may be much longer than others, but are not 0.
+layout::InstanceRecord drawInstance(Draw &draw, Words &input) {
+    const auto row = [&] { return draw.direction() * (draw.chance(4) ? 0x1p-12f : 1.0f); };
+    layout::InstanceRecord instance{};
+    instance.toX = row();
+    instance.toY = row();
+    instance.toZ = row();
+    const vec3 offset = draw.point();
+    instance.offsetX = offset.x;
+    instance.offsetY = offset.y;
+    instance.offsetZ = offset.z;
+    instance.slack = glm::abs(draw.point()) * 0x1p-20f;
+    input << instance.toX << instance.toY << instance.toZ << offset << instance.slack;
+    return instance;
+}
+
 // ---- Triangles
 
 struct Triangle {
@@ -570,6 +588,37 @@ const LeafTwin leafTwins[] = {
          const vec2 interval =
              boxInterval(reference::makeBoxRay(origin, direction, lower, upper), box.lower, box.upper);
          expected << interval.x << interval.y;
+     }},
+    {"InstancePlacedBoxInterval", probePlacedBoxInterval,
+     [](Draw &draw, Words &input, Words &expected) {
+         const Box box = drawBox(draw);
+         const vec3 origin = drawOrigin(draw, box);
+         const vec3 direction = draw.direction();
+         const vec3 lower = box.lower - vec3(1.0f);
+         const vec3 upper = box.upper + vec3(1.0f);
+         input << origin << direction << lower << upper;
+         const layout::InstanceRecord instance = drawInstance(draw, input);
+         const vec3 middle = 0.5f * (box.lower + box.upper);
+         const vec3 extent = 0.5f * (box.upper - box.lower);
+         input << middle << extent;
+         const auto placed = reference::makePlacedBoxRay<float>(
+             reference::makeBoxRay(origin, direction, lower, upper), instance);
+         const vec2 interval = reference::placedBoxInterval(placed, middle, extent);
+         expected << interval.x << interval.y;
+     }},
+    {"InstancePlacedPoint", probePlacedPoint,
+     [](Draw &draw, Words &input, Words &expected) {
+         const layout::InstanceRecord instance = drawInstance(draw, input);
+         const vec3 point = draw.point();
+         input << point;
+         expected << reference::placedPoint<float>(instance, point);
+     }},
+    {"InstancePlacedNormal", probePlacedNormal,
+     [](Draw &draw, Words &input, Words &expected) {
+         const layout::InstanceRecord instance = drawInstance(draw, input);
+         const vec3 normal = draw.chance(8) ? vec3(0.0f) : draw.direction();
+         input << normal;
+         expected << reference::placedNormal<float>(instance, normal);
      }},
     {"TriangleMakeTriangleRay", probeMakeTriangleRay,
      [](Draw &draw, Words &input, Words &expected) {

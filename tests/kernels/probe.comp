@@ -83,6 +83,20 @@ BoxRay takeBoxRay(vec3 origin, vec3 direction) {
     return makeBoxRay(origin, direction, lower, takeVec3());
 }
 
+// The members that are read.
+InstanceRecord takeInstance() {
+    InstanceRecord instance;
+    instance.toX = takeVec3();
+    instance.toY = takeVec3();
+    instance.toZ = takeVec3();
+    vec3 offset = takeVec3();
+    instance.offsetX = offset.x;
+    instance.offsetY = offset.y;
+    instance.offsetZ = offset.z;
+    instance.slack = takeVec3();
+    return instance;
+}
+
 void main() {
     loadConstants();
     inputCursor = gl_GlobalInvocationID.x * inputWordCount;
@@ -190,6 +204,24 @@ void main() {
         BoxRay ray = takeBoxRay(origin, takeVec3());
         vec3 lower = takeVec3();
         give(boxInterval(ray, lower, takeVec3()));
+        break;
+    }
+    case probePlacedBoxInterval: {
+        vec3 origin = takeVec3();
+        BoxRay ray = takeBoxRay(origin, takeVec3());
+        PlacedBoxRay placedRay = makePlacedBoxRay(ray, takeInstance());
+        vec3 middle = takeVec3();
+        give(placedBoxInterval(placedRay, middle, takeVec3()));
+        break;
+    }
+    case probePlacedPoint: {
+        InstanceRecord instance = takeInstance();
+        give(placedPoint(instance, takeVec3()));
+        break;
+    }
+    case probePlacedNormal: {
+        InstanceRecord instance = takeInstance();
+        give(placedNormal(instance, takeVec3()));
         break;
     }
     case probeMakeTriangleRay: {

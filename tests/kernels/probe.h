@@ -64,6 +64,9 @@ const uint probeTriangleUv = 49u;
 const uint probeSphereUv = 50u;
 const uint probeMappedNormal = 51u;
 const uint probeVisibleNormal = 52u;
+const uint probePlacedBoxInterval = 53u;
+const uint probePlacedPoint = 54u;
+const uint probePlacedNormal = 55u;
 
 // Two bindings and three specialization constants beyond those of the renderer's kernels.
 const uint bindingProbeInputs = bindingCount;

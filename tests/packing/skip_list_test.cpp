@@ -42,8 +42,10 @@ std::pair<glm::dvec3, glm::dvec3> boxOf(const SkipList &list, const layout::Skip
     for (int axis = 0; axis < 3; ++axis) {
         const auto low = static_cast<std::int16_t>(words[axis] & 0xFFFFu);
         const auto high = static_cast<std::int16_t>(words[axis] >> 16);
-        lower[axis] = list.gridMiddle[axis] + static_cast<double>(list.gridScale[axis]) * low;
-        upper[axis] = list.gridMiddle[axis] + static_cast<double>(list.gridScale[axis]) * high;
+        lower[axis] = list.trees.front().grid.middle[axis] +
+                      static_cast<double>(list.trees.front().grid.scale[axis]) * low;
+        upper[axis] = list.trees.front().grid.middle[axis] +
+                      static_cast<double>(list.trees.front().grid.scale[axis]) * high;
     }
     return {lower, upper};
 }

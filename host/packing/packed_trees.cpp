@@ -1,0 +1,210 @@
+#include "host/packing/packed_trees.h"
+
+#include "host/scene/instances.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::uint32_t nowhere =
+    std::numeric_limits<std::uint32_t>::max(); // triangles that the tree dropped
+
+/// Whether a loop of `count` iterations is long enough for several threads.
+bool isLong(std::int64_t count) { return count > 8192; }
+
+/// The place of each entry of a tree's order among the records: triangles and instances have arrays of their own.
+std::vector<std::uint32_t> recordsOf(const Bvh &bvh, std::uint32_t firstTriangleRecord) {
+    std::vector<std::uint32_t> records;
+    records.reserve(bvh.order.size());
+    std::uint32_t instanceCount = 0;
+    std::uint32_t triangleRecord = firstTriangleRecord;
+    for (const std::uint32_t inputIndex : bvh.order)
+        records.push_back(bvh.isInstance(inputIndex) ? instanceCount++ : triangleRecord++);
+    return records;
+}
+
+/// Writes the records of a mesh: `recordOf` has the index of each, or `nowhere`. Ids count from `firstId`.
+void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const std::uint32_t> recordOf,
+                   std::uint32_t firstId, std::span<const std::uint32_t> packedMaterial,
+                   PackedScene &packed) {
+    const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+#pragma omp parallel for schedule(static) if (isLong(count))
+    for (std::int64_t i = 0; i < count; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        const MeshTriangle &corner = mesh.triangles[index];
+        const std::uint32_t record = recordOf[index];
+        if (record == nowhere)
+            continue;
+        layout::TriangleRecord &triangle = packed.triangles[record];
+        triangle.v0 = mesh.positions[corner.positions.x];
+        triangle.v1 = mesh.positions[corner.positions.y];
+        triangle.v2 = mesh.positions[corner.positions.z];
+        triangle.primitiveId = firstId + static_cast<std::uint32_t>(i);
+        const std::uint32_t material = mesh.materialOf(index);
+        const bool isTransmissive = scene.materials[material].kind == MaterialKind::Dielectric;
+        triangle.materialIndex = packedMaterial[material];
+        const bool isCutOut = scene.materials[material].textures[layout::slotOpacity].has_value();
+        triangle.flags = (isTransmissive ? layout::triangleIsTransmissive : 0u) |
+                         (isCutOut ? layout::triangleIsCutOut : 0u);
+        layout::NormalRecord &normals = packed.normals[record];
+        const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
+        normals.n0 = hasNormals ? mesh.normals[corner.normals.x] : glm::vec3(0.0f);
+        normals.n1 = hasNormals ? mesh.normals[corner.normals.y] : glm::vec3(0.0f);
+        normals.n2 = hasNormals ? mesh.normals[corner.normals.z] : glm::vec3(0.0f);
+    }
+}
+
+/// Marks the last triangle of each leaf.
+void endLeaves(const Bvh &bvh, std::span<const std::uint32_t> records, PackedScene &packed) {
+    for (const BvhNode &node : bvh.nodes)
+        if (node.isLeaf() && !bvh.isInstance(bvh.order[node.first]))
+            packed.triangles[records[node.first + node.count - 1]].flags |= layout::triangleEndsLeaf;
+}
+
+std::uint32_t leafReference(const Bvh &bvh, std::span<const std::uint32_t> records, const BvhNode &leaf) {
+    return layout::leafFlag | (bvh.isInstance(bvh.order[leaf.first]) ? layout::instanceFlag : 0u) |
+           records[leaf.first];
+}
+
+/// Appends the inner nodes in the order of their creation, which is depth first, so that a left child is close to its
+/// parent.
+void packNodes(const Bvh &bvh, std::span<const std::uint32_t> records, PackedScene &packed) {
+    const auto emptyPair = [] {
+        layout::NodePair pair{};
+        pair.left = layout::noNode;
+        pair.right = layout::noNode;
+        return pair;
+    };
+    if (bvh.nodes.empty() || bvh.nodes.front().isLeaf()) {
+        layout::NodePair root = emptyPair();
+        if (!bvh.nodes.empty()) {
+            root.leftLower = bvh.nodes.front().box.lower;
+            root.leftUpper = bvh.nodes.front().box.upper;
+            root.left = leafReference(bvh, records, bvh.nodes.front());
+        }
+        packed.nodes.push_back(root);
+        return;
+    }
+    std::vector<std::uint32_t> reference(bvh.nodes.size());
+    auto innerCount = static_cast<std::uint32_t>(packed.nodes.size());
+    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
+        reference[i] = bvh.nodes[i].isLeaf() ? leafReference(bvh, records, bvh.nodes[i]) : innerCount++;
+    packed.nodes.resize(innerCount);
+    const auto nodeCount = static_cast<std::int64_t>(bvh.nodes.size());
+#pragma omp parallel for schedule(static) if (isLong(nodeCount))
+    for (std::int64_t i = 0; i < nodeCount; ++i) {
+        const BvhNode &node = bvh.nodes[static_cast<std::size_t>(i)];
+        if (node.isLeaf())
+            continue;
+        layout::NodePair &pair = packed.nodes[reference[static_cast<std::size_t>(i)]];
+        const BvhNode &left = bvh.nodes[node.first];
+        const BvhNode &right = bvh.nodes[node.first + 1];
+        pair.leftLower = left.box.lower;
+        pair.leftUpper = left.box.upper;
+        pair.left = reference[node.first];
+        pair.rightLower = right.box.lower;
+        pair.rightUpper = right.box.upper;
+        pair.right = reference[node.first + 1];
+    }
+}
+
+/// Makes room for a tree's triangles.
+PackedTree beginTree(const Bvh &bvh, std::size_t triangleCount, PackedScene &packed) {
+    PackedTree tree;
+    tree.firstPair = static_cast<std::uint32_t>(packed.nodes.size());
+    tree.firstRecord = static_cast<std::uint32_t>(packed.triangles.size());
+    if (!bvh.nodes.empty())
+        tree.box = bvh.nodes.front().box;
+    packed.triangles.resize(packed.triangles.size() + triangleCount);
+    packed.normals.resize(packed.triangles.size());
+    return tree;
+}
+
+void packSceneTree(const Scene &scene, const Bvh &bvh, const InputOrder &order,
+                   std::span<const std::uint32_t> packedMaterial, PackedScene &packed) {
+    const auto isTriangle = [&](std::uint32_t inputIndex) { return !bvh.isInstance(inputIndex); };
+    packed.trees.push_back(
+        beginTree(bvh, static_cast<std::size_t>(std::ranges::count_if(bvh.order, isTriangle)), packed));
+    const std::vector<std::uint32_t> records = recordsOf(bvh, 0);
+    std::vector<std::uint32_t> recordOf(triangleCount(scene), nowhere); // of each triangle
+    const auto total = static_cast<std::int64_t>(bvh.order.size());
+#pragma omp parallel for schedule(static) if (isLong(total))
+    for (std::int64_t i = 0; i < total; ++i)
+        if (isTriangle(bvh.order[static_cast<std::size_t>(i)]))
+            recordOf[bvh.order[static_cast<std::size_t>(i)]] = records[static_cast<std::size_t>(i)];
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const TriangleMesh &mesh = scene.meshes[i];
+        packTriangles(scene, mesh, std::span(recordOf).subspan(first, mesh.triangles.size()),
+                      layout::firstTriangleId + order.meshes[i], packedMaterial, packed);
+        first += mesh.triangles.size();
+    }
+    endLeaves(bvh, records, packed);
+    packNodes(bvh, records, packed);
+}
+
+/// The triangles' ids are their indices in the mesh; an instance adds that of its first one.
+void packPrototype(const Scene &scene, const TriangleMesh &mesh, const Bvh &bvh,
+                   std::span<const std::uint32_t> packedMaterial, PackedScene &packed) {
+    packed.trees.push_back(beginTree(bvh, bvh.order.size(), packed));
+    const std::vector<std::uint32_t> records = recordsOf(bvh, packed.trees.back().firstRecord);
+    std::vector<std::uint32_t> recordOf(mesh.triangles.size());
+    for (std::size_t i = 0; i < records.size(); ++i)
+        recordOf[bvh.order[i]] = records[i];
+    packTriangles(scene, mesh, recordOf, 0, packedMaterial, packed);
+    endLeaves(bvh, records, packed);
+    packNodes(bvh, records, packed);
+}
+
+layout::InstanceRecord packInstance(const Instance &instance, std::uint32_t firstTriangle,
+                                    const PackedTree &tree) {
+    const Placement &placement = instance.toWorld;
+    layout::InstanceRecord record{};
+    record.toX = placement.rows[0];
+    record.toY = placement.rows[1];
+    record.toZ = placement.rows[2];
+    record.offsetX = placement.offset.x;
+    record.offsetY = placement.offset.y;
+    record.offsetZ = placement.offset.z;
+    // The bound of instance.glsl. The grid of skip lists reaches a little beyond the box, hence more than 24.
+    constexpr double roundings = 25.0 / 16777216.0;
+    const glm::dvec3 size(glm::max(glm::abs(tree.box.lower), glm::abs(tree.box.upper)));
+    record.slack = glm::vec3(placedExtent(placement, size) * roundings);
+    record.firstPrimitive = layout::firstTriangleId + firstTriangle;
+    record.tree = instance.prototype;
+    record.root = tree.firstPair;
+    return record;
+}
+
+} // namespace
+
+void packTrees(const Scene &scene, const Bvh &bvh, std::span<const std::uint32_t> packedMaterial,
+               PackedScene &packed) {
+    const InputOrder order = inputOrder(scene);
+    packSceneTree(scene, bvh, order, packedMaterial, packed);
+    int deepest = 0;
+    for (std::size_t i = 0; i < bvh.prototypes.size(); ++i) {
+        packPrototype(scene, scene.prototypes[i], bvh.prototypes[i], packedMaterial, packed);
+        deepest = std::max(deepest, bvh.prototypes[i].depth);
+    }
+    for (const std::uint32_t inputIndex : bvh.order)
+        if (bvh.isInstance(inputIndex)) {
+            const std::size_t index = inputIndex - bvh.firstInstance;
+            const Instance &instance = scene.instances[index];
+            packed.instances.push_back(
+                packInstance(instance, order.instances[index], packed.trees[instance.prototype + 1]));
+        }
+    // On the way into an instance, the way back waits on the stack, too.
+    packed.treeDepth = bvh.depth + (packed.instances.empty() ? 0 : 1 + deepest);
+}
+
+} // namespace hyalite

@@ -1,0 +1,219 @@
+#include "host/scene/instances.h"
+
+#include "host/base/error.h"
+#include "host/base/host_memory.h"
+#include "host/base/quantities.h"
+#include "host/scene/limits.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
+// The operations of shaders/math/vector.glsl, in their order; GLM leaves it open.
+
+float dotProduct(const glm::vec3 &a, const glm::vec3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+glm::vec3 crossProduct(const glm::vec3 &a, const glm::vec3 &b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+float largestComponent(const glm::vec3 &v) { return std::max({v.x, v.y, v.z}); }
+
+bool emitsLight(const TriangleMesh &mesh, const std::vector<Material> &materials) {
+    const auto emits = [&](std::uint32_t index) { return materials[index].emission != glm::vec3(0.0f); };
+    if (mesh.triangleMaterials.empty())
+        return emits(mesh.materialIndex);
+    return std::ranges::any_of(mesh.triangleMaterials, emits);
+}
+
+/// Beyond it cofactors of the map, scaled as placedNormal scales them, could be subnormal.
+bool isNearlyFlat(const Placement &placement) {
+    const std::array<glm::vec3, 3> &rows = placement.rows;
+    const double largest =
+        largestComponent(glm::max(glm::max(glm::abs(rows[0]), glm::abs(rows[1])), glm::abs(rows[2])));
+    return std::abs(determinant(placement)) < 1e-18 * largest * largest * largest;
+}
+
+/// Throws Error{LimitExceeded} if so many triangles cannot be stored.
+void requireRoomFor(std::uint64_t flattenedTriangles) {
+    if (flattenedTriangles > limits::triangleCount)
+        throw Error(ErrorKind::LimitExceeded,
+                    fmt::format("without instances the scene has {} triangles; at most {} can be stored",
+                                flattenedTriangles, limits::triangleCount));
+    constexpr std::uint64_t bytesEach = 300; // as a mesh, in the build and packed
+    const std::optional<std::uint64_t> available = availableHostBytes();
+    if (available && flattenedTriangles * bytesEach > *available)
+        throw Error(ErrorKind::LimitExceeded,
+                    fmt::format("without instances the scene takes about {} of memory, and {} are available",
+                                sizeText(flattenedTriangles * bytesEach), sizeText(*available)));
+}
+
+TriangleMesh flattened(const TriangleMesh &prototype, const Placement &placement) {
+    TriangleMesh mesh = prototype;
+    for (glm::vec3 &position : mesh.positions)
+        position = placedPoint(placement, position);
+    for (glm::vec3 &normal : mesh.normals)
+        normal = placedNormal(placement, normal);
+    return mesh;
+}
+
+/// Keeps the prototypes that instances use.
+void keepUsedPrototypes(Scene &scene) {
+    std::vector<TriangleMesh> kept;
+    std::vector<std::uint32_t> indices(scene.prototypes.size(), nowhere);
+    for (Instance &instance : scene.instances) {
+        std::uint32_t &index = indices[instance.prototype];
+        if (index == nowhere) {
+            index = static_cast<std::uint32_t>(kept.size());
+            kept.push_back(std::move(scene.prototypes[instance.prototype]));
+        }
+        instance.prototype = index;
+    }
+    scene.prototypes = std::move(kept);
+}
+
+} // namespace
+
+InputOrder inputOrder(const Scene &scene) {
+    InputOrder order;
+    order.meshes.reserve(scene.meshes.size());
+    order.instances.reserve(scene.instances.size());
+    const auto addInstancesBefore = [&](std::size_t mesh) {
+        while (order.instances.size() < scene.instances.size() &&
+               scene.instances[order.instances.size()].meshesBefore <= mesh) {
+            const Instance &instance = scene.instances[order.instances.size()];
+            order.instances.push_back(static_cast<std::uint32_t>(order.triangleCount));
+            order.triangleCount += scene.prototypes[instance.prototype].triangles.size();
+        }
+    };
+    for (const TriangleMesh &mesh : scene.meshes) {
+        addInstancesBefore(order.meshes.size());
+        order.meshes.push_back(static_cast<std::uint32_t>(order.triangleCount));
+        order.triangleCount += mesh.triangles.size();
+    }
+    addInstancesBefore(std::numeric_limits<std::size_t>::max());
+    return order;
+}
+
+double determinant(const Placement &placement) {
+    const std::array<glm::vec3, 3> &rows = placement.rows;
+    return glm::dot(glm::cross(glm::dvec3(rows[0]), glm::dvec3(rows[1])), glm::dvec3(rows[2]));
+}
+
+glm::vec3 placedPoint(const Placement &placement, const glm::vec3 &point) {
+    const auto coordinate = [&](glm::length_t i) {
+        const glm::vec3 &row = placement.rows[static_cast<std::size_t>(i)];
+        return row.x * point.x + row.y * point.y + row.z * point.z + placement.offset[i];
+    };
+    return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
+glm::vec3 placedNormal(const Placement &placement, const glm::vec3 &normal) {
+    const std::array<glm::vec3, 3> &rows = placement.rows;
+    const float scale =
+        1.0f / largestComponent(glm::max(glm::max(glm::abs(rows[0]), glm::abs(rows[1])), glm::abs(rows[2])));
+    const glm::vec3 x = rows[0] * scale;
+    const glm::vec3 y = rows[1] * scale;
+    const glm::vec3 z = rows[2] * scale;
+    const glm::vec3 turned(dotProduct(crossProduct(y, z), normal), dotProduct(crossProduct(z, x), normal),
+                           dotProduct(crossProduct(x, y), normal));
+    const float largest = largestComponent(glm::abs(turned));
+    if (!(largest > 0.0f))
+        return glm::vec3(0.0f);
+    const glm::vec3 scaled = turned * (1.0f / largest);
+    return scaled * (1.0f / std::sqrt(dotProduct(scaled, scaled)));
+}
+
+TriangleMesh mirrored(TriangleMesh mesh) {
+    for (glm::vec3 &normal : mesh.normals)
+        normal = -normal;
+    for (MeshTriangle &triangle : mesh.triangles) {
+        std::swap(triangle.positions.y, triangle.positions.z);
+        std::swap(triangle.normals.y, triangle.normals.z);
+    }
+    for (glm::uvec3 &uvs : mesh.triangleUvs)
+        std::swap(uvs.y, uvs.z);
+    return mesh;
+}
+
+void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> placements) {
+    const auto meshesBefore = static_cast<std::uint32_t>(scene.meshes.size());
+    const std::size_t mirroringCount =
+        static_cast<std::size_t>(std::ranges::count_if(placements, isMirroring));
+    const bool hasBoth = mirroringCount > 0 && mirroringCount < placements.size();
+    const auto first = static_cast<std::uint32_t>(scene.prototypes.size());
+    if (mirroringCount < placements.size())
+        scene.prototypes.push_back(hasBoth ? mesh : std::move(mesh));
+    if (mirroringCount > 0)
+        scene.prototypes.push_back(mirrored(std::move(mesh)));
+    scene.instances.reserve(scene.instances.size() + placements.size());
+    for (const Placement &placement : placements)
+        scene.instances.push_back(
+            {first + (hasBoth && isMirroring(placement) ? 1u : 0u), placement, meshesBefore});
+}
+
+glm::dvec3 placedExtent(const Placement &placement, const glm::dvec3 &size) {
+    glm::dvec3 extent(glm::abs(placement.offset));
+    for (glm::length_t i = 0; i < 3; ++i)
+        extent[i] += glm::dot(glm::dvec3(glm::abs(placement.rows[static_cast<std::size_t>(i)])), size);
+    return extent;
+}
+
+void arrangeInstances(Scene &scene, Flattening flattening) {
+    if (scene.instances.empty() && scene.prototypes.empty())
+        return;
+    std::vector<std::size_t> useCounts(scene.prototypes.size(), 0);
+    for (const Instance &instance : scene.instances)
+        ++useCounts[instance.prototype];
+    std::vector<bool> isFlattened; // of each prototype
+    for (std::size_t i = 0; i < scene.prototypes.size(); ++i)
+        isFlattened.push_back(flattening == Flattening::All || useCounts[i] == 1 ||
+                              emitsLight(scene.prototypes[i], scene.materials));
+
+    const auto becomesMesh = [&](const Instance &instance) {
+        return isFlattened[instance.prototype] || isNearlyFlat(instance.toWorld);
+    };
+    std::uint64_t flattenedTriangles = triangleCount(scene);
+    for (const Instance &instance : scene.instances)
+        if (becomesMesh(instance))
+            flattenedTriangles += scene.prototypes[instance.prototype].triangles.size();
+    requireRoomFor(flattenedTriangles);
+
+    std::vector<TriangleMesh> meshes;
+    std::vector<Instance> instances;
+    std::size_t instanceIndex = 0;
+    const auto takeInstancesBefore = [&](std::size_t mesh) {
+        for (; instanceIndex < scene.instances.size() && scene.instances[instanceIndex].meshesBefore <= mesh;
+             ++instanceIndex) {
+            Instance instance = scene.instances[instanceIndex];
+            instance.meshesBefore = static_cast<std::uint32_t>(meshes.size());
+            if (becomesMesh(instance))
+                meshes.push_back(flattened(scene.prototypes[instance.prototype], instance.toWorld));
+            else
+                instances.push_back(instance);
+        }
+    };
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        takeInstancesBefore(i);
+        meshes.push_back(std::move(scene.meshes[i]));
+    }
+    takeInstancesBefore(std::numeric_limits<std::size_t>::max());
+    scene.meshes = std::move(meshes);
+    scene.instances = std::move(instances);
+    keepUsedPrototypes(scene);
+}
+
+} // namespace hyalite

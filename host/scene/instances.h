@@ -1,0 +1,57 @@
+// Instances of meshes: their order among all triangles, and how they are flattened.
+#pragma once
+
+#include "host/scene/scene.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyalite {
+
+/// Input indices of triangles: they count up over meshes and instances in the order of the input, as if each instance
+/// were a mesh.
+struct InputOrder {
+    std::vector<std::uint32_t> meshes;    ///< of each mesh, the index of its first triangle
+    std::vector<std::uint32_t> instances; ///< of each instance
+    std::uint64_t triangleCount = 0;      ///< of all
+};
+
+/// Indices wrap around where `triangleCount` exceeds 2^32, which validateScene does not allow.
+[[nodiscard]] InputOrder inputOrder(const Scene &scene);
+
+/// Of the map without its offset; negative where it mirrors.
+[[nodiscard]] double determinant(const Placement &placement);
+[[nodiscard]] inline bool isMirroring(const Placement &placement) { return determinant(placement) < 0.0; }
+
+/// The point in world space. Twin: placedPoint in shaders/geometry/instance.glsl.
+[[nodiscard]] glm::vec3 placedPoint(const Placement &placement, const glm::vec3 &point);
+
+/// The unit normal in world space, or 0 for a normal of 0. Twin: placedNormal in shaders/geometry/instance.glsl.
+[[nodiscard]] glm::vec3 placedNormal(const Placement &placement, const glm::vec3 &normal);
+
+/// The mesh for mirroring instances: other winding, and negative normals. So its places have the winding and the
+/// normals of a mesh that is seen from outside.
+[[nodiscard]] TriangleMesh mirrored(TriangleMesh mesh);
+
+/// Makes the mesh a prototype, and a mirrored one if some maps mirror, with an instance at each placement. They come
+/// after all meshes and instances that the scene has.
+void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> placements);
+
+/// Bound on each coordinate of a point of a mesh whose coordinates are at most `size`, while it is placed.
+[[nodiscard]] glm::dvec3 placedExtent(const Placement &placement, const glm::dvec3 &size);
+
+/// Which instances become meshes.
+enum class Flattening {
+    All,
+    /// Lights; those whose prototype has one instance, which are faster as meshes; and those whose maps nearly make
+    /// everything flat, for which bounds on rounding are not proven.
+    Useful
+};
+
+/// Replaces instances by meshes in their place of the order, and drops prototypes that are not used any more. No pixel
+/// changes. The scene is valid. Throws Error{LimitExceeded} if
+/// the meshes are too large.
+void arrangeInstances(Scene &scene, Flattening flattening);
+
+} // namespace hyalite
