@@ -48,11 +48,11 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
     std::uint32_t finishedCount = countBefore;
     bool isStopped = false;
     while (finishedCount < sampleCount && !isStopped) {
-        const Vec3<Real> radiance = integrator.sampleRadiance(pixel, finishedCount);
+        const Vec3<Real> radiance = withoutSubnormals<Real>(integrator.sampleRadiance(pixel, finishedCount));
         if (isAbandoned(integrator))
             break;
         sum = sum + radiance;
-        sumOfSquares = sumOfSquares + radiance * radiance;
+        sumOfSquares = sumOfSquares + withoutSubnormals<Real>(radiance * radiance);
         ++finishedCount;
         isStopped = isLast();
     }

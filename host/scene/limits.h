@@ -26,6 +26,7 @@ inline constexpr Interval refractiveIndex{1.0, 10.0};
 inline constexpr Interval conductorIndex{0.0, 20.0}; ///< real and imaginary part, per channel
 inline constexpr Interval absorption{0.0, 1e30};     ///< per unit of length and channel
 inline constexpr Interval priority{-1000, 1000};
+inline constexpr double meshExtent = 1e-15; ///< of all meshes together, at least: squares of less underflow
 inline constexpr Interval radius{0.0, 1e15, false};
 inline constexpr Interval texturePlacement{-1e6, 1e6}; ///< scale and offset of textures
 inline constexpr Interval normalStrength{0.0, 100.0};

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <type_traits>
@@ -246,6 +247,22 @@ void checkInstances(const Scene &scene, const std::string &sourceName) {
                 "triangles, instances included");
 }
 
+/// Refuses meshes that are all together smaller than products of floats can tell.
+void checkExtent(const std::vector<TriangleMesh> &meshes, const Checked &checked) {
+    glm::vec3 lower(std::numeric_limits<float>::max());
+    glm::vec3 upper(std::numeric_limits<float>::lowest());
+    for (const TriangleMesh &mesh : meshes)
+        for (const glm::vec3 &position : mesh.positions) {
+            lower = glm::min(lower, position);
+            upper = glm::max(upper, position);
+        }
+    const glm::vec3 size = upper - lower;
+    const double extent = std::max({size.x, size.y, size.z});
+    if (extent >= 0.0 && extent < limits::meshExtent)
+        checked.refuse("extent of all meshes", fmt::format("{}", extent),
+                       fmt::format("at least {}: scale the scene up", limits::meshExtent));
+}
+
 void checkEnvironment(const Environment &environment, const Checked &checked) {
     checked.within(limits::rotateDegrees, environment.rotateDegrees, "rotateDegrees");
     checked.within(limits::environmentScale, environment.scale, "scale");
@@ -328,6 +345,7 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
         checkMesh(scene.meshes[i], scene.materials.size(), checked);
         checkTexturable(scene.meshes[i], scene.materials, checked);
     }
+    checkExtent(scene.meshes, whole);
     checkInstances(scene, sourceName);
 }
 

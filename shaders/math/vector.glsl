@@ -43,6 +43,13 @@ vec3 lesser(vec3 a, vec3 b) { return vec3(lesser(a.x, b.x), lesser(a.y, b.y), le
 
 vec3 greater(vec3 a, vec3 b) { return vec3(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)); }
 
+// The number, or 0 if it is subnormal: drivers may flush those, or keep them.
+float withoutSubnormals(float x) { return abs(x) < 1.1754943508222875e-38 ? 0.0 : x; }
+
+vec3 withoutSubnormals(vec3 v) {
+    return vec3(withoutSubnormals(v.x), withoutSubnormals(v.y), withoutSubnormals(v.z));
+}
+
 float largestComponent(vec3 v) { return greater(greater(v.x, v.y), v.z); }
 
 float smallestComponent(vec3 v) { return lesser(lesser(v.x, v.y), v.z); }

@@ -76,9 +76,9 @@ void addRoundToFilm(uint slot) {
     uint first = path[slot].sampleIndex - sampleLane(slot);
     // Slots without a sample add 0, which changes no bit of any sum but -0.
     [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
-        vec3 radiance = radianceOfSample(slot, lane);
+        vec3 radiance = withoutSubnormals(radianceOfSample(slot, lane));
         film[slot].sum = film[slot].sum + radiance;
-        film[slot].sumOfSquares = film[slot].sumOfSquares + radiance * radiance;
+        film[slot].sumOfSquares = film[slot].sumOfSquares + withoutSubnormals(radiance * radiance);
     }
     film[slot].sampleCount += min(samplesAbreast, dispatch.sampleEnd - first);
     if (path[slot].sampleIndex < dispatch.sampleEnd)

@@ -63,7 +63,7 @@ TEST(Timeline, ShortDispatchesAreManyAndChangeNoBit) {
         scene.settings.integrator = integrator;
         const reference::Result wanted = testing::renderOnCpu(scene);
         for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
-            for (const double seconds : {1e-5, 1e-3, 10.0}) {
+            for (const double seconds : {1e-6, 1e-5, 10.0}) {
                 const Recorded all =
                     record(scene, {0, 64, 0, 48}, {.dispatchSeconds = seconds, .traversal = traversal});
                 EXPECT_EQ(testing::differingPixels(all.result.film, wanted.film), 0u) << seconds;

@@ -185,6 +185,11 @@ INSTANTIATE_TEST_SUITE_P(Table, Validate,
                                                   [](Scene &s) { s.meshes[0].positions[2].y = float(nan); }},
                                          Breakage{"mesh 0 (triangle.obj): vertex 0: found (2e+20, 0, 0)",
                                                   [](Scene &s) { s.meshes[0].positions[0].x = 2e20f; }},
+                                         Breakage{"scene: extent of all meshes: found 9.99999983775159e-18",
+                                                  [](Scene &s) {
+                                                      for (glm::vec3 &position : s.meshes[0].positions)
+                                                          position *= 1e-17f;
+                                                  }},
                                          Breakage{"mesh 0 (triangle.obj): length of normal 0: found 2",
                                                   [](Scene &s) { s.meshes[0].normals[0].z = 2; }},
                                          Breakage{

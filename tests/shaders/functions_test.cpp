@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace hyalite::reference {
 namespace {
 
@@ -21,6 +24,16 @@ TEST(FloatOf, IsTheNearestFloat) {
             expectNearest(cell * 256 + beside);
     for (int i = 0; i < 100000; ++i)
         expectNearest(static_cast<std::uint32_t>(random.bits()));
+}
+
+TEST(WithoutSubnormals, IsTheNumberOrZero) {
+    const float smallest = std::numeric_limits<float>::min();
+    for (const float x : {smallest, -smallest, 1.0f, -3e38f, std::numeric_limits<float>::infinity()})
+        EXPECT_EQ(withoutSubnormals<float>(x), x);
+    for (const float x : {std::nextafter(smallest, 0.0f), -std::nextafter(smallest, 0.0f),
+                          std::numeric_limits<float>::denorm_min(), 0.0f})
+        EXPECT_EQ(withoutSubnormals<float>(x), 0.0f);
+    EXPECT_TRUE(std::isnan(withoutSubnormals<float>(std::numeric_limits<float>::quiet_NaN())));
 }
 
 } // namespace
