@@ -18,7 +18,7 @@ void requireReadingMemory(const InputFile &file, std::uint64_t width, std::uint6
     if (neededBytes > allowedBytes)
         throw Error(ErrorKind::LimitExceeded,
                     fmt::format("{}: {} x {} pixels take {} MiB to read; a file of {} bytes may take {} MiB "
-                                "(256 MiB and 64 times its size); make the image smaller, or write it as PFM",
+                                "(512 MiB and 64 times its size); make the image smaller, or write it as PFM",
                                 file.path().string(), width, height, (neededBytes + mebibyte - 1) / mebibyte,
                                 file.sizeBytes(), allowedBytes / mebibyte));
 }

@@ -11,10 +11,10 @@ namespace hyalite {
 inline constexpr int imageSideMax = 32768;
 inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
 
-/// Maximum memory for reading a file of `fileBytes`: enough for 4096 x 4096 pixels of any content, because flat images
+/// Maximum memory for reading a file of `fileBytes`: enough for 8192 x 4096 pixels of any content, because flat images
 /// compress a thousandfold; beyond that in proportion to the file, so that no small file allocates gigabytes.
 [[nodiscard]] constexpr std::uint64_t readingBytesMax(std::uint64_t fileBytes) {
-    return (std::uint64_t{256} << 20) + 64 * fileBytes;
+    return (std::uint64_t{512} << 20) + 64 * fileBytes;
 }
 
 /// Throws Error{BadInput} where an image of that size, which `file` says it has, is empty or larger than allowed.

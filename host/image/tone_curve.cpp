@@ -79,6 +79,10 @@ double srgbEncoded(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * exp2Portable(log2Portable(linear) / 2.4) - 0.055;
 }
 
+double srgbDecoded(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 glm::dvec3 displayed(const glm::dvec3 &radiance, ToneCurve curve) {
     const glm::dvec3 c(bounded(radiance.x), bounded(radiance.y), bounded(radiance.z));
     const auto gamma = [](double linear) {

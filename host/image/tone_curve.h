@@ -14,6 +14,8 @@ namespace hyalite {
 
 /// The transfer function of IEC 61966-2-1, from linear light in [0, 1] to the display encoding.
 [[nodiscard]] double srgbEncoded(double linear);
+/// Its inverse, from [0, 1] to linear light; by pow(), for tables of floats.
+[[nodiscard]] double srgbDecoded(double encoded);
 
 /// The display encoding, in [0, 1], of exposed radiance. Negative values and NaN count as 0; larger values than 2^60 as
 /// 2^60.

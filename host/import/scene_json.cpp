@@ -2,7 +2,7 @@
 
 #include "host/base/json_document.h"
 #include "host/base/json_reader.h"
-#include "host/image/image_file.h"
+#include "host/import/environment_file.h"
 #include "host/import/file_reach.h"
 #include "host/import/transform_json.h"
 #include "host/scene/framing.h"
@@ -87,17 +87,14 @@ Light readLight(const JsonNode &node) {
 }
 
 /// Adds the file to `inputFiles`.
-Environment readEnvironment(const JsonObject &object, const FileReach &reach,
-                            std::vector<std::string> &inputFiles) {
+Environment readEnvironment(const JsonObject &object, const FileReach &reach, LoadedScene &loaded) {
     Environment environment;
     const JsonNode file = object.at("file");
     const std::filesystem::path path = reach.resolve(file);
-    inputFiles.push_back(path.string());
-    LoadedImage loaded = readImage(path);
-    if (loaded.encoding != Encoding::Linear)
-        file.fail(
-            "found a PNG, whose numbers are not proportional to light; allowed: a .hdr, .exr or .pfm file");
-    environment.radiance = std::move(loaded.image);
+    loaded.inputFiles.push_back(path.string());
+    EnvironmentImage image = readEnvironmentImage(path);
+    environment.radiance = std::move(image.radiance);
+    std::ranges::move(image.warnings, std::back_inserter(loaded.warnings));
     const std::size_t count = environment.radiance.pixels().size();
     if (count > limits::environmentTexelCount)
         file.fail(fmt::format("found {} x {} pixels; allowed: at most {} in all: make the image smaller",
@@ -310,7 +307,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
     const FileReach reach(file, allowedPaths);
     TextureLibrary textures;
     if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
-        scene.environment = readEnvironment(*environment, reach, loaded.inputFiles);
+        scene.environment = readEnvironment(*environment, reach, loaded);
     if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera))
         scene.camera = readCamera(*camera);
     for (const JsonNode &light : top.elements("lights", limits::lightCount))

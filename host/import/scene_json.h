@@ -94,6 +94,7 @@ struct LoadedScene {
     Scene scene;
     std::filesystem::path file;
     std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
+    std::vector<std::string> warnings;   ///< of what is not a mesh
     std::vector<MeshReport> meshReports; ///< one for each mesh of the input
     bool autoFramed = false; ///< a bare mesh: where the image size is overridden, call frameCamera again
 };

@@ -12,29 +12,24 @@ namespace {
 
 constexpr double all = 4294967296.0; // number of 32-bit values
 
-/// Weight of each pixel: the integral of the interpolated image over its area of the sphere, up to a factor. The image
-/// is bilinear between pixel centres, so the mean over a pixel takes 3/4 of itself and 1/8 of each neighbour along each
-/// axis.
-std::vector<double> pixelWeights(const Image &image) {
+/// Weights of the pixels of a row: the integral of the interpolated image over the pixel's area of the sphere, up to a
+/// factor. The image is bilinear between pixel centres, so the mean over a pixel takes 3/4 of itself and 1/8 of each
+/// neighbour along each axis.
+void weighRow(const Image &image, int y, std::vector<double> &weights) {
     const int width = image.width();
     const int height = image.height();
-    const auto at = [&](int x, int y) {
-        const glm::dvec3 colour(image.at((x + width) % width, std::clamp(y, 0, height - 1)));
+    const auto at = [&](int x, int row) {
+        const glm::dvec3 colour(image.at((x + width) % width, std::clamp(row, 0, height - 1)));
         return colour.x + colour.y + colour.z;
     };
-    const auto acrossRow = [&](int x, int y) {
-        return 0.125 * at(x - 1, y) + 0.75 * at(x, y) + 0.125 * at(x + 1, y);
+    const auto acrossRow = [&](int x, int row) {
+        return 0.125 * at(x - 1, row) + 0.75 * at(x, row) + 0.125 * at(x + 1, row);
     };
-    std::vector<double> weights(image.pixels().size());
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < height; ++y) {
-        const double sine = std::sin(std::numbers::pi * (y + 0.5) / height);
-        for (int x = 0; x < width; ++x)
-            weights[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                    static_cast<std::size_t>(x)] =
-                sine * (0.125 * acrossRow(x, y - 1) + 0.75 * acrossRow(x, y) + 0.125 * acrossRow(x, y + 1));
-    }
-    return weights;
+    const double sine = std::sin(std::numbers::pi * (y + 0.5) / height);
+    weights.resize(static_cast<std::size_t>(width));
+    for (int x = 0; x < width; ++x)
+        weights[static_cast<std::size_t>(x)] =
+            sine * (0.125 * acrossRow(x, y - 1) + 0.75 * acrossRow(x, y) + 0.125 * acrossRow(x, y + 1));
 }
 
 /// The number of 32-bit values below the given fraction of their range.
@@ -55,24 +50,32 @@ bool packEnvironment(const Scene &scene, PackedScene &packed) {
     const double turns = scene.environment.rotateDegrees / 360.0;
     packed.frame.environmentTurns = std::min(static_cast<float>(turns - std::floor(turns)), 0x1.fffffep-1f);
 
-    const std::vector<double> weights = pixelWeights(image);
     std::vector<double> rowTotals(height, 0.0);
-    double total = 0.0;
-    for (std::size_t y = 0; y < height; ++y) {
-        for (std::size_t x = 0; x < width; ++x)
-            rowTotals[y] += weights[y * width + x];
-        total += rowTotals[y];
-    }
-    packed.lookups.reserve(packed.lookups.size() + width * height + height);
-    for (std::size_t y = 0; y < height; ++y) {
-        double before = 0.0;
-        for (std::size_t x = 0; x < width; ++x) {
-            before += weights[y * width + x];
-            const double share = rowTotals[y] > 0.0 ? before / rowTotals[y] : 0.0;
-            packed.lookups.push_back({image.pixels()[y * width + x] * scene.environment.scale,
-                                      x + 1 == width ? numbersBelow(1.0) : numbersBelow(share)});
+    const std::size_t first = packed.lookups.size();
+    packed.lookups.resize(first + width * height);
+    packed.lookups.reserve(first + width * height + height);
+#pragma omp parallel
+    {
+        std::vector<double> weights;
+#pragma omp for schedule(static)
+        for (std::int64_t row = 0; row < static_cast<std::int64_t>(height); ++row) {
+            const auto y = static_cast<std::size_t>(row);
+            weighRow(image, static_cast<int>(row), weights);
+            for (const double weight : weights)
+                rowTotals[y] += weight;
+            double before = 0.0;
+            for (std::size_t x = 0; x < width; ++x) {
+                before += weights[x];
+                const double share = rowTotals[y] > 0.0 ? before / rowTotals[y] : 0.0;
+                packed.lookups[first + y * width + x] = {
+                    image.pixels()[y * width + x] * scene.environment.scale,
+                    x + 1 == width ? numbersBelow(1.0) : numbersBelow(share)};
+            }
         }
     }
+    double total = 0.0;
+    for (const double rowTotal : rowTotals)
+        total += rowTotal;
     double before = 0.0;
     std::uint32_t numbersBefore = 0;
     for (std::size_t y = 0; y < height; ++y) {

@@ -1,5 +1,6 @@
 #include "host/packing/texture_rows.h"
 
+#include "host/image/tone_curve.h"
 #include "host/scene/instances.h"
 
 #include <algorithm>
@@ -19,11 +20,6 @@ using Rows = std::vector<layout::TextureRow>;
 layout::TextureRow rowOf(float x, float y, float z, float w) {
     return {std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(y), std::bit_cast<std::uint32_t>(z),
             std::bit_cast<std::uint32_t>(w)};
-}
-
-/// IEC 61966-2-1: from the display encoding to linear light.
-double fromSrgb(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 template <class Decode> void addTable(Rows &rows, const Decode &decode) {
@@ -261,7 +257,7 @@ void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std:
 
     Rows &rows = packed.textures;
     rows.reserve(rowCount);
-    addTable(rows, fromSrgb);
+    addTable(rows, srgbDecoded);
     addTable(rows, [](double level) { return level; });
     assert(rows.size() == layout::firstCoordinateRow);
     addCoordinates(scene, packed, rows);

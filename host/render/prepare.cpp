@@ -155,6 +155,8 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
             loadScene(options.scene, {tellOutline, [&](double share) { progress.update(share); }},
                       options.allowedPaths);
     }
+    for (const std::string &warning : prepared.loaded.warnings)
+        printMessage("hyalite: warning: {}\n", warning);
     for (const MeshReport &report : prepared.loaded.meshReports)
         for (const std::string &warning : report.warnings)
             printMessage("hyalite: warning: {}\n", warning);

@@ -42,7 +42,7 @@ inline constexpr Interval inspectedRays{1, 1e6}; ///< each is tested against all
 inline constexpr std::size_t lightCount = layout::maxLightCount;
 inline constexpr std::size_t sphereCount = layout::maxSphereCount; ///< each ray tests all of them
 inline constexpr std::size_t mediumCount = layout::maxMedia;       ///< dielectrics, for the path integrator
-inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 22; ///< pixels: 64 MiB on the device
+inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 27; ///< pixels: 2 GiB on the device
 inline constexpr std::size_t textureBytes = std::size_t{1} << 30; ///< of all textures together, on the device
 inline constexpr std::size_t materialCount = 65536;
 inline constexpr std::size_t meshCount = 4096;
