@@ -155,10 +155,11 @@ void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> pl
         static_cast<std::size_t>(std::ranges::count_if(placements, isMirroring));
     const bool hasBoth = mirroringCount > 0 && mirroringCount < placements.size();
     const auto first = static_cast<std::uint32_t>(scene.prototypes.size());
-    if (mirroringCount < placements.size())
-        scene.prototypes.push_back(hasBoth ? mesh : std::move(mesh));
-    if (mirroringCount > 0)
-        scene.prototypes.push_back(mirrored(std::move(mesh)));
+    if (placements.empty())
+        return;
+    if (hasBoth)
+        scene.prototypes.push_back(mesh);
+    scene.prototypes.push_back(mirroringCount > 0 ? mirrored(std::move(mesh)) : std::move(mesh));
     scene.instances.reserve(scene.instances.size() + placements.size());
     for (const Placement &placement : placements)
         scene.instances.push_back(
