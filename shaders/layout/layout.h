@@ -76,8 +76,8 @@ struct NormalRecord {
     float pad2;
 };
 
-// ---- Instances A mesh that is stored once, in its own space, and placed many times. Its triangle records come after those
-// of the scene, and their primitiveId is the index in the mesh. Each coordinate of a vertex in world space is
+// ---- Instances A mesh that is stored once, in its own space, and placed many times. Its triangle records come after
+// those of the scene, and their primitiveId is the index in the mesh. Each coordinate of a vertex in world space is
 // ((m.x x + m.y y) + m.z z) + t, where every operation rounds: the host flattens instances by the same operations
 // (host/scene/instances.h), so that an instance and its flattened copy are hit alike, bit for bit.
 
@@ -107,8 +107,8 @@ struct InstanceRecord {
 
 // ---- The tree An inner node holds the boxes of both children, so that one fetch decides about two subtrees. A child
 // is an inner node (its index in the node array), a leaf (leafFlag | index of its first triangle; triangleEndsLeaf
-// marks the last one), an instance (leafFlag | instanceFlag | its index), or nothing (noNode). Node 0 is the root; every
-// scene has one. The trees of meshes with instances come after it.
+// marks the last one), an instance (leafFlag | instanceFlag | its index), or nothing (noNode). Node 0 is the root;
+// every scene has one. The trees of meshes with instances come after it.
 
 const uint leafFlag = 0x80000000u;
 const uint instanceFlag = 0x40000000u; // beside leafFlag
