@@ -19,7 +19,29 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::uint32_t noInstances = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t noIndex = std::numeric_limits<std::uint32_t>::max();
+
+/// The input indices at which other items than triangles begin.
+struct FirstIndices {
+    std::uint32_t sphere = noIndex;
+    std::uint32_t instance = noIndex;
+
+    [[nodiscard]] bool areOnlyTriangles() const { return sphere == noIndex && instance == noIndex; }
+};
+
+/// Drops duplicates among the triangles of the range; spheres and instances stay. Returns the number kept, at the front.
+std::size_t setDuplicatesAside(std::span<BuildTriangle> range, const FirstIndices &first,
+                               const Duplicates &duplicates) {
+    if (first.areOnlyTriangles())
+        return duplicates.setAside(range);
+    const auto others = std::stable_partition(range.begin(), range.end(), [&](const BuildTriangle &one) {
+        return one.inputIndex < std::min(first.sphere, first.instance);
+    });
+    const auto triangles = static_cast<std::size_t>(others - range.begin());
+    const std::size_t kept = duplicates.setAside(range.first(triangles));
+    std::rotate(range.begin() + static_cast<std::ptrdiff_t>(kept), others, range.end());
+    return kept + (range.size() - triangles);
+}
 
 /// Halving is forced once nothing else can keep the tree within the depth of the traversal stack.
 bool mustHalve(std::size_t count, int depth) {
@@ -56,11 +78,11 @@ struct Branch {
 /// does the tree; the thread count has no influence.
 class Builder {
   public:
-    /// `duplicates` may be null: then all triangles stay. Input indices from `firstInstance` on are those of instances.
-    Builder(TreeKind kind, std::span<BuildTriangle> triangles, std::uint32_t firstInstance, int leafSize,
+    /// `duplicates` may be null: then all triangles stay. `first` says which input indices are not those of triangles.
+    Builder(TreeKind kind, std::span<BuildTriangle> triangles, const FirstIndices &first, int leafSize,
             const Duplicates *duplicates)
-        : kind_(kind), triangles_(triangles), firstInstance_(firstInstance),
-          leafSize_(static_cast<std::size_t>(leafSize)), duplicates_(duplicates) {}
+        : kind_(kind), triangles_(triangles), first_(first), leafSize_(static_cast<std::size_t>(leafSize)),
+          duplicates_(duplicates) {}
 
     Bvh build() {
         const auto count = static_cast<std::uint32_t>(triangles_.size());
@@ -86,8 +108,8 @@ class Builder {
 
     /// An instance has a leaf of its own.
     [[nodiscard]] std::size_t leafSizeFor(std::span<const BuildTriangle> range) const {
-        const auto isInstance = [&](const BuildTriangle &one) { return one.inputIndex >= firstInstance_; };
-        return firstInstance_ != noInstances && range.size() <= leafSize_ &&
+        const auto isInstance = [&](const BuildTriangle &one) { return one.inputIndex >= first_.instance; };
+        return first_.instance != noIndex && range.size() <= leafSize_ &&
                        std::ranges::any_of(range, isInstance)
                    ? 1
                    : leafSize_;
@@ -96,19 +118,6 @@ class Builder {
     [[nodiscard]] std::size_t split(std::span<BuildTriangle> range, const Bounds &bounds) const {
         return kind_ == TreeKind::Sah ? splitBySah(range, bounds, leafSizeFor(range))
                                       : splitAtMidpoint(range, bounds.triangles.box(), leafSizeFor(range));
-    }
-
-    /// Drops duplicates among the triangles of the range; instances stay. Returns the number kept, at the front.
-    [[nodiscard]] std::size_t setDuplicatesAside(std::span<BuildTriangle> range) const {
-        if (firstInstance_ == noInstances)
-            return duplicates_->setAside(range);
-        const auto instances =
-            std::stable_partition(range.begin(), range.end(),
-                                  [&](const BuildTriangle &one) { return one.inputIndex < firstInstance_; });
-        const auto triangles = static_cast<std::size_t>(instances - range.begin());
-        const std::size_t kept = duplicates_->setAside(range.first(triangles));
-        std::rotate(range.begin() + static_cast<std::ptrdiff_t>(kept), instances, range.end());
-        return kept + (range.size() - triangles);
     }
 
     /// Finds the task's box and reorders its triangles; returns where the right child's begin, or the task's begin for
@@ -123,7 +132,8 @@ class Builder {
         if (task.size() > 1 && !mustHalve(task.size(), task.depth))
             leftCount = split(trianglesOf(task), bounds);
         if (leftCount == 0 && task.size() > 1 && duplicates_ != nullptr && !task.isDistinct) {
-            task.end = task.begin + static_cast<std::uint32_t>(setDuplicatesAside(trianglesOf(task)));
+            task.end = task.begin + static_cast<std::uint32_t>(
+                                        setDuplicatesAside(trianglesOf(task), first_, *duplicates_));
             task.isDistinct = true;
         }
         if (leftCount == 0 && task.size() > leafSizeFor(trianglesOf(task)))
@@ -220,7 +230,7 @@ class Builder {
 
     TreeKind kind_;
     std::span<BuildTriangle> triangles_;
-    std::uint32_t firstInstance_;
+    FirstIndices first_;
     std::size_t leafSize_;
     const Duplicates *duplicates_;
     std::exception_ptr failure_; ///< of any task
@@ -246,18 +256,18 @@ void orderTriangles(std::span<const BuildTriangle> triangles, Bvh &bvh) {
             node.first = positions[node.first];
 }
 
-Bvh buildTree(TreeKind kind, std::span<BuildTriangle> triangles, std::uint32_t firstInstance, int leafSize,
+Bvh buildTree(TreeKind kind, std::span<BuildTriangle> triangles, const FirstIndices &first, int leafSize,
               const Duplicates *duplicates) {
-    assert(leafSize >= 1 && (kind != TreeKind::None || firstInstance == noInstances));
+    assert(leafSize >= 1 && (kind != TreeKind::None || first.instance == noIndex));
     Bvh bvh;
     if (triangles.empty())
         return bvh;
     if (kind != TreeKind::None) {
-        bvh = Builder(kind, triangles, firstInstance, leafSize, duplicates).build();
-        bvh.firstInstance = firstInstance;
+        bvh = Builder(kind, triangles, first, leafSize, duplicates).build();
+        bvh.firstInstance = first.instance;
     } else {
         const std::size_t keptCount =
-            duplicates != nullptr ? duplicates->setAside(triangles) : triangles.size();
+            duplicates != nullptr ? setDuplicatesAside(triangles, first, *duplicates) : triangles.size();
         bvh.nodes.push_back({Bounds(triangles).triangles.box(), 0, static_cast<std::uint32_t>(keptCount)});
     }
     orderTriangles(triangles, bvh);
@@ -277,6 +287,20 @@ void addTriangles(const TriangleMesh &mesh, std::vector<BuildTriangle> &triangle
         triangle.inputIndex = static_cast<std::uint32_t>(triangles.size());
         triangles.push_back(triangle);
     }
+}
+
+/// The box by which kernels confine hits: the same operations (shaders/geometry/sphere.glsl), on the packed numbers.
+Box boxOf(const Sphere &sphere) {
+    const glm::vec3 centre(sphere.centre);
+    const auto radius = static_cast<float>(sphere.radius);
+    const glm::vec3 margin = (glm::abs(centre) + radius) * (4.0f / 16777216.0f);
+    return {centre - radius - margin, centre + radius + margin};
+}
+
+void addSpheres(const Scene &scene, std::vector<BuildTriangle> &items) {
+    items.reserve(items.size() + scene.spheres.size());
+    for (const Sphere &sphere : scene.spheres)
+        items.push_back({boxOf(sphere), glm::vec3(sphere.centre), static_cast<std::uint32_t>(items.size())});
 }
 
 Box boxOf(std::span<const glm::vec3> points) {
@@ -322,7 +346,7 @@ Box placedBox(const Placement &placement, const Box &box) {
     return placed;
 }
 
-/// The box of all triangles of the scene, exactly as if instances were flattened. `boxes` enclose the instances; only
+/// The box of all primitives of the tree, exactly as if instances were flattened. `boxes` enclose the instances; only
 /// those that reach beyond what is known so far are looked at point by point.
 Box exactBounds(const Scene &scene, const std::vector<std::vector<glm::vec3>> &points,
                 std::span<const Box> boxes) {
@@ -331,6 +355,9 @@ Box exactBounds(const Scene &scene, const std::vector<std::vector<glm::vec3>> &p
         for (const MeshTriangle &triangle : mesh.triangles)
             for (glm::length_t corner = 0; corner < 3; ++corner)
                 bounds.extend(mesh.positions[triangle.positions[corner]]);
+    if (areSpheresInTree(scene))
+        for (const Sphere &sphere : scene.spheres)
+            bounds.extend(boxOf(sphere));
     const auto look = [&](std::size_t i) {
         const Instance &instance = scene.instances[i];
         if (!bounds.contains(boxes[i]))
@@ -361,8 +388,8 @@ double Box::halfArea() const {
 
 std::vector<BuildTriangle> buildTriangles(const Scene &scene) {
     const std::size_t count = triangleCount(scene);
-    // Leaf references keep two bits for flags, and ids the first ones for spheres.
-    constexpr std::size_t most = layout::instanceFlag - layout::firstTriangleId - 1;
+    // Leaf references keep two bits for flags.
+    constexpr std::size_t most = layout::instanceFlag - layout::minFirstTriangleId - 1;
     if (count > most)
         throw Error(ErrorKind::LimitExceeded,
                     fmt::format("the scene has {} triangles; at most {} can be addressed", count, most));
@@ -375,6 +402,8 @@ std::vector<BuildTriangle> buildTriangles(const Scene &scene) {
 
 std::vector<BuildTriangle> buildItems(const Scene &scene) {
     std::vector<BuildTriangle> items = buildTriangles(scene);
+    if (areSpheresInTree(scene))
+        addSpheres(scene, items);
     if (scene.instances.empty())
         return items;
     const std::vector<std::vector<glm::vec3>> points = pointsOfPrototypes(scene);
@@ -397,20 +426,22 @@ std::vector<BuildTriangle> buildItems(const Scene &scene) {
 }
 
 Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize) {
-    return buildTree(kind, triangles, noInstances, leafSize, nullptr);
+    return buildTree(kind, triangles, {}, leafSize, nullptr);
 }
 
 Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize) {
     std::vector<BuildTriangle> items = buildItems(scene);
     const Duplicates duplicates(scene);
-    if (scene.instances.empty())
-        return buildTree(kind, items, noInstances, leafSize, &duplicates);
-    const auto firstInstance = static_cast<std::uint32_t>(triangleCount(scene));
-    Bvh bvh = buildTree(kind, items, firstInstance, leafSize, &duplicates);
+    FirstIndices first;
+    if (areSpheresInTree(scene))
+        first.sphere = static_cast<std::uint32_t>(triangleCount(scene));
+    if (!scene.instances.empty())
+        first.instance = static_cast<std::uint32_t>(primitivesInTree(scene));
+    Bvh bvh = buildTree(kind, items, first, leafSize, &duplicates);
     for (const TriangleMesh &prototype : scene.prototypes) {
         std::vector<BuildTriangle> triangles;
         addTriangles(prototype, triangles);
-        bvh.prototypes.push_back(buildTree(kind, triangles, noInstances, leafSize, nullptr));
+        bvh.prototypes.push_back(buildTree(kind, triangles, {}, leafSize, nullptr));
     }
     return bvh;
 }

@@ -1,4 +1,4 @@
-// The bounding volume hierarchy (BVH) over a scene's triangles and instances, and its two CPU builders.
+// The bounding volume hierarchy (BVH) over a scene's triangles, spheres and instances, and its two CPU builders.
 #pragma once
 
 #include "host/scene/scene.h"
@@ -35,11 +35,12 @@ struct Box {
     [[nodiscard]] double halfArea() const;
 };
 
-/// A triangle, or an instance, as builders see it.
+/// A triangle, a sphere or an instance, as builders see it.
 struct BuildTriangle {
     Box box;
     glm::vec3 centroid{0.0f};
-    std::uint32_t inputIndex = 0; ///< among the triangles of all meshes, in order; then the instances
+    std::uint32_t inputIndex =
+        0; ///< among the triangles of all meshes, in order; then the spheres, then the instances
 };
 
 struct BvhNode {
@@ -54,7 +55,7 @@ struct BvhNode {
 
 struct Bvh {
     std::vector<BvhNode> nodes; ///< the root first; empty without triangles. Children come after their parent
-    std::vector<std::uint32_t> order; ///< input indices of the triangles and instances, leaf by leaf
+    std::vector<std::uint32_t> order; ///< input indices of triangles, spheres and instances, leaf by leaf
     int depth = 0;                    ///< inner nodes on the longest path to a leaf: 0 for a single leaf
     std::uint32_t firstInstance = std::numeric_limits<std::uint32_t>::max(); ///< in the order: from here on
     std::vector<Bvh> prototypes; ///< trees of Scene::prototypes, each in its own space
@@ -65,7 +66,7 @@ struct Bvh {
 /// The triangles of all meshes in input order. Throws Error{LimitExceeded} beyond 2^30 - 65 triangles.
 [[nodiscard]] std::vector<BuildTriangle> buildTriangles(const Scene &scene);
 
-/// buildTriangles, and after them the instances. Their boxes enclose their triangles, and nothing that is outside the
+/// buildTriangles, and after them the spheres if they are in the tree, and the instances. The instances' boxes enclose their triangles, and nothing that is outside the
 /// exact bounds of the scene.
 [[nodiscard]] std::vector<BuildTriangle> buildItems(const Scene &scene);
 
@@ -73,7 +74,8 @@ struct Bvh {
 /// A leaf of the others holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize);
 
-/// Builds over a scene's triangles and instances, which have leaves of their own, and over each prototype. Omits duplicates
+/// Builds over a scene's triangles, its spheres if they are in the tree, and its instances, which have leaves of their
+/// own; and over each prototype. Omits duplicates
 /// (duplicates.h) among the triangles of meshes from Bvh::order. The set of duplicates does not depend on the tree.
 /// Throws Error{LimitExceeded} as buildTriangles does.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize);

@@ -114,7 +114,7 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
     planned.buffers[layout::bindingFrame] =
         plan("the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord));
     planned.buffers[layout::bindingSphereConstants] =
-        plan("the spheres", BufferUse::Uniform, sizeof(layout::SphereRecord) * layout::maxSphereCount);
+        plan("the spheres", BufferUse::Uniform, sizeof(layout::SphereRecord) * layout::maxUnrolledSpheres);
     planned.buffers[layout::bindingLights] =
         plan("the lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxLightCount);
     for (const SceneArray &array : scene.arrays())

@@ -50,7 +50,8 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
     Tree tree = uploadTree(device, scene, plan, isSkipList);
     std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
     bytes[layout::bindingFrame] = std::as_bytes(std::span(&tree.frame, 1));
-    bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.spheres));
+    if (!scene.hasSpheresInTree())
+        bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.spheres));
     bytes[layout::bindingLights] = std::as_bytes(std::span(scene.lights));
     for (const SceneArray &array : scene.arrays())
         bytes[array.binding] = array.bytes;

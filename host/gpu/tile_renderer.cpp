@@ -126,7 +126,9 @@ Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, 
     const WaitingPlan &waiting = waitingPlan(plan, isResumable);
     SpecializationConstants constants{};
     constants[layout::constantWorkgroupSize] = workgroupSize;
-    constants[layout::constantSphereCount] = static_cast<std::uint32_t>(scene.spheres.size());
+    constants[layout::constantSphereCount] =
+        scene.hasSpheresInTree() ? 0 : static_cast<std::uint32_t>(scene.spheres.size());
+    constants[layout::constantTreeSpheres] = scene.treeSpheres;
     constants[layout::constantLightCount] = static_cast<std::uint32_t>(scene.lights.size());
     constants[layout::constantHasTriangles] = scene.hasTriangles;
     constants[layout::constantHasInstances] = !scene.instances.empty();

@@ -66,7 +66,8 @@ std::vector<std::uint32_t> emittingTriangles(const PackedScene &packed,
     const std::vector<layout::TriangleRecord> &triangles = packed.triangles;
     std::vector<std::uint32_t> records;
     for (std::size_t i = 0; i < triangles.size(); ++i)
-        if (exitances[triangles[i].materialIndex] > 0.0)
+        if ((triangles[i].flags & layout::triangleIsSphere) == 0 &&
+            exitances[triangles[i].materialIndex] > 0.0)
             records.push_back(static_cast<std::uint32_t>(i));
     std::ranges::sort(records, {}, [&](std::uint32_t record) { return triangles[record].primitiveId; });
     return records;

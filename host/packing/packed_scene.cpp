@@ -52,6 +52,8 @@ layout::FrameRecord packFrame(const Scene &scene) {
     frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);
     frame.occlusionDistance = static_cast<float>(scene.settings.occlusionDistance);
     frame.lightCount = static_cast<std::uint32_t>(scene.lights.size());
+    frame.firstTriangleId =
+        std::max(layout::minFirstTriangleId, static_cast<std::uint32_t>(scene.spheres.size()));
     frame.background = scene.background;
     frame.shadowThroughGlass = scene.shadowThroughGlass;
     return frame;
@@ -222,6 +224,9 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     packed.frame = packFrame(scene);
     packed.camera = cameraOf(scene.camera);
     packed.hasTriangles = !bvh.order.empty();
+    if (areSpheresInTree(scene))
+        packed.treeSpheres = scene.meshes.empty() && scene.instances.empty() ? layout::treeHasSpheresOnly
+                                                                             : layout::treeHasSpheresToo;
 
     const std::vector<std::uint32_t> order = materialOrder(scene.materials);
     std::vector<std::uint32_t> packedMaterial(order.size()); // by the index in the input

@@ -41,7 +41,8 @@ struct PackedScene {
 #undef HYALITE_MEMBER
 
     // Features of the scene: kernels leave out what it does not use.
-    bool hasTriangles = false; ///< instances included
+    bool hasTriangles = false; ///< in the tree: those of instances, and spheres, included
+    std::uint32_t treeSpheres = layout::treeHasTriangles; ///< layout::treeHas...
     bool hasSpecular = false;
     bool hasDielectric = false;
     bool hasEmission = false;
@@ -50,6 +51,9 @@ struct PackedScene {
     std::uint32_t lighting = 0;  ///< bits of layout::lightsBy...
     std::uint32_t texturing = 0; ///< bits of layout::textures...
     std::uint32_t camera = layout::cameraPinhole;
+
+    /// Whether the spheres are in the tree: all of them, or none.
+    [[nodiscard]] bool hasSpheresInTree() const { return treeSpheres != layout::treeHasTriangles; }
 
     /// A view of each scene array, in the order of the bindings.
     [[nodiscard]] std::array<SceneArray, layout::sceneArrayCount> arrays() const;

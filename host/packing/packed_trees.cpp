@@ -63,6 +63,22 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
     }
 }
 
+/// Writes the records of all spheres; `recordOf` has the index of each.
+void packSpheres(std::span<const std::uint32_t> recordOf, PackedScene &packed) {
+    const auto count = static_cast<std::int64_t>(packed.spheres.size());
+#pragma omp parallel for schedule(static) if (isLong(count))
+    for (std::int64_t i = 0; i < count; ++i) {
+        const layout::SphereRecord &sphere = packed.spheres[static_cast<std::size_t>(i)];
+        layout::TriangleRecord &record = packed.triangles[recordOf[static_cast<std::size_t>(i)]];
+        record.v0 = sphere.centre;
+        record.v1.x = sphere.radius;
+        record.primitiveId = static_cast<std::uint32_t>(i);
+        record.materialIndex = materialIndexOf(sphere);
+        record.flags =
+            layout::triangleIsSphere | (sphere.isTransmissive != 0 ? layout::triangleIsTransmissive : 0u);
+    }
+}
+
 /// Marks the last triangle of each leaf.
 void endLeaves(const Bvh &bvh, std::span<const std::uint32_t> records, PackedScene &packed) {
     for (const BvhNode &node : bvh.nodes)
@@ -131,21 +147,23 @@ PackedTree beginTree(const Bvh &bvh, std::size_t triangleCount, PackedScene &pac
 
 void packSceneTree(const Scene &scene, const Bvh &bvh, const InputOrder &order,
                    std::span<const std::uint32_t> packedMaterial, PackedScene &packed) {
-    const auto isTriangle = [&](std::uint32_t inputIndex) { return !bvh.isInstance(inputIndex); };
+    const auto hasRecord = [&](std::uint32_t inputIndex) { return !bvh.isInstance(inputIndex); };
     packed.trees.push_back(
-        beginTree(bvh, static_cast<std::size_t>(std::ranges::count_if(bvh.order, isTriangle)), packed));
+        beginTree(bvh, static_cast<std::size_t>(std::ranges::count_if(bvh.order, hasRecord)), packed));
     const std::vector<std::uint32_t> records = recordsOf(bvh, 0);
-    std::vector<std::uint32_t> recordOf(triangleCount(scene), nowhere); // of each triangle
+    std::vector<std::uint32_t> recordOf(primitivesInTree(scene), nowhere); // of each triangle and sphere
     const auto total = static_cast<std::int64_t>(bvh.order.size());
 #pragma omp parallel for schedule(static) if (isLong(total))
     for (std::int64_t i = 0; i < total; ++i)
-        if (isTriangle(bvh.order[static_cast<std::size_t>(i)]))
+        if (hasRecord(bvh.order[static_cast<std::size_t>(i)]))
             recordOf[bvh.order[static_cast<std::size_t>(i)]] = records[static_cast<std::size_t>(i)];
+    if (areSpheresInTree(scene))
+        packSpheres(std::span(recordOf).subspan(triangleCount(scene)), packed);
     std::size_t first = 0;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const TriangleMesh &mesh = scene.meshes[i];
         packTriangles(scene, mesh, std::span(recordOf).subspan(first, mesh.triangles.size()),
-                      layout::firstTriangleId + order.meshes[i], packedMaterial, packed);
+                      packed.frame.firstTriangleId + order.meshes[i], packedMaterial, packed);
         first += mesh.triangles.size();
     }
     endLeaves(bvh, records, packed);
@@ -165,7 +183,7 @@ void packPrototype(const Scene &scene, const TriangleMesh &mesh, const Bvh &bvh,
     packNodes(bvh, records, packed);
 }
 
-layout::InstanceRecord packInstance(const Instance &instance, std::uint32_t firstTriangle,
+layout::InstanceRecord packInstance(const Instance &instance, std::uint32_t firstPrimitive,
                                     const PackedTree &tree) {
     const Placement &placement = instance.toWorld;
     layout::InstanceRecord record{};
@@ -179,7 +197,7 @@ layout::InstanceRecord packInstance(const Instance &instance, std::uint32_t firs
     constexpr double roundings = 25.0 / 16777216.0;
     const glm::dvec3 size(glm::max(glm::abs(tree.box.lower), glm::abs(tree.box.upper)));
     record.slack = glm::vec3(placedExtent(placement, size) * roundings);
-    record.firstPrimitive = layout::firstTriangleId + firstTriangle;
+    record.firstPrimitive = firstPrimitive;
     record.tree = instance.prototype;
     record.root = tree.firstPair;
     return record;
@@ -200,8 +218,9 @@ void packTrees(const Scene &scene, const Bvh &bvh, std::span<const std::uint32_t
         if (bvh.isInstance(inputIndex)) {
             const std::size_t index = inputIndex - bvh.firstInstance;
             const Instance &instance = scene.instances[index];
-            packed.instances.push_back(
-                packInstance(instance, order.instances[index], packed.trees[instance.prototype + 1]));
+            packed.instances.push_back(packInstance(instance,
+                                                    packed.frame.firstTriangleId + order.instances[index],
+                                                    packed.trees[instance.prototype + 1]));
         }
     // On the way into an instance, the way back waits on the stack, too.
     packed.treeDepth = bvh.depth + (packed.instances.empty() ? 0 : 1 + deepest);

@@ -45,7 +45,7 @@ class MeshOfRecord {
         const auto nextTree = std::ranges::upper_bound(packed_.trees, record, {}, &PackedTree::firstRecord);
         if (const auto tree = nextTree - packed_.trees.begin(); tree > 1)
             return {&scene_.prototypes[static_cast<std::size_t>(tree) - 2], id};
-        const std::uint32_t index = id - layout::firstTriangleId;
+        const std::uint32_t index = id - packed_.frame.firstTriangleId;
         // Meshes without triangles begin where the next one does; this finds the last of them.
         const auto next = std::ranges::upper_bound(firstTriangles_, index);
         return {&scene_.meshes[static_cast<std::size_t>(next - firstTriangles_.begin() - 1)],
@@ -67,6 +67,8 @@ void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
 #pragma omp parallel for schedule(static)
     for (std::int64_t i = 0; i < total; ++i) {
         const std::size_t record = static_cast<std::size_t>(i);
+        if ((packed.triangles[record].flags & layout::triangleIsSphere) != 0)
+            continue;
         const auto [meshAt, index] = meshOfRecord(static_cast<std::uint32_t>(i));
         const TriangleMesh &mesh = *meshAt;
         if (mesh.triangleUvs.empty())

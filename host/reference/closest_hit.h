@@ -35,11 +35,15 @@ template <class Real>
            isCutAway<Real>(scene, triangle.materialIndex, record, hit.u, hit.v);
 }
 
+template <class Real> [[nodiscard]] bool isSphere(const TriangleRecord<Real> &primitive) {
+    return (primitive.flags & layout::triangleIsSphere) != 0;
+}
+
 /// A ray in the scene's tree or, if there are instances, in that of a mesh where an instance places it.
-template <class Real, bool hasInstances> class TreeRay {
+template <class Real, bool hasInstances, bool hasSpheres> class TreeRay {
   public:
     TreeRay(const SceneView<Real> &scene, const Ray<Real> &ray)
-        : scene_(scene),
+        : scene_(scene), ray_(ray),
           boxRay_(makeBoxRay(ray.origin, ray.direction, scene.frame.boundsLower, scene.frame.boundsUpper)),
           triangleRay_(makeTriangleRay(ray.origin, ray.direction)) {}
 
@@ -65,12 +69,22 @@ template <class Real, bool hasInstances> class TreeRay {
         return !hasInstances || instance_ == layout::noInstance ? triangle : placedTriangle(place_, triangle);
     }
 
-    [[nodiscard]] TriangleHit<Real> meet(const TriangleRecord<Real> &triangle) const {
-        return intersectTriangle(triangleRay_, boxRay_, triangle.v0, triangle.v1, triangle.v2);
+    /// The distance is not positive where the ray does not hit the primitive.
+    [[nodiscard]] TriangleHit<Real> meet(const TriangleRecord<Real> &primitive) const {
+        const bool isExcluded = primitive.primitiveId == ray_.excluded;
+        if (hasSpheres && isSphere(primitive)) {
+            const Real distance =
+                intersectBoxedSphere<Real>(boxRay_, ray_.direction, primitive.v0, primitive.v1.x, isExcluded);
+            return {distance, Real(0), Real(0)};
+        }
+        if (isExcluded)
+            return {Real(0), Real(0), Real(0)};
+        return intersectTriangle(triangleRay_, boxRay_, primitive.v0, primitive.v1, primitive.v2);
     }
 
   private:
     const SceneView<Real> &scene_;
+    const Ray<Real> &ray_;
     BoxRay<Real> boxRay_;
     TriangleRay<Real> triangleRay_;
     std::uint32_t instance_ = layout::noInstance;
@@ -78,20 +92,21 @@ template <class Real, bool hasInstances> class TreeRay {
     PlacedBoxRay<Real> placedRay_{};
 };
 
-/// A triangle that a ray hits.
+/// A triangle, or a sphere in the tree, that a ray hits.
 template <class Real> struct Meeting {
     TriangleRecord<Real> triangle; ///< in world space
-    std::uint32_t record;
-    std::uint32_t instance; ///< or layout::noInstance
+    std::uint32_t record;          ///< its index among the triangle or the sphere records
+    std::uint32_t instance;        ///< or layout::noInstance
     TriangleHit<Real> hit;
 };
 
-/// visitTriangles of a scene with triangles. Without instances there is no code for them, which would take 5 % of the time.
-template <bool hasInstances, class Real, class Counter, class Visitor>
+/// visitTriangles of a scene with a tree. There is no code for what it does not hold: that for instances would take 5 % of
+/// the time.
+template <bool hasInstances, bool hasSpheres, class Real, class Counter, class Visitor>
 [[gnu::flatten]] // GCC would call the triangle test in some builds and inline it in others: a quarter of the time
 void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
                const Visitor &visit) {
-    TreeRay<Real, hasInstances> treeRay(scene, ray);
+    TreeRay<Real, hasInstances, hasSpheres> treeRay(scene, ray);
     std::array<std::uint32_t, 2 * layout::maxTreeDepth + 1> waiting;
     std::size_t waitingCount = 0;
     waiting[waitingCount++] = 0;
@@ -130,9 +145,9 @@ void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &r
             const TriangleRecord<Real> triangle = treeRay.triangle(record);
             counter.testTriangle();
             const TriangleHit<Real> hit = treeRay.meet(triangle);
-            if (hit.distance > 0 && triangle.primitiveId != ray.excluded &&
-                !isCutOut(scene, triangle, record, hit) &&
-                !visit(Meeting<Real>{triangle, record, treeRay.instance(), hit}))
+            const std::uint32_t found = hasSpheres && isSphere(triangle) ? triangle.primitiveId : record;
+            if (hit.distance > 0 && !isCutOut(scene, triangle, record, hit) &&
+                !visit(Meeting<Real>{triangle, found, treeRay.instance(), hit}))
                 return;
             if ((triangle.flags & layout::triangleEndsLeaf) != 0)
                 break;
@@ -146,10 +161,12 @@ void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &r
 template <class Real, class Counter, class Visitor>
 void visitTriangles(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
                     const Visitor &visit) {
-    if (!scene.packed.instances.empty())
-        visitTree<true>(scene, ray, reach, counter, visit);
+    if (scene.packed.hasSpheresInTree())
+        visitTree<true, true>(scene, ray, reach, counter, visit);
+    else if (!scene.packed.instances.empty())
+        visitTree<true, false>(scene, ray, reach, counter, visit);
     else if (scene.hasTriangles)
-        visitTree<false>(scene, ray, reach, counter, visit);
+        visitTree<false, false>(scene, ray, reach, counter, visit);
 }
 
 template <class Real, class Counter>

@@ -25,11 +25,11 @@ std::string vectorText(const glm::vec3 &v) {
     return fmt::format("({}, {}, {})", floatText(v.x), floatText(v.y), floatText(v.z));
 }
 
-std::string primitiveText(std::uint32_t id) {
+std::string primitiveText(std::uint32_t id, std::uint32_t firstTriangleId) {
     if (id == layout::noPrimitive)
         return "none";
-    return id < layout::firstTriangleId ? fmt::format("sphere {}", id)
-                                        : fmt::format("triangle {}", id - layout::firstTriangleId);
+    return id < firstTriangleId ? fmt::format("sphere {}", id)
+                                : fmt::format("triangle {}", id - firstTriangleId);
 }
 
 std::string visibilityText(const TraceEvent &event) {
@@ -47,7 +47,8 @@ bool isSameDecision(const TraceEvent &a, const TraceEvent &b) {
     return a.quantity == b.quantity && a.rayDepth == b.rayDepth && a.integer == b.integer;
 }
 
-Divergence describe(const TraceEvent &a, const TraceEvent &b, std::size_t index) {
+Divergence describe(const TraceEvent &a, const TraceEvent &b, std::size_t index,
+                    std::uint32_t firstTriangleId) {
     Divergence divergence;
     divergence.sampleIndex = a.sampleIndex;
     divergence.rayDepth = a.rayDepth;
@@ -71,8 +72,10 @@ Divergence describe(const TraceEvent &a, const TraceEvent &b, std::size_t index)
         divergence.valueB = isDistance ? floatText(b.value.x) : vectorText(b.value);
     } else if (a.quantity == layout::traceHit) {
         divergence.quantity = "hit primitive";
-        divergence.valueA = fmt::format("{} at distance {}", primitiveText(a.integer), floatText(a.value.x));
-        divergence.valueB = fmt::format("{} at distance {}", primitiveText(b.integer), floatText(b.value.x));
+        divergence.valueA =
+            fmt::format("{} at distance {}", primitiveText(a.integer, firstTriangleId), floatText(a.value.x));
+        divergence.valueB =
+            fmt::format("{} at distance {}", primitiveText(b.integer, firstTriangleId), floatText(b.value.x));
     } else if (a.quantity == layout::traceVisibility) {
         divergence.valueA = visibilityText(a);
         divergence.valueB = visibilityText(b);
@@ -88,11 +91,11 @@ Divergence describe(const TraceEvent &a, const TraceEvent &b, std::size_t index)
 
 template <class IsSame>
 std::optional<Divergence> findFirst(const std::vector<TraceEvent> &a, const std::vector<TraceEvent> &b,
-                                    IsSame isSame) {
+                                    std::uint32_t firstTriangleId, IsSame isSame) {
     const std::size_t common = std::min(a.size(), b.size());
     for (std::size_t i = 0; i < common; ++i)
         if (!isSame(a[i], b[i]))
-            return describe(a[i], b[i], i);
+            return describe(a[i], b[i], i, firstTriangleId);
     if (a.size() == b.size())
         return std::nullopt;
     Divergence divergence;
@@ -109,15 +112,17 @@ std::optional<Divergence> findFirst(const std::vector<TraceEvent> &a, const std:
 
 } // namespace
 
-std::optional<Divergence> findDivergence(const std::vector<TraceEvent> &a, const std::vector<TraceEvent> &b) {
-    return findFirst(a, b, [](const TraceEvent &x, const TraceEvent &y) {
+std::optional<Divergence> findDivergence(const std::vector<TraceEvent> &a, const std::vector<TraceEvent> &b,
+                                         std::uint32_t firstTriangleId) {
+    return findFirst(a, b, firstTriangleId, [](const TraceEvent &x, const TraceEvent &y) {
         return isSameDecision(x, y) && areSameBits(x.value, y.value);
     });
 }
 
 std::optional<Divergence> findDiscreteDivergence(const std::vector<TraceEvent> &a,
-                                                 const std::vector<TraceEvent> &b) {
-    return findFirst(a, b, isSameDecision);
+                                                 const std::vector<TraceEvent> &b,
+                                                 std::uint32_t firstTriangleId) {
+    return findFirst(a, b, firstTriangleId, isSameDecision);
 }
 
 } // namespace hyalite

@@ -21,12 +21,14 @@ struct Divergence {
     std::uint32_t eventIndex = 0; ///< in both traces
 };
 
-/// Compares two traces of the same sample, step by step.
+/// Compares two traces of the same sample, step by step. `firstTriangleId` is that of the scene's frame.
 [[nodiscard]] std::optional<Divergence> findDivergence(const std::vector<layout::TraceEvent> &a,
-                                                       const std::vector<layout::TraceEvent> &b);
+                                                       const std::vector<layout::TraceEvent> &b,
+                                                       std::uint32_t firstTriangleId);
 
 /// The first step at which a decision differs, whatever the rounding of the numbers around it.
 [[nodiscard]] std::optional<Divergence> findDiscreteDivergence(const std::vector<layout::TraceEvent> &a,
-                                                               const std::vector<layout::TraceEvent> &b);
+                                                               const std::vector<layout::TraceEvent> &b,
+                                                               std::uint32_t firstTriangleId);
 
 } // namespace hyalite

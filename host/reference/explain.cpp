@@ -39,7 +39,8 @@ std::optional<double> findMargin(const PackedScene &scene, const RenderSettings 
         for (const glm::dvec2 &direction : directions) {
             const std::vector<TraceEvent> moved =
                 trace(scene, settings, pixel, sampleIndex, Precision::Float64, direction * distance);
-            const std::optional<Divergence> rest = findDiscreteDivergence(wanted, moved);
+            const std::optional<Divergence> rest =
+                findDiscreteDivergence(wanted, moved, scene.frame.firstTriangleId);
             if (!rest || rest->eventIndex > eventIndex)
                 return distance;
         }
@@ -71,7 +72,8 @@ Explanation explainOutlier(const PackedScene &scene, const RenderSettings &setti
     for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(settings.samplesPerPixel); ++sample) {
         const std::vector<TraceEvent> narrow = trace(scene, settings, pixel, sample, Precision::Float32);
         const std::vector<TraceEvent> wide = trace(scene, settings, pixel, sample, Precision::Float64);
-        const std::optional<Divergence> divergence = findDiscreteDivergence(narrow, wide);
+        const std::optional<Divergence> divergence =
+            findDiscreteDivergence(narrow, wide, scene.frame.firstTriangleId);
         if (!divergence)
             continue;
         const std::size_t index = divergence->eventIndex;

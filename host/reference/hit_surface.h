@@ -9,7 +9,7 @@ namespace hyalite::reference {
 template <class Real>
 [[nodiscard]] Vec2<Real> hitUv(const SceneView<Real> &scene, const Hit<Real> &hit,
                                const Vec3<Real> &position) {
-    if (hit.primitive >= layout::firstTriangleId)
+    if (hit.primitive >= scene.frame.firstTriangleId)
         return triangleUv(fetchCoordinates(scene, hit.record), hit.u, hit.v);
     return sphereUv<Real>(position - scene.fetchSphere(hit.record).centre);
 }
@@ -41,7 +41,7 @@ void mapNormal(const SceneView<Real> &scene, const Ray<Real> &ray, const Hit<Rea
 template <class Real>
 [[nodiscard]] Surface<Real> hitSurface(const SceneView<Real> &scene, const Ray<Real> &ray,
                                        const Hit<Real> &hit, std::uint32_t &materialIndex) {
-    if (hit.primitive >= layout::firstTriangleId) {
+    if (hit.primitive >= scene.frame.firstTriangleId) {
         TriangleRecord<Real> triangle = scene.fetchTriangle(hit.record);
         NormalRecord<Real> normals = scene.fetchNormals(hit.record);
         if (hit.instance != layout::noInstance) {

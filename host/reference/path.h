@@ -97,7 +97,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         Real weight = 1;
         if (scatterPdf_ > 0) {
             Real pdf;
-            if (hit.primitive >= layout::firstTriangleId) {
+            if (hit.primitive >= scene_.frame.firstTriangleId) {
                 pdf = solidAnglePdf(areaPdf, hit.distance, cosine);
             } else {
                 const layout::SphereRecord &sphere = scene_.packed.spheres[hit.record];

@@ -93,8 +93,9 @@ template <class Real> struct SceneView {
           lighting(packedScene.lighting), camera(packedScene.camera),
           emitterCount(static_cast<uint>(packedScene.emitters.size())),
           hasTriangles(packedScene.hasTriangles), hasEmission(packedScene.hasEmission) {
-        for (const SphereRecord<Real> sphere : packedScene.spheres)
-            sphereShapes.push_back(makeSphereShape<Real>(sphere.centre, sphere.radius));
+        if (!packedScene.hasSpheresInTree())
+            for (const SphereRecord<Real> sphere : packedScene.spheres)
+                sphereShapes.push_back(makeSphereShape<Real>(sphere.centre, sphere.radius));
     }
 
 #define HYALITE_FETCH(number, value, name, Record, fetch)                                                    \
@@ -112,7 +113,7 @@ template <class Real> struct SceneView {
     uint emitterCount;
     bool hasTriangles;
     bool hasEmission;
-    std::vector<SphereShape<Real>> sphereShapes; ///< of all spheres, for the loops over them
+    std::vector<SphereShape<Real>> sphereShapes; ///< of spheres outside the tree, for the loops over them
 };
 
 } // namespace hyalite::reference

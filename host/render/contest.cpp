@@ -18,7 +18,8 @@ std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, c
     for (int sample = 0; sample < sampleCount; ++sample) {
         const std::uint32_t index = static_cast<std::uint32_t>(sample);
         if (std::optional<Divergence> divergence =
-                findDivergence(first.trace(scene, pixel, index), second.trace(scene, pixel, index)))
+                findDivergence(first.trace(scene, pixel, index), second.trace(scene, pixel, index),
+                               scene.packed.frame.firstTriangleId))
             return divergence;
     }
     return std::nullopt;

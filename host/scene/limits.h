@@ -40,15 +40,16 @@ inline constexpr Interval threadCount{1, 1024};
 inline constexpr Interval inspectedRays{1, 1e6}; ///< each is tested against all triangles
 
 inline constexpr std::size_t lightCount = layout::maxLightCount;
-inline constexpr std::size_t sphereCount = layout::maxSphereCount; ///< each ray tests all of them
-inline constexpr std::size_t mediumCount = layout::maxMedia;       ///< dielectrics, for the path integrator
+inline constexpr std::size_t mediumCount = layout::maxMedia; ///< dielectrics, for the path integrator
 inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 27; ///< pixels: 2 GiB on the device
 inline constexpr std::size_t textureBytes = std::size_t{1} << 30; ///< of all textures together, on the device
 inline constexpr std::size_t materialCount = 65536;
 inline constexpr std::size_t meshCount = 4096;
 inline constexpr std::size_t triangleCount = (std::size_t{1} << 30) - 128; ///< of all meshes together
+inline constexpr std::size_t sphereCount = triangleCount;
+inline constexpr std::size_t treeCount = triangleCount; ///< spheres and triangles together
 inline constexpr std::size_t instanceCount = (std::size_t{1} << 30) - 128;
-/// Triangles of meshes and instances together: each has an id.
-inline constexpr std::size_t placedTriangleCount = layout::noPrimitive - layout::firstTriangleId;
+/// Spheres, and triangles of meshes and instances, all together: each has an id.
+inline constexpr std::size_t primitiveCount = layout::noPrimitive - layout::minFirstTriangleId;
 
 } // namespace hyalite::limits

@@ -156,4 +156,14 @@ struct Scene {
     return count;
 }
 
+/// Whether rays find spheres by the tree. A few are tested one after the other, which is faster.
+[[nodiscard]] inline bool areSpheresInTree(const Scene &scene) {
+    return scene.spheres.size() > layout::maxUnrolledSpheres;
+}
+
+/// Triangles and spheres in the scene's own tree.
+[[nodiscard]] inline std::size_t primitivesInTree(const Scene &scene) {
+    return triangleCount(scene) + (areSpheresInTree(scene) ? scene.spheres.size() : 0);
+}
+
 } // namespace hyalite

@@ -243,8 +243,8 @@ void checkInstances(const Scene &scene, const std::string &sourceName) {
                            fmt::format("at least {}, as for the instance before", before));
     }
     Checked(sourceName, "scene")
-        .atMost(limits::placedTriangleCount, inputOrder(scene).triangleCount,
-                "triangles, instances included");
+        .atMost(limits::primitiveCount, scene.spheres.size() + inputOrder(scene).triangleCount,
+                "spheres and triangles, those of instances included");
 }
 
 /// Refuses meshes that are all together smaller than products of floats can tell.
@@ -303,6 +303,7 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     whole.atMost(limits::meshCount, scene.meshes.size(), "meshes");
     whole.atMost(limits::meshCount, scene.prototypes.size(), "meshes with instances");
     whole.atMost(limits::triangleCount, triangleCount(scene), "triangles");
+    whole.atMost(limits::treeCount, scene.spheres.size() + triangleCount(scene), "spheres and triangles");
     whole.atMost(limits::instanceCount, scene.instances.size(), "instances");
     whole.within(limits::radiance, scene.background, "background");
     checkEnvironment(scene.environment, {sourceName, "environment"});

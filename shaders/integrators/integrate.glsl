@@ -22,7 +22,7 @@ void traceRays() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageClosest && !isTraversing(slot))
             shadeHit(slot);
-    stepsTaken += 1u + sphereIterations;
+    stepsTaken += 1u;
     passWork += workPerPass;
 }
 
@@ -36,7 +36,7 @@ void lightSurfaces() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageShadow && !isTraversing(slot))
             addLight(slot);
-    stepsTaken += 1u + sphereIterations;
+    stepsTaken += 1u;
     passWork += workPerPass;
 }
 

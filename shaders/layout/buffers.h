@@ -10,7 +10,7 @@ namespace hyalite::layout {
 #endif
 
 const uint bindingFrame = 0u;
-const uint bindingSphereConstants = 1u; // the spheres again, room for maxSphereCount
+const uint bindingSphereConstants = 1u; // the spheres again, room for maxUnrolledSpheres
 const uint bindingLights = 2u;          // room for maxLightCount
 const uint uniformBufferCount = 3u;
 const uint bindingNodes = 3u; // node pairs, or skip nodes

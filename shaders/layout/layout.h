@@ -21,16 +21,19 @@ using uint = std::uint32_t;
 
 // ---- Limits
 
-const uint maxSphereCount = 64u; // spheres are tested one after the other, from a uniform buffer
+const uint maxUnrolledSpheres =
+    16u; // as many are tested by every ray, from a uniform buffer; more are in the tree
 const uint maxLightCount = 16u;
 const uint maxPathDepth = 32u;
 const uint maxTreeDepth = 64u; // and the size of a traversal stack: builders keep every tree below it
 
 // ---- Primitives A primitive's id orders all primitives of a scene: spheres first, then triangles, both by their index
-// in the input. Of two hits at the same distance, the one with the smaller id is the nearest.
+// in the input. Of two hits at the same distance, the one with the smaller id is the nearest. Triangles count from
+// FrameRecord::firstTriangleId on: from the same number in all scenes with few spheres, so that one more of them does not
+// change the colours of a view of ids.
 
 const uint noPrimitive = 0xFFFFFFFFu;
-const uint firstTriangleId = maxSphereCount; // id of the triangle with input index 0
+const uint minFirstTriangleId = 64u;
 
 // Most shading reads only the first row: on lavapipe, reading a row takes as long as testing a sphere.
 struct SphereRecord {
@@ -53,8 +56,10 @@ HYALITE_INLINE float normalSignOf(SphereRecord sphere) {
     return (sphere.materialAndSide & sphereFacesInward) != 0u ? -1.0f : 1.0f;
 }
 
+// A primitive of the tree: a triangle, or a sphere whose other properties are in the SphereRecord with its id as index.
 struct TriangleRecord {
-    vec3 v0; // world space; counter-clockwise seen from outside
+    vec3
+        v0; // world space; counter-clockwise seen from outside. Of a sphere: its centre, and v1.x is its radius
     uint primitiveId;
     vec3 v1;
     uint materialIndex;
@@ -65,6 +70,7 @@ struct TriangleRecord {
 const uint triangleIsTransmissive = 1u; // a dielectric: it dims light instead of blocking it
 const uint triangleEndsLeaf = 2u;       // the last triangle of its leaf
 const uint triangleIsCutOut = 4u;       // its material has an opacity texture
+const uint triangleIsSphere = 8u;
 
 // Shading normals of the triangle with the same index. Zero vectors mean: use the geometric normal.
 struct NormalRecord {
@@ -355,7 +361,7 @@ struct FrameRecord {
     uint lightCount;
     vec3 background; // radiance
     float shadowThroughGlass;
-    vec3 boundsLower; // of all triangles
+    vec3 boundsLower; // of all primitives in the tree
     uint triangleCount;
     vec3 boundsUpper;
     uint maxDepth;       // maximum number of path segments, the primary ray included
@@ -377,8 +383,8 @@ struct FrameRecord {
     uint filterTexels;   // the first one
     uint
         topListLength; // nodes of the scene's own tree in each skip list; those of meshes with instances follow
+    uint firstTriangleId; // of the triangle with input index 0
     uint pad0;
-    uint pad1;
 };
 
 // ---- Dispatch constants A dispatch works on one tile of the film, with `samplesAbreast` path slots for each pixel.
@@ -561,7 +567,12 @@ const uint constantLighting = 19u;
 const uint constantCamera = 20u;
 const uint constantTexturing = 21u;
 const uint constantHasInstances = 22u;
-const uint constantCount = 23u;
+const uint constantTreeSpheres = 23u; // what the tree holds
+const uint constantCount = 24u;
+
+const uint treeHasTriangles = 0u;
+const uint treeHasSpheresToo = 1u;
+const uint treeHasSpheresOnly = 2u;
 
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, radius) == 16);

@@ -9,9 +9,10 @@ layout(set = 0, binding = bindingTrace, std430) writeonly buffer TraceBuffer { T
 
 layout(push_constant) uniform DispatchBlock { DispatchConstants dispatchConstants; };
 
-layout(constant_id = constantSphereCount) const uint sphereCount = 0u;
+layout(constant_id = constantSphereCount) const uint sphereCount = 0u; // without those in the tree
 layout(constant_id = constantHasTriangles) const bool hasTriangles = true;
 layout(constant_id = constantHasInstances) const bool hasInstances = true;
+layout(constant_id = constantTreeSpheres) const uint treeSpheres = treeHasTriangles;
 layout(constant_id = constantHasSpecular) const bool hasSpecular = true;
 layout(constant_id = constantHasDielectric) const bool hasDielectric = true;
 layout(constant_id = constantSampler) const uint samplerKind = samplerSobol;

@@ -5,7 +5,7 @@
 // several times faster (MEMORY_TEXELS=1).
 
 layout(set = 0, binding = bindingSphereConstants, std140) uniform SphereBuffer {
-    SphereRecord sphereConstants[maxSphereCount];
+    SphereRecord sphereConstants[maxUnrolledSpheres];
 };
 layout(set = 0, binding = bindingLights, std140) uniform LightBuffer { LightRecord lights[maxLightCount]; };
 

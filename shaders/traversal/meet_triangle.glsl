@@ -7,9 +7,21 @@ bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[sl
 // otherwise the nearest hit is kept.
 bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
                   const bool isShadow) {
-    TriangleHit hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
     uint id = triangle.primitiveId;
-    bool isHit = hit.distance > 0.0 && id != path[slot].rayExcluded;
+    bool isExcluded = id == path[slot].rayExcluded;
+    bool isSphere = treeSpheres == treeHasSpheresOnly ||
+                    (treeSpheres == treeHasSpheresToo && (triangle.flags & triangleIsSphere) != 0u);
+    TriangleHit hit = TriangleHit(0.0, 0.0, 0.0);
+    if (treeSpheres != treeHasSpheresOnly && !isSphere) {
+        hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
+        hit.distance = isExcluded ? 0.0 : hit.distance;
+    }
+    if (treeSpheres != treeHasTriangles && isSphere) {
+        hit.distance =
+            intersectBoxedSphere(boxRay, path[slot].rayDirection, triangle.v0, triangle.v1.x, isExcluded);
+        record = id;
+    }
+    bool isHit = hit.distance > 0.0;
     if ((texturing & texturesOpacity) != 0u && (triangle.flags & triangleIsCutOut) != 0u && isHit)
         isHit = !isCutAway(triangle.materialIndex, record, hit.u, hit.v);
     if (isShadow) {

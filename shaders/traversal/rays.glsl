@@ -49,12 +49,8 @@ void beginClosest(uint slot) {
     traceEvent(slot, traceRayDirection, 0u, path[slot].rayDirection);
     path[slot].rayLength = unbounded;
     path[slot].hitPrimitive = noPrimitive;
-    if (sphereCount <= unrolledSphereCount)
-        [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
-            meetSphere(slot, i, sphereShapes[i]);
-    else
-        for (uint i = 0u; i < sphereCount; ++i)
-            meetSphere(slot, i, sphereShape(i));
+    [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
+        meetSphere(slot, i, sphereShapes[i]);
     path[slot].hitRecord = path[slot].hitPrimitive;
     if (hasTriangles)
         enterTree(slot);
@@ -84,12 +80,8 @@ void beginShadow(uint slot, vec3 direction, float distance) {
     path[slot].rayExcluded = path[slot].surfacePrimitive;
     path[slot].hitPrimitive = noPrimitive;
     path[slot].isLightDimmed = 0u;
-    if (sphereCount <= unrolledSphereCount)
-        [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
-            meetSphereInShadow(slot, i, sphereShapes[i]);
-    else
-        for (uint i = 0u; i < sphereCount; ++i)
-            meetSphereInShadow(slot, i, sphereShape(i));
+    [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
+        meetSphereInShadow(slot, i, sphereShapes[i]);
     if (hasTriangles && path[slot].hitPrimitive == noPrimitive)
         enterTree(slot);
     else
@@ -98,7 +90,13 @@ void beginShadow(uint slot, vec3 direction, float distance) {
 }
 
 // Whether the primitive that was hit is a triangle.
-bool isTriangle(uint primitive) { return hasTriangles && (sphereCount == 0u || primitive >= firstTriangleId); }
+bool isTriangle(uint primitive) {
+    if (!hasTriangles || treeSpheres == treeHasSpheresOnly)
+        return false;
+    if (treeSpheres == treeHasSpheresToo)
+        return primitive >= frame.firstTriangleId;
+    return sphereCount == 0u || primitive >= minFirstTriangleId;
+}
 
 // Texture coordinates of the hit at `position`.
 vec2 hitUv(uint slot, vec3 position) {
@@ -187,6 +185,3 @@ bool isAtStageUpTo(uint stage) {
         any = any || path[slot].stage <= stage;
     return any;
 }
-
-// Loops over the spheres in one pass; they count as steps.
-const uint sphereIterations = sphereCount <= unrolledSphereCount ? 0u : RAYS * sphereCount;

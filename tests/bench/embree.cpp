@@ -108,7 +108,7 @@ layout::HitRecord anyHit(float tfar) {
 layout::HitRecord nearestHit(unsigned geometry, unsigned triangle, float t, float u, float v) {
     return geometry == RTC_INVALID_GEOMETRY_ID
                ? nothing
-               : layout::HitRecord{triangle + layout::firstTriangleId, t, u, v};
+               : layout::HitRecord{triangle + layout::minFirstTriangleId, t, u, v};
 }
 
 } // namespace

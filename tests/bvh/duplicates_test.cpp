@@ -153,7 +153,7 @@ TEST(Duplicates, ThePackedSceneAndItsHashAreThoseOfTheFirstOnes) {
         const PackedScene packed = packScene(scene, buildBvh(kind, scene, 8));
         std::set<std::uint32_t> indices;
         for (const layout::TriangleRecord &triangle : packed.triangles)
-            indices.insert(triangle.primitiveId - layout::firstTriangleId);
+            indices.insert(triangle.primitiveId - layout::minFirstTriangleId);
         EXPECT_EQ(indices, expected);
         EXPECT_EQ(packed.emitters.size(), expected.size());
         EXPECT_TRUE(std::ranges::is_sorted(packed.emitters, {}, [&](const layout::EmitterRecord &emitter) {

@@ -58,7 +58,7 @@ class Subject {
             const std::size_t end = std::min(first + clusterSize, mesh.triangles.size());
             for (std::size_t triangle = first; triangle < end; ++triangle) {
                 const std::uint32_t index = static_cast<std::uint32_t>(triangle);
-                if (index + layout::firstTriangleId != ray.excluded && isNearby(ray, index))
+                if (index + layout::minFirstTriangleId != ray.excluded && isNearby(ray, index))
                     visit(index,
                           testing::meetExactly(testing::cornersOf(mesh, index), ray.origin, ray.direction));
             }
@@ -112,7 +112,7 @@ class Subject {
     std::vector<Ball> clusters_;
 };
 
-std::uint32_t triangleOf(const FloatHit &hit) { return hit.primitive - layout::firstTriangleId; }
+std::uint32_t triangleOf(const FloatHit &hit) { return hit.primitive - layout::minFirstTriangleId; }
 
 enum class Reason { Edge, Grazing, Tie, Start, Count };
 

@@ -35,7 +35,8 @@ std::optional<Divergence> findPlanted(const Scene &scene, std::span<const std::u
             for (std::uint32_t sample = 0; sample < 2; ++sample) {
                 const auto divergence = findDivergence(
                     faulty.trace(packed, scene.settings, pixel, sample),
-                    reference::trace(packed, scene.settings, pixel, sample, reference::Precision::Float32));
+                    reference::trace(packed, scene.settings, pixel, sample, reference::Precision::Float32),
+                    packed.frame.firstTriangleId);
                 if (divergence)
                     return divergence;
             }
@@ -90,7 +91,7 @@ TEST(Trace, OfBothTwinsIsEqual) {
                 reference::trace(packed, scene.settings, pixel, 0, reference::Precision::Float32);
             EXPECT_GE(device.size(), 7u);
             EXPECT_EQ(device.size(), cpu.size());
-            const auto divergence = findDivergence(device, cpu);
+            const auto divergence = findDivergence(device, cpu, packed.frame.firstTriangleId);
             EXPECT_FALSE(divergence) << name << ": " << divergence->quantity << ", " << divergence->valueA;
         }
     }

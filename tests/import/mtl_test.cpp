@@ -217,7 +217,7 @@ TEST_F(Mtl, ABareMeshHasItsMaterials) {
         packScene(loaded.scene, buildBvh(TreeKind::Sah, buildTriangles(loaded.scene), 1));
     EXPECT_TRUE(packed.hasDielectric);
     for (const layout::TriangleRecord &triangle : packed.triangles) {
-        const std::uint32_t input = triangle.primitiveId - layout::firstTriangleId;
+        const std::uint32_t input = triangle.primitiveId - layout::minFirstTriangleId;
         const bool isGlass = input == 1 || input == 2;
         EXPECT_EQ(kindOf(packed.materials.at(triangle.materialIndex)) == layout::materialDielectric, isGlass);
         EXPECT_EQ((triangle.flags & layout::triangleIsTransmissive) != 0, isGlass);

@@ -266,13 +266,13 @@ INSTANTIATE_TEST_SUITE_P(
                     "meshes": [{"file": "triangle.obj\u0000x", "material": "m"}]})",
                 " /meshes/0/file: ", "NUL"}));
 
-TEST_F(SceneJson, MoreThan64SpheresAreRefusedWithTheNumber) {
+TEST_F(SceneJson, MoreThan4096MeshesAreRefusedWithTheNumber) {
     json scene = completeScene();
-    scene["spheres"] = json(std::vector<json>(64, scene["spheres"][0]));
+    scene["spheres"] = json(std::vector<json>(5000, scene["spheres"][0]));
     EXPECT_EQ(refusal(scene.dump()), "");
-    scene["spheres"].push_back(scene["spheres"][0]);
+    scene["meshes"] = json(std::vector<json>(4097, json::object()));
     EXPECT_EQ(refusal(scene.dump()),
-              " /spheres: found an array of 65; allowed: an array of at most 64 objects");
+              " /meshes: found an array of 4097; allowed: an array of at most 4096 objects");
 }
 
 TEST_F(SceneJson, NestingIsBounded) {

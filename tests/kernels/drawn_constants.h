@@ -15,7 +15,9 @@ namespace hyalite::testing {
     case layout::constantWorkgroupSize:
         return {64};
     case layout::constantSphereCount:
-        return {0, 1, 3, 16, 17, 200};
+        return {0, 1, 3, 15, 16};
+    case layout::constantTreeSpheres:
+        return {layout::treeHasTriangles, layout::treeHasSpheresToo, layout::treeHasSpheresOnly};
     case layout::constantLightCount:
     case layout::constantEmitterCount:
         return {0, 1, 2, 39};

@@ -38,7 +38,7 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
         std::size_t sizeBytes = 256; // of the scene's buffers, which nothing reads
         if (binding < layout::uniformBufferCount) {
             use = gpu::BufferUse::Uniform;
-            sizeBytes = sizeof(layout::SphereRecord) * layout::maxSphereCount;
+            sizeBytes = sizeof(layout::SphereRecord) * layout::maxUnrolledSpheres;
         } else if (binding == bindingProbeInputs) {
             sizeBytes = probeInputCount * inputWords * sizeof(std::uint32_t);
         } else if (binding == bindingProbeOutputs) {

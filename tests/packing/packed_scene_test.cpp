@@ -85,7 +85,7 @@ TEST(PackedScene, WalksBackToTheSameTrianglesWithTightBoxes) {
                 std::sort(ids.begin(), ids.end());
                 ASSERT_EQ(ids.size(), count);
                 for (std::uint32_t i = 0; i < count; ++i)
-                    EXPECT_EQ(ids[i], layout::firstTriangleId + i);
+                    EXPECT_EQ(ids[i], layout::minFirstTriangleId + i);
                 EXPECT_EQ(result.nodes.size(), std::max<std::size_t>(1, walk.leaves.size() - 1));
             }
         }
@@ -111,7 +111,7 @@ TEST(PackedScene, ARecordHasItsCornersNormalsMaterialAndFlags) {
     ASSERT_EQ(result.normals.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
         const layout::TriangleRecord &triangle = result.triangles[i];
-        const std::uint32_t input = triangle.primitiveId - layout::firstTriangleId;
+        const std::uint32_t input = triangle.primitiveId - layout::minFirstTriangleId;
         const TriangleMesh &mesh = scene.meshes[input / 2];
         const MeshTriangle &corner = mesh.triangles[input % 2];
         EXPECT_EQ(triangle.v0, mesh.positions[corner.positions.x]);
@@ -193,7 +193,7 @@ TEST(PackedScene, ASingleTriangleIsTheRootsLeftLeaf) {
         EXPECT_EQ(result.nodes[0].leftLower, glm::vec3(1, 2, 3));
         EXPECT_EQ(result.nodes[0].leftUpper, glm::vec3(4, 5, 6));
         EXPECT_EQ(result.triangles[0].flags, layout::triangleEndsLeaf);
-        EXPECT_EQ(result.triangles[0].primitiveId, layout::firstTriangleId);
+        EXPECT_EQ(result.triangles[0].primitiveId, layout::minFirstTriangleId);
         EXPECT_TRUE(result.hasTriangles);
         EXPECT_EQ(result.sizeBytes(), sizeof(layout::FrameRecord) + sizeof(layout::NodePair) +
                                           sizeof(layout::TriangleRecord) + sizeof(layout::NormalRecord) +
@@ -301,7 +301,7 @@ TEST(Emitters, AreChosenByPowerInTheOrderOfTheInput) {
     EXPECT_EQ(result.emitters[1].kind, layout::emitterSphere);
     EXPECT_EQ(result.emitters[1].record, 1u);
     EXPECT_EQ(result.emitters[2].kind, layout::emitterTriangle);
-    EXPECT_EQ(result.triangles[result.emitters[2].record].primitiveId, layout::firstTriangleId);
+    EXPECT_EQ(result.triangles[result.emitters[2].record].primitiveId, layout::minFirstTriangleId);
     EXPECT_NEAR(result.emitters[0].probability, 8.0 * std::numbers::pi / total, 1e-7);
     EXPECT_NEAR(result.emitters[1].probability, 8.0 * std::numbers::pi * std::numbers::pi / total, 1e-7);
     EXPECT_NEAR(result.emitters[2].probability, 8.0 * std::numbers::pi / total, 1e-7);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 namespace hyalite::reference {
 namespace {
 
@@ -33,6 +35,8 @@ struct Case {
     double condition;
     glm::dvec3 offset;     ///< of the instances
     glm::dvec3 meshOffset; ///< of the mesh in its own space
+
+    friend std::ostream &operator<<(std::ostream &stream, const Case &each) { return stream << each.name; }
 };
 
 constexpr std::array cases{

@@ -231,7 +231,7 @@ TEST(SpawnPoint, LeavesAnyTriangleOnTheSideThatTheRayGoesTo) {
         triangle.v0 = glm::vec3(centre + random.inCube(scale));
         triangle.v1 = glm::vec3(centre + random.inCube(scale));
         triangle.v2 = glm::vec3(centre + random.inCube(scale));
-        triangle.primitiveId = layout::firstTriangleId;
+        triangle.primitiveId = layout::minFirstTriangleId;
         triangle.flags = layout::triangleEndsLeaf;
         const double longest = std::max({glm::distance(glm::dvec3(triangle.v0), glm::dvec3(triangle.v1)),
                                          glm::distance(glm::dvec3(triangle.v1), glm::dvec3(triangle.v2)),

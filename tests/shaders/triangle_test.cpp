@@ -524,10 +524,10 @@ TEST(ClosestHit, ATieGoesToTheSmallerId) {
     for (const TreeKind kind : {TreeKind::None, TreeKind::Midpoint, TreeKind::Sah}) {
         const PackedScene scene = hyalite::testing::packed(hyalite::testing::sceneOf(mesh), kind, 1);
         Ray<float> ray{{0, 0, 0}, {0, 0, -1}};
-        EXPECT_EQ(closestHit(scene, ray).primitive, layout::firstTriangleId);
+        EXPECT_EQ(closestHit(scene, ray).primitive, layout::minFirstTriangleId);
         EXPECT_EQ(closestHit(scene, ray).distance, 2.0f);
-        ray.excluded = layout::firstTriangleId;
-        EXPECT_EQ(closestHit(scene, ray).primitive, layout::firstTriangleId + 1);
+        ray.excluded = layout::minFirstTriangleId;
+        EXPECT_EQ(closestHit(scene, ray).primitive, layout::minFirstTriangleId + 1);
     }
 }
 
