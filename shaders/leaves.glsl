@@ -22,4 +22,5 @@
 #include "shaders/lights/emitter_pdf.glsl"
 #include "shaders/lights/spot.glsl"
 #include "shaders/lights/environment.glsl"
+#include "shaders/lights/light_tree.glsl"
 #include "shaders/lights/emitters.glsl"

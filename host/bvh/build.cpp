@@ -2,6 +2,7 @@
 #include "host/bvh/bvh.h"
 #include "host/bvh/duplicates.h"
 #include "host/bvh/split.h"
+#include "host/bvh/tree_spheres.h"
 #include "host/scene/instances.h"
 #include "shaders/layout/layout.h"
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <utility>
 
 namespace hyalite {
 
@@ -297,10 +299,13 @@ Box boxOf(const Sphere &sphere) {
     return {centre - radius - margin, centre + radius + margin};
 }
 
-void addSpheres(const Scene &scene, std::vector<BuildTriangle> &items) {
-    items.reserve(items.size() + scene.spheres.size());
-    for (const Sphere &sphere : scene.spheres)
+void addSpheres(const Scene &scene, std::span<const std::uint32_t> spheres,
+                std::vector<BuildTriangle> &items) {
+    items.reserve(items.size() + spheres.size());
+    for (const std::uint32_t index : spheres) {
+        const Sphere &sphere = scene.spheres[index];
         items.push_back({boxOf(sphere), glm::vec3(sphere.centre), static_cast<std::uint32_t>(items.size())});
+    }
 }
 
 Box boxOf(std::span<const glm::vec3> points) {
@@ -348,16 +353,15 @@ Box placedBox(const Placement &placement, const Box &box) {
 
 /// The box of all primitives of the tree, exactly as if instances were flattened. `boxes` enclose the instances; only
 /// those that reach beyond what is known so far are looked at point by point.
-Box exactBounds(const Scene &scene, const std::vector<std::vector<glm::vec3>> &points,
-                std::span<const Box> boxes) {
+Box exactBounds(const Scene &scene, std::span<const std::uint32_t> spheres,
+                const std::vector<std::vector<glm::vec3>> &points, std::span<const Box> boxes) {
     Box bounds;
     for (const TriangleMesh &mesh : scene.meshes)
         for (const MeshTriangle &triangle : mesh.triangles)
             for (glm::length_t corner = 0; corner < 3; ++corner)
                 bounds.extend(mesh.positions[triangle.positions[corner]]);
-    if (areSpheresInTree(scene))
-        for (const Sphere &sphere : scene.spheres)
-            bounds.extend(boxOf(sphere));
+    for (const std::uint32_t index : spheres)
+        bounds.extend(boxOf(scene.spheres[index]));
     const auto look = [&](std::size_t i) {
         const Instance &instance = scene.instances[i];
         if (!bounds.contains(boxes[i]))
@@ -402,8 +406,8 @@ std::vector<BuildTriangle> buildTriangles(const Scene &scene) {
 
 std::vector<BuildTriangle> buildItems(const Scene &scene) {
     std::vector<BuildTriangle> items = buildTriangles(scene);
-    if (areSpheresInTree(scene))
-        addSpheres(scene, items);
+    const std::vector<std::uint32_t> spheres = spheresInTree(scene);
+    addSpheres(scene, spheres, items);
     if (scene.instances.empty())
         return items;
     const std::vector<std::vector<glm::vec3>> points = pointsOfPrototypes(scene);
@@ -415,7 +419,7 @@ std::vector<BuildTriangle> buildItems(const Scene &scene) {
     boxes.reserve(scene.instances.size());
     for (const Instance &instance : scene.instances)
         boxes.push_back(placedBox(instance.toWorld, own[instance.prototype]));
-    const Box bounds = exactBounds(scene, points, boxes);
+    const Box bounds = exactBounds(scene, spheres, points, boxes);
     items.reserve(items.size() + boxes.size());
     for (const Box &box : boxes) {
         const Box inside{glm::max(box.lower, bounds.lower), glm::min(box.upper, bounds.upper)};
@@ -433,11 +437,13 @@ Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize) {
     std::vector<BuildTriangle> items = buildItems(scene);
     const Duplicates duplicates(scene);
     FirstIndices first;
-    if (areSpheresInTree(scene))
+    std::vector<std::uint32_t> spheres = spheresInTree(scene);
+    if (!spheres.empty())
         first.sphere = static_cast<std::uint32_t>(triangleCount(scene));
     if (!scene.instances.empty())
-        first.instance = static_cast<std::uint32_t>(primitivesInTree(scene));
+        first.instance = static_cast<std::uint32_t>(triangleCount(scene) + spheres.size());
     Bvh bvh = buildTree(kind, items, first, leafSize, &duplicates);
+    bvh.spheres = std::move(spheres);
     for (const TriangleMesh &prototype : scene.prototypes) {
         std::vector<BuildTriangle> triangles;
         addTriangles(prototype, triangles);

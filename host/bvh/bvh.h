@@ -40,7 +40,7 @@ struct BuildTriangle {
     Box box;
     glm::vec3 centroid{0.0f};
     std::uint32_t inputIndex =
-        0; ///< among the triangles of all meshes, in order; then the spheres, then the instances
+        0; ///< among the triangles of all meshes, in order; then the spheres in the tree, then the instances
 };
 
 struct BvhNode {
@@ -58,7 +58,8 @@ struct Bvh {
     std::vector<std::uint32_t> order; ///< input indices of triangles, spheres and instances, leaf by leaf
     int depth = 0;                    ///< inner nodes on the longest path to a leaf: 0 for a single leaf
     std::uint32_t firstInstance = std::numeric_limits<std::uint32_t>::max(); ///< in the order: from here on
-    std::vector<Bvh> prototypes; ///< trees of Scene::prototypes, each in its own space
+    std::vector<std::uint32_t> spheres; ///< indices of those in the tree, in the order of the input
+    std::vector<Bvh> prototypes;        ///< trees of Scene::prototypes, each in its own space
 
     [[nodiscard]] bool isInstance(std::uint32_t inputIndex) const { return inputIndex >= firstInstance; }
 };
@@ -66,7 +67,7 @@ struct Bvh {
 /// The triangles of all meshes in input order. Throws Error{LimitExceeded} beyond 2^30 - 65 triangles.
 [[nodiscard]] std::vector<BuildTriangle> buildTriangles(const Scene &scene);
 
-/// buildTriangles, and after them the spheres if they are in the tree, and the instances. The instances' boxes enclose their triangles, and nothing that is outside the
+/// buildTriangles, and after them the spheres in the tree (tree_spheres.h) and the instances. The instances' boxes enclose their triangles, and nothing that is outside the
 /// exact bounds of the scene.
 [[nodiscard]] std::vector<BuildTriangle> buildItems(const Scene &scene);
 
@@ -74,7 +75,7 @@ struct Bvh {
 /// A leaf of the others holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize);
 
-/// Builds over a scene's triangles, its spheres if they are in the tree, and its instances, which have leaves of their
+/// Builds over a scene's triangles, its spheres in the tree (tree_spheres.h) and its instances, which have leaves of their
 /// own; and over each prototype. Omits duplicates
 /// (duplicates.h) among the triangles of meshes from Bvh::order. The set of duplicates does not depend on the tree.
 /// Throws Error{LimitExceeded} as buildTriangles does.

@@ -115,8 +115,8 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
         plan("the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord));
     planned.buffers[layout::bindingSphereConstants] =
         plan("the spheres", BufferUse::Uniform, sizeof(layout::SphereRecord) * layout::maxUnrolledSpheres);
-    planned.buffers[layout::bindingLights] =
-        plan("the lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxLightCount);
+    planned.buffers[layout::bindingLightConstants] =
+        plan("the first lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxUniformLights);
     for (const SceneArray &array : scene.arrays())
         planned.buffers[array.binding] = plan(fmt::format("the {}", array.name), use, array.bytes.size());
     if (isSkipList) {

@@ -2,6 +2,7 @@
 
 #include "host/packing/skip_list.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <span>
@@ -50,9 +51,9 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
     Tree tree = uploadTree(device, scene, plan, isSkipList);
     std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
     bytes[layout::bindingFrame] = std::as_bytes(std::span(&tree.frame, 1));
-    if (!scene.hasSpheresInTree())
-        bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.spheres));
-    bytes[layout::bindingLights] = std::as_bytes(std::span(scene.lights));
+    bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.loopSpheres));
+    bytes[layout::bindingLightConstants] = std::as_bytes(
+        std::span(scene.lights).first(std::min<std::size_t>(scene.lights.size(), layout::maxUniformLights)));
     for (const SceneArray &array : scene.arrays())
         bytes[array.binding] = array.bytes;
     if (isSkipList)

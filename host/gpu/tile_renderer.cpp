@@ -126,8 +126,7 @@ Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, 
     const WaitingPlan &waiting = waitingPlan(plan, isResumable);
     SpecializationConstants constants{};
     constants[layout::constantWorkgroupSize] = workgroupSize;
-    constants[layout::constantSphereCount] =
-        scene.hasSpheresInTree() ? 0 : static_cast<std::uint32_t>(scene.spheres.size());
+    constants[layout::constantSphereCount] = static_cast<std::uint32_t>(scene.loopSpheres.size());
     constants[layout::constantTreeSpheres] = scene.treeSpheres;
     constants[layout::constantLightCount] = static_cast<std::uint32_t>(scene.lights.size());
     constants[layout::constantHasTriangles] = scene.hasTriangles;
@@ -136,6 +135,8 @@ Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, 
     constants[layout::constantHasDielectric] = scene.hasDielectric;
     constants[layout::constantHasEmission] = scene.hasEmission;
     constants[layout::constantEmitterCount] = static_cast<std::uint32_t>(scene.emitters.size());
+    constants[layout::constantHasLightTree] = !scene.lightNodes.empty();
+    constants[layout::constantInfiniteEmitters] = scene.infiniteEmitterCount;
     constants[layout::constantScattering] = scene.scattering;
     constants[layout::constantLighting] = scene.lighting;
     constants[layout::constantCamera] = scene.camera;

@@ -1,12 +1,18 @@
 #include "host/packing/emitters.h"
 
+#include "host/base/error.h"
+#include "host/packing/light_tree.h"
 #include "host/packing/texture_rows.h"
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace hyalite {
 
@@ -73,6 +79,165 @@ std::vector<std::uint32_t> emittingTriangles(const PackedScene &packed,
     return records;
 }
 
+/// Emitters are chosen with a probability in proportion to their power. Returns the power of all.
+double chooseByPower(std::vector<Candidate> found, PackedScene &packed) {
+    double finiteTotal = 0.0;
+    for (const Candidate &candidate : found)
+        finiteTotal += candidate.power;
+    // Infinitely distant emitters have no comparable power: each counts as much as all finite ones together.
+    double total = finiteTotal;
+    for (Candidate &candidate : found)
+        if (candidate.isInfinite) {
+            candidate.power = finiteTotal > 0.0 ? finiteTotal : 1.0;
+            total += candidate.power;
+        }
+    constexpr double all = 4294967296.0; // number of 32-bit values
+    double powerBefore = 0.0;
+    double numbersBefore = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        layout::EmitterRecord &emitter = found[i].emitter;
+        const double area = found[i].area;
+        powerBefore += found[i].power;
+        const double numbers = i + 1 == found.size() ? all : std::floor(powerBefore / total * all);
+        if (numbers <= numbersBefore)
+            continue; // probability below 2^-32
+        emitter.cumulative = static_cast<std::uint32_t>(std::fmin(numbers, all - 1.0));
+        emitter.probability = static_cast<float>((numbers - numbersBefore) / all);
+        if (area > 0.0)
+            emitter.pdf = static_cast<float>((numbers - numbersBefore) / all / area);
+        if (emitter.kind == layout::emitterEnvironment)
+            packed.frame.environmentProbability = emitter.probability;
+        numbersBefore = numbers;
+        packed.emitters.push_back(emitter);
+    }
+    return total;
+}
+
+/// The side to which a triangle emits: that of its shading normals, as shaders/geometry/surface.glsl has it.
+void setNormals(const PackedScene &packed, std::uint32_t record, TreeLight &light) {
+    const layout::TriangleRecord &triangle = packed.triangles[record];
+    const layout::NormalRecord &normals = packed.normals[record];
+    const glm::dvec3 v0(triangle.v0);
+    const glm::dvec3 normal =
+        glm::normalize(glm::cross(glm::dvec3(triangle.v1) - v0, glm::dvec3(triangle.v2) - v0));
+    bool isAbove = false;
+    bool isBelow = false;
+    for (const glm::vec3 &shading : {normals.n0, normals.n1, normals.n2}) {
+        isAbove = isAbove || glm::dot(normal, glm::dvec3(shading)) > 0.0;
+        isBelow = isBelow || glm::dot(normal, glm::dvec3(shading)) < 0.0;
+    }
+    light.axis = glm::vec3(isBelow && !isAbove ? -normal : normal);
+    light.cosineNormals = 1.0f;
+    light.isTwoSided = light.isTwoSided || (isAbove && isBelow);
+}
+
+/// `intensity` is set to the radiant intensity along a normal.
+TreeLight treeLight(const Candidate &candidate, const PackedScene &packed, double &intensity) {
+    const layout::EmitterRecord &emitter = candidate.emitter;
+    TreeLight light;
+    light.lower = emitter.position;
+    light.upper = emitter.position;
+    light.isTwoSided = emitter.isTwoSided != 0;
+    const double sides = light.isTwoSided ? 2.0 : 1.0;
+    if (emitter.kind == layout::emitterTriangle) {
+        const layout::TriangleRecord &triangle = packed.triangles[emitter.record];
+        light.lower = glm::min(glm::min(triangle.v0, triangle.v1), triangle.v2);
+        light.upper = glm::max(glm::max(triangle.v0, triangle.v1), triangle.v2);
+        setNormals(packed, emitter.record, light);
+        intensity = candidate.power / (std::numbers::pi * sides);
+    } else if (emitter.kind == layout::emitterSphere) {
+        const layout::SphereRecord &sphere = packed.spheres[emitter.record];
+        light.lower = sphere.centre - sphere.radius;
+        light.upper = sphere.centre + sphere.radius;
+        light.isTwoSided = false; // it emits to all sides anyway
+        intensity = candidate.power / (4.0 * std::numbers::pi * sides);
+    } else {
+        intensity = mean(emitter.emission);
+    }
+    if (emitter.kind == layout::emitterSpot) {
+        light.axis = emitter.axis;
+        light.cosineNormals = 1.0f;
+        light.cosineEmission = emitter.cosineOuter;
+    }
+    return light;
+}
+
+/// Emitters with a place go into the light tree. Each of the others is chosen as often as all of them together.
+void chooseByTree(std::vector<Candidate> found, PackedScene &packed) {
+    if (found.size() >= layout::noEmitter)
+        throw Error(
+            ErrorKind::LimitExceeded,
+            fmt::format("the scene has {} lights and emitting primitives; a light tree holds at most {}",
+                        found.size(), layout::noEmitter - 1));
+    const auto finite = std::ranges::stable_partition(found, &Candidate::isInfinite);
+    packed.infiniteEmitterCount = static_cast<std::uint32_t>(found.size() - finite.size());
+    const std::uint32_t numbers = 0xFFFFFFFFu / (packed.infiniteEmitterCount + 1); // as in emitters.glsl
+    const float infiniteChance = static_cast<float>(numbers) * 0x1p-32f;
+    if (packed.lighting & layout::lightsByEnvironment)
+        packed.frame.environmentProbability = infiniteChance;
+    std::vector<double> intensities(finite.size());
+    std::vector<TreeLight> lights(finite.size());
+    const auto count = static_cast<std::int64_t>(finite.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < count; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        lights[index] = treeLight(finite[index], packed, intensities[index]);
+        lights[index].emitter = static_cast<std::uint32_t>(packed.infiniteEmitterCount + index);
+    }
+    const double total = std::accumulate(intensities.begin(), intensities.end(), 0.0);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        lights[i].intensity = static_cast<float>(std::max(intensities[i] / total, 1e-30));
+    LightTree tree = buildLightTree(lights);
+    packed.lightNodes = std::move(tree.nodes);
+
+    for (layout::SphereRecord &sphere : packed.spheres)
+        sphere.emitter = layout::noEmitter;
+    for (layout::TriangleRecord &triangle : packed.triangles)
+        triangle.flags |= layout::noEmitter << layout::triangleEmitterShift;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        layout::EmitterRecord &emitter = found[i].emitter;
+        if (found[i].isInfinite)
+            emitter.probability = infiniteChance;
+        else
+            emitter.cumulative = tree.turns[i - packed.infiniteEmitterCount];
+        if (found[i].area > 0.0)
+            emitter.pdf = static_cast<float>(1.0 / found[i].area);
+        if (emitter.kind == layout::emitterSphere)
+            packed.spheres[emitter.record].emitter = static_cast<std::uint32_t>(i);
+        if (emitter.kind == layout::emitterTriangle) {
+            layout::TriangleRecord &triangle = packed.triangles[emitter.record];
+            triangle.flags &= (1u << layout::triangleEmitterShift) - 1;
+            triangle.flags |= static_cast<std::uint32_t>(i) << layout::triangleEmitterShift;
+        }
+        packed.emitters.push_back(emitter);
+    }
+}
+
+/// Whether lights stand so far apart that it pays to know where they are: a tree of 38 lamps (many-lights), and one of a
+/// small lamp of many triangles (still-life), have 0.96 of the variance of a choice by power, in 1.1 of the time.
+bool areApart(const std::vector<Candidate> &found, const PackedScene &packed) {
+    constexpr std::ptrdiff_t few = 64;
+    constexpr double near = 0.25; // of the size of the scene's tree
+    if (std::ranges::count(found, false, &Candidate::isInfinite) <= few)
+        return false;
+    Box box;
+    double intensity = 0.0;
+    for (const Candidate &candidate : found)
+        if (!candidate.isInfinite) {
+            const TreeLight light = treeLight(candidate, packed, intensity);
+            box.extend(Box{light.lower, light.upper});
+        }
+    const Box &scene = packed.trees.front().box;
+    return scene.isEmpty() || glm::distance(glm::dvec3(box.lower), glm::dvec3(box.upper)) >=
+                                  near * glm::distance(glm::dvec3(scene.lower), glm::dvec3(scene.upper));
+}
+
+bool isChosenByTree(LightChoice choice, const std::vector<Candidate> &found, const PackedScene &packed) {
+    if (choice == LightChoice::Auto)
+        return areApart(found, packed);
+    return choice == LightChoice::Tree && std::ranges::count(found, false, &Candidate::isInfinite) > 1;
+}
+
 } // namespace
 
 std::uint32_t emitterKindOf(const layout::LightRecord &light) {
@@ -120,37 +285,13 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
         found.push_back({emitter, 0.0, 0.0, true});
     }
 
-    double finiteTotal = 0.0;
-    for (const Candidate &candidate : found) {
-        finiteTotal += candidate.power;
+    for (const Candidate &candidate : found)
         packed.lighting |= 1u << candidate.emitter.kind;
-    }
-    // Infinitely distant emitters have no comparable power: each counts as much as all finite ones together.
-    double total = finiteTotal;
-    for (Candidate &candidate : found)
-        if (candidate.isInfinite) {
-            candidate.power = finiteTotal > 0.0 ? finiteTotal : 1.0;
-            total += candidate.power;
-        }
-    constexpr double all = 4294967296.0; // number of 32-bit values
-    double powerBefore = 0.0;
-    double numbersBefore = 0.0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        layout::EmitterRecord &emitter = found[i].emitter;
-        const double area = found[i].area;
-        powerBefore += found[i].power;
-        const double numbers = i + 1 == found.size() ? all : std::floor(powerBefore / total * all);
-        if (numbers <= numbersBefore)
-            continue; // probability below 2^-32
-        emitter.cumulative = static_cast<std::uint32_t>(std::fmin(numbers, all - 1.0));
-        emitter.probability = static_cast<float>((numbers - numbersBefore) / all);
-        if (area > 0.0)
-            emitter.pdf = static_cast<float>((numbers - numbersBefore) / all / area);
-        if (emitter.kind == layout::emitterEnvironment)
-            packed.frame.environmentProbability = emitter.probability;
-        numbersBefore = numbers;
-        packed.emitters.push_back(emitter);
-    }
+    double total = 1.0; // of the light tree: emitterPdf > 0 marks what emits
+    if (isChosenByTree(scene.settings.lightChoice, found, packed))
+        chooseByTree(std::move(found), packed);
+    else
+        total = chooseByPower(std::move(found), packed);
     for (std::size_t i = 0; i < packed.materials.size(); ++i)
         packed.materials[i].emitterPdf = total > 0.0 ? static_cast<float>(exitances[i] / total) : 0.0f;
 }

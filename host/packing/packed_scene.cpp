@@ -152,7 +152,7 @@ std::array<SceneArray, layout::sceneArrayCount> PackedScene::arrays() const {
 }
 
 std::size_t PackedScene::sizeBytes() const {
-    std::size_t bytes = sizeof(frame) + std::span(lights).size_bytes() + std::span(nodes).size_bytes();
+    std::size_t bytes = sizeof(frame) + std::span(nodes).size_bytes();
     for (const SceneArray &array : arrays())
         bytes += array.bytes.size();
     return bytes;
@@ -171,7 +171,10 @@ std::uint64_t PackedScene::contentHash() const {
     for (layout::MaterialRecord &material : seenMaterials)
         material.emitterPdf = 0.0f; // for some integrators only
     std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)));
-    hash = hashBytes(std::as_bytes(std::span(spheres)), hash);
+    std::vector<layout::SphereRecord> seenSpheres = spheres;
+    for (layout::SphereRecord &sphere : seenSpheres)
+        sphere.emitter = sphere.primitiveId = 0;
+    hash = hashBytes(std::as_bytes(std::span(seenSpheres)), hash);
     hash = hashBytes(std::as_bytes(std::span(lights)), hash);
     hash = hashBytes(std::as_bytes(std::span(seenMaterials)), hash);
     hash = hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
@@ -193,7 +196,7 @@ std::uint64_t PackedScene::contentHash() const {
             layout::TriangleRecord triangle;
             layout::NormalRecord normals;
         } seenTriangle{triangles[i], normals[i]};
-        seenTriangle.triangle.flags &= ~layout::triangleEndsLeaf;
+        seenTriangle.triangle.flags &= ((1u << layout::triangleEmitterShift) - 1) & ~layout::triangleEndsLeaf;
         std::uint64_t triangleHash = hashBytes(std::as_bytes(std::span(&seenTriangle, 1)));
         if (texturing != 0)
             triangleHash = hashBytes(
@@ -224,7 +227,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     packed.frame = packFrame(scene);
     packed.camera = cameraOf(scene.camera);
     packed.hasTriangles = !bvh.order.empty();
-    if (areSpheresInTree(scene))
+    if (!bvh.spheres.empty())
         packed.treeSpheres = scene.meshes.empty() && scene.instances.empty() ? layout::treeHasSpheresOnly
                                                                              : layout::treeHasSpheresToo;
 
@@ -263,7 +266,10 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
             packedMaterial[sphere.materialIndex] | (sphere.inwardNormal ? layout::sphereFacesInward : 0u);
         record.isTransmissive =
             scene.materials[sphere.materialIndex].kind == MaterialKind::Dielectric ? 1u : 0u;
+        record.primitiveId = static_cast<std::uint32_t>(packed.spheres.size());
         packed.spheres.push_back(record);
+        if (!std::ranges::binary_search(bvh.spheres, record.primitiveId))
+            packed.loopSpheres.push_back(record);
     }
     for (const TriangleMesh &mesh : scene.meshes)
         useMaterials(mesh);

@@ -29,11 +29,11 @@ struct PackedTree {
 
 struct PackedScene {
     layout::FrameRecord frame{};
-    std::vector<layout::LightRecord> lights;
     std::vector<layout::NodePair> nodes; ///< never empty
     /// The scene's own tree, then those of the prototypes. The triangle records are in the same order.
     std::vector<PackedTree> trees;
-    int treeDepth = 0; ///< subtrees that can wait on a traversal stack
+    std::vector<layout::SphereRecord> loopSpheres; ///< those outside the tree
+    int treeDepth = 0;                             ///< subtrees that can wait on a traversal stack
 
     // The scene arrays, by the names that shaders/layout/buffers.h gives them.
 #define HYALITE_MEMBER(number, value, name, Record, fetch) std::vector<layout::Record> name;
@@ -46,14 +46,12 @@ struct PackedScene {
     bool hasSpecular = false;
     bool hasDielectric = false;
     bool hasEmission = false;
+    std::uint32_t infiniteEmitterCount = 0; ///< outside the light tree, if there is one: the first emitters
     /// Bits of layout::scattersAt...: features of the path integrator that the materials need.
     std::uint32_t scattering = 0;
     std::uint32_t lighting = 0;  ///< bits of layout::lightsBy...
     std::uint32_t texturing = 0; ///< bits of layout::textures...
     std::uint32_t camera = layout::cameraPinhole;
-
-    /// Whether the spheres are in the tree: all of them, or none.
-    [[nodiscard]] bool hasSpheresInTree() const { return treeSpheres != layout::treeHasTriangles; }
 
     /// A view of each scene array, in the order of the bindings.
     [[nodiscard]] std::array<SceneArray, layout::sceneArrayCount> arrays() const;

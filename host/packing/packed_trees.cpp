@@ -63,16 +63,17 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
     }
 }
 
-/// Writes the records of all spheres; `recordOf` has the index of each.
-void packSpheres(std::span<const std::uint32_t> recordOf, PackedScene &packed) {
-    const auto count = static_cast<std::int64_t>(packed.spheres.size());
+/// Writes the records of spheres in the tree; `recordOf` has the index of each.
+void packSpheres(std::span<const std::uint32_t> spheres, std::span<const std::uint32_t> recordOf,
+                 PackedScene &packed) {
+    const auto count = static_cast<std::int64_t>(spheres.size());
 #pragma omp parallel for schedule(static) if (isLong(count))
     for (std::int64_t i = 0; i < count; ++i) {
-        const layout::SphereRecord &sphere = packed.spheres[static_cast<std::size_t>(i)];
+        const layout::SphereRecord &sphere = packed.spheres[spheres[static_cast<std::size_t>(i)]];
         layout::TriangleRecord &record = packed.triangles[recordOf[static_cast<std::size_t>(i)]];
         record.v0 = sphere.centre;
         record.v1.x = sphere.radius;
-        record.primitiveId = static_cast<std::uint32_t>(i);
+        record.primitiveId = sphere.primitiveId;
         record.materialIndex = materialIndexOf(sphere);
         record.flags =
             layout::triangleIsSphere | (sphere.isTransmissive != 0 ? layout::triangleIsTransmissive : 0u);
@@ -151,14 +152,14 @@ void packSceneTree(const Scene &scene, const Bvh &bvh, const InputOrder &order,
     packed.trees.push_back(
         beginTree(bvh, static_cast<std::size_t>(std::ranges::count_if(bvh.order, hasRecord)), packed));
     const std::vector<std::uint32_t> records = recordsOf(bvh, 0);
-    std::vector<std::uint32_t> recordOf(primitivesInTree(scene), nowhere); // of each triangle and sphere
+    std::vector<std::uint32_t> recordOf(triangleCount(scene) + bvh.spheres.size(),
+                                        nowhere); // of each triangle and sphere
     const auto total = static_cast<std::int64_t>(bvh.order.size());
 #pragma omp parallel for schedule(static) if (isLong(total))
     for (std::int64_t i = 0; i < total; ++i)
         if (hasRecord(bvh.order[static_cast<std::size_t>(i)]))
             recordOf[bvh.order[static_cast<std::size_t>(i)]] = records[static_cast<std::size_t>(i)];
-    if (areSpheresInTree(scene))
-        packSpheres(std::span(recordOf).subspan(triangleCount(scene)), packed);
+    packSpheres(bvh.spheres, std::span(recordOf).subspan(triangleCount(scene)), packed);
     std::size_t first = 0;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const TriangleMesh &mesh = scene.meshes[i];

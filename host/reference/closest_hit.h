@@ -161,7 +161,7 @@ void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &r
 template <class Real, class Counter, class Visitor>
 void visitTriangles(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,
                     const Visitor &visit) {
-    if (scene.packed.hasSpheresInTree())
+    if (scene.packed.treeSpheres != layout::treeHasTriangles)
         visitTree<true, true>(scene, ray, reach, counter, visit);
     else if (!scene.packed.instances.empty())
         visitTree<true, false>(scene, ray, reach, counter, visit);
@@ -173,10 +173,11 @@ template <class Real, class Counter>
 [[nodiscard]] Hit<Real> closestHit(const SceneView<Real> &scene, const Ray<Real> &ray, Counter &counter) {
     Hit<Real> nearest;
     for (std::uint32_t i = 0; i < scene.sphereShapes.size(); ++i) {
+        const std::uint32_t id = scene.packed.loopSpheres[i].primitiveId;
         const Real distance =
-            intersectSphere(ray.origin, ray.direction, scene.sphereShapes[i], ray.excluded == i);
+            intersectSphere(ray.origin, ray.direction, scene.sphereShapes[i], ray.excluded == id);
         if (distance > 0 && distance < nearest.distance)
-            nearest = {distance, i, i};
+            nearest = {distance, id, id};
     }
     visitTriangles(scene, ray, nearest.distance, counter, [&](const Meeting<Real> &found) {
         const TriangleHit<Real> &hit = found.hit;
@@ -205,11 +206,12 @@ template <class Real, class Counter>
                                    Counter &counter) {
     Shadow shadow;
     for (std::uint32_t i = 0; i < scene.sphereShapes.size(); ++i) {
-        const Real distance =
-            intersectSphere(ray.origin, ray.direction, scene.sphereShapes[i], ray.excluded == i);
+        const layout::SphereRecord &sphere = scene.packed.loopSpheres[i];
+        const Real distance = intersectSphere(ray.origin, ray.direction, scene.sphereShapes[i],
+                                              ray.excluded == sphere.primitiveId);
         if (!(distance > 0 && distance < length))
             continue;
-        if (scene.packed.spheres[i].isTransmissive != 0)
+        if (sphere.isTransmissive != 0)
             shadow.isDimmed = true;
         else
             shadow.isBlocked = true;
@@ -240,9 +242,10 @@ template <class Real, class Counter>
                                     std::uint32_t target, Counter &counter) {
     bool isBlocked = false;
     for (std::uint32_t i = 0; i < scene.sphereShapes.size(); ++i) {
+        const std::uint32_t id = scene.packed.loopSpheres[i].primitiveId;
         const Real distance =
-            intersectSphere(ray.origin, ray.direction, scene.sphereShapes[i], ray.excluded == i);
-        isBlocked = isBlocked || (distance > 0 && distance < length && i != target);
+            intersectSphere(ray.origin, ray.direction, scene.sphereShapes[i], ray.excluded == id);
+        isBlocked = isBlocked || (distance > 0 && distance < length && id != target);
     }
     if (isBlocked)
         return true;

@@ -91,16 +91,20 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                      const MaterialRecord<Real> &material) {
         const Real facing = -dotProduct(ray.direction, surface.geometricNormal);
         const Real cosine = isTwoSided(material) ? abs(facing) : facing;
-        const Real areaPdf = static_cast<Real>(material.emitterPdf);
-        if (areaPdf <= 0 || cosine <= 0)
+        if (material.emitterPdf <= 0 || cosine <= 0)
             return;
         Real weight = 1;
         if (scatterPdf_ > 0) {
             Real pdf;
             if (hit.primitive >= scene_.frame.firstTriangleId) {
+                const std::uint32_t emitter =
+                    scene_.packed.triangles[hit.record].flags >> layout::triangleEmitterShift;
+                const Real areaPdf = pdfOfEmitter<Real>(scene_, emitter, material.emitterPdf, litPoint_);
                 pdf = solidAnglePdf(areaPdf, hit.distance, cosine);
             } else {
                 const layout::SphereRecord &sphere = scene_.packed.spheres[hit.record];
+                const Real areaPdf =
+                    pdfOfEmitter<Real>(scene_, sphere.emitter, material.emitterPdf, litPoint_);
                 pdf = pdfSphereLight(ray.origin, ray.direction, hit.distance, Vec3<Real>(sphere.centre),
                                      static_cast<Real>(sphere.radius),
                                      surface.normal * static_cast<Real>(normalSignOf(sphere)), areaPdf);
@@ -266,9 +270,11 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const bool isAbove = dotProduct(surface.geometricNormal, direction) > 0;
         scatterPdf_ = isAbove ? pdfCosine(dotProduct(surface.normal, direction)) : Real(0);
 
-        const std::uint32_t emitter = chooseEmitter(scene_, vertexBits(pairChoice).x);
+        litPoint_ = {surface.position, surface.normal, false};
+        const EmitterChoice<Real> choice = chooseEmitter(scene_, litPoint_, vertexBits(pairChoice).x);
+        const std::uint32_t emitter = choice.index;
         const LightSample<Real> light =
-            sampleEmitter<Real>(scene_, emitter, surface.position, vertexBits(pairLight));
+            sampleEmitter<Real>(scene_, choice, surface.position, vertexBits(pairLight));
         const Real cosine = dotProduct(surface.normal, light.direction);
         const bool isLit = largestComponent(light.radiance) > 0 && cosine > 0 &&
                            dotProduct(surface.geometricNormal, light.direction) > 0;
@@ -290,13 +296,16 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const Crossing crossing = isGlass(scene_, material)
                                       ? crossingOf(materialIndex, !isBehind)
                                       : Crossing{mediaInside_, mediaInside_, Real(1), true};
-        const Vec2<Real> choice = lobeChoice();
+        const Vec2<Real> lobe = lobeChoice();
         const Bsdf<Real> bsdf = makeBsdf<Real>(scene_, material, ray.direction, surface.normal,
-                                               surface.geometricNormal, isBehind, crossing.eta, choice.x);
+                                               surface.geometricNormal, isBehind, crossing.eta, lobe.x);
 
-        const std::uint32_t emitter = chooseEmitter(scene_, vertexBits(pairChoice).x);
+        litPoint_ = {surface.position, surface.normal,
+                     isGlass(scene_, material) || material.transmission > 0};
+        const EmitterChoice<Real> choice = chooseEmitter(scene_, litPoint_, vertexBits(pairChoice).x);
+        const std::uint32_t emitter = choice.index;
         const LightSample<Real> light =
-            sampleEmitter<Real>(scene_, emitter, surface.position, vertexBits(pairLight));
+            sampleEmitter<Real>(scene_, choice, surface.position, vertexBits(pairLight));
         const Vec3<Real> wi = toLocal(bsdf.frame, light.direction);
         const bool isLightBeyond = dotProduct(surface.geometricNormal, light.direction) <= 0;
         const BsdfEval<Real> lit = evalBsdf(scene_, bsdf, wi);
@@ -311,8 +320,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             aimAtNothing(emitter);
         }
 
-        const Vec3<Real> drawn =
-            sampleBsdf(scene_, bsdf, unitFloats<Real>(vertexBits(pairScatter)), choice.y);
+        const Vec3<Real> drawn = sampleBsdf(scene_, bsdf, unitFloats<Real>(vertexBits(pairScatter)), lobe.y);
         const Vec3<Real> direction = unitVector(toWorld(bsdf.frame, drawn));
         const BsdfEval<Real> scattered = evalBsdf(scene_, bsdf, drawn);
         const bool isBeyond = dotProduct(surface.geometricNormal, direction) <= 0;
@@ -357,6 +365,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     std::uint32_t depth_ = 0; ///< segment number of the current ray
     Vec3<Real> radiance_{Real(0)};
     Vec3<Real> throughput_{Real(1)};
+    LitPoint<Real> litPoint_{};     ///< where the current ray was scattered
     Real scatterPdf_ = 0;           ///< of the current ray, per solid angle; 0: direction not sampled
     std::uint32_t mediaInside_ = 0; ///< medium counts: see shaders/bsdf/media.glsl
     RayCounts counts_;

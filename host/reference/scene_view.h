@@ -92,10 +92,10 @@ template <class Real> struct SceneView {
           scattering(packedScene.scattering), texturing(packedScene.texturing),
           lighting(packedScene.lighting), camera(packedScene.camera),
           emitterCount(static_cast<uint>(packedScene.emitters.size())),
-          hasTriangles(packedScene.hasTriangles), hasEmission(packedScene.hasEmission) {
-        if (!packedScene.hasSpheresInTree())
-            for (const SphereRecord<Real> sphere : packedScene.spheres)
-                sphereShapes.push_back(makeSphereShape<Real>(sphere.centre, sphere.radius));
+          infiniteEmitterCount(packedScene.infiniteEmitterCount), hasTriangles(packedScene.hasTriangles),
+          hasEmission(packedScene.hasEmission), hasLightTree(!packedScene.lightNodes.empty()) {
+        for (const SphereRecord<Real> sphere : packedScene.loopSpheres)
+            sphereShapes.push_back(makeSphereShape<Real>(sphere.centre, sphere.radius));
     }
 
 #define HYALITE_FETCH(number, value, name, Record, fetch)                                                    \
@@ -111,8 +111,10 @@ template <class Real> struct SceneView {
     uint lighting;
     uint camera;
     uint emitterCount;
+    uint infiniteEmitterCount;
     bool hasTriangles;
     bool hasEmission;
+    bool hasLightTree;
     std::vector<SphereShape<Real>> sphereShapes; ///< of spheres outside the tree, for the loops over them
 };
 

@@ -35,6 +35,8 @@ inline constexpr std::array<Name<SamplerKind>, 2> samplerNames{
     {{"sobol", SamplerKind::Sobol}, {"centre", SamplerKind::Centre}}};
 inline constexpr std::array<Name<FilterKind>, 2> filterNames{
     {{"box", FilterKind::Box}, {"blackman-harris", FilterKind::BlackmanHarris}}};
+inline constexpr std::array<Name<LightChoice>, 3> lightChoiceNames{
+    {{"auto", LightChoice::Auto}, {"power", LightChoice::Power}, {"tree", LightChoice::Tree}}};
 
 template <class Value, std::size_t count>
 [[nodiscard]] constexpr std::string_view nameIn(const std::array<Name<Value>, count> &names, Value wanted) {
@@ -48,5 +50,8 @@ template <class Value, std::size_t count>
 [[nodiscard]] constexpr std::string_view nameOf(TreeKind tree) { return nameIn(treeNames, tree); }
 [[nodiscard]] constexpr std::string_view nameOf(SamplerKind sampler) { return nameIn(samplerNames, sampler); }
 [[nodiscard]] constexpr std::string_view nameOf(FilterKind filter) { return nameIn(filterNames, filter); }
+[[nodiscard]] constexpr std::string_view nameOf(LightChoice choice) {
+    return nameIn(lightChoiceNames, choice);
+}
 
 } // namespace hyalite

@@ -115,6 +115,10 @@ enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 /// 1.5 pixels from the centre.
 enum class FilterKind { Box, BlackmanHarris };
 
+/// How a shadow ray chooses its emitter. Power: always the brightest ones. Tree: by where they are. Auto: by a tree if there
+/// are many.
+enum class LightChoice { Auto, Power, Tree };
+
 /// How to render the scene. The command line may override each setting; settings_table.h has their ranges.
 struct RenderSettings {
     Integrator integrator = Integrator::Whitted;
@@ -129,6 +133,7 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     double radianceLimit =
         0.0; ///< Path: maximum that indirect light adds to a sample, per channel; 0: no limit
+    LightChoice lightChoice = LightChoice::Auto; ///< Path
     double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
 };
 
@@ -154,16 +159,6 @@ struct Scene {
     for (const TriangleMesh &mesh : scene.meshes)
         count += mesh.triangles.size();
     return count;
-}
-
-/// Whether rays find spheres by the tree. A few are tested one after the other, which is faster.
-[[nodiscard]] inline bool areSpheresInTree(const Scene &scene) {
-    return scene.spheres.size() > layout::maxUnrolledSpheres;
-}
-
-/// Triangles and spheres in the scene's own tree.
-[[nodiscard]] inline std::size_t primitivesInTree(const Scene &scene) {
-    return triangleCount(scene) + (areSpheresInTree(scene) ? scene.spheres.size() : 0);
 }
 
 } // namespace hyalite

@@ -34,9 +34,10 @@ template <class Value> struct ChoiceSetting {
     std::span<const Name<Value>> names;
 };
 
-using SettingValue = std::variant<NumberSetting<int>, NumberSetting<double>, NumberSetting<std::uint32_t>,
-                                  ChoiceSetting<Integrator>, ChoiceSetting<TreeKind>,
-                                  ChoiceSetting<SamplerKind>, ChoiceSetting<FilterKind>>;
+using SettingValue =
+    std::variant<NumberSetting<int>, NumberSetting<double>, NumberSetting<std::uint32_t>,
+                 ChoiceSetting<Integrator>, ChoiceSetting<TreeKind>, ChoiceSetting<SamplerKind>,
+                 ChoiceSetting<FilterKind>, ChoiceSetting<LightChoice>>;
 
 /// What a setting changes. A checkpoint resumes only with the same samples; their count, the tree and the exposure may
 /// differ.
@@ -96,6 +97,13 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
      tracingGroup,
      "upper limit, per channel, on each contribution of indirect light: less noise, but a darker image; 0: "
      "no limit",
+     pathOnly},
+    {"lightChoice", "--light-choice",
+     ChoiceSetting<LightChoice>{&RenderSettings::lightChoice, lightChoiceNames}, Changes::Samples,
+     tracingGroup,
+     "how a shadow ray chooses its light. power: the brighter, the more often; tree: by power, distance and "
+     "direction; "
+     "auto: tree if there are more than 64 lights and emitting primitives, far apart",
      pathOnly},
     {"exposure", "--exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
      Changes::Picture, imageGroup,

@@ -50,6 +50,16 @@ void addRadiance(uint slot, vec3 weight, vec3 radiance) {
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
 }
 
+// The surface that the path was on before its ray, as the light tree sees it.
+LitPoint litPoint(uint slot) {
+    bool isTransmitting = false;
+    if ((scattering & scattersAtRoughGlass) != 0u) {
+        MaterialRecord material = fetchMaterial(path[slot].surfaceMaterial & ~seenFromBehind);
+        isTransmitting = isGlass(material) || material.transmission > 0.0;
+    }
+    return LitPoint(path[slot].surfacePosition, path[slot].surfaceNormal, isTransmitting);
+}
+
 // Emission of the surface at the hit, with the multiple importance weight against a light sample of the same point.
 void addEmission(uint slot, Surface surface, MaterialRecord material) {
     vec3 direction = path[slot].rayDirection;
@@ -62,11 +72,16 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
         float pdf;
         // Every emitting sphere is an emitter, unless its radius is 0, and then nothing hits it.
         if ((lighting & lightsBySpheres) == 0u || isTriangle(path[slot].hitPrimitive)) {
-            pdf = solidAnglePdf(material.emitterPdf, path[slot].rayLength, cosine);
+            float areaPdf = material.emitterPdf;
+            if (hasLightTree)
+                areaPdf = pdfOfEmitter(fetchTriangle(path[slot].hitRecord).flags >> triangleEmitterShift, areaPdf,
+                                       litPoint(slot));
+            pdf = solidAnglePdf(areaPdf, path[slot].rayLength, cosine);
         } else {
             SphereRecord sphere = fetchSphere(path[slot].hitRecord);
+            float areaPdf = pdfOfEmitter(sphere.emitter, material.emitterPdf, litPoint(slot));
             pdf = pdfSphereLight(path[slot].rayOrigin, direction, path[slot].rayLength, sphere.centre, sphere.radius,
-                                         surface.normal * normalSignOf(sphere), material.emitterPdf);
+                                         surface.normal * normalSignOf(sphere), areaPdf);
         }
         weight = powerHeuristic(path[slot].scatterPdf, pdf);
     }
@@ -255,12 +270,13 @@ void aimFromBsdf(uint slot) {
     Crossing crossing = Crossing(path[slot].mediaInside, path[slot].mediaInside, 1.0, true);
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
         crossing = crossingOf(slot, materialIndex, !isBehind);
-    vec2 choice = lobeChoice(slot);
+    vec2 lobe = lobeChoice(slot);
     Bsdf bsdf = makeBsdf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, isBehind,
-                          crossing.eta, choice.x);
+                          crossing.eta, lobe.x);
 
-    uint emitter = chooseEmitter(vertexBits(slot, pairChoice).x);
-    LightSample light = sampleEmitter(emitter, path[slot].surfacePosition, vertexBits(slot, pairLight));
+    EmitterChoice choice = chooseEmitter(litPoint(slot), vertexBits(slot, pairChoice).x);
+    uint emitter = choice.index;
+    LightSample light = sampleEmitter(choice, path[slot].surfacePosition, vertexBits(slot, pairLight));
     vec3 wi = toLocal(bsdf.frame, light.direction);
     bool isLightBeyond = dotProduct(geometricNormal, light.direction) <= 0.0;
     BsdfEval lit = evalBsdf(bsdf, wi);
@@ -272,7 +288,7 @@ void aimFromBsdf(uint slot) {
         path[slot].surfaceWeight *= transmittance(slot, light.distance);
     }
 
-    vec3 drawn = sampleBsdf(bsdf, unitFloats(vertexBits(slot, pairScatter)), choice.y);
+    vec3 drawn = sampleBsdf(bsdf, unitFloats(vertexBits(slot, pairScatter)), lobe.y);
     vec3 direction = unitVector(toWorld(bsdf.frame, drawn));
     BsdfEval scattered = evalBsdf(bsdf, drawn);
     bool isBeyond = dotProduct(geometricNormal, direction) <= 0.0;
@@ -300,8 +316,9 @@ void aimAtLight(uint slot) {
     path[slot].scatterDirection = direction;
     path[slot].scatterPdf = isAbove ? pdfCosine(dotProduct(normal, direction)) : 0.0;
 
-    uint emitter = chooseEmitter(vertexBits(slot, pairChoice).x);
-    LightSample light = sampleEmitter(emitter, path[slot].surfacePosition, vertexBits(slot, pairLight));
+    EmitterChoice choice = chooseEmitter(litPoint(slot), vertexBits(slot, pairChoice).x);
+    uint emitter = choice.index;
+    LightSample light = sampleEmitter(choice, path[slot].surfacePosition, vertexBits(slot, pairLight));
     float cosine = dotProduct(normal, light.direction);
     bool isLit = largestComponent(light.radiance) > 0.0 && cosine > 0.0 &&
                  dotProduct(surfaceAt(slot).geometricNormal, light.direction) > 0.0;
@@ -328,7 +345,7 @@ void addLight(uint slot) {
 
 // Work of the search for an emitter, in all slots.
 uint searchIterations() {
-    uint emitters = emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u;
+    uint emitters = emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u; // and of the light tree the usual depth
     uint texels = (lighting & lightsByEnvironment) != 0u
                       ? RAYS * uint(findMSB(frame.environmentWidth) + findMSB(frame.environmentHeight) + 2)
                       : 0u;

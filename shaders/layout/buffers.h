@@ -10,8 +10,8 @@ namespace hyalite::layout {
 #endif
 
 const uint bindingFrame = 0u;
-const uint bindingSphereConstants = 1u; // the spheres again, room for maxUnrolledSpheres
-const uint bindingLights = 2u;          // room for maxLightCount
+const uint bindingSphereConstants = 1u; // spheres outside the tree, maxUnrolledSpheres at most
+const uint bindingLightConstants = 2u;  // the first lights again, maxUniformLights at most
 const uint uniformBufferCount = 3u;
 const uint bindingNodes = 3u; // node pairs, or skip nodes
 
@@ -27,7 +27,9 @@ const uint bindingNodes = 3u; // node pairs, or skip nodes
     ARRAY(bindingEmitters,  8u,  emitters,  EmitterRecord,  fetchEmitter) \
     ARRAY(bindingLookups,   9u,  lookups,   LookupRow,      fetchLookupRow) \
     ARRAY(bindingTextures,  10u, textures,  TextureRow,     fetchTextureRow) \
-    ARRAY(bindingInstances, 11u, instances, InstanceRecord, fetchInstance)
+    ARRAY(bindingInstances, 11u, instances, InstanceRecord, fetchInstance) \
+    ARRAY(bindingLights,    12u, lights,    LightRecord,    fetchLight) \
+    ARRAY(bindingLightNodes, 13u, lightNodes, LightNode,    fetchLightNode)
 // clang-format on
 
 #define HYALITE_BINDING(number, value, name, Record, fetch) const uint number = value;

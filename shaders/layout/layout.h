@@ -21,9 +21,9 @@ using uint = std::uint32_t;
 
 // ---- Limits
 
-const uint maxUnrolledSpheres =
-    16u; // as many are tested by every ray, from a uniform buffer; more are in the tree
-const uint maxLightCount = 16u;
+// As many are tested by every ray, from a uniform buffer; others are in the tree.
+const uint maxUnrolledSpheres = 16u;
+const uint maxUniformLights = 16u; // the first ones are in a uniform buffer, too
 const uint maxPathDepth = 32u;
 const uint maxTreeDepth = 64u; // and the size of a traversal stack: builders keep every tree below it
 
@@ -41,8 +41,8 @@ struct SphereRecord {
     uint materialAndSide; // see materialIndexOf, normalSignOf
     float radius;
     uint isTransmissive; // 1 for a dielectric: it dims light instead of blocking it
-    uint pad0;
-    uint pad1;
+    uint emitter;        // of the light tree: the index of its emitter
+    uint primitiveId;    // its index in the input
 };
 
 const uint sphereFacesInward = 0x80000000u;
@@ -71,6 +71,7 @@ const uint triangleIsTransmissive = 1u; // a dielectric: it dims light instead o
 const uint triangleEndsLeaf = 2u;       // the last triangle of its leaf
 const uint triangleIsCutOut = 4u;       // its material has an opacity texture
 const uint triangleIsSphere = 8u;
+const uint triangleEmitterShift = 4u; // the other bits: of the light tree, the index of its emitter
 
 // Shading normals of the triangle with the same index. Zero vectors mean: use the geometric normal.
 struct NormalRecord {
@@ -289,7 +290,8 @@ struct LightRecord {
 };
 
 // Emitters: targets of the path integrator's shadow rays. Each shadow ray chooses one, with a probability in proportion
-// to its power. They are in the order of the input: lights, spheres, triangles, the environment.
+// to its power, or by the light tree. They are in the order of the input: lights, spheres, triangles, the environment. Where
+// there is a light tree, directional lights and the environment, which are not in it, come before the others.
 
 const uint emitterPoint = 0u;
 const uint emitterSphere = 1u;
@@ -305,11 +307,31 @@ struct EmitterRecord {
     float probability;
     uint cumulative; // of 2^32 random numbers, those below it choose this emitter or one before it
     uint record;     // index among the sphere or the triangle records
-    float pdf;       // of a triangle or a sphere, per unit of area; of a spot its falloffScale
+    // of a triangle or a sphere, per unit of area, and in the light tree if it is chosen; of a spot its falloffScale
+    float pdf;
     uint isTwoSided;
     vec3 axis;         // of a spot or a directional light
     float cosineOuter; // of a spot
 };
+
+const uint noEmitter = 0x0FFFFFFFu;
+
+// A cluster of emitters with places: a child in the light tree (shaders/lights/light_tree.glsl). Siblings follow each
+// other, the first two at index 0. `cumulative` of these emitters is the way to them: a bit for each node, 1 for the right
+// child, from the lowest one on.
+struct LightNode {
+    vec3 centre;         // of a sphere around the emitters
+    float share;         // of its parent's intensity
+    vec3 axis;           // normals are within an angle of this direction; or, if two-sided, of its opposite
+    float cosineNormals; // of that angle
+    float squaredRadius;
+    float cosineEmission; // of the angle to a normal within which light leaves
+    float sineNormals;
+    uint reference; // of its first child, or leafFlag | its emitter; with lightNodeIsTwoSided
+};
+
+const uint lightNodeIsTwoSided = 0x40000000u;
+const uint maxLightTreeDepth = 32u;
 
 // Bits of constantLighting, 1 << kind of emitter: what lights the scene. Emitting surfaces are included for the path
 // integrator only.
@@ -568,7 +590,9 @@ const uint constantCamera = 20u;
 const uint constantTexturing = 21u;
 const uint constantHasInstances = 22u;
 const uint constantTreeSpheres = 23u; // what the tree holds
-const uint constantCount = 24u;
+const uint constantHasLightTree = 24u;
+const uint constantInfiniteEmitters = 25u; // of a scene with a light tree: emitters that are not in it
+const uint constantCount = 26u;
 
 const uint treeHasTriangles = 0u;
 const uint treeHasSpheresToo = 1u;
@@ -588,6 +612,7 @@ static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));
 static_assert(firstCoordinateRow == linearTableRow + rowsPerTable &&
               linearTableRow == srgbTableRow + rowsPerTable);
 static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, isTwoSided) == 44);
+static_assert(sizeof(LightNode) == 48 && offsetof(LightNode, reference) == 44);
 static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
 static_assert(sizeof(FrameRecord) == 192 && offsetof(FrameRecord, boundsUpper) == 96);
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");

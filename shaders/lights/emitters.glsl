@@ -12,16 +12,16 @@ const float unboundedDistance = 3.4028234e38; // of directional lights and the e
 
 const LightSample noLight = LightSample(vec3(0.0), 0.0, vec3(0.0), 0.0, noPrimitive);
 
-LightSample samplePoint(EmitterRecord emitter, vec3 position) {
+LightSample samplePoint(EmitterRecord emitter, float chance, vec3 position) {
     vec3 toLight = emitter.position - position;
     float distance = vectorLength(toLight);
     float squaredDistance = distance * distance;
-    float share = squaredDistance * emitter.probability;
+    float share = squaredDistance * chance;
     return LightSample(toLight * divide(1.0, distance), distance, emitter.emission * divide(1.0, share), 0.0, noPrimitive);
 }
 
-LightSample sampleSpot(EmitterRecord emitter, vec3 position) {
-    LightSample light = samplePoint(emitter, position);
+LightSample sampleSpot(EmitterRecord emitter, float chance, vec3 position) {
+    LightSample light = samplePoint(emitter, chance, position);
     light.radiance *= spotFalloff(light.direction, emitter.axis, emitter.cosineOuter, emitter.pdf);
     return light;
 }
@@ -60,7 +60,7 @@ vec3 sphereEmission(vec3 emission, SphereRecord sphere, vec3 outward) {
     return emission * lookUpTexture(textureRow(textures, slotEmission), sphereUv(outward));
 }
 
-LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
+LightSample sampleTriangleLight(EmitterRecord emitter, float areaPdf, vec3 position, vec2 u) {
     TriangleRecord triangle = fetchTriangle(emitter.record);
     vec2 weights = sampleTriangle(u);
     Surface surface = triangleSurface(triangle, fetchNormals(emitter.record), weights.x, weights.y);
@@ -69,7 +69,7 @@ LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
     vec3 direction = toLight * divide(1.0, distance);
     float facing = -dotProduct(direction, surface.geometricNormal);
     float cosine = emitter.isTwoSided != 0u ? abs(facing) : facing;
-    float pdf = solidAnglePdf(emitter.pdf, distance, cosine);
+    float pdf = solidAnglePdf(areaPdf, distance, cosine);
     bool isSeen = cosine > 0.0 && distance > 0.0;
     vec3 emission = emitter.emission;
     if ((texturing & (texturesEmission | texturesOpacity)) != 0u)
@@ -78,7 +78,7 @@ LightSample sampleTriangleLight(EmitterRecord emitter, vec3 position, vec2 u) {
                        triangle.primitiveId);
 }
 
-LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
+LightSample sampleSphereLight(EmitterRecord emitter, float chance, float areaPdf, vec3 position, vec2 u) {
     SphereRecord sphere = fetchSphere(emitter.record);
     SphereShape shape = makeSphereShape(sphere.centre, sphere.radius);
     vec3 toCentre = sphere.centre - position;
@@ -94,7 +94,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
         direction = sampleCone(toCentre * divide(1.0, centreDistance), height, u);
         float meeting = intersectSphere(position, direction, shape, false);
         distance = meeting > 0.0 ? meeting : centreDistance; // rounding moved the direction past the rim
-        pdf = emitter.probability * pdfCone(height);
+        pdf = chance * pdfCone(height);
         isSeen = normalSignOf(sphere) > 0.0 || emitter.isTwoSided != 0u;
     } else {
         vec3 outward = sampleSphere(u);
@@ -102,7 +102,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
         distance = vectorLength(toLight);
         direction = toLight * divide(1.0, distance);
         float cosine = dotProduct(direction, outward);
-        pdf = solidAnglePdf(emitter.pdf, distance, cosine);
+        pdf = solidAnglePdf(areaPdf, distance, cosine);
         isSeen = cosine > 0.0 && distance > 0.0 && (normalSignOf(sphere) < 0.0 || emitter.isTwoSided != 0u);
     }
     vec3 emission = emitter.emission;
@@ -112,8 +112,8 @@ LightSample sampleSphereLight(EmitterRecord emitter, vec3 position, vec2 u) {
                        emitter.record);
 }
 
-// The emitter selected by a 32-bit random number; 0 if there is none.
-uint chooseEmitter(uint bits) {
+// The emitter selected by a 32-bit random number by power; 0 if there is none.
+uint chooseByPower(uint bits) {
     uint first = 0u; // the cumulative values of all before it are at most `bits`
     for (int bit = findMSB(emitterCount); bit >= 0; --bit) {
         uint next = first + (1u << bit);
@@ -123,6 +123,43 @@ uint chooseEmitter(uint bits) {
     return first;
 }
 
+// Of 2^32 random numbers, as many choose each of the emitters that are not in the light tree.
+uint numbersPerInfiniteEmitter() { return 0xFFFFFFFFu / (infiniteEmitterCount + 1u); }
+
+float chanceOfInfiniteEmitter() { return floatOf(numbersPerInfiniteEmitter()) * (1.0 / 4294967296.0); }
+
+// The chance of a choice in the light tree at all.
+float chanceOfTree() { return 1.0 - float(infiniteEmitterCount) * chanceOfInfiniteEmitter(); }
+
+// The emitter at which a shadow ray from the point aims. By power, its record has the chance.
+EmitterChoice chooseEmitter(LitPoint point, uint bits) {
+    if (!hasLightTree)
+        return EmitterChoice(chooseByPower(bits), 1.0);
+    if (infiniteEmitterCount == 0u)
+        return chooseInTree(point, bits);
+    uint numbers = numbersPerInfiniteEmitter();
+    uint infinite = bits / numbers;
+    if (infinite < infiniteEmitterCount)
+        return EmitterChoice(infinite, chanceOfInfiniteEmitter());
+    uint before = numbers * infiniteEmitterCount;
+    EmitterChoice choice = chooseInTree(point, spreadNumber(bits - before, 0u - before));
+    choice.chance = choice.chance * chanceOfTree();
+    return choice;
+}
+
+// The pdf, per unit of area, of the light sample at a place of the emitter, whose material has `emitterPdf`. Only emitters
+// that the light tree knows are sampled there.
+float pdfOfEmitter(uint index, float emitterPdf, LitPoint point) {
+    if (!hasLightTree)
+        return emitterPdf;
+    if (index == noEmitter)
+        return 0.0;
+    EmitterRecord emitter = fetchEmitter(index);
+    float chance = chanceInTree(point, emitter.cumulative);
+    float chosen = chance * chanceOfTree();
+    return emitter.pdf * (infiniteEmitterCount == 0u ? chance : chosen);
+}
+
 // Whether the emitter is of this kind; known at compile time if the scene has no other.
 bool isEmitter(EmitterRecord emitter, uint kind) {
     uint bit = 1u << kind;
@@ -130,21 +167,23 @@ bool isEmitter(EmitterRecord emitter, uint kind) {
 }
 
 // Samples a point of an emitter, as seen from `position`, by two 32-bit random numbers.
-LightSample sampleEmitter(uint index, vec3 position, uvec2 bits) {
-    if (emitterCount == 0u)
+LightSample sampleEmitter(EmitterChoice choice, vec3 position, uvec2 bits) {
+    if (emitterCount == 0u || choice.chance <= 0.0)
         return noLight;
-    EmitterRecord emitter = fetchEmitter(index);
+    EmitterRecord emitter = fetchEmitter(choice.index);
+    float chance = hasLightTree ? choice.chance : emitter.probability;
+    float areaPdf = hasLightTree ? emitter.pdf * choice.chance : emitter.pdf;
     if (isEmitter(emitter, emitterPoint))
-        return samplePoint(emitter, position);
+        return samplePoint(emitter, chance, position);
     if (isEmitter(emitter, emitterSpot))
-        return sampleSpot(emitter, position);
+        return sampleSpot(emitter, chance, position);
     if (isEmitter(emitter, emitterDirectional))
         return sampleDirectional(emitter);
     if (isEmitter(emitter, emitterEnvironment))
         return sampleEnvironmentLight(emitter, bits);
     if (isEmitter(emitter, emitterTriangle))
-        return sampleTriangleLight(emitter, position, unitFloats(bits));
+        return sampleTriangleLight(emitter, areaPdf, position, unitFloats(bits));
     if ((lighting & lightsBySpheres) != 0u)
-        return sampleSphereLight(emitter, position, unitFloats(bits));
+        return sampleSphereLight(emitter, chance, areaPdf, position, unitFloats(bits));
     return noLight;
 }

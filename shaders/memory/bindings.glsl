@@ -9,7 +9,7 @@ layout(set = 0, binding = bindingTrace, std430) writeonly buffer TraceBuffer { T
 
 layout(push_constant) uniform DispatchBlock { DispatchConstants dispatchConstants; };
 
-layout(constant_id = constantSphereCount) const uint sphereCount = 0u; // without those in the tree
+layout(constant_id = constantSphereCount) const uint sphereCount = 0u; // outside the tree
 layout(constant_id = constantHasTriangles) const bool hasTriangles = true;
 layout(constant_id = constantHasInstances) const bool hasInstances = true;
 layout(constant_id = constantTreeSpheres) const uint treeSpheres = treeHasTriangles;
@@ -21,6 +21,8 @@ layout(constant_id = constantSamplesAbreast) const uint samplesAbreast = 1u;
 layout(constant_id = constantLightCount) const uint lightCount = 1u;
 layout(constant_id = constantPendingInRegisters) const uint pendingInRegisters = 0u;
 layout(constant_id = constantEmitterCount) const uint emitterCount = 0u;
+layout(constant_id = constantHasLightTree) const bool hasLightTree = false;
+layout(constant_id = constantInfiniteEmitters) const uint infiniteEmitterCount = 0u;
 layout(constant_id = constantHasEmission) const bool hasEmission = true;
 layout(constant_id = constantIsCounting) const bool isCounting = false;
 layout(constant_id = constantShowsCost) const bool showsCost = false;

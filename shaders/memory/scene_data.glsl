@@ -7,7 +7,9 @@
 layout(set = 0, binding = bindingSphereConstants, std140) uniform SphereBuffer {
     SphereRecord sphereConstants[maxUnrolledSpheres];
 };
-layout(set = 0, binding = bindingLights, std140) uniform LightBuffer { LightRecord lights[maxLightCount]; };
+layout(set = 0, binding = bindingLightConstants, std140) uniform LightBuffer {
+    LightRecord lightConstants[maxUniformLights];
+};
 
 #if MEMORY_TEXELS
 #define SCENE_ARRAY(number, value, name, Record, fetch) \

@@ -2,15 +2,17 @@
 // and branches.
 
 SphereShape sphereShapes[maxUnrolledSpheres];
+uint sphereIds[maxUnrolledSpheres];
 uint transmissiveSpheres = 0u; // one bit each
 LightRecord firstLight;
 
 void preload() {
     [[unroll]] for (uint i = 0u; i < sphereCount; ++i) {
         sphereShapes[i] = makeSphereShape(sphereConstants[i].centre, sphereConstants[i].radius);
+        sphereIds[i] = treeSpheres == treeHasTriangles ? i : sphereConstants[i].primitiveId;
         transmissiveSpheres |= sphereConstants[i].isTransmissive << i;
     }
-    firstLight = lights[0];
+    firstLight = lightConstants[0];
 }
 
 bool isSphereTransmissive(uint index) { return (transmissiveSpheres >> index & 1u) != 0u; }
@@ -18,5 +20,7 @@ bool isSphereTransmissive(uint index) { return (transmissiveSpheres >> index & 1
 LightRecord lightAt(uint index) {
     if (lightCount == 1u)
         return firstLight;
-    return lights[index];
+    if (lightCount <= maxUniformLights)
+        return lightConstants[index];
+    return fetchLight(index);
 }

@@ -25,22 +25,23 @@ void sendPrimaryRay(uint slot) {
 
 bool isTarget(uint slot, uint primitive) { return raysHaveTargets && path[slot].rayTarget == primitive; }
 
-void meetSphere(uint slot, uint i, SphereShape shape) {
+void meetSphere(uint slot, uint id, SphereShape shape) {
     bool areAllPrimary = !hasSpecular && !hasBounces; // so none starts on a surface
     float distance = intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape,
-                                     !areAllPrimary && path[slot].rayExcluded == i);
+                                     !areAllPrimary && path[slot].rayExcluded == id);
     bool isNearer = distance > 0.0 && distance < path[slot].rayLength;
     path[slot].rayLength = isNearer ? distance : path[slot].rayLength;
-    path[slot].hitPrimitive = isNearer ? i : path[slot].hitPrimitive;
+    path[slot].hitPrimitive = isNearer ? id : path[slot].hitPrimitive;
 }
 
 void meetSphereInShadow(uint slot, uint i, SphereShape shape) {
+    uint id = sphereIds[i];
     float meeting =
-        intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape, path[slot].rayExcluded == i);
-    bool isBetween = meeting > 0.0 && meeting < path[slot].rayLength && !isTarget(slot, i);
+        intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape, path[slot].rayExcluded == id);
+    bool isBetween = meeting > 0.0 && meeting < path[slot].rayLength && !isTarget(slot, id);
     bool isTransmissive = lightPassesGlass && isSphereTransmissive(i);
     path[slot].isLightDimmed = isBetween && isTransmissive ? 1u : path[slot].isLightDimmed;
-    path[slot].hitPrimitive = isBetween && !isTransmissive ? i : path[slot].hitPrimitive;
+    path[slot].hitPrimitive = isBetween && !isTransmissive ? id : path[slot].hitPrimitive;
 }
 
 // Stage: test the spheres, and enter the tree at its root.
@@ -50,7 +51,7 @@ void beginClosest(uint slot) {
     path[slot].rayLength = unbounded;
     path[slot].hitPrimitive = noPrimitive;
     [[unroll]] for (uint i = 0u; i < sphereCount; ++i)
-        meetSphere(slot, i, sphereShapes[i]);
+        meetSphere(slot, sphereIds[i], sphereShapes[i]);
     path[slot].hitRecord = path[slot].hitPrimitive;
     if (hasTriangles)
         enterTree(slot);

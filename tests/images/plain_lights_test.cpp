@@ -92,6 +92,20 @@ std::vector<Lighting> lightings() {
              addPanel(scene, lamp({2.0f, 1.0f, 1.0f}));
              testing::addBall(scene, {1.0, 0.5, -0.5}, 0.2, lamp({4.0f, 6.0f, 4.0f}));
          }});
+    all.push_back({"AllOfThemByTree", [everything = all.back().install](Scene &scene) {
+                       everything(scene);
+                       scene.settings.lightChoice = LightChoice::Tree;
+                   }});
+    all.push_back({"ManyByTree", [](Scene &scene) {
+                       for (int i = 0; i < 12; ++i) {
+                           const double x = 0.4 * (i - 6);
+                           const float glow = 2.0f + static_cast<float>(i % 3);
+                           testing::addBall(scene, {x, 0.8, 0.1 * (i % 5)}, 0.12, lamp({glow, 3.0f, 4.0f}));
+                           scene.lights.push_back({{x, 1.5, -1.0}, glm::dvec3(i % 4)});
+                       }
+                       addPanel(scene, lamp({2.0f, 1.0f, 1.0f}));
+                       scene.settings.lightChoice = LightChoice::Tree;
+                   }});
     return all;
 }
 

@@ -55,9 +55,7 @@ TEST_P(Validate, NamesTheObject) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, Validate,
-                         testing::Values(Breakage{"scene: lights: found 17",
-                                                  [](Scene &s) { s.lights.resize(17); }},
-                                         Breakage{"scene: meshes: found 4097",
+                         testing::Values(Breakage{"scene: meshes: found 4097",
                                                   [](Scene &s) { s.meshes.resize(4097); }},
                                          Breakage{"scene: materials: found 65537",
                                                   [](Scene &s) { s.materials.resize(65537); }},
@@ -212,7 +210,7 @@ TEST(Validate, TheEndsOfTheRangesAreAllowed) {
     scene.settings.leafSize = 64;
     scene.settings.seed = 4294967295u;
     scene.background = glm::vec3(1e30f); // as a float a little more than 1e30
-    scene.lights.resize(limits::lightCount);
+    scene.lights.resize(1000);
     scene.spheres.resize(1000);
     scene.spheres[0].radius = 1e15;
     EXPECT_NO_THROW(validateScene(scene, "source"));
