@@ -15,7 +15,9 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -133,6 +135,29 @@ void warnOfOverlaps(const Bvh &bvh) {
                      statistics.triangleCount, statistics.trianglesTested);
 }
 
+/// Whether anything is of glass without roughness, through which no shadow ray goes.
+bool hasSmoothGlass(const Scene &scene) {
+    const auto isSmooth = [&](std::uint32_t index) {
+        const Material &material = scene.materials[index];
+        return material.kind == MaterialKind::Dielectric && material.roughness == 0.0f;
+    };
+    const auto wearsIt = [&](const TriangleMesh &mesh) {
+        return mesh.triangleMaterials.empty() ? isSmooth(mesh.materialIndex)
+                                              : std::ranges::any_of(mesh.triangleMaterials, isSmooth);
+    };
+    return std::ranges::any_of(scene.spheres, isSmooth, &Sphere::materialIndex) ||
+           std::ranges::any_of(scene.meshes, wearsIt) || std::ranges::any_of(scene.prototypes, wearsIt);
+}
+
+/// `path` meets a light without size by shadow rays only, and smooth glass bends light in one direction only.
+void warnOfLightsBehindGlass(const Scene &scene) {
+    if (scene.settings.integrator == Integrator::Path && !scene.lights.empty() && hasSmoothGlass(scene))
+        printMessage("hyalite: warning: path does not find the light of lights without size (point, spot, "
+                     "directional) through smooth glass: its shadow is dark, and it focuses none of that "
+                     "light. Give the light a size, as a sphere with emission, or use --integrator "
+                     "whitted\n");
+}
+
 double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();
 }
@@ -164,6 +189,8 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     Scene &scene = prepared.loaded.scene;
     validateWithOverrides(options, scene, prepared.loaded.file.string());
     prepared.crop = chooseCrop(options.crop, scene.camera);
+    if (!isQuiet)
+        warnOfLightsBehindGlass(scene);
     const Clock::time_point loaded = Clock::now();
     // Without a tree all triangles are tested one by one, and have to be in one space.
     const bool isFlattened = options.isFlattened || scene.settings.tree == TreeKind::None;

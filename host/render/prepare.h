@@ -58,8 +58,9 @@ struct PreparedScene {
 };
 
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or OverrideError for conflicting overrides,
-/// such as a crop outside the image. Shows progress while it reads large meshes, unless quiet. `onOutline` gets an
-/// outline of the scene, with overrides applied, before large files are read.
+/// such as a crop outside the image. Unless quiet, shows progress while it reads large meshes, and warns of lights
+/// without size behind smooth glass. `onOutline` gets an outline of the scene, with overrides applied, before large
+/// files are read.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
                                          const std::function<void(const SceneOutline &)> &onOutline = {});
 
