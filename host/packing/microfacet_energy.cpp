@@ -1,7 +1,10 @@
 #include "host/packing/microfacet_energy.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <bit>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +16,7 @@ namespace {
 constexpr std::size_t cosineCount = layout::energyCosines;
 constexpr std::size_t roughnessCount = layout::energyRoughnesses;
 constexpr std::size_t azimuthSteps = 32; // over half a turn; the other half is symmetric
-constexpr std::size_t heightSteps = 48;
+constexpr std::size_t indexCount = layout::energyIndices;
 
 struct Energy {
     double white = 0.0;
@@ -46,43 +49,112 @@ struct Azimuths {
 
 double fifthPower(double x) { return x * x * (x * x) * x; }
 
-/// An average over the facets that are seen from a direction, of how many of them are lit by what they reflect. The cap
-/// of Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, is cut into equal parts.
+/// A facet of the distribution of visible normals: `normal` / `length` is its normal, `cosine` that of the viewer to it.
+struct Facet {
+    glm::dvec3 normal;
+    double length;
+    double cosine;
+};
+
+/// Looks at a surface of GGX facets.
+struct Viewer {
+    double cosine; ///< to the surface's normal
+    double alpha;
+    double sine = std::sqrt(1.0 - cosine * cosine);
+    double stretch = std::sqrt(alpha * alpha * sine * sine + cosine * cosine);
+    double x = alpha * sine / stretch; ///< the direction, stretched to alpha 1
+    double z = cosine / stretch;
+
+    /// A point of the cap of Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023: `share` in
+    /// (0, 1) of it is above.
+    [[nodiscard]] Facet facetAt(double share, double azimuthCosine, double azimuthSine) const {
+        const double capHeight = (1.0 - share) * (1.0 + z) - z;
+        const double capSine = std::sqrt(1.0 - capHeight * capHeight);
+        const double facetX = alpha * (capSine * azimuthCosine + x);
+        const double facetY = alpha * (capSine * azimuthSine);
+        const double facetZ = capHeight + z;
+        const double length = std::sqrt(facetX * facetX + facetY * facetY + facetZ * facetZ);
+        return {{facetX, facetY, facetZ}, length, (sine * facetX + cosine * facetZ) / length};
+    }
+
+    /// How much of what a visible facet sends in a direction of the height `height` > 0, on either side, is not masked;
+    /// `squaredSine` is that of the direction to the normal.
+    [[nodiscard]] double litShare(double height, double squaredSine) const {
+        const double lightStretch = std::sqrt(alpha * alpha * squaredSine + height * height);
+        return height * (cosine + stretch) / (cosine * lightStretch + height * stretch);
+    }
+};
+
+/// The ends of the cap contain few facets but matter much, so steps are narrow there.
+struct CapStep {
+    double share;
+    double weight;
+
+    explicit CapStep(double t) : share(t * t * (3.0 - 2.0 * t)), weight(6.0 * t * (1.0 - t)) {}
+};
+
+/// How many of the visible facets are lit by what they reflect.
 Energy energyOf(double cosine, double alpha, const Azimuths &azimuths) {
-    const double sine = std::sqrt(1.0 - cosine * cosine);
-    const double stretch = std::sqrt(alpha * alpha * sine * sine + cosine * cosine);
-    const double x = alpha * sine / stretch;
-    const double z = cosine / stretch;
+    constexpr std::size_t heightSteps = 48;
+    const Viewer viewer{cosine, alpha};
     Energy sum;
     double totalWeight = 0.0;
     for (std::size_t k = 0; k < heightSteps; ++k) {
-        // The ends contain few facets but matter much, so steps are narrow there.
-        const double t = (static_cast<double>(k) + 0.5) / heightSteps;
-        const double share = t * t * (3.0 - 2.0 * t);
-        const double weight = 6.0 * t * (1.0 - t);
-        totalWeight += weight;
-        const double capHeight = (1.0 - share) * (1.0 + z) - z;
-        const double capSine = std::sqrt(1.0 - capHeight * capHeight);
+        const CapStep step((static_cast<double>(k) + 0.5) / heightSteps);
+        totalWeight += step.weight;
         for (std::size_t i = 0; i < azimuthSteps; ++i) {
-            const double facetX = alpha * (capSine * azimuths.cosine[i] + x);
-            const double facetY = alpha * (capSine * azimuths.sine[i]);
-            const double facetZ = capHeight + z;
-            const double length = std::sqrt(facetX * facetX + facetY * facetY + facetZ * facetZ);
-            const double toFacet = (sine * facetX + cosine * facetZ) / length;
-            const double lightX = 2.0 * toFacet * facetX / length - sine;
-            const double lightY = 2.0 * toFacet * facetY / length;
-            const double lightZ = 2.0 * toFacet * facetZ / length - cosine;
+            const Facet facet = viewer.facetAt(step.share, azimuths.cosine[i], azimuths.sine[i]);
+            const double lightX = 2.0 * facet.cosine * facet.normal.x / facet.length - viewer.sine;
+            const double lightY = 2.0 * facet.cosine * facet.normal.y / facet.length;
+            const double lightZ = 2.0 * facet.cosine * facet.normal.z / facet.length - cosine;
             if (lightZ <= 0.0)
                 continue;
-            const double lightStretch =
-                std::sqrt(alpha * alpha * (lightX * lightX + lightY * lightY) + lightZ * lightZ);
-            const double lit = lightZ * (cosine + stretch) / (cosine * lightStretch + lightZ * stretch);
-            sum.white += weight * lit;
-            sum.grazing += weight * lit * fifthPower(1.0 - std::fmin(toFacet, 1.0));
+            const double lit = viewer.litShare(lightZ, lightX * lightX + lightY * lightY);
+            sum.white += step.weight * lit;
+            sum.grazing += step.weight * lit * fifthPower(1.0 - std::fmin(facet.cosine, 1.0));
         }
     }
     const double total = totalWeight * static_cast<double>(azimuthSteps);
     return {sum.white / total, sum.grazing / total}; // at most 1
+}
+
+/// How much light visible facets of glass reflect and refract; `eta` is the index before them divided by the one
+/// beyond. Heights of different azimuths differ, by the golden ratio, as total reflection begins at one height where the
+/// viewer is above.
+double glassEnergyOf(double cosine, double alpha, double eta, const Azimuths &azimuths) {
+    constexpr std::size_t heightSteps = 20;
+    constexpr double goldenStep = 0.6180339887498949;
+    const Viewer viewer{cosine, alpha};
+    const auto lit = [&](double height) {
+        return viewer.litShare(height, std::fmax(1.0 - height * height, 0.0));
+    };
+    double sum = 0.0;
+    double totalWeight = 0.0;
+    for (std::size_t i = 0; i < azimuthSteps; ++i) {
+        const double turns = (static_cast<double>(i) + 0.5) * goldenStep;
+        const double offset = turns - std::floor(turns);
+        for (std::size_t k = 0; k < heightSteps; ++k) {
+            const CapStep step((static_cast<double>(k) + offset) / heightSteps);
+            totalWeight += step.weight;
+            const Facet facet = viewer.facetAt(step.share, azimuths.cosine[i], azimuths.sine[i]);
+            const double facetHeight = facet.normal.z / facet.length;
+            const double radicand = 1.0 - eta * eta * (1.0 - facet.cosine * facet.cosine);
+            double reflectance = 1.0;
+            if (radicand > 0.0) { // Fresnel's equations
+                const double beyond = std::sqrt(radicand);
+                const double across = (eta * facet.cosine - beyond) / (eta * facet.cosine + beyond);
+                const double along = (facet.cosine - eta * beyond) / (facet.cosine + eta * beyond);
+                reflectance = 0.5 * (across * across + along * along);
+                const double depth = eta * cosine - (eta * facet.cosine - beyond) * facetHeight;
+                if (depth > 0.0)
+                    sum += step.weight * (1.0 - reflectance) * lit(depth);
+            }
+            const double height = 2.0 * facet.cosine * facetHeight - cosine;
+            if (height > 0.0)
+                sum += step.weight * reflectance * lit(height);
+        }
+    }
+    return sum / totalWeight;
 }
 
 EnergyRow energiesOf(double alpha) {
@@ -141,6 +213,77 @@ std::vector<layout::LookupRow> makeEnergyTexels() {
     for (std::size_t j = 0; j + 1 < roughnessCount; ++j)
         texels.push_back(
             texel(averages[j].white, averages[j + 1].white, averages[j].grazing, averages[j + 1].grazing));
+    return texels;
+}
+
+namespace {
+
+/// The place among nodes of light that goes from an index to one `eta` times smaller, as in shaders/bsdf/energy.glsl.
+double indexPlace(double eta) {
+    const double contrast = std::fabs(eta - 1.0) / (eta + 1.0) * (11.0 / 9.0);
+    return std::sqrt(contrast) * static_cast<double>(indexCount - 1);
+}
+
+/// The eta of a node of the first half of layers, whose light comes from the thinner side.
+double etaOfNode(std::size_t node) {
+    const double place = static_cast<double>(node) / static_cast<double>(indexCount - 1);
+    const double contrast = std::fmax(place * place, 1e-7) * (9.0 / 11.0); // at 1 both sides differ
+    return (1.0 - contrast) / (1.0 + contrast);
+}
+
+/// Marks the nodes of the cells that `least` to `most` fall into, and of their neighbours where rounding may decide.
+template <std::size_t count>
+void markNodes(std::bitset<count> &nodes, std::size_t first, std::size_t last, double least, double most) {
+    constexpr double margin = 0.01;
+    for (std::size_t node = first; node <= last; ++node) {
+        const auto place = static_cast<double>(node - first);
+        if (place > least - 1.0 - margin && place < most + 1.0 + margin)
+            nodes.set(node);
+    }
+}
+
+} // namespace
+
+void GlassNodes::addIndices(double before, double beyond) {
+    if (before == beyond)
+        return;
+    const double place = indexPlace(before / beyond);
+    const std::size_t first = before > beyond ? indexCount : 0;
+    markNodes(layers, first, first + indexCount - 1, place, place);
+}
+
+void GlassNodes::addRoughness(double least, double most) {
+    const auto last = static_cast<double>(roughnessCount - 1);
+    markNodes(roughnesses, 0, roughnessCount - 1, least * last, most * last);
+}
+
+std::vector<layout::LookupRow> makeGlassTexels(const GlassNodes &nodes) {
+    const Azimuths azimuths;
+    // By layer, roughness, cosine.
+    std::vector<float> energies(2 * indexCount * roughnessCount * cosineCount, 1.0f);
+#pragma omp parallel for schedule(dynamic) collapse(2)
+    for (std::size_t layer = 0; layer < 2 * indexCount; ++layer)
+        for (std::size_t j = 1; j < roughnessCount; ++j) { // smooth glass loses nothing
+            if (!nodes.layers[layer] || !nodes.roughnesses[j])
+                continue;
+            const double thin = etaOfNode(layer % indexCount);
+            const double eta = layer < indexCount ? thin : 1.0 / thin;
+            const double roughness = static_cast<double>(j) / static_cast<double>(roughnessCount - 1);
+            for (std::size_t i = 0; i < cosineCount; ++i) {
+                const double root = static_cast<double>(i) / static_cast<double>(cosineCount - 1);
+                energies[(layer * roughnessCount + j) * cosineCount + i] =
+                    static_cast<float>(glassEnergyOf(root * root, roughness * roughness, eta, azimuths));
+            }
+        }
+    std::vector<layout::LookupRow> texels;
+    texels.reserve(layout::glassTexelCount);
+    for (std::size_t layer = 0; layer < 2 * indexCount; ++layer)
+        for (std::size_t j = 0; j + 1 < roughnessCount; ++j)
+            for (std::size_t i = 0; i + 1 < cosineCount; ++i) {
+                const float *const low = &energies[(layer * roughnessCount + j) * cosineCount + i];
+                const float *const high = low + cosineCount;
+                texels.push_back({glm::vec3(low[0], low[1], high[0]), std::bit_cast<std::uint32_t>(high[1])});
+            }
     return texels;
 }
 

@@ -3,6 +3,7 @@
 
 #include "shaders/layout/layout.h"
 
+#include <bitset>
 #include <vector>
 
 namespace hyalite {
@@ -11,6 +12,23 @@ namespace hyalite {
 /// Computed with + - * / and square roots only, so that they are the same on every machine. Takes some hundredths of a
 /// second.
 [[nodiscard]] std::vector<layout::LookupRow> makeEnergyTexels();
+
+/// The part of the table of rough glass that a scene reads.
+struct GlassNodes {
+    std::bitset<2 * layout::energyIndices>
+        layers; ///< by the index, for light from the thinner and the denser side
+    std::bitset<layout::energyRoughnesses> roughnesses;
+
+    /// For light from the refractive index `before` to another one, `beyond`; both in [1, 10].
+    void addIndices(double before, double beyond);
+    /// For roughnesses in [least, most], within [0, 1].
+    void addRoughness(double least, double most);
+};
+
+/// The next layout::glassTexelCount lookup rows of a scene with rough glass: what it reflects and transmits at once, as
+/// above. Nodes that are not asked for are 1. Glass of one index and roughness takes milliseconds, with textures of
+/// roughness some hundredths of a second.
+[[nodiscard]] std::vector<layout::LookupRow> makeGlassTexels(const GlassNodes &nodes);
 
 /// Cosine-weighted average, over the hemisphere, of the Fresnel reflectance of a conductor with the complex refractive
 /// index `index` + i `extinction`.

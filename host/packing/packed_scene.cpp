@@ -15,6 +15,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -128,6 +129,24 @@ layout::MaterialRecord packMaterial(const Material &material) {
         record.clearcoatAlpha = alphaOf(material.clearcoatRoughness);
     }
     return record;
+}
+
+/// What rough glass may meet: any two of the scene's media on its sides.
+GlassNodes glassNodesOf(const Scene &scene) {
+    GlassNodes nodes;
+    std::vector<double> indices = {1.0};
+    for (const Material &material : scene.materials) {
+        if (!isGlass(material))
+            continue;
+        indices.push_back(static_cast<double>(material.refractiveIndex));
+        const double roughness = std::sqrt(static_cast<double>(alphaOf(material.roughness)));
+        const bool isTextured = material.textures[layout::slotRoughness].has_value();
+        nodes.addRoughness(isTextured ? 0.0 : roughness, roughness);
+    }
+    for (const double before : indices)
+        for (const double beyond : indices)
+            nodes.addIndices(before, beyond);
+    return nodes;
 }
 
 /// The input indices of the materials, in packed order.
@@ -284,6 +303,8 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     const bool aimsAtEmitters = rowOf(scene.settings.integrator).aimsAtEmitters;
     if (aimsAtEmitters && (packed.scattering & layout::scattersAtRough) != 0)
         packed.lookups = makeEnergyTexels();
+    if (aimsAtEmitters && (packed.scattering & layout::scattersAtRoughGlass) != 0)
+        std::ranges::copy(makeGlassTexels(glassNodesOf(scene)), std::back_inserter(packed.lookups));
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
     if (scene.settings.filter != FilterKind::Box)
         packFilter(packed);

@@ -87,10 +87,8 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
         bsdf.isConductor = true;
         return addOpaqueLobes(bsdf, 1.0, 0.0, vec3(0.0), material.averageReflectance);
     }
-    if ((scattering & scattersAtRoughGlass) != 0u && kindOf(material) == materialDielectric) {
-        bsdf.kind = bsdfGlass;
-        return bsdf;
-    }
+    if ((scattering & scattersAtRoughGlass) != 0u && kindOf(material) == materialDielectric)
+        return makeGlass(bsdf);
     bsdf.kind = bsdfDiffuse;
     return bsdf;
 }

@@ -27,7 +27,7 @@ struct Bsdf {
     float clearcoat;          // weight of the coat above
     float clearcoatRoughness;
     float clearcoatEnergy;     // directional albedo of the coat for wo
-    float weight;              // share of the chosen component divided by the probability of choosing it
+    float weight; // share of the chosen component divided by the probability of choosing it; of glass by its energy too
     float specularProbability; // of sampling a facet instead of the diffuse part
 };
 

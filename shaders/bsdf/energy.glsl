@@ -1,9 +1,13 @@
-// GGX directional albedo and Kulla-Conty energy compensation.
+// GGX directional albedo, and two ways to give back what single scattering loses.
 //
-// A single-scattering model loses the light that one facet sends to another: up to half of it at roughness 1. Kulla and
-// Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, add it back as a second, diffuse
-// lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)). It is reciprocal, and conserves energy exactly for the E of the
-// table, because E and its averages are interpolated linearly.
+// Opaque facets: Kulla-Conty. A single-scattering model loses the light that one facet sends to another: up to half of
+// it at roughness 1. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, add
+// it back as a second, diffuse lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)). It is reciprocal, and conserves
+// energy exactly for the E of the table, because E and its averages are interpolated linearly.
+//
+// Glass: Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019. What single scattering
+// reflects and transmits is divided by E(o), the albedo of both together for the side of the viewer. Directions and
+// pdfs stay as they are. It keeps all energy, but is not reciprocal.
 
 struct Energy {
     float white;  // directional albedo of single scattering, by facets that reflect everything
@@ -27,6 +31,12 @@ float mixture(float a, float b, float share) {
     return a + (b - a) * share;
 }
 
+// Between the four corners of a cell.
+float cellMixture(LookupRow corners, float across, float along) {
+    return mixture(mixture(corners.value.x, corners.value.y, across),
+                   mixture(corners.value.z, uintBitsToFloat(corners.word), across), along);
+}
+
 // Energy for the cosine `cosine` > 0 to the normal, at the roughness sqrt(alpha). Nodes are evenly spaced in the square
 // roots of both.
 Energy energyOf(float cosine, float roughness) {
@@ -35,10 +45,24 @@ Energy energyOf(float cosine, float roughness) {
     uint row = 2u * (along.cell * (energyCosines - 1u) + across.cell);
     LookupRow white = fetchLookupRow(row);
     LookupRow grazing = fetchLookupRow(row + 1u);
-    return Energy(mixture(mixture(white.value.x, white.value.y, across.share),
-                          mixture(white.value.z, uintBitsToFloat(white.word), across.share), along.share),
-                  mixture(mixture(grazing.value.x, grazing.value.y, across.share),
-                          mixture(grazing.value.z, uintBitsToFloat(grazing.word), across.share), along.share));
+    return Energy(cellMixture(white, across.share, along.share), cellMixture(grazing, across.share, along.share));
+}
+
+// Share of the light that rough glass reflects and transmits at once, without the change of radiance by the square of
+// the index. `cosine` > 0 is that of the viewer to the normal; `eta`, in [1/10, 10] and not 1, is as in Bsdf. Nodes are
+// evenly spaced in the square root of |eta - 1| / (eta + 1).
+float glassEnergy(float cosine, float roughness, float eta) {
+    float difference = abs(eta - 1.0);
+    float sum = eta + 1.0;
+    float contrast = divide(difference, sum) * (11.0 / 9.0); // 1 at an index of 10
+    EnergyPlace across = energyPlace(squareRoot(cosine), energyCosines);
+    EnergyPlace along = energyPlace(roughness, energyRoughnesses);
+    EnergyPlace between = energyPlace(squareRoot(contrast), energyIndices);
+    uint layer = eta > 1.0 ? energyIndices + between.cell : between.cell;
+    uint row = energyTexelCount + layer * energyCellCount + along.cell * (energyCosines - 1u) + across.cell;
+    float low = cellMixture(fetchLookupRow(row), across.share, along.share);
+    float high = cellMixture(fetchLookupRow(row + energyCellCount), across.share, along.share);
+    return mixture(low, high, between.share);
 }
 
 // Cosine-weighted averages over the hemisphere.

@@ -1,5 +1,13 @@
 // The lobe of rough glass: GGX facets that reflect and refract. Walter et al., "Microfacet Models for Refraction
-// through Rough Surfaces", EGSR 2007, equations 20 and 21.
+// through Rough Surfaces", EGSR 2007, equations 20 and 21; divided by what they scatter at once (Turquin 2019, see
+// energy.glsl).
+
+// Makes `bsdf`, whose eta is not 1, glass.
+Bsdf makeGlass(Bsdf bsdf) {
+    bsdf.kind = bsdfGlass;
+    bsdf.weight = divide(bsdf.weight, glassEnergy(bsdf.wo.z, bsdf.roughness, bsdf.eta));
+    return bsdf;
+}
 
 // Transmission, for `wi` below the surface.
 BsdfEval evalGlassTransmission(Bsdf bsdf, vec3 wi) {

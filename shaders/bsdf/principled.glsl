@@ -22,9 +22,8 @@ Bsdf makePrincipled(Bsdf bsdf, MaterialRecord material, bool isBehind, float cho
     float dielectric = 1.0 - material.metallic;
     float glass = isBehind && material.transmission > 0.0 ? 1.0 : dielectric * material.transmission;
     if ((scattering & scattersAtRoughGlass) != 0u && left < glass) {
-        bsdf.kind = bsdfGlass;
         bsdf.tint = vec3(squareRoot(material.albedo.x), squareRoot(material.albedo.y), squareRoot(material.albedo.z));
-        return bsdf;
+        return makeGlass(bsdf);
     }
     float opaque = 1.0 - glass;
     float metal = divide(material.metallic, opaque);

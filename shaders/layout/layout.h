@@ -272,6 +272,8 @@ const uint energyCosines = 32u; // nodes of the table over the cosine, and over 
 const uint energyRoughnesses = 32u;
 const uint energyCellCount = (energyCosines - 1u) * (energyRoughnesses - 1u);
 const uint energyTexelCount = 2u * energyCellCount + energyRoughnesses - 1u;
+const uint energyIndices = 20u; // nodes over the refractive index of rough glass, for each of its sides
+const uint glassTexelCount = 2u * energyIndices * energyCellCount; // they follow, in scenes with rough glass
 
 // Lights without size, for the Whitted and the path integrator.
 

@@ -132,11 +132,14 @@ Vec Bsdf::evaluatePlastic(const Vec &view, const Vec &light) const {
 }
 
 /// Walter 2007, equations 20 and 21. Radiance is larger by the square of the index in glass, so that equation 21 has
-/// the index on the side that light goes to: that of the viewer.
+/// the index on the side that light goes to: that of the viewer. What facets send to each other comes back in the
+/// directions of what they send on at once: Turquin 2019.
 Vec Bsdf::evaluateGlass(const Vec &view, const Vec &light) const {
     const double alpha = alphaOf(roughness_);
+    const double energy = glassEnergy(view.z, roughness_, indexRatio_);
     if (light.z > 0.0)
-        return Vec(dielectricFresnel(glm::dot(view, glm::normalize(view + light)), indexRatio_) *
+        return Vec(1.0 / energy *
+                   dielectricFresnel(glm::dot(view, glm::normalize(view + light)), indexRatio_) *
                    reflectedByFacets(view, light, alpha));
     const Vec facet = facetAcross(view, light, indexRatio_);
     const double toView = glm::dot(view, facet);
@@ -144,8 +147,8 @@ Vec Bsdf::evaluateGlass(const Vec &view, const Vec &light) const {
     if (toView <= 0.0 || toLight >= 0.0)
         return Vec(0.0);
     const double passing = 1.0 - dielectricFresnel(toView, indexRatio_);
-    return tint_ * (passing * ggx(facet, alpha) * smith(view, light, alpha) * toView * -toLight / view.z *
-                    squared(indexRatio_ / (indexRatio_ * toView + toLight)));
+    return tint_ * (passing / energy * ggx(facet, alpha) * smith(view, light, alpha) * toView * -toLight /
+                    view.z * squared(indexRatio_ / (indexRatio_ * toView + toLight)));
 }
 
 Vec Bsdf::evaluate(const Vec &view, const Vec &light) const {

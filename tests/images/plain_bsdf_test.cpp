@@ -73,6 +73,18 @@ class PlainBsdf : public ::testing::TestWithParam<Sight> {};
 INSTANTIATE_TEST_SUITE_P(All, PlainBsdf, ::testing::ValuesIn(sights()),
                          [](const auto &instance) { return instance.param.name; });
 
+/// Of one lobe, which is what reciprocity can be asked of.
+std::vector<Sight> sightsOfOneLobe() {
+    std::vector<Sight> some = sights();
+    std::erase_if(some, [](const Sight &each) { return each.material.transmission > 0.0f; });
+    return some;
+}
+
+class ReciprocalBsdf : public PlainBsdf {};
+
+INSTANTIATE_TEST_SUITE_P(All, ReciprocalBsdf, ::testing::ValuesIn(sightsOfOneLobe()),
+                         [](const auto &instance) { return instance.param.name; });
+
 constexpr int rowCount = 16;    // of bins, even in the cosine
 constexpr int columnCount = 16; // even in the azimuth
 
@@ -149,16 +161,23 @@ TEST_P(PlainBsdf, IsSampledWithoutBias) {
     EXPECT_NEAR(mean, expected, 4.0 * error + 1e-3 * expected) << "seed " << seed;
 }
 
-TEST_P(PlainBsdf, ReflectsAlikeBothWays) {
+// Glass gives back what facets send to each other by the viewer's energy: without that it is reciprocal.
+TEST_P(ReciprocalBsdf, ReflectsAlikeBothWays) {
+    const Material &material = GetParam().material;
     const Bsdf bsdf = GetParam().bsdf();
     const Vec a = GetParam().view();
     Generator generator(seed);
+    const auto energyOf = [&](const Vec &view) {
+        return material.kind == MaterialKind::Dielectric
+                   ? glassEnergy(view.z, material.roughness, GetParam().indexRatio)
+                   : 1.0;
+    };
     for (int i = 0; i < 1000; ++i) {
         const double z = 0.02 + 0.98 * uniform(generator);
         const double turn = 2.0 * pi * uniform(generator);
         const Vec b(std::sqrt(1.0 - z * z) * std::cos(turn), std::sqrt(1.0 - z * z) * std::sin(turn), z);
-        const Vec there = bsdf.evaluate(a, b) / b.z;
-        const Vec back = bsdf.evaluate(b, a) / a.z;
+        const Vec there = bsdf.evaluate(a, b) / b.z * energyOf(a);
+        const Vec back = bsdf.evaluate(b, a) / a.z * energyOf(b);
         for (glm::length_t channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(there[channel], back[channel], 1e-9 * there[channel]);
     }
@@ -203,6 +222,33 @@ TEST(PlainFurnace, PolishedGlassFollowsFresnel) {
             EXPECT_NEAR(passed / (indexRatio * indexRatio), 1.0 - fresnel,
                         4.0 * std::sqrt(fresnel / count) + 1e-3);
         }
+}
+
+// Glass that is not tinted loses nothing, from either side.
+TEST(PlainFurnace, RoughGlassReflectsAndPassesEverything) {
+    for (const double indexRatio : {1.0 / 2.4, 1.0 / 1.1, 1.1, 1.5, 2.4})
+        for (const float roughness : {0.2f, 0.6f, 1.0f})
+            for (const double viewCosine : {0.2, 0.6, 1.0}) {
+                const Sight rough =
+                    sight("Rough", MaterialKind::Dielectric, roughness, viewCosine, indexRatio);
+                const Bsdf bsdf = rough.bsdf();
+                Generator generator(seed);
+                constexpr int count = 100'000;
+                double sum = 0.0;
+                double squares = 0.0;
+                for (int i = 0; i < count; ++i)
+                    if (const std::optional<Vec> light = bsdf.sample(rough.view(), generator)) {
+                        const double radiance = light->z > 0.0 ? 1.0 : 1.0 / (indexRatio * indexRatio);
+                        const double value = radiance * bsdf.evaluate(rough.view(), *light).x /
+                                             bsdf.density(rough.view(), *light);
+                        sum += value;
+                        squares += value * value;
+                    }
+                const double mean = sum / count;
+                EXPECT_NEAR(mean, 1.0, 4.0 * std::sqrt((squares / count - mean * mean) / count) + 1e-3)
+                    << "index ratio " << indexRatio << ", roughness " << roughness << ", cosine "
+                    << viewCosine;
+            }
 }
 
 TEST(PlainFresnel, HasItsClosedForms) {
@@ -255,6 +301,16 @@ TEST(PlainFacets, HaveConvergedEnergies) {
             EXPECT_NEAR(used.grazing, exact.grazing, cosine < 0.1 ? 2e-3 : 2e-4)
                 << "roughness " << roughness << ", cosine " << cosine;
         }
+}
+
+TEST(PlainFacets, HaveConvergedEnergiesOfGlass) {
+    for (const double indexRatio : {1.0 / 2.2, 1.0 / 1.1, 1.1, 1.5, 2.4})
+        for (const double roughness : {0.1, 0.37, 0.8, 1.0})
+            for (const double cosine : {0.05, 0.3, 0.62, 1.0})
+                EXPECT_NEAR(glassEnergy(cosine, roughness, indexRatio),
+                            integrateGlassEnergy(cosine, roughness * roughness, indexRatio, 512),
+                            cosine < 0.1 ? 2e-3 : 1e-3)
+                    << "index ratio " << indexRatio << ", roughness " << roughness << ", cosine " << cosine;
 }
 
 TEST(PlainPathTracer, FindsTheSameLightByAimingAndByScattering) {

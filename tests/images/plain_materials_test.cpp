@@ -18,6 +18,7 @@ struct Look {
     Material material;
     int maxDepth = 2;
     double allowance = testing::energyAllowance;
+    int pathCount = 120'000; ///< for each region
 };
 
 void PrintTo(const Look &look, std::ostream *stream) { *stream << look.name; }
@@ -62,6 +63,7 @@ std::vector<Look> looks() {
     all.push_back(glass("ClearGlass", 1.5f, 0.0f));
     all.push_back(glass("FrostedGlass", 1.5f, 0.3f));
     all.push_back(glass("RoughDenseGlass", 2.2f, 0.7f));
+    all.back().pathCount = 160'000;
     all.push_back(principled("GlossyPlastic", 0.2f));
     all.push_back(principled("RoughPlastic", 0.7f));
     all.back().material.specular = 1.0f;
@@ -108,6 +110,7 @@ TEST_P(PlainMaterials, LookTheSameOnABallInAStudio) {
     testing::addBall(scene, {0.0, 0.0, 0.0}, 1.0, GetParam().material);
     Comparison comparison{.regions = {{4, 12, 4, 12}, {0, 16, 0, 8}, {0, 5, 3, 13}}};
     comparison.allowance = GetParam().allowance;
+    comparison.pathCount = GetParam().pathCount;
     expectPlainRadiance(scene, comparison);
 }
 
@@ -121,6 +124,7 @@ TEST_P(PlainMaterials, LookTheSameOnATileUnderALamp) {
                      testing::lamp({3.0f, 2.5f, 2.0f}));
     Comparison comparison{.regions = {{0, 16, 7, 16}, {4, 12, 8, 11}}};
     comparison.allowance = GetParam().allowance;
+    comparison.pathCount = GetParam().pathCount;
     expectPlainRadiance(scene, comparison);
 }
 

@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <mutex>
 #include <numbers>
+#include <utility>
 
 namespace hyalite::testing::plain {
 
@@ -85,6 +87,40 @@ template <class Read> Energy betweenRows(double roughness, const Read &read) {
     return {glm::mix(low.white, high.white, share), glm::mix(low.grazing, high.grazing, share)};
 }
 
+/// Of glass of one roughness and index.
+class GlassRow {
+  public:
+    GlassRow(double roughness, double indexRatio) {
+        for (std::size_t i = 0; i < nodeCount; ++i)
+            nodes_[i] = integrateGlassEnergy(squared(static_cast<double>(i) / (nodeCount - 1)),
+                                             squared(roughness), indexRatio, 96);
+    }
+
+    [[nodiscard]] double at(double cosine) const {
+        const double place = std::sqrt(std::clamp(cosine, 0.0, 1.0)) * (nodeCount - 1);
+        const std::size_t cell = std::min(static_cast<std::size_t>(place), nodeCount - 2);
+        return glm::mix(nodes_[cell], nodes_[cell + 1], place - static_cast<double>(cell));
+    }
+
+  private:
+    static constexpr std::size_t nodeCount = 65;
+    std::array<double, nodeCount> nodes_{};
+};
+
+const GlassRow &glassRowAt(std::size_t index, double indexRatio) {
+    using Key = std::pair<std::size_t, double>;
+    static std::map<Key, GlassRow> rows;
+    static std::mutex mutex;
+    thread_local std::map<Key, const GlassRow *> found;
+    const GlassRow *&row = found[{index, indexRatio}];
+    if (row == nullptr) {
+        const std::scoped_lock lock(mutex);
+        const double roughness = static_cast<double>(index) / static_cast<double>(rowCount - 1);
+        row = &rows.try_emplace({index, indexRatio}, roughness, indexRatio).first->second;
+    }
+    return *row;
+}
+
 } // namespace
 
 double dielectricFresnel(double cosine, double indexRatio) {
@@ -156,6 +192,45 @@ Energy integrateEnergy(double cosine, double alpha, int steps) {
         }
     }
     return sum;
+}
+
+double integrateGlassEnergy(double cosine, double alpha, double indexRatio, int steps) {
+    double sum = 0.0;
+    const double height = std::max(cosine, 1e-9);
+    const Vec view(std::sqrt(1.0 - height * height), 0.0, height);
+    for (int j = 0; j < steps; ++j) {
+        // Heights differ from azimuth to azimuth: seen from above, total reflection begins at one height.
+        const double shift = std::fmod((j + 0.5) * std::numbers::phi, 1.0);
+        for (int i = 0; i < steps; ++i) {
+            const double t = (i + shift) / steps;
+            const double share = squared(std::sin(pi * t / 2.0)); // fine at both ends
+            const double weight = pi / 2.0 * std::sin(pi * t) / squared(static_cast<double>(steps));
+            const Vec facet = facetOf(share, pi * (j + 0.5) / steps, alpha);
+            const double toFacet = glm::dot(view, facet);
+            if (toFacet <= 0.0)
+                continue;
+            const double seen = weight * toFacet / (view.z * facet.z);
+            const double fresnel = dielectricFresnel(std::min(toFacet, 1.0), indexRatio);
+            const Vec reflected = 2.0 * toFacet * facet - view;
+            if (reflected.z > 0.0)
+                sum += seen * fresnel * smith(view, reflected, alpha);
+            if (fresnel == 1.0)
+                continue;
+            const double beyond =
+                std::sqrt(1.0 - squared(indexRatio) * (1.0 - squared(toFacet))); // Snell's law
+            const Vec refracted = (indexRatio * toFacet - beyond) * facet - indexRatio * view;
+            if (refracted.z < 0.0)
+                sum += seen * (1.0 - fresnel) * smith(view, refracted, alpha);
+        }
+    }
+    return sum;
+}
+
+double glassEnergy(double cosine, double roughness, double indexRatio) {
+    const double place = std::clamp(roughness, minRoughness, 1.0) * static_cast<double>(rowCount - 1);
+    const std::size_t cell = std::min(static_cast<std::size_t>(place), rowCount - 2);
+    return glm::mix(glassRowAt(cell, indexRatio).at(cosine), glassRowAt(cell + 1, indexRatio).at(cosine),
+                    place - static_cast<double>(cell));
 }
 
 Energy directionalEnergy(double cosine, double roughness) {

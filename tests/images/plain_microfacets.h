@@ -55,4 +55,11 @@ struct Energy {
 /// The quadrature itself, with steps * steps facets.
 [[nodiscard]] Energy integrateEnergy(double cosine, double alpha, int steps);
 
+/// What facets of glass reflect and refract at once of light from one direction, both together, as power. Likewise
+/// between quadratures, for every `indexRatio` that is asked for.
+[[nodiscard]] double glassEnergy(double cosine, double roughness, double indexRatio);
+
+/// The quadrature itself.
+[[nodiscard]] double integrateGlassEnergy(double cosine, double alpha, double indexRatio, int steps);
+
 } // namespace hyalite::testing::plain

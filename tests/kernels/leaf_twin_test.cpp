@@ -427,12 +427,15 @@ TEST(EnergyTwin, OfTheTable) {
         const float cosine = draw.chance(16) ? 1.0f : draw.unit();
         const float roughness = draw.chance(16) ? 1.0f : draw.unit();
         const vec3 colour = drawColour(draw);
+        const float index = draw.chance(16) ? 10.0f : 1.0f + (draw.chance(2) ? 1.5f : 9.0f) * draw.unit();
+        const float eta = draw.chance(2) ? index : 1.0f / index;
         const auto energy = reference::energyOf(scene, cosine, roughness);
         const auto average = reference::averageEnergy(scene, roughness);
-        input << cosine << roughness << colour;
+        input << cosine << roughness << colour << eta;
         expected << energy.white << energy.grazing << average.white << average.grazing
                  << reference::energyAt(energy, colour.x)
-                 << reference::multiScatterReflectance(colour, average.white);
+                 << reference::multiScatterReflectance(colour, average.white)
+                 << reference::glassEnergy(scene, cosine, roughness, eta);
     };
     expectTwin(probeEnergy, call, {.lookups = packed.lookups});
 }

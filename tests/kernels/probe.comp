@@ -452,6 +452,7 @@ void main() {
         vec3 colour = takeVec3();
         give(energyAt(energy, colour.x));
         give(multiScatterReflectance(colour, average.white));
+        give(glassEnergy(cosine, roughness, takeFloat()));
         break;
     }
     case probeBsdf: {
