@@ -76,9 +76,6 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     bsdf.multiScatter = vec3(0.0);
     bsdf.diffuseBase = vec3(0.0);
     bsdf.plasticReflectance = 0.0;
-    bsdf.clearcoat = 0.0;
-    bsdf.clearcoatRoughness = 0.0;
-    bsdf.clearcoatEnergy = 0.0;
     bsdf.weight = 1.0;
     bsdf.specularProbability = 0.0;
     if ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled)
@@ -117,11 +114,7 @@ BsdfEval evalBsdf(Bsdf bsdf, vec3 wi) {
     if (bsdf.kind == bsdfDiffuse)
         return evalDiffuse(bsdf, wi);
     BsdfEval opaque = evalOpaque(bsdf, wi);
-    if ((scattering & scattersAtPrincipled) != 0u) {
-        float below = bsdf.weight;
-        if (bsdf.clearcoat > 0.0)
-            below = below * clearcoatTransmittance(bsdf, wi);
-        opaque.value = opaque.value * below;
-    }
+    if ((scattering & scattersAtPrincipled) != 0u)
+        opaque.value = opaque.value * bsdf.weight;
     return opaque;
 }

@@ -24,9 +24,6 @@ struct Bsdf {
     vec3 multiScatter;        // multiple scattering between facets of metal, without the factor (1 - E(wi)) cos
     vec3 diffuseBase;         // diffuse reflection below a plastic surface, without the factor (1 - E(wi)) cos
     float plasticReflectance; // of that surface, at normal incidence
-    float clearcoat;          // weight of the coat above
-    float clearcoatRoughness;
-    float clearcoatEnergy;     // directional albedo of the coat for wo
     float weight; // share of the chosen component divided by the probability of choosing it; of glass by its energy too
     float specularProbability; // of sampling a facet instead of the diffuse part
 };

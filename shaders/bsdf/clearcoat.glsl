@@ -1,6 +1,6 @@
-// The clear coat lobe: GGX facets with a fixed refractive index above a principled material. The layers below are
-// scaled by 1 - clearcoat max(E(wo), E(wi)), which is reciprocal and conserves energy (as sheen in glTF's
-// KHR_materials_sheen).
+// The clear coat lobe: GGX facets with a fixed refractive index above a principled material. What lies below gets what
+// the coat does not reflect of the viewer's direction, 1 - clearcoat E(wo). All energy is kept: light that the coat
+// keeps from leaving is reflected back to what lies below, and comes out in the end.
 
 const float clearcoatReflectance = 0.04; // at normal incidence: a refractive index of 1.5
 
@@ -11,18 +11,11 @@ float clearcoatAlbedo(float cosine, float roughness) {
 
 // The coat alone, chosen with the probability `share`.
 Bsdf makeClearcoat(Bsdf bsdf, MaterialRecord material, float share) {
-    bsdf.weight = divide(bsdf.clearcoat, share);
+    bsdf.weight = divide(material.clearcoat, share);
     bsdf.alpha = material.clearcoatAlpha;
-    bsdf.roughness = bsdf.clearcoatRoughness;
+    bsdf.roughness = squareRoot(material.clearcoatAlpha);
     bsdf.stretchWo = stretchOf(bsdf.wo, bsdf.alpha);
     bsdf.reflectance = vec3(clearcoatReflectance);
-    bsdf.clearcoat = 0.0;
     bsdf.specularProbability = 1.0;
     return bsdf;
-}
-
-// Fraction of the light to or from `wi` that passes the coat.
-float clearcoatTransmittance(Bsdf bsdf, vec3 wi) {
-    float energy = clearcoatAlbedo(wi.z, bsdf.clearcoatRoughness);
-    return 1.0 - bsdf.clearcoat * greater(energy, bsdf.clearcoatEnergy);
 }

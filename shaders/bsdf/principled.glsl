@@ -8,16 +8,13 @@
 Bsdf makePrincipled(Bsdf bsdf, MaterialRecord material, bool isBehind, float choice) {
     float left = choice;
     if (material.clearcoat > 0.0 && !isBehind) {
-        bsdf.clearcoat = material.clearcoat;
-        bsdf.clearcoatRoughness = squareRoot(material.clearcoatAlpha);
-        bsdf.clearcoatEnergy = clearcoatAlbedo(bsdf.wo.z, bsdf.clearcoatRoughness);
-        float clearcoatShare = bsdf.clearcoat * bsdf.clearcoatEnergy;
+        float energy = clearcoatAlbedo(bsdf.wo.z, squareRoot(material.clearcoatAlpha));
+        float clearcoatShare = material.clearcoat * energy;
         if (left < clearcoatShare)
             return makeClearcoat(bsdf, material, clearcoatShare);
-        float rest = 1.0 - clearcoatShare;
+        float rest = 1.0 - clearcoatShare; // both the weight of what lies below and the probability of choosing it
         float above = left - clearcoatShare;
         left = divide(above, rest);
-        bsdf.weight = divide(1.0, rest);
     }
     float dielectric = 1.0 - material.metallic;
     float glass = isBehind && material.transmission > 0.0 ? 1.0 : dielectric * material.transmission;

@@ -168,8 +168,7 @@ Vec Bsdf::evaluate(const Vec &view, const Vec &light) const {
     if (coat_ == 0.0)
         return sum;
     const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
-    const double energy = std::max(directionalEnergy(view.z, coatRoughness_).of(coatReflectance),
-                                   directionalEnergy(light.z, coatRoughness_).of(coatReflectance));
+    const double energy = directionalEnergy(view.z, coatRoughness_).of(coatReflectance);
     return coat_ * schlickFresnel(cosine, Vec(coatReflectance)) *
                reflectedByFacets(view, light, alphaOf(coatRoughness_)) +
            (1.0 - coat_ * energy) * sum;

@@ -2,10 +2,11 @@
 // simplest way that follows their shape, so that any direction may be drawn by several lobes.
 //
 // A principled material is Burley's mixture ("Physically Based Shading at Disney", SIGGRAPH 2012 courses) of metal,
-// plastic and glass under a clear coat, with three choices of this program: what facets do not reflect at once comes
+// plastic and glass under a clear coat, with four choices of this program: what facets do not reflect at once comes
 // back as in Kulla and Conty ("Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses); the colour
-// below a plastic surface gets what the surface does not reflect in the same way; and the coat leaves 1 - coat
-// max(E(view), E(light)).
+// below a plastic surface gets what the surface does not reflect in the same way; what facets of glass do not pass on at
+// once makes up for it in what they do (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models",
+// 2019); and the coat leaves 1 - coat E(view).
 #pragma once
 
 #include "tests/images/plain_microfacets.h"
