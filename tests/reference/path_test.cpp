@@ -86,6 +86,33 @@ TEST(PathFurnace, GlassIsInvisibleUnderAnEvenSky) {
     expectRadiance(scene, 1.0);
 }
 
+TEST(PathFurnace, RoughGlassIsInvisibleToo) {
+    for (const float index : {1.1f, 1.5f, 1.8f})
+        for (const float roughness : {0.3f, 0.6f, 1.0f}) {
+            Scene scene = sceneFrom({0.3, 0.2, 5}, 10'000);
+            scene.background = glm::vec3(1.0f);
+            scene.settings.maxDepth = layout::maxPathDepth;
+            Material rough = glass(index);
+            rough.roughness = roughness;
+            scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, rough), false});
+            EXPECT_NEAR(estimate(scene).mean, 1.0, 0.02) << "index " << index << ", roughness " << roughness;
+        }
+}
+
+TEST(PathFurnace, AWhiteBallUnderAClearCoatIsInvisibleToo) {
+    for (const float roughness : {0.0f, 0.5f, 1.0f}) {
+        Scene scene = sceneFrom({0.3, 0.2, 5}, 10'000);
+        scene.background = glm::vec3(1.0f);
+        Material white = diffuse(1.0f);
+        white.kind = MaterialKind::Principled;
+        white.roughness = roughness;
+        white.clearcoat = 1.0f;
+        scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, white), false});
+        SCOPED_TRACE(::testing::Message() << "roughness " << roughness);
+        expectRadiance(scene, 1.0, 0.005);
+    }
+}
+
 TEST(PathFurnace, AWhiteBallInGlassIsInvisibleToo) {
     Scene scene = sceneFrom({0.1, 0.2, 5}, 1024);
     scene.background = glm::vec3(1.0f);
