@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace hyalite {
@@ -169,7 +170,9 @@ void chooseByTree(std::vector<Candidate> found, PackedScene &packed) {
             ErrorKind::LimitExceeded,
             fmt::format("the scene has {} lights and emitting primitives; a light tree holds at most {}",
                         found.size(), layout::noEmitter - 1));
-    const auto finite = std::ranges::stable_partition(found, &Candidate::isInfinite);
+    const auto infiniteEnd = std::stable_partition(
+        found.begin(), found.end(), [](const Candidate &candidate) { return candidate.isInfinite; });
+    const std::span<const Candidate> finite(infiniteEnd, found.end());
     packed.infiniteEmitterCount = static_cast<std::uint32_t>(found.size() - finite.size());
     const std::uint32_t numbers = 0xFFFFFFFFu / (packed.infiniteEmitterCount + 1); // as in emitters.glsl
     const float infiniteChance = static_cast<float>(numbers) * 0x1p-32f;
