@@ -248,7 +248,7 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
                                 {"leafSize", 2},           {"seed", 5},
                                 {"sampler", "centre"},     {"clamp", 6.0},
                                 {"exposure", 2.0},         {"occlusionDistance", 1e15},
-                                {"filter", "box"}};
+                                {"filter", "box"},         {"lightChoice", "auto"}};
     EXPECT_EQ(own.at("settings"), wanted);
     const nlohmann::json overridden = renderReport("own.json --width 4 --spp 2 --clamp 0.5" + onCpu);
     EXPECT_EQ(overridden.at("image"), (nlohmann::json{{"width", 4}, {"height", 7}}));
@@ -262,7 +262,7 @@ TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
     const nlohmann::json wanted{{"integrator", "whitted"},   {"spp", 16},       {"maxDepth", 7},
                                 {"bvh", "midpoint"},         {"leafSize", 8},   {"seed", 0},
                                 {"sampler", "sobol"},        {"filter", "box"}, {"exposure", 0.0},
-                                {"occlusionDistance", 1e15}, {"clamp", 0.0}};
+                                {"occlusionDistance", 1e15}, {"clamp", 0.0},    {"lightChoice", "auto"}};
     EXPECT_EQ(report.at("settings"), wanted);
     expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});
 }

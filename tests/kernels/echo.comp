@@ -28,7 +28,8 @@ layout(set = 0, binding = 14, std430) readonly buffer TexelBuffer { LookupRow te
 layout(set = 0, binding = 15, std430) readonly buffer TextureRowBuffer { TextureRow textureRows[]; };
 layout(set = 0, binding = 16, std430) readonly buffer TextureBuffer { TextureRecord textures[]; };
 layout(set = 0, binding = 17, std430) readonly buffer InstanceBuffer { InstanceRecord instances[]; };
-layout(set = 0, binding = 18, std430) writeonly buffer WordBuffer { uint words[]; };
+layout(set = 0, binding = 18, std430) readonly buffer LightNodeBuffer { LightNode lightNodes[]; };
+layout(set = 0, binding = 19, std430) writeonly buffer WordBuffer { uint words[]; };
 
 uint cursor = 0u;
 
@@ -63,5 +64,6 @@ void main() {
     FIELDS_TextureRow(GIVE, textureRows[1])
     FIELDS_TextureRecord(GIVE, textures[1])
     FIELDS_InstanceRecord(GIVE, instances[1])
+    FIELDS_LightNode(GIVE, lightNodes[1])
     FIELDS_DispatchConstants(GIVE, dispatch)
 }

@@ -84,6 +84,7 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     const Pair<layout::TextureRow> textureRow(Storage);
     const Pair<layout::TextureRecord> texture(Storage);
     const Pair<layout::InstanceRecord> instance(Storage);
+    const Pair<layout::LightNode> lightNode(Storage);
     const layout::DispatchConstants dispatch = fill<layout::DispatchConstants>();
 
     Expected expected;
@@ -105,16 +106,17 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     EXPECT_FIELDS(TextureRow, textureRow.records[1]);
     EXPECT_FIELDS(TextureRecord, texture.records[1]);
     EXPECT_FIELDS(InstanceRecord, instance.records[1]);
+    EXPECT_FIELDS(LightNode, lightNode.records[1]);
     EXPECT_FIELDS(DispatchConstants, dispatch);
     EXPECT_EQ(expected.structCount, layoutStructCount) << "a struct of layout.h is not echoed";
 
     std::vector<std::uint32_t> words(expected.words.get().size());
     const gpu::Buffer output(probeDevice(), "the words", Storage, std::span(words).size_bytes());
-    const std::array<const gpu::Buffer *, 19> buffers{
-        &frame.buffer,      &sphere.buffer,  &light.buffer,    &material.buffer, &node.buffer,
-        &triangle.buffer,   &normal.buffer,  &film.buffer,     &progress.buffer, &trace.buffer,
-        &path.buffer,       &pending.buffer, &skip.buffer,     &emitter.buffer,  &texel.buffer,
-        &textureRow.buffer, &texture.buffer, &instance.buffer, &output};
+    const std::array<const gpu::Buffer *, 20> buffers{
+        &frame.buffer,      &sphere.buffer,  &light.buffer,    &material.buffer,  &node.buffer,
+        &triangle.buffer,   &normal.buffer,  &film.buffer,     &progress.buffer,  &trace.buffer,
+        &path.buffer,       &pending.buffer, &skip.buffer,     &emitter.buffer,   &texel.buffer,
+        &textureRow.buffer, &texture.buffer, &instance.buffer, &lightNode.buffer, &output};
     gpu::Kernel(probeDevice(), "echo", echoKernel, {}, buffers).run(dispatch, 1);
     output.download(std::as_writable_bytes(std::span(words)));
     for (std::size_t i = 0; i < words.size(); ++i)
