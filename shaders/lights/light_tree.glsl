@@ -106,26 +106,23 @@ uint spreadNumber(uint number, uint count) {
 
 uint lightNodeIndex(uint reference) { return reference & ~(leafFlag | lightNodeIsTwoSided); }
 
-// Whether the way down the tree has ended. Loops below leave everything as it is from then on: drivers may run a loop for
-// lanes that have left it, and keep what it computes.
+// Whether the way down the tree has ended. The loops below ask at their head: SwiftShader and Mesa 22 run a loop's body for
+// lanes that have left it, too, with loads that give 0, and of what it computes only the values that the head merges are
+// kept for them.
 bool isWayOver(uint reference, float chance) { return (reference & leafFlag) != 0u || chance <= 0.0; }
 
 EmitterChoice chooseInTree(LitPoint point, uint bits) {
     uint reference = 0u;
     float chance = 1.0;
-    do {
-        bool isOver = isWayOver(reference, chance);
-        LightSplit split = splitLights(isOver ? 0u : lightNodeIndex(reference), point);
+    while (!isWayOver(reference, chance)) {
+        LightSplit split = splitLights(lightNodeIndex(reference), point);
         bool isRight = bits >= split.leftNumbers;
         uint before = isRight ? split.leftNumbers : 0u;
         uint end = isRight ? 0u : split.leftNumbers;
-        uint next = isRight ? split.right : split.left;
-        float after = chanceAfter(chance, split, isRight);
-        uint spread = spreadNumber(bits - before, end - before);
-        chance = isOver ? chance : after;
-        bits = isOver ? bits : spread;
-        reference = isOver ? reference : next;
-    } while (!isWayOver(reference, chance));
+        reference = isRight ? split.right : split.left;
+        chance = chanceAfter(chance, split, isRight);
+        bits = spreadNumber(bits - before, end - before);
+    }
     return EmitterChoice(lightNodeIndex(reference), chance);
 }
 
@@ -134,15 +131,12 @@ EmitterChoice chooseInTree(LitPoint point, uint bits) {
 float chanceInTree(LitPoint point, uint turns) {
     uint reference = 0u;
     float chance = 1.0;
-    do {
-        bool isOver = isWayOver(reference, chance);
-        LightSplit split = splitLights(isOver ? 0u : lightNodeIndex(reference), point);
+    while (!isWayOver(reference, chance)) {
+        LightSplit split = splitLights(lightNodeIndex(reference), point);
         bool isRight = (turns & 1u) != 0u;
-        uint next = isRight ? split.right : split.left;
-        float after = chanceAfter(chance, split, isRight);
-        chance = isOver ? chance : after;
-        reference = isOver ? reference : next;
+        reference = isRight ? split.right : split.left;
+        chance = chanceAfter(chance, split, isRight);
         turns = turns >> 1u;
-    } while (!isWayOver(reference, chance));
+    }
     return chance;
 }
