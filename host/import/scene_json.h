@@ -41,7 +41,7 @@
 //                "scale": [u, v] or one number, default 1: how often it repeats, and "offset", default 0: it shows at (u, v)
 //                         what it has at scale * (u, v) + offset }
 //     },
-//     "spheres": [ {          at most 64
+//     "spheres": [ {
 //       "centre"         point
 //       "radius"         more than 0
 //       "material"       NAME
@@ -52,7 +52,17 @@
 //       "material"       NAME; without it the mesh has those that its own libraries (MTL) give it
 //       "scale"          not 0, default 1; then
 //       "rotateDegrees"  about x, y and z in that order, default [0, 0, 0]; then
-//       "translate"      vector, default [0, 0, 0]
+//       "translate"      vector, default [0, 0, 0]; then
+//       "transform"      TRANSFORM (transform_json.h)
+//       "materialOverrides"  { NAME in the mesh's libraries: NAME }, where there is no "material"
+//       "instances"      [ TRANSFORM ], at least one: the places of the mesh
+//     } ],
+//     "shapes": [ {
+//       "type"           "quad", "box", "disk" or "cylinder" (host/scene/shapes.h)
+//       "segments"       corners of a disk or a cylinder, from 3 to 4096, default 64
+//       "material"       NAME
+//       "transform"      TRANSFORM
+//       "instances"      [ TRANSFORM ], at least one
 //     } ],
 //     "settings": {
 //       each row of settingsTable (settings_table.h) by its key, and
@@ -112,7 +122,7 @@ namespace scene_keys {
 
 inline constexpr auto top =
     std::to_array<std::string_view>({"$schema", "description", "camera", "background", "environment",
-                                     "lights", "materials", "spheres", "meshes", "settings"});
+                                     "lights", "materials", "spheres", "shapes", "meshes", "settings"});
 inline constexpr auto environment = std::to_array<std::string_view>({"file", "scale", "rotateDegrees"});
 inline constexpr auto camera =
     std::to_array<std::string_view>({"type", "position", "target", "direction", "up", "horizontalFov",
@@ -126,7 +136,10 @@ inline constexpr auto normalMap = std::to_array<std::string_view>({"file", "scal
 inline constexpr auto sphere =
     std::to_array<std::string_view>({"centre", "radius", "material", "inwardNormal"});
 inline constexpr auto mesh =
-    std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "material", "instances"});
+    std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "translate", "transform", "material",
+                                     "materialOverrides", "instances"});
+inline constexpr auto shape =
+    std::to_array<std::string_view>({"type", "segments", "material", "transform", "instances"});
 /// Those of the table of settings, and one that is the scene's.
 inline constexpr auto settings = [] {
     std::array<std::string_view, settingsTable.size() + 1> keys;

@@ -72,13 +72,7 @@ glm::dmat4x3 readStep(const JsonNode &node) {
     return readMatrix(object.at("matrix"));
 }
 
-} // namespace
-
-glm::dmat4x3 readTransform(const JsonNode &node) {
-    if (!node.value->is_array())
-        node.refuse(allowedTransforms);
-    if (!node.value->empty() && node.value->front().is_number())
-        return readMatrix(node);
+glm::dmat4x3 readSteps(const JsonNode &node) {
     glm::dmat4x3 map = mapOf(glm::dmat3(1.0), glm::dvec3(0.0));
     for (std::size_t i = 0; i < node.value->size(); ++i) {
         const glm::dmat4x3 step = readStep({&(*node.value)[i], node.fileName, node.path / i});
@@ -88,14 +82,24 @@ glm::dmat4x3 readTransform(const JsonNode &node) {
     return map;
 }
 
-Placement toPlacement(const glm::dmat4x3 &transform, const JsonNode &node) {
+} // namespace
+
+glm::dmat4x3 readTransform(const JsonNode &node) {
+    if (!node.value->is_array())
+        node.refuse(allowedTransforms);
+    const bool isMatrix = !node.value->empty() && node.value->front().is_number();
+    const glm::dmat4x3 map = isMatrix ? readMatrix(node) : readSteps(node);
+    if (determinant(toPlacement(map)) == 0.0)
+        node.fail("the transform makes everything flat; allowed: one with a volume");
+    return map;
+}
+
+Placement toPlacement(const glm::dmat4x3 &transform) {
     Placement placement;
     for (glm::length_t row = 0; row < 3; ++row)
         placement.rows[static_cast<std::size_t>(row)] =
             glm::vec3(transform[0][row], transform[1][row], transform[2][row]);
     placement.offset = glm::vec3(transform[3]);
-    if (determinant(placement) == 0.0)
-        node.fail("the transform makes everything flat; allowed: one with a volume");
     return placement;
 }
 

@@ -11,10 +11,10 @@ namespace hyalite {
 /// Reads an affine map from object space to world space. The value is an array: of 12 numbers, the rows of a matrix of
 /// three rows and four columns, or 16 of which the last four are 0, 0, 0, 1; or of steps, applied in their order, each
 /// an object with one key: `scale` (a number or three), `rotateDegrees` (about x, then y, then z), `translate`,
-/// `matrix`. Throws Error{BadInput} for anything else, and for a map that flattens space.
+/// `matrix`. Throws Error{BadInput} for anything else, and for a map that flattens space in single precision.
 [[nodiscard]] glm::dmat4x3 readTransform(const JsonNode &node);
 
-/// The map in single precision. Throws Error{BadInput} at `node` if it flattens space there.
-[[nodiscard]] Placement toPlacement(const glm::dmat4x3 &transform, const JsonNode &node);
+/// The map in single precision.
+[[nodiscard]] Placement toPlacement(const glm::dmat4x3 &transform);
 
 } // namespace hyalite

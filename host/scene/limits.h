@@ -32,6 +32,7 @@ inline constexpr Interval texturePlacement{-1e6, 1e6}; ///< scale and offset of 
 inline constexpr Interval normalStrength{0.0, 100.0};
 
 inline constexpr Interval meshScale{-1e15, 1e15}; ///< and not 0
+inline constexpr Interval segments{3, 4096};      ///< of disks and cylinders
 inline constexpr Interval rotateDegrees{-3600.0, 3600.0};
 inline constexpr double normalLengthTolerance = 1e-3; ///< of a mesh normal's length around 1
 inline constexpr Interval framedExtent{1e-12, 1e12};  ///< box diagonal of a mesh that can be framed
@@ -44,7 +45,7 @@ inline constexpr std::size_t mediumCount = layout::maxMedia; ///< dielectrics, f
 inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 27; ///< pixels: 2 GiB on the device
 inline constexpr std::size_t textureBytes = std::size_t{1} << 30; ///< of all textures together, on the device
 inline constexpr std::size_t materialCount = 65536;
-inline constexpr std::size_t meshCount = 4096;
+inline constexpr std::size_t meshCount = std::size_t{1} << 20;             ///< and as many shapes
 inline constexpr std::size_t triangleCount = (std::size_t{1} << 30) - 128; ///< of all meshes together
 inline constexpr std::size_t sphereCount = triangleCount;
 inline constexpr std::size_t treeCount = triangleCount; ///< spheres and triangles together

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/scene.h"
+#include "host/scene/shapes.h"
 
 #include <algorithm>
 #include <array>
@@ -29,6 +30,10 @@ inline constexpr std::array<Name<CameraKind>, 3> cameraNames{{{"perspective", Ca
                                                               {"panorama", CameraKind::Panorama}}};
 inline constexpr std::array<Name<LightKind>, 3> lightNames{
     {{"point", LightKind::Point}, {"spot", LightKind::Spot}, {"directional", LightKind::Directional}}};
+inline constexpr std::array<Name<ShapeKind>, 4> shapeNames{{{"quad", ShapeKind::Quad},
+                                                            {"box", ShapeKind::Box},
+                                                            {"disk", ShapeKind::Disk},
+                                                            {"cylinder", ShapeKind::Cylinder}}};
 inline constexpr std::array<Name<TreeKind>, 3> treeNames{
     {{"midpoint", TreeKind::Midpoint}, {"sah", TreeKind::Sah}, {"none", TreeKind::None}}};
 inline constexpr std::array<Name<SamplerKind>, 2> samplerNames{

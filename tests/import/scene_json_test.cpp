@@ -77,21 +77,27 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(ice.priority, -2);
     EXPECT_EQ(ice.roughness, 0.3f);
 
-    ASSERT_EQ(scene.prototypes.size(), 1u);
-    EXPECT_EQ(scene.instances.size(), 1u);
+    ASSERT_EQ(scene.prototypes.size(), 2u); // shapes come first
     EXPECT_TRUE(scene.meshes.empty());
-    ASSERT_EQ(scene.prototypes[0].triangles.size(), 1u);
-    const Material &paper = scene.materials.at(scene.prototypes[0].materialIndex);
+    ASSERT_EQ(scene.instances.size(), 3u);
+    EXPECT_EQ(scene.instances[1].toWorld.rows[0], glm::vec3(3, 0, 0));
+    const TriangleMesh &disk = scene.prototypes[0];
+    EXPECT_EQ(disk.triangles.size(), 5u);
+    EXPECT_EQ(disk.positions.at(0), glm::vec3(0, 0, 2));
+    EXPECT_EQ(scene.materials.at(disk.materialIndex).name, "chrome");
+    const TriangleMesh &mesh = scene.prototypes[1];
+    ASSERT_EQ(mesh.triangles.size(), 1u);
+    const Material &paper = scene.materials.at(mesh.materialIndex);
     EXPECT_EQ(paper.name, "paper");
     EXPECT_EQ(paper.kind, MaterialKind::Diffuse);
     EXPECT_EQ(paper.albedo, glm::vec3(0.25f, 0.5f, 1.0f));
     EXPECT_TRUE(paper.twoSided);
     EXPECT_EQ(paper.emission, glm::vec3(1.0f, 2.0f, 3.0f));
-    // The corner (1, 0, 0): scaled to (2, 0, 0), turned about z to (0, 2, 0), moved to (0, 2, -5).
-    const glm::vec3 corner = scene.prototypes[0].positions.at(scene.prototypes[0].triangles[0].positions[1]);
+    // The corner (1, 0, 0): scaled to (2, 0, 0), turned about z to (0, 2, 0), moved to (0, 2, -5), stretched to -15.
+    const glm::vec3 corner = mesh.positions.at(mesh.triangles[0].positions[1]);
     EXPECT_NEAR(corner.x, 0.0, 1e-6);
     EXPECT_NEAR(corner.y, 2.0, 1e-6);
-    EXPECT_NEAR(corner.z, -5.0, 1e-6);
+    EXPECT_NEAR(corner.z, -15.0, 1e-6);
 
     EXPECT_EQ(scene.settings.samplesPerPixel, 32);
     EXPECT_EQ(scene.settings.maxDepth, 12);
@@ -247,6 +253,27 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{R"({"settings": {"shadowThroughGlass": 2}})", " /settings/shadowThroughGlass: ", "found 2"},
         Refusal{R"({"meshes": [{"file": "triangle.obj", "scale": 0, "material": "m"}]})",
                 " /meshes/0/scale: ", "not 0"},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "shapes": [{"type": "disk", "material": "m", "segments": 2}]})",
+                " /shapes/0/segments: ", "from 3 to 4096"},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "shapes": [{"type": "box", "material": "m", "segments": 8}]})",
+                " /shapes/0/segments: ", "found with \"box\""},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "shapes": [{"type": "box", "material": "m", "transform": [{"scale": [1, 0, 1]}]}]})",
+                " /shapes/0/transform: ", "with a volume"},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "shapes": [{"type": "box", "material": "m", "transform": [{"scale": 1e10}, {"scale": 1e10}]}]})",
+                " /shapes/0/transform: ", "moves a vertex to"},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "shapes": [{"type": "box", "material": "m"}, {"type": "quad", "material": "n"}]})",
+                " /shapes/1/material: ", "\"m\""},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "meshes": [{"file": "triangle.obj", "material": "m", "materialOverrides": {}}]})",
+                " /meshes/0/materialOverrides: ", "one of the two"},
+        Refusal{R"({"materials": {"m": {"type": "mirror"}},
+                    "meshes": [{"file": "triangle.obj", "materialOverrides": {"red": "m"}}]})",
+                " /meshes/0/materialOverrides/red: ", "this mesh has none"},
         // names
         Refusal{R"({"spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "m"}]})",
                 " /spheres/0/material: ", "defines none"},
@@ -266,13 +293,14 @@ INSTANTIATE_TEST_SUITE_P(
                     "meshes": [{"file": "triangle.obj\u0000x", "material": "m"}]})",
                 " /meshes/0/file: ", "NUL"}));
 
-TEST_F(SceneJson, MoreThan4096MeshesAreRefusedWithTheNumber) {
-    json scene = completeScene();
-    scene["spheres"] = json(std::vector<json>(5000, scene["spheres"][0]));
-    EXPECT_EQ(refusal(scene.dump()), "");
-    scene["meshes"] = json(std::vector<json>(4097, json::object()));
-    EXPECT_EQ(refusal(scene.dump()),
-              " /meshes: found an array of 4097; allowed: an array of at most 4096 objects");
+TEST_F(SceneJson, TooManyMeshesAreRefusedWithTheNumber) {
+    for (const char *list : {"meshes", "shapes"}) {
+        json scene = completeScene();
+        scene[list] = json(std::vector<json>(limits::meshCount + 1, json::object()));
+        EXPECT_EQ(refusal(scene.dump()),
+                  fmt::format(" /{}: found an array of 1048577; allowed: an array of at most 1048576 objects",
+                              list));
+    }
 }
 
 TEST_F(SceneJson, NestingIsBounded) {
@@ -371,6 +399,34 @@ TEST_F(SceneJson, AMeshWithoutAMaterialHasItsOwn) {
                   .find("/meshes/1/material"),
               std::string::npos)
         << "names are those of the scene file";
+}
+
+TEST_F(SceneJson, MaterialsOfAMeshAreOverriddenByName) {
+    static_cast<void>(write("own.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n"));
+    static_cast<void>(write("own.obj", "mtllib own.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 4\n"
+                                       "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\nusemtl red\nf 1 4 2\n"));
+    const Scene scene = load(R"({"materials": {"a": {"type": "mirror"}, "red": {"type": "dielectric"}},
+        "meshes": [{"file": "own.obj", "materialOverrides": {"red": "red"}}]})");
+    const TriangleMesh &mesh = scene.meshes.at(0);
+    std::vector<std::string> names;
+    for (const std::uint32_t material : mesh.triangleMaterials)
+        names.push_back(scene.materials.at(material).name);
+    EXPECT_EQ(names, (std::vector<std::string>{"neutral", "red", "blue", "red"}));
+    EXPECT_EQ(scene.materials.at(mesh.triangleMaterials[1]).kind, MaterialKind::Dielectric);
+    EXPECT_EQ(scene.materials.at(mesh.triangleMaterials[3]).kind, MaterialKind::Dielectric);
+    const std::string message = refusal(R"({"materials": {"a": {"type": "mirror"}},
+        "meshes": [{"file": "own.obj", "materialOverrides": {"bleu": "a"}}]})");
+    EXPECT_NE(message.find("/meshes/0/materialOverrides/bleu"), std::string::npos) << message;
+    EXPECT_NE(message.find("did you mean \"blue\"?"), std::string::npos) << message;
+}
+
+TEST_F(SceneJson, TransformOfAMeshComesAfterItsOwnSteps) {
+    const Scene scene = load(R"({"materials": {"m": {"type": "mirror"}},
+        "meshes": [{"file": "triangle.obj", "material": "m", "translate": [1, 0, 0],
+                    "transform": [-2, 0, 0, 0,  0, 1, 0, 5,  0, 0, 1, 0]}]})");
+    const TriangleMesh &mesh = scene.meshes.at(0);
+    EXPECT_EQ(mesh.positions, (std::vector<glm::vec3>{{-2, 5, 0}, {-4, 5, 0}, {-2, 6, 0}}));
+    EXPECT_EQ(mesh.triangles.at(0).positions, glm::uvec3(0, 2, 1)) << "it faces +z still";
 }
 
 } // namespace

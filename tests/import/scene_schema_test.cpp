@@ -51,6 +51,7 @@ std::vector<GrammarObject> grammar() {
         {defs / "normalMap", all(scene_keys::normalMap), Pointer("/materials/paper/textures/normal")},
         {defs / "sphere", all(scene_keys::sphere), Pointer("/spheres/0")},
         {defs / "mesh", all(scene_keys::mesh), Pointer("/meshes/0")},
+        {defs / "shape", all(scene_keys::shape), Pointer("/shapes/0")},
         {defs / "settings", all(scene_keys::settings), Pointer("/settings")},
     };
 }
@@ -79,6 +80,11 @@ TEST_F(SceneSchema, EveryKeyOfTheSchemaIsAcceptedAndRead) {
                 scene["camera"]["direction"] = {0, 0, 1};
                 EXPECT_EQ(refusal(scene.dump()), "");
             }
+            if (key == "materialOverrides") {
+                scene["meshes"][0].erase("material");
+                scene["meshes"][0]["materialOverrides"] = json::object();
+                EXPECT_EQ(refusal(scene.dump()), "");
+            }
             const Pointer place = object.place / key;
             ASSERT_TRUE(scene.contains(place)) << place.to_string();
             scene[place] = nullptr; // no key takes null: one that is let through was not read
@@ -95,6 +101,7 @@ TEST_F(SceneSchema, SchemaAndLoaderRequireTheSameKeys) {
             scene[object.place].erase(std::string(key));
             if (key == "materials") { // their users cannot stay
                 scene.erase("spheres");
+                scene.erase("shapes");
                 scene.erase("meshes");
             }
             const json required = document.at(object.definition).value("required", json::array());
@@ -109,10 +116,12 @@ TEST_F(SceneSchema, SchemaAndLoaderListTheSameNames) {
     const std::pair<const char *, const char *> choices[] = {
         {"/$defs/camera/properties/type", "/camera/type"},
         {"/$defs/conductor/properties/metal", "/materials/brass/metal"},
+        {"/$defs/shape/properties/type", "/shapes/0/type"},
     };
     for (const auto &[definition, place] : choices) {
         std::set<std::string> names = document.at(Pointer(definition)).at("enum");
         json scene = completeScene();
+        scene["shapes"][0].erase("segments"); // quads and boxes have none
         for (const std::string &name : names) {
             scene[Pointer(place)] = name;
             EXPECT_EQ(refusal(scene.dump()), "") << place;
@@ -145,6 +154,7 @@ TEST_F(SceneSchema, SchemaAndLoaderHaveTheSameLimits) {
         {"/sphere/properties/radius", limits::radius},
         {"/mesh/properties/scale", limits::meshScale},
         {"/mesh/properties/rotateDegrees/items", limits::rotateDegrees},
+        {"/shape/properties/segments", limits::segments},
         {"/settings/properties/shadowThroughGlass", limits::fraction},
         {"/point/items", limits::coordinate},
         {"/diffuse/properties/albedo", limits::fraction},
@@ -166,6 +176,7 @@ TEST_F(SceneSchema, SchemaAndLoaderHaveTheSameLimits) {
     EXPECT_EQ(properties.at("lights").at("maxItems"), limits::lightCount);
     EXPECT_EQ(properties.at("spheres").at("maxItems"), limits::sphereCount);
     EXPECT_EQ(properties.at("meshes").at("maxItems"), limits::meshCount);
+    EXPECT_EQ(properties.at("shapes").at("maxItems"), limits::meshCount);
     EXPECT_EQ(properties.at("materials").at("maxProperties"), limits::materialCount);
 }
 
