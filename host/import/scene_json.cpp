@@ -4,13 +4,10 @@
 #include "host/base/json_reader.h"
 #include "host/import/environment_file.h"
 #include "host/import/file_reach.h"
-#include "host/import/transform_json.h"
-#include "host/scene/framing.h"
-#include "host/scene/instances.h"
+#include "host/import/scene_objects.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 #include "host/scene/settings_table.h"
-#include "host/scene/shapes.h"
 
 #include <glm/geometric.hpp>
 
@@ -18,7 +15,6 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
-#include <iterator>
 #include <span>
 #include <utility>
 #include <variant>
@@ -188,129 +184,6 @@ Material readMaterial(const std::string &name, const JsonObject &object, const T
     return material;
 }
 
-/// The index of the material that the text names.
-std::uint32_t readMaterialIndex(const JsonNode &node, const std::vector<Material> &materials) {
-    const std::string name = node.text();
-    const auto found = std::find_if(materials.begin(), materials.end(),
-                                    [&](const Material &material) { return material.name == name; });
-    if (found == materials.end()) {
-        std::vector<std::string_view> names;
-        names.reserve(materials.size());
-        for (const Material &material : materials)
-            names.push_back(material.name);
-        node.refuse(names.empty() ? "a name in /materials, which defines none"
-                                  : "a name in /materials: " + quotedList(names) + suggestion(name, names));
-    }
-    return static_cast<std::uint32_t>(found - materials.begin());
-}
-
-Sphere readSphere(const JsonObject &object, const std::vector<Material> &materials) {
-    Sphere sphere;
-    sphere.centre = object.vector("centre", limits::coordinate);
-    sphere.radius = object.number("radius", limits::radius);
-    sphere.materialIndex = readMaterialIndex(object.at("material"), materials);
-    sphere.inwardNormal = object.boolean("inwardNormal", sphere.inwardNormal);
-    return sphere;
-}
-
-/// Moves the mesh by the object's key "transform".
-void applyTransform(const JsonObject &object, TriangleMesh &mesh) {
-    const std::optional<JsonNode> node = object.find("transform");
-    if (!node)
-        return;
-    const glm::dmat4x3 map = readTransform(*node);
-    mesh = transformed(std::move(mesh), map);
-    for (const glm::vec3 &position : mesh.positions)
-        for (glm::length_t axis = 0; axis < 3; ++axis)
-            if (!limits::coordinate.contains(static_cast<double>(position[axis])))
-                node->fail(fmt::format("moves a vertex to {}; allowed: coordinates {}", position[axis],
-                                       limits::coordinate.text()));
-}
-
-/// `materials` are those of the scene file. A mesh that names none of them has its own.
-ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials,
-                 const TextureSource &source, const OnReading &onReading) {
-    MeshTransform transform;
-    transform.scale = object.number("scale", limits::meshScale, transform.scale);
-    if (transform.scale == 0.0)
-        object.at("scale").refuse("a number that is not 0");
-    transform.rotateDegrees = object.vector("rotateDegrees", limits::rotateDegrees, transform.rotateDegrees);
-    transform.translate = object.vector("translate", limits::coordinate, transform.translate);
-    const bool isNamed = object.find("material").has_value();
-    const std::uint32_t materialIndex = isNamed ? readMaterialIndex(object.at("material"), materials) : 0;
-
-    ObjMesh mesh = loadObj(source.reach.resolve(object.at("file")), transform, onReading,
-                           isNamed ? nullptr : &source.library);
-    mesh.mesh.materialIndex = materialIndex;
-    applyTransform(object, mesh.mesh);
-    return mesh;
-}
-
-constexpr int defaultSegments = 64;
-
-TriangleMesh readShape(const JsonObject &object, const std::vector<Material> &materials) {
-    const ShapeKind kind = object.choice("type", shapeNames);
-    const std::optional<JsonNode> segments = object.find("segments");
-    if (segments && kind != ShapeKind::Disk && kind != ShapeKind::Cylinder)
-        segments->fail(fmt::format("found with \"{}\"; allowed: with \"disk\" and \"cylinder\"",
-                                   nameIn(shapeNames, kind)));
-    TriangleMesh mesh = makeShape(kind, object.integer("segments", limits::segments, defaultSegments));
-    mesh.name = nameIn(shapeNames, kind);
-    mesh.materialIndex = readMaterialIndex(object.at("material"), materials);
-    applyTransform(object, mesh);
-    return mesh;
-}
-
-/// Gives triangles the scene's materials in place of those of the mesh that the object names. `first` is the index of the
-/// mesh's first material in the scene.
-void overrideMaterials(const JsonObject &object, ObjMesh &mesh, std::uint32_t first,
-                       const std::vector<Material> &own, const std::vector<Material> &named) {
-    const std::optional<JsonNode> overrides = object.find("materialOverrides");
-    if (!overrides)
-        return;
-    std::vector<std::string_view> names;
-    for (const Material &material : own)
-        names.push_back(material.name);
-    for (const auto &[name, replacement] : JsonObject(*overrides).members(limits::materialCount)) {
-        const auto found = std::ranges::find(names, name);
-        if (found == names.end())
-            replacement.fail("the mesh has no material of this name; " +
-                             (names.empty() ? "this mesh has none at all"
-                                            : "it has " + quotedList(names) + suggestion(name, names)));
-        std::ranges::replace(mesh.mesh.triangleMaterials,
-                             first + static_cast<std::uint32_t>(found - names.begin()),
-                             readMaterialIndex(replacement, named));
-    }
-}
-
-/// Gives the scene the materials that a mesh has brought, behind a neutral one for triangles without any. `named` are those
-/// of the scene file, which may override them.
-void addMaterialsOf(const JsonObject &object, ObjMesh &mesh, const std::vector<Material> &named,
-                    Scene &scene) {
-    const auto first = static_cast<std::uint32_t>(scene.materials.size());
-    mesh.mesh.materialIndex = first;
-    for (std::uint32_t &material : mesh.mesh.triangleMaterials)
-        material += first;
-    overrideMaterials(object, mesh, first + 1, mesh.materials, named);
-    scene.materials.push_back(neutralMaterial());
-    std::ranges::move(mesh.materials, std::back_inserter(scene.materials));
-}
-
-/// Adds an instance of the mesh for each transform of the array.
-void readInstances(const JsonNode &transforms, TriangleMesh &&mesh, Scene &scene) {
-    if (!transforms.value->is_array() || transforms.value->empty())
-        transforms.refuse("an array of transforms, at least one");
-    if (scene.instances.size() + transforms.value->size() > limits::instanceCount)
-        transforms.refuse(fmt::format("at most {} instances in all", limits::instanceCount));
-    std::vector<Placement> placements;
-    placements.reserve(transforms.value->size());
-    for (std::size_t i = 0; i < transforms.value->size(); ++i) {
-        const JsonNode node{&(*transforms.value)[i], transforms.fileName, transforms.path / i};
-        placements.push_back(toPlacement(readTransform(node)));
-    }
-    addInstances(scene, std::move(mesh), placements);
-}
-
 template <class Number>
 Number readValue(const JsonObject &object, std::string_view key, const NumberSetting<Number> &number,
                  Number fallback) {
@@ -354,9 +227,10 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
         scene.shadowThroughGlass = static_cast<float>(
             settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
     }
-    const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
     if (events.onOutline)
-        events.onOutline({!meshes.empty() || top.find("shapes"), scene.settings});
+        events.onOutline({!top.elements("meshes", limits::meshCount).empty() ||
+                              !top.elements("shapes", limits::meshCount).empty(),
+                          scene.settings});
 
     scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
     const FileReach reach(file, allowedPaths);
@@ -370,41 +244,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
     if (const std::optional<JsonNode> materials = top.find("materials"))
         for (const auto &[name, material] : JsonObject(*materials).members(limits::materialCount))
             scene.materials.push_back(readMaterial(name, JsonObject(material), {reach, textures}));
-    for (const JsonNode &sphere : top.elements("spheres", limits::sphereCount))
-        scene.spheres.push_back(readSphere({sphere, scene_keys::sphere}, scene.materials));
-    const auto onReadingMesh = [&](double share) {
-        if (events.onReading)
-            events.onReading((static_cast<double>(loaded.meshReports.size()) + share) /
-                             static_cast<double>(meshes.size()));
-    };
-    const std::vector<Material> named = scene.materials;
-    std::size_t triangleTotal = 0;
-    const auto addMesh = [&](const JsonNode &node, const JsonObject &object, TriangleMesh &&mesh) {
-        triangleTotal += mesh.triangles.size();
-        if (triangleTotal > limits::triangleCount) // before the next mesh takes memory
-            node.fail(fmt::format("found {} triangles up to this mesh; allowed: at most {}", triangleTotal,
-                                  limits::triangleCount));
-        if (const std::optional<JsonNode> transforms = object.find("instances"))
-            readInstances(*transforms, std::move(mesh), scene);
-        else
-            scene.meshes.push_back(std::move(mesh));
-    };
-    for (const JsonNode &node : top.elements("shapes", limits::meshCount)) {
-        const JsonObject object(node, scene_keys::shape);
-        addMesh(node, object, readShape(object, named));
-    }
-    for (const JsonNode &node : meshes) {
-        const JsonObject object(node, scene_keys::mesh);
-        ObjMesh mesh = readMesh(object, named, {reach, textures}, onReadingMesh);
-        if (!object.find("material"))
-            addMaterialsOf(object, mesh, named, scene);
-        else if (const std::optional<JsonNode> overrides = object.find("materialOverrides"))
-            overrides->fail("found beside \"material\"; allowed: one of the two");
-        if (const std::optional<JsonNode> transforms = object.find("instances"))
-            mesh.report.instanceCount = transforms->value->size();
-        addMesh(node, object, std::move(mesh.mesh));
-        loaded.meshReports.push_back(std::move(mesh.report));
-    }
+    readObjects(top, reach, textures, events.onReading, loaded);
     scene.textures = textures.give();
     return loaded;
 }

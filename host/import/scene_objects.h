@@ -1,0 +1,16 @@
+// Spheres, shapes and meshes of scene files.
+#pragma once
+
+#include "host/base/json_reader.h"
+#include "host/import/file_reach.h"
+#include "host/import/scene_json.h"
+#include "host/import/texture_library.h"
+
+namespace hyalite {
+
+/// Reads the spheres, shapes and meshes of the scene file whose materials `loaded` has, in this order, and the files of the
+/// meshes. `onReading` gets the share of the meshes that is read. Throws as loadSceneFile does.
+void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &textures,
+                 const OnReading &onReading, LoadedScene &loaded);
+
+} // namespace hyalite
