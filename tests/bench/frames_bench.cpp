@@ -1,71 +1,16 @@
-#include "host/base/error.h"
-#include "host/image/image_file.h"
-#include "tests/bench/process.h"
 #include "tests/bench/race.h"
+#include "tests/bench/rendering.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 namespace hyalite::bench {
 
 namespace {
-
-struct Frame {
-    const char *name;
-    std::string scene; ///< as `hyalite render` takes it
-    std::vector<std::string> options{};
-};
-
-/// What `hyalite` is given to render a frame.
-std::vector<std::string> argumentsOf(const Frame &frame, const std::string &deviceName,
-                                     const std::filesystem::path &image) {
-    std::vector<std::string> arguments{"render",   frame.scene, "--quiet",     "--device",
-                                       deviceName, "--output",  image.string()};
-    arguments.insert(arguments.end(), frame.options.begin(), frame.options.end());
-    return arguments;
-}
-
-std::string contentsOf(const std::filesystem::path &file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// `hyalite render` of one frame on one device, again and again, to a file that is overwritten.
-class Rendering {
-  public:
-    Rendering(const Frame &frame, const std::string &deviceName)
-        : arguments_(argumentsOf(frame, deviceName, image())) {
-        arguments_.insert(arguments_.end(), {"--report", report().string()});
-    }
-
-    /// Returns the seconds of all dispatches, or of the reference renderer; of the processor's only those of the whole
-    /// process are known. Keeps these.
-    double run() {
-        processSeconds_.push_back(runHyalite(arguments_));
-        if (areProcessorSecondsCounted())
-            return processSeconds_.back();
-        return nlohmann::json::parse(contentsOf(report())).at("seconds").at("render").get<double>();
-    }
-
-    /// The files themselves say which device made them.
-    [[nodiscard]] Image picture() const { return readImage(image()).image; }
-    [[nodiscard]] const std::vector<double> &processSeconds() const { return processSeconds_; }
-
-  private:
-    [[nodiscard]] std::filesystem::path image() const { return folder_.path() / "image.png"; }
-    [[nodiscard]] std::filesystem::path report() const { return folder_.path() / "report.json"; }
-
-    TemporaryFolder folder_;
-    std::vector<std::string> arguments_;
-    std::vector<double> processSeconds_;
-};
 
 /// By its index: names of devices may be alike.
 std::string deviceArgument(const Context &context) { return std::to_string(context.device().index); }

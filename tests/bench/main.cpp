@@ -52,6 +52,7 @@ int main(int argumentCount, char **arguments) {
         bench::registerBuilding(context);
         bench::registerReading();
         bench::registerFrames(context);
+        bench::registerSizes(context);
         bench::registerNoise(context);
         bench::registerStartUp(context);
         bench::TableReporter reporter;

@@ -22,6 +22,7 @@ const std::map<std::string, std::string> captions{
     {"frames",
      "Seconds for a whole image, in vectors as wide as `render` has them: of all dispatches, and of the "
      "process from start to end:"},
+    {"size", "Nanoseconds of all dispatches a ray, by how many of what a scene has:"},
     {"noise", "Seconds until pixels have a standard deviation of 5 % of the image's mean, and how many times "
               "sooner that is:"},
     {"start-up", "Seconds from start to end of the process:"},
@@ -48,6 +49,8 @@ std::string secondsText(double seconds) {
 }
 
 std::string cellText(const benchmark::UserCounters &counters) {
+    if (const auto perRay = counters.find("ns/ray"); perRay != counters.end())
+        return figure(perRay->second.value) + " ns";
     const auto rate = counters.find("Mray/s");
     std::string text =
         rate != counters.end() ? figure(rate->second.value) : secondsText(counters.at("seconds").value);
