@@ -96,6 +96,7 @@ void overrideMaterials(const JsonObject &object, ObjMesh &mesh, std::uint32_t fi
     if (!overrides)
         return;
     std::vector<std::string_view> names;
+    names.reserve(own.size());
     for (const Material &material : own)
         names.push_back(material.name);
     for (const auto &[name, replacement] : JsonObject(*overrides).members(limits::materialCount)) {
