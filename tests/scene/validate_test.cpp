@@ -55,8 +55,8 @@ TEST_P(Validate, NamesTheObject) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, Validate,
-                         testing::Values(Breakage{"scene: meshes: found 4097",
-                                                  [](Scene &s) { s.meshes.resize(4097); }},
+                         testing::Values(Breakage{"scene: meshes: found 1048577",
+                                                  [](Scene &s) { s.meshes.resize(1048577); }},
                                          Breakage{"scene: materials: found 65537",
                                                   [](Scene &s) { s.materials.resize(65537); }},
                                          Breakage{"scene: background: found (0, nan, 0)",
