@@ -1,5 +1,7 @@
 #include "host/scene/shapes.h"
 
+#include "host/scene/instances.h"
+
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -120,10 +122,11 @@ TriangleMesh makeShape(ShapeKind kind, int segments) {
 }
 
 TriangleMesh transformed(TriangleMesh mesh, const glm::dmat4x3 &map) {
+    if (glm::dot(glm::cross(map[0], map[1]), map[2]) < 0.0)
+        mesh = mirrored(std::move(mesh));
     const glm::dmat3 linear(map[0], map[1], map[2]);
     for (glm::vec3 &position : mesh.positions)
         position = glm::vec3(linear * glm::dvec3(position) + map[3]);
-    const bool isMirroring = glm::dot(glm::cross(map[0], map[1]), map[2]) < 0.0;
     // The inverse transpose, but for a positive factor; scaled first, so that products stay in the range of doubles.
     const double scale = 1.0 / std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])});
     const glm::dvec3 a = map[0] * scale;
@@ -131,15 +134,7 @@ TriangleMesh transformed(TriangleMesh mesh, const glm::dmat4x3 &map) {
     const glm::dvec3 c = map[2] * scale;
     const glm::dmat3 cofactors(glm::cross(b, c), glm::cross(c, a), glm::cross(a, b));
     for (glm::vec3 &normal : mesh.normals)
-        normal = glm::vec3(glm::normalize(cofactors * glm::dvec3(normal)) * (isMirroring ? -1.0 : 1.0));
-    if (!isMirroring)
-        return mesh;
-    for (MeshTriangle &triangle : mesh.triangles) {
-        std::swap(triangle.positions.y, triangle.positions.z);
-        std::swap(triangle.normals.y, triangle.normals.z);
-    }
-    for (glm::uvec3 &uvs : mesh.triangleUvs)
-        std::swap(uvs.y, uvs.z);
+        normal = glm::vec3(glm::normalize(cofactors * glm::dvec3(normal)));
     return mesh;
 }
 

@@ -12,6 +12,7 @@ namespace hyalite {
 namespace {
 
 using hyalite::testing::expectRadiance;
+using hyalite::testing::floorScene;
 
 constexpr double pi = std::numbers::pi;
 
@@ -133,21 +134,14 @@ TEST(Shapes, HaveTextureCoordinatesThatAreNotMirrored) {
 // ---- Light from shapes, on the floor at the origin that faces +z
 
 Scene litBy(TriangleMesh lamp) {
-    Scene scene;
-    scene.camera.position = {0, 0, 0.05};
-    scene.camera.width = 8;
-    scene.camera.height = 8;
-    scene.camera.horizontalFovDegrees = 0.01;
-    scene.settings.integrator = Integrator::Path;
-    scene.settings.samplesPerPixel = 4096;
-    scene.settings.maxDepth = 2;
     Material floor;
     floor.albedo = glm::vec3(0.5f);
     Material glow;
     glow.albedo = glm::vec3(0.0f);
     glow.emission = glm::vec3(3.0f);
-    scene.materials = {floor, glow};
-    scene.meshes = {makeShape(ShapeKind::Quad, 0), std::move(lamp)};
+    Scene scene = floorScene(floor, 4096);
+    scene.materials.push_back(glow);
+    scene.meshes.push_back(std::move(lamp));
     scene.meshes[1].materialIndex = 1;
     return scene;
 }

@@ -13,27 +13,12 @@ using hyalite::testing::addQuad;
 using hyalite::testing::Estimate;
 using hyalite::testing::estimate;
 using hyalite::testing::expectRadiance;
+using hyalite::testing::floorScene;
 using hyalite::testing::packed;
 using hyalite::testing::Random;
 
 constexpr double pi = std::numbers::pi;
 using Direction = glm::dvec3;
-
-/// A floor at z = 0 that faces +z, seen at the origin by the few pixels of a camera straight above.
-Scene floorScene(const Material &material, int samplesPerPixel) {
-    Scene scene;
-    scene.camera.position = {0, 0, 0.05};
-    scene.camera.width = 8;
-    scene.camera.height = 8;
-    scene.camera.horizontalFovDegrees = 0.01;
-    scene.settings.integrator = Integrator::Path;
-    scene.settings.samplesPerPixel = samplesPerPixel;
-    scene.settings.maxDepth = 2;
-    scene.materials.push_back(material);
-    scene.meshes.emplace_back();
-    addQuad(scene.meshes.back(), {-3, -3, 0}, {6, 0, 0}, {0, 6, 0});
-    return scene;
-}
 
 Material grey(float albedo) {
     Material material;
