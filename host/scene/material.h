@@ -31,19 +31,37 @@ enum class MaterialKind : std::uint32_t {
     Mirror = layout::materialMirror,
     Dielectric = layout::materialDielectric,
     Conductor = layout::materialConductor,
-    Principled = layout::materialPrincipled
+    Principled = layout::materialPrincipled,
+    Gltf = layout::materialGltf
 };
 
-/// How a material wears one of the scene's textures: at (u, v) it shows what the image has at scale * (u, v) + offset,
-/// and repeats. Images begin at the bottom left, v = 0, and end at the top, v = 1.
+/// What a texture shows beyond the edge of its image.
+enum class Wrap : std::uint32_t { Repeat = 0, Mirror = 1, Clamp = 2 };
+
+/// Which channel of an image is read where one number is wanted.
+enum class Channel : std::uint32_t { Red = 0, Green = 1, Blue = 2, Alpha = 3 };
+
+/// How a material wears one of the scene's textures: at (u, v) it shows what the image has at
+/// (scale.x u + shear.x v + offset.x, shear.y u + scale.y v + offset.y). Images begin at the bottom left, v = 0, and end at
+/// the top, v = 1.
 struct TextureUse {
     std::uint32_t textureIndex = 0;
     glm::vec2 scale{1.0f};
     glm::vec2 offset{0.0f};
+    glm::vec2 shear{0.0f};
+    std::uint32_t uvSet = 0; ///< 1: TriangleMesh::secondUvs
+    Wrap wrapU = Wrap::Repeat;
+    Wrap wrapV = Wrap::Repeat;
+    bool isNearest = false;         ///< the nearest texel alone, in place of the bilinear filter
+    Channel channel = Channel::Red; ///< of slots that want one number
 };
 
 /// What textures can be worn for, by layout::slot...
 using TextureSlots = std::array<std::optional<TextureUse>, layout::textureSlotCount>;
+
+/// Where a surface is not there. CutOut: where its opacity is below alphaCutoff. Blend: with a probability of
+/// 1 - opacity, for each ray anew.
+enum class AlphaMode : std::uint32_t { Opaque = 0, CutOut = 1, Blend = 2 };
 
 struct Material {
     std::string name;
@@ -66,6 +84,24 @@ struct Material {
     float transmission = 0.0f; ///< share of what is no metal that is glass
     float clearcoat = 0.0f;    ///< and then transmission is 0
     float clearcoatRoughness = 0.1f;
+    // Gltf: as glTF's specification and its extensions KHR_materials_... define them.
+    float dielectricWeight = 1.0f;        ///< KHR_materials_specular: specularFactor, in [0, 1]
+    glm::vec3 dielectricColour{1.0f};     ///< specularColorFactor, in [0, 1e30]
+    glm::vec3 sheenColour{0.0f};          ///< in [0, 1]
+    float sheenRoughness = 0.0f;          ///< in [0, 1]
+    float anisotropy = 0.0f;              ///< strength, in [0, 1]
+    float anisotropyRotation = 0.0f;      ///< radians, counter-clockwise from the tangent along u
+    float clearcoatNormalStrength = 1.0f; ///< in [0, 100]
+    bool isThin = false; ///< a surface without volume behind it: what it transmits is not refracted
+    bool isSpecularGlossy =
+        false;            ///< KHR_materials_pbrSpecularGlossiness: dielectricColour is the reflectance at
+                          ///< normal incidence
+    bool isUnlit = false; ///< KHR_materials_unlit: shows its base colour and reflects nothing
+    // Diffuse, Principled, Gltf
+    AlphaMode alphaMode = AlphaMode::CutOut;
+    float opacity = 1.0f;        ///< in [0, 1]; a factor on that of the texture and of the mesh's colours
+    float alphaCutoff = 0.5f;    ///< CutOut, >= 0
+    bool isCulled = false;       ///< triangles are not there for rays that come from behind
     TextureSlots textures{};     ///< Diffuse, Principled; factors on albedo, emission, roughness and metallic
     float normalStrength = 1.0f; ///< how far a normal map turns normals; in [0, 100]
 };
@@ -181,7 +217,17 @@ inline constexpr std::array<TextureSlot, layout::textureSlotCount> textureSlots{
      {"metallic", layout::slotMetallic, "its red channel"},
      {"normal", layout::slotNormal},
      {"opacity", layout::slotOpacity,
-      "its alpha, or its red channel where it has none: below a half nothing is there; meshes only"}}};
+      "its alpha, or its red channel where it has none: below a half nothing is there; meshes only"},
+     {"transmission", layout::slotTransmission, "its red channel"},
+     {"clearcoat", layout::slotClearcoat, "its red channel"},
+     {"clearcoatRoughness", layout::slotClearcoatRoughness, "its green channel"},
+     {"clearcoatNormal", layout::slotClearcoatNormal},
+     {"dielectricWeight", layout::slotDielectricWeight, "its alpha"},
+     {"dielectricColour", layout::slotDielectricColour},
+     {"sheenColour", layout::slotSheenColour},
+     {"sheenRoughness", layout::slotSheenRoughness, "its alpha"},
+     {"anisotropy", layout::slotAnisotropy,
+      "a direction in red and green, a factor on the strength in blue"}}};
 
 // ---- Kinds
 
@@ -227,7 +273,8 @@ inline constexpr auto materialTable = std::to_array<MaterialRow>({
      .name = "principled",
      .help = "a mixture of metal, plastic and glass under a clear coat",
      .keys = material_keys::principled,
-     .textures = (1u << layout::textureSlotCount) - 1u,
+     .textures = layout::texturesBaseColour | layout::texturesEmission | layout::texturesRoughness |
+                 layout::texturesMetallic | layout::texturesNormal | layout::texturesOpacity,
      .defaultRoughness = 0.5f,
      .scattersDiffusely = true,
      .scattering =

@@ -12,6 +12,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <array>
 #include <cstdint>
@@ -75,6 +76,15 @@ struct MeshTriangle {
     static constexpr std::uint32_t noNormal = std::numeric_limits<std::uint32_t>::max();
 };
 
+/// Values at the corners of triangles.
+template <class Value> struct CornerValues {
+    std::vector<Value> values;
+    /// Of each triangle's corners the indices in `values`, all three or none `none`; or empty: no triangle has any.
+    std::vector<glm::uvec3> corners;
+
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+};
+
 struct TriangleMesh {
     std::string name; ///< for messages: the file it came from
     std::vector<glm::vec3> positions;
@@ -87,6 +97,13 @@ struct TriangleMesh {
     std::vector<glm::uvec3> triangleUvs{};
 
     static constexpr std::uint32_t noUv = std::numeric_limits<std::uint32_t>::max();
+
+    CornerValues<glm::vec2> secondUvs{}; ///< for textures whose uvSet is 1; finite
+    /// Factors on base colour and opacity, linear, in [0, 1]; 1 at triangles without any.
+    CornerValues<glm::vec4> colours{};
+    /// For normal maps: unit vectors in which u grows, and the sign of the direction of v: cross(normal, xyz) * w. Without
+    /// them, tangents follow from the texture coordinates of each triangle.
+    CornerValues<glm::vec4> tangents{};
 
     [[nodiscard]] std::uint32_t materialOf(std::size_t triangle) const {
         return triangleMaterials.empty() ? materialIndex : triangleMaterials[triangle];

@@ -161,6 +161,7 @@ const uint materialMirror = 1u;
 const uint materialDielectric = 2u;
 const uint materialConductor = 3u;
 const uint materialPrincipled = 4u;
+const uint materialGltf = 5u;
 const uint noMaterial = 0xFFFFFFFFu;
 
 // Dielectrics come first among the materials, in order of falling priority. Where several overlap, the one of the
@@ -255,7 +256,16 @@ const uint slotRoughness = 2u;
 const uint slotMetallic = 3u;
 const uint slotNormal = 4u;
 const uint slotOpacity = 5u;
-const uint textureSlotCount = 6u;
+const uint slotTransmission = 6u;
+const uint slotClearcoat = 7u;
+const uint slotClearcoatRoughness = 8u;
+const uint slotClearcoatNormal = 9u;
+const uint slotDielectricWeight = 10u;
+const uint slotDielectricColour = 11u;
+const uint slotSheenColour = 12u;
+const uint slotSheenRoughness = 13u;
+const uint slotAnisotropy = 14u; // red and green: a direction; blue: a factor on the strength
+const uint textureSlotCount = 15u;
 
 // Bits of constantTexturing: the slots in which materials of the scene have textures, and whether any texels have 8
 // bits.
@@ -265,8 +275,9 @@ const uint texturesRoughness = 4u;
 const uint texturesMetallic = 8u;
 const uint texturesNormal = 16u;
 const uint texturesOpacity = 32u;
-const uint texturesLevels = 64u;
-const uint texturesMaterials = 15u; // any slot that changes the material
+const uint texturesLevels = 1u << textureSlotCount;
+const uint texturesMaterials =
+    texturesLevels - 1u - texturesNormal - texturesOpacity; // any slot that changes the material
 
 const uint energyCosines = 32u; // nodes of the table over the cosine, and over the roughness
 const uint energyRoughnesses = 32u;
