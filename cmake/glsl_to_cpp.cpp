@@ -36,9 +36,9 @@ struct Translated : Declaration {
     bool usesScene = false; ///< a function that reads the scene
 };
 
-const std::set<std::string> sceneWords{"frame",       "scattering",   "texturing",           "lighting",
-                                       "samplerKind", "camera",       "emitterCount",        "hasTriangles",
-                                       "hasEmission", "hasLightTree", "infiniteEmitterCount"};
+const std::set<std::string> sceneWords{"frame",        "scattering",  "texturing",    "passing",
+                                       "lighting",     "samplerKind", "camera",       "emitterCount",
+                                       "hasTriangles", "hasEmission", "hasLightTree", "infiniteEmitterCount"};
 const std::map<std::string, std::string> types{
     {"float", "Real"}, {"vec2", "Vec2<Real>"}, {"vec3", "Vec3<Real>"}, {"vec4", "Vec4<Real>"}};
 

@@ -12,8 +12,10 @@ namespace hyalite {
 struct Duplicates::Key {
     std::array<glm::vec3, 3> corners;
     std::uint32_t material;
-    std::array<glm::vec2, 3>
-        uvs; ///< with an opacity texture, because triangles with other coordinates show through; else 0
+    /// With an opacity texture, because triangles with other coordinates show through; else 0.
+    std::array<glm::vec2, 3> uvs;
+    /// Of triangles that rays pass by chance, or by attributes that are not in the key: no two are identical. Else 0.
+    std::uint32_t number;
 
     [[nodiscard]] std::span<const std::byte> bytes() const { return std::as_bytes(std::span(this, 1)); }
 };
@@ -34,9 +36,17 @@ Duplicates::Key Duplicates::keyOf(const BuildTriangle &triangle) const {
     const glm::uvec3 &corners = mesh.triangles[index].positions;
     Key key{{mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]},
             mesh.materialOf(index),
-            {}};
+            {},
+            0};
+    const Material &material = scene_.materials[key.material];
+    const bool isSheer =
+        material.alphaMode != AlphaMode::Opaque &&
+        (material.opacity < 1.0f || material.textures[layout::slotOpacity] || !mesh.colours.corners.empty());
+    if (isSheer && (material.alphaMode == AlphaMode::Blend || !mesh.colours.corners.empty() ||
+                    !mesh.secondUvs.corners.empty()))
+        key.number = triangle.inputIndex + 1;
     const bool hasUvs = !mesh.triangleUvs.empty() && mesh.triangleUvs[index].x != TriangleMesh::noUv;
-    if (hasUvs && scene_.materials[key.material].textures[layout::slotOpacity])
+    if (hasUvs && material.textures[layout::slotOpacity])
         for (glm::length_t corner = 0; corner < 3; ++corner)
             key.uvs[static_cast<std::size_t>(corner)] = mesh.uvs[mesh.triangleUvs[index][corner]];
     return key;

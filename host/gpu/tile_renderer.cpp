@@ -141,6 +141,7 @@ Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, 
     constants[layout::constantLighting] = scene.lighting;
     constants[layout::constantCamera] = scene.camera;
     constants[layout::constantTexturing] = scene.texturing;
+    constants[layout::constantPassing] = scene.passing;
     constants[layout::constantView] = rowOf(job.integrator).view;
     constants[layout::constantSampler] = job.sampler;
     constants[layout::constantStackSize] = plan.stackSize;

@@ -138,15 +138,20 @@ void readTextures(const JsonObject &object, const MaterialRow &row, const Textur
             file.fail("found a grey image, as height maps are; allowed: a normal map, which is bluish");
         material.textures[slot] = use;
     }
-    const auto has = [&](std::uint32_t slot) { return material.textures[slot].has_value(); };
-    if (has(layout::slotBaseColour))
-        material.albedo = glm::vec3(1.0f);
-    if (has(layout::slotEmission))
-        material.emission = glm::vec3(1.0f);
-    if (has(layout::slotRoughness))
-        material.roughness = 1.0f;
-    if (has(layout::slotMetallic))
-        material.metallic = 1.0f;
+    const auto makeOne = [&](std::uint32_t slot, auto &factor) {
+        if (material.textures[slot])
+            factor = std::remove_reference_t<decltype(factor)>(1.0f);
+    };
+    makeOne(layout::slotBaseColour, material.albedo);
+    makeOne(layout::slotEmission, material.emission);
+    makeOne(layout::slotRoughness, material.roughness);
+    makeOne(layout::slotMetallic, material.metallic);
+    makeOne(layout::slotTransmission, material.transmission);
+    makeOne(layout::slotClearcoat, material.clearcoat);
+    makeOne(layout::slotClearcoatRoughness, material.clearcoatRoughness);
+    makeOne(layout::slotSheenColour, material.sheenColour);
+    makeOne(layout::slotSheenRoughness, material.sheenRoughness);
+    makeOne(layout::slotAnisotropy, material.anisotropy);
 }
 
 // One function for each kind of key; without the key the member keeps its value.
@@ -163,6 +168,10 @@ void readKey(const JsonObject &object, std::string_view key, const WholeKey &who
 }
 void readKey(const JsonObject &object, std::string_view key, const FlagKey &flag, Material &material) {
     material.*flag.member = object.boolean(key, material.*flag.member);
+}
+void readKey(const JsonObject &object, std::string_view key, const SidesKey & /*sides*/, Material &material) {
+    material.reflectsBehind = !object.find(key);
+    material.twoSided = object.boolean(key, false);
 }
 void readKey(const JsonObject &object, std::string_view key, const MetalKey & /*metal*/, Material &material) {
     const Metal metal = object.choice(key, metalNames, metalNames[0].second);

@@ -27,7 +27,7 @@ double exitance(const PackedScene &packed, const layout::MaterialRecord &materia
     if (material.emission == glm::vec3(0.0f))
         return 0.0;
     const glm::dvec3 radiance = glm::dvec3(material.emission) * meanEmissionFactor(packed, material);
-    return std::numbers::pi * mean(radiance) * (isTwoSided(material) ? 2.0 : 1.0);
+    return std::numbers::pi * mean(radiance) * (emitsBehind(material) ? 2.0 : 1.0);
 }
 
 double areaOf(const layout::TriangleRecord &triangle) {
@@ -41,7 +41,7 @@ layout::EmitterRecord surfaceEmitter(std::uint32_t kind, std::size_t record,
     emitter.kind = kind;
     emitter.record = static_cast<std::uint32_t>(record);
     emitter.emission = material.emission;
-    emitter.isTwoSided = isTwoSided(material) ? 1u : 0u;
+    emitter.isTwoSided = emitsBehind(material) ? 1u : 0u;
     return emitter;
 }
 

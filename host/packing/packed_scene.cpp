@@ -6,6 +6,8 @@
 #include "host/packing/microfacet_energy.h"
 #include "host/packing/packed_trees.h"
 #include "host/packing/pixel_filter.h"
+#include "host/packing/sheen_energy.h"
+#include "host/packing/surface_features.h"
 #include "host/packing/texture_rows.h"
 
 #include <glm/geometric.hpp>
@@ -99,6 +101,13 @@ float alphaOf(float roughness) {
     return used * used;
 }
 
+/// Alpha of the sheen's distribution: sheenAlphaOf in shaders/bsdf/sheen.glsl.
+float sheenAlphaOf(float roughness) {
+    constexpr float least = 0.07f;
+    const float used = std::max(roughness, least);
+    return used * used;
+}
+
 template <class Packed>
 void packKey(const Packed &key, const Material &material, layout::MaterialRecord &record) {
     if constexpr (requires { key.packed; })
@@ -106,15 +115,39 @@ void packKey(const Packed &key, const Material &material, layout::MaterialRecord
             record.*key.packed = material.*key.member;
 }
 
+std::uint32_t kindAndSidesOf(const Material &material) {
+    const auto flag = [](bool isSet, std::uint32_t bit) { return isSet ? bit : 0u; };
+    return static_cast<std::uint32_t>(material.kind) |
+           flag(material.twoSided || material.reflectsBehind, layout::materialIsTwoSided) |
+           flag(material.twoSided, layout::materialEmitsBehind) |
+           flag(material.isThin, layout::materialIsThin) |
+           flag(material.isSpecularGlossy, layout::materialIsSpecularGlossy) |
+           flag(material.isUnlit, layout::materialIsUnlit);
+}
+
+/// What differs from the principled material.
+void packGltf(const Material &material, layout::MaterialRecord &record) {
+    const float ratio = (material.refractiveIndex - 1.0f) / (material.refractiveIndex + 1.0f);
+    record.normalReflectance = material.isSpecularGlossy ? 1.0f : ratio * ratio;
+    record.sheenAlpha = sheenAlphaOf(material.sheenRoughness);
+    // In double: its sine and cosine are then rounded once, as everywhere.
+    const auto rotation = static_cast<double>(material.anisotropyRotation);
+    record.anisotropyCosine = static_cast<float>(std::cos(rotation));
+    record.anisotropySine = static_cast<float>(std::sin(rotation));
+}
+
 layout::MaterialRecord packMaterial(const Material &material) {
     layout::MaterialRecord record{};
     for (const MaterialRow &row : materialTable)
         for (const MaterialKey &key : row.keys)
             std::visit([&](const auto &value) { packKey(value, material, record); }, key.value);
-    record.kindAndSides =
-        static_cast<std::uint32_t>(material.kind) | (material.twoSided ? layout::materialIsTwoSided : 0u);
-    const bool isPrincipled = material.kind == MaterialKind::Principled;
-    record.alpha = material.roughness > 0.0f || isPrincipled ? alphaOf(material.roughness) : 0.0f;
+    record.kindAndSides = kindAndSidesOf(material);
+    record.opacity = material.alphaMode == AlphaMode::Opaque ? 1.0f : material.opacity;
+    record.alphaCutoff = material.alphaMode == AlphaMode::Blend    ? layout::sheerBlended
+                         : material.alphaMode == AlphaMode::CutOut ? material.alphaCutoff
+                                                                   : 0.0f;
+    const bool isMixture = material.kind == MaterialKind::Principled || material.kind == MaterialKind::Gltf;
+    record.alpha = material.roughness > 0.0f || isMixture ? alphaOf(material.roughness) : 0.0f;
     if (material.kind == MaterialKind::Conductor) {
         record.albedo = normalReflectance(material.conductorIndex, material.conductorExtinction);
         record.conductorIndex = material.conductorIndex;
@@ -123,11 +156,13 @@ layout::MaterialRecord packMaterial(const Material &material) {
             record.averageReflectance[i] = static_cast<float>(
                 averageConductorReflectance(material.conductorIndex[i], material.conductorExtinction[i]));
     }
-    if (isPrincipled) {
+    if (isMixture) {
         const float ratio = (material.refractiveIndex - 1.0f) / (material.refractiveIndex + 1.0f);
         record.normalReflectance = std::min(2.0f * material.specular * (ratio * ratio), 1.0f);
         record.clearcoatAlpha = alphaOf(material.clearcoatRoughness);
     }
+    if (material.kind == MaterialKind::Gltf)
+        packGltf(material, record);
     return record;
 }
 
@@ -141,7 +176,8 @@ GlassNodes glassNodesOf(const Scene &scene) {
         indices.push_back(static_cast<double>(material.refractiveIndex));
         const double roughness = std::sqrt(static_cast<double>(alphaOf(material.roughness)));
         const bool isTextured = material.textures[layout::slotRoughness].has_value();
-        nodes.addRoughness(isTextured ? 0.0 : roughness, roughness);
+        const bool isGlossiness = isTextured && material.isSpecularGlossy;
+        nodes.addRoughness(isTextured ? 0.0 : roughness, isGlossiness ? 1.0 : roughness);
     }
     for (const double before : indices)
         for (const double beyond : indices)
@@ -202,7 +238,8 @@ std::uint64_t PackedScene::contentHash() const {
             hashBytes(std::as_bytes(std::span(lookups).subspan(
                           frame.environmentTexels, (frame.environmentWidth + 1) * frame.environmentHeight)),
                       hash);
-    const std::size_t texelBegin = layout::firstCoordinateRow + layout::rowsPerCoordinates * triangles.size();
+    const std::size_t rowsEach = layout::rowsPerTriangle(texturing);
+    const std::size_t texelBegin = layout::firstCoordinateRow + rowsEach * triangles.size();
     if (texturing != 0)
         hash = hashBytes(std::as_bytes(std::span(textures).subspan(texelBegin)), hash);
     // The order of triangles depends on the tree, but a sum of hashes does not; each hash includes the triangle's id.
@@ -218,10 +255,9 @@ std::uint64_t PackedScene::contentHash() const {
         seenTriangle.triangle.flags &= ((1u << layout::triangleEmitterShift) - 1) & ~layout::triangleEndsLeaf;
         std::uint64_t triangleHash = hashBytes(std::as_bytes(std::span(&seenTriangle, 1)));
         if (texturing != 0)
-            triangleHash = hashBytes(
-                std::as_bytes(std::span(textures).subspan(
-                    layout::firstCoordinateRow + layout::rowsPerCoordinates * i, layout::rowsPerCoordinates)),
-                triangleHash);
+            triangleHash = hashBytes(std::as_bytes(std::span(textures).subspan(
+                                         layout::firstCoordinateRow + rowsEach * i, rowsEach)),
+                                     triangleHash);
         sum += triangleHash;
     }
     hash = hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
@@ -256,28 +292,30 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
         packedMaterial[order[i]] = i;
         packed.materials.push_back(packMaterial(scene.materials[order[i]]));
     }
-    const auto useMaterial = [&](std::uint32_t index) {
+    const auto useMaterial = [&](std::uint32_t index, bool hasSheer) {
         const MaterialRow &row = rowOf(scene.materials[index].kind);
         packed.hasEmission = packed.hasEmission || scene.materials[index].emission != glm::vec3(0.0f);
         const bool isOpaque = !isGlass(scene.materials[index]);
         packed.hasSpecular = packed.hasSpecular || !(row.scattersDiffusely && isOpaque);
         packed.hasDielectric = packed.hasDielectric || !isOpaque;
         packed.scattering |= row.scattering(scene.materials[index]);
-        for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
-            packed.texturing |= scene.materials[index].textures[slot] ? 1u << slot : 0u;
+        packed.texturing |= texturingOf(scene.materials[index], scene.textures);
+        packed.passing |= passingOf(scene.materials[index], hasSheer);
     };
     const auto useMaterials = [&](const TriangleMesh &mesh) {
+        packed.texturing |= texturingOf(mesh);
+        const bool hasSheer = hasSheerColours(mesh);
         if (mesh.triangleMaterials.empty())
-            useMaterial(mesh.materialIndex);
+            useMaterial(mesh.materialIndex, hasSheer);
         std::vector<bool> isUsed(scene.materials.size(), false);
         for (const std::uint32_t index : mesh.triangleMaterials)
             isUsed[index] = true;
         for (std::size_t i = 0; i < isUsed.size(); ++i)
             if (isUsed[i])
-                useMaterial(static_cast<std::uint32_t>(i));
+                useMaterial(static_cast<std::uint32_t>(i), hasSheer);
     };
     for (const Sphere &sphere : scene.spheres) {
-        useMaterial(sphere.materialIndex);
+        useMaterial(sphere.materialIndex, false);
         layout::SphereRecord record{};
         record.centre = glm::vec3(sphere.centre);
         record.radius = static_cast<float>(sphere.radius);
@@ -298,6 +336,9 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
         packed.lights.push_back(packLight(light));
         packed.lighting |= 1u << emitterKindOf(packed.lights.back());
     }
+    const std::uint32_t turning = layout::texturesNormal | layout::texturesClearcoatNormal;
+    if ((packed.texturing & turning) == 0 && (packed.scattering & layout::scattersAtAnisotropic) == 0)
+        packed.texturing &= ~layout::texturesTangents;
     packTrees(scene, bvh, packedMaterial, packed);
     packTextures(scene, order, maxDecoded, packed);
     const bool aimsAtEmitters = rowOf(scene.settings.integrator).aimsAtEmitters;
@@ -305,6 +346,10 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
         packed.lookups = makeEnergyTexels();
     if (aimsAtEmitters && (packed.scattering & layout::scattersAtRoughGlass) != 0)
         std::ranges::copy(makeGlassTexels(glassNodesOf(scene)), std::back_inserter(packed.lookups));
+    if (aimsAtEmitters && (packed.scattering & layout::scattersAtSheen) != 0) {
+        packed.frame.sheenTexels = static_cast<std::uint32_t>(packed.lookups.size());
+        std::ranges::copy(makeSheenTexels(), std::back_inserter(packed.lookups));
+    }
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
     if (scene.settings.filter != FilterKind::Box)
         packFilter(packed);

@@ -1,5 +1,6 @@
 #include "host/packing/packed_trees.h"
 
+#include "host/packing/surface_features.h"
 #include "host/scene/instances.h"
 
 #include <glm/common.hpp>
@@ -37,6 +38,7 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
                    std::uint32_t firstId, std::span<const std::uint32_t> packedMaterial,
                    PackedScene &packed) {
     const auto count = static_cast<std::int64_t>(mesh.triangles.size());
+    const bool hasSheer = hasSheerColours(mesh);
 #pragma omp parallel for schedule(static) if (isLong(count))
     for (std::int64_t i = 0; i < count; ++i) {
         const auto index = static_cast<std::size_t>(i);
@@ -49,12 +51,14 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
         triangle.v1 = mesh.positions[corner.positions.y];
         triangle.v2 = mesh.positions[corner.positions.z];
         triangle.primitiveId = firstId + static_cast<std::uint32_t>(i);
-        const std::uint32_t material = mesh.materialOf(index);
-        const bool isTransmissive = scene.materials[material].kind == MaterialKind::Dielectric;
-        triangle.materialIndex = packedMaterial[material];
-        const bool isCutOut = scene.materials[material].textures[layout::slotOpacity].has_value();
+        const std::uint32_t materialIndex = mesh.materialOf(index);
+        const Material &material = scene.materials[materialIndex];
+        const bool isTransmissive = material.kind == MaterialKind::Dielectric;
+        triangle.materialIndex = packedMaterial[materialIndex];
+        const std::uint32_t passing = passingOf(material, hasSheer);
         triangle.flags = (isTransmissive ? layout::triangleIsTransmissive : 0u) |
-                         (isCutOut ? layout::triangleIsCutOut : 0u);
+                         ((passing & layout::passesSheer) != 0 ? layout::triangleIsSheer : 0u) |
+                         ((passing & layout::passesCulled) != 0 ? layout::triangleIsCulled : 0u);
         layout::NormalRecord &normals = packed.normals[record];
         const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
         normals.n0 = hasNormals ? mesh.normals[corner.normals.x] : glm::vec3(0.0f);

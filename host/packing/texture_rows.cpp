@@ -1,6 +1,7 @@
 #include "host/packing/texture_rows.h"
 
 #include "host/image/tone_curve.h"
+#include "host/packing/surface_features.h"
 #include "host/scene/instances.h"
 
 #include <algorithm>
@@ -58,11 +59,52 @@ class MeshOfRecord {
     std::vector<std::uint32_t> firstTriangles_;
 };
 
-/// Appends the texture coordinates of all triangle records; 0 for triangles without any.
-void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
+/// Writes the texture coordinates of a triangle.
+void writeCoordinates(std::span<const glm::vec2> uvs, const glm::uvec3 &corners, layout::TextureRow *at) {
+    const glm::vec2 a = uvs[corners.x];
+    const glm::vec2 b = uvs[corners.y];
+    const glm::vec2 c = uvs[corners.z];
+    at[0] = rowOf(a.x, a.y, b.x, b.y);
+    at[1] = rowOf(c.x, c.y, 0.0f, 0.0f);
+}
+
+/// Writes a row for each corner of a triangle, or `fallback` where it has no values.
+void writeCorners(const CornerValues<glm::vec4> &attribute, std::size_t triangle, const glm::vec4 &fallback,
+                  layout::TextureRow *at) {
+    const bool hasValues =
+        !attribute.corners.empty() && attribute.corners[triangle].x != CornerValues<glm::vec4>::none;
+    for (glm::length_t corner = 0; corner < 3; ++corner) {
+        const glm::vec4 &value = hasValues ? attribute.values[attribute.corners[triangle][corner]] : fallback;
+        at[corner] = rowOf(value.x, value.y, value.z, value.w);
+    }
+}
+
+/// Writes all that textures have of a triangle. Texture coordinates and tangents that it lacks are 0, colours 1.
+void writeTriangle(const TriangleMesh &mesh, std::size_t triangle, std::uint32_t texturing,
+                   layout::TextureRow *at) {
+    if (!mesh.triangleUvs.empty() && mesh.triangleUvs[triangle].x != TriangleMesh::noUv)
+        writeCoordinates(mesh.uvs, mesh.triangleUvs[triangle], at);
+    at += layout::rowsPerCoordinates;
+    if ((texturing & layout::texturesSecondUv) != 0) {
+        if (!mesh.secondUvs.corners.empty() &&
+            mesh.secondUvs.corners[triangle].x != CornerValues<glm::vec2>::none)
+            writeCoordinates(mesh.secondUvs.values, mesh.secondUvs.corners[triangle], at);
+        at += layout::rowsPerCoordinates;
+    }
+    if ((texturing & layout::texturesColours) != 0) {
+        writeCorners(mesh.colours, triangle, glm::vec4(1.0f), at);
+        at += 3;
+    }
+    if ((texturing & layout::texturesTangents) != 0)
+        writeCorners(mesh.tangents, triangle, glm::vec4(0.0f), at);
+}
+
+/// Appends what textures have of all triangle records.
+void addTriangles(const Scene &scene, const PackedScene &packed, Rows &rows) {
     const MeshOfRecord meshOfRecord(scene, packed);
     const std::size_t first = rows.size();
-    rows.resize(first + layout::rowsPerCoordinates * packed.triangles.size());
+    const std::size_t rowsEach = layout::rowsPerTriangle(packed.texturing);
+    rows.resize(first + rowsEach * packed.triangles.size());
     const auto total = static_cast<std::int64_t>(packed.triangles.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t i = 0; i < total; ++i) {
@@ -70,56 +112,45 @@ void addCoordinates(const Scene &scene, const PackedScene &packed, Rows &rows) {
         if ((packed.triangles[record].flags & layout::triangleIsSphere) != 0)
             continue;
         const auto [meshAt, index] = meshOfRecord(static_cast<std::uint32_t>(i));
-        const TriangleMesh &mesh = *meshAt;
-        if (mesh.triangleUvs.empty())
-            continue;
-        const glm::uvec3 &corners = mesh.triangleUvs[index];
-        if (corners.x == TriangleMesh::noUv)
-            continue;
-        const glm::vec2 a = mesh.uvs[corners.x];
-        const glm::vec2 b = mesh.uvs[corners.y];
-        const glm::vec2 c = mesh.uvs[corners.z];
-        layout::TextureRow *const at = &rows[first + layout::rowsPerCoordinates * record];
-        at[0] = rowOf(a.x, a.y, b.x, b.y);
-        at[1] = rowOf(c.x, c.y, 0.0f, 0.0f);
+        writeTriangle(*meshAt, index, packed.texturing, &rows[first + rowsEach * record]);
     }
 }
 
-/// Format of the texels of an image in a slot: bits of layout::textureIs...
-std::uint32_t formatOf(const Texture &texture, std::uint32_t slot) {
+/// How the texels of an image in a slot are decoded: layout::textureIsFloat, textureIsSrgb or 0.
+std::uint32_t decodingOf(const Texture &texture, std::uint32_t slot) {
     if (texture.isFloat())
         return layout::textureIsFloat;
-    if (slot == layout::slotBaseColour || slot == layout::slotEmission)
-        return layout::textureIsSrgb;
-    return slot == layout::slotOpacity && texture.hasAlpha ? layout::textureIsAlpha : 0u;
+    return (layout::texturesSrgb >> slot & 1u) != 0 ? layout::textureIsSrgb : 0u;
 }
 
 /// A stored image.
 struct StoredImage {
     const Texture *texture;
-    std::uint32_t format; ///< format in its slots; 0, for all slots, if it stays 8-bit levels
+    std::uint32_t decoding; ///< decodingOf its slots; 0, for all slots, if it stays 8-bit levels
     std::size_t firstRow = 0;
 
     bool operator==(const StoredImage &other) const {
-        return texture == other.texture && format == other.format;
+        return texture == other.texture && decoding == other.decoding;
     }
 };
 
-/// The images of a scene. Levels are stored once, decoded images once for each format.
+/// The images of a scene. Levels are stored once, decoded images once for each decoding.
 class ImageStore {
   public:
     /// Decodes levels if all decoded images take at most `maxDecoded` bytes: a texel is then a single read.
     ImageStore(const Scene &scene, std::size_t maxDecoded) : scene_(scene) {
         std::size_t pixelCount = 0;
-        forEachUse([&](const Texture &texture, std::uint32_t slot) {
-            pixelCount += add({&texture, formatOf(texture, slot)}) ? texture.pixelCount() : 0;
+        forEachUse([&](const TextureUse &use, std::uint32_t slot) {
+            const Texture &texture = scene_.textures[use.textureIndex];
+            pixelCount += add({&texture, storedDecoding(texture, use, slot)}) ? texture.pixelCount() : 0;
         });
         areDecoded_ = pixelCount <= maxDecoded / sizeof(layout::TextureRow);
         if (areDecoded_)
             return;
         images_.clear();
-        forEachUse([&](const Texture &texture, std::uint32_t slot) {
-            add({&texture, storedFormat(texture, slot)});
+        forEachUse([&](const TextureUse &use, std::uint32_t slot) {
+            const Texture &texture = scene_.textures[use.textureIndex];
+            add({&texture, storedDecoding(texture, use, slot)});
         });
     }
 
@@ -137,10 +168,17 @@ class ImageStore {
     }
 
     /// Sets the first row and the format of an image in a slot.
-    void describe(const Texture &texture, std::uint32_t slot, layout::TextureRecord &record) const {
-        const auto image = std::ranges::find(images_, StoredImage{&texture, storedFormat(texture, slot)});
+    void describe(const TextureUse &use, std::uint32_t slot, layout::TextureRecord &record) const {
+        const Texture &texture = scene_.textures[use.textureIndex];
+        const auto image =
+            std::ranges::find(images_, StoredImage{&texture, storedDecoding(texture, use, slot)});
         record.firstRow = static_cast<std::uint32_t>(image->firstRow);
-        record.format = isOfLevels(*image) ? formatOf(texture, slot) : layout::textureIsFloat;
+        record.format = isOfLevels(*image) ? decodingOf(texture, slot) : layout::textureIsFloat;
+        record.format |= channelOf(texture, use, slot) << layout::textureChannelShift |
+                         (use.uvSet != 0 ? layout::textureUsesSecondUv : 0u) |
+                         (use.isNearest ? layout::textureIsNearest : 0u) |
+                         static_cast<std::uint32_t>(use.wrapU) << layout::textureWrapShiftU |
+                         static_cast<std::uint32_t>(use.wrapV) << layout::textureWrapShiftV;
     }
 
     /// Appends all images in the order of their rows. The decoding tables must be in `rows`.
@@ -161,11 +199,16 @@ class ImageStore {
         for (const Material &material : scene_.materials)
             for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
                 if (const std::optional<TextureUse> &use = material.textures[slot])
-                    action(scene_.textures[use->textureIndex], slot);
+                    action(*use, slot);
     }
 
-    [[nodiscard]] std::uint32_t storedFormat(const Texture &texture, std::uint32_t slot) const {
-        return areDecoded_ || texture.isFloat() ? formatOf(texture, slot) : 0;
+    /// Decoded images have alpha whatever else they decode: most often the colours beside it are used, too.
+    [[nodiscard]] std::uint32_t storedDecoding(const Texture &texture, const TextureUse &use,
+                                               std::uint32_t slot) const {
+        if (!areDecoded_ && !texture.isFloat())
+            return 0;
+        const bool isAlpha = channelOf(texture, use, slot) == static_cast<std::uint32_t>(Channel::Alpha);
+        return isAlpha && !texture.isFloat() ? layout::textureIsSrgb : decodingOf(texture, slot);
     }
 
     [[nodiscard]] bool isOfLevels(const StoredImage &image) const {
@@ -192,18 +235,21 @@ class ImageStore {
         std::memcpy(&rows[first], levels.data(), levels.size() * sizeof(levels[0]));
     }
 
+    static std::vector<std::uint32_t> tableAt(const Rows &rows, std::size_t first) {
+        std::vector<std::uint32_t> words(256);
+        std::memcpy(words.data(), &rows[first], words.size() * sizeof(words[0]));
+        return words;
+    }
+
     /// Decodes with the tables of the kernels, so that a lookup has the same bits either way.
     static void appendDecoded(const StoredImage &image, Rows &rows) {
         const std::size_t table =
-            (image.format & layout::textureIsSrgb) != 0 ? layout::srgbTableRow : layout::linearTableRow;
-        std::vector<std::uint32_t> words(256);
-        std::memcpy(words.data(), &rows[table], words.size() * sizeof(words[0]));
-        for (std::uint32_t levels : image.texture->levels) {
-            if ((image.format & layout::textureIsAlpha) != 0)
-                levels = (levels >> 24u) * 0x010101u;
-            rows.push_back(
-                {words[levels & 255u], words[levels >> 8u & 255u], words[levels >> 16u & 255u], 0u});
-        }
+            (image.decoding & layout::textureIsSrgb) != 0 ? layout::srgbTableRow : layout::linearTableRow;
+        const std::vector<std::uint32_t> words = tableAt(rows, table);
+        const std::vector<std::uint32_t> alphas = tableAt(rows, layout::linearTableRow);
+        for (const std::uint32_t levels : image.texture->levels)
+            rows.push_back({words[levels & 255u], words[levels >> 8u & 255u], words[levels >> 16u & 255u],
+                            alphas[levels >> 24u]});
     }
 
     const Scene &scene_;
@@ -219,6 +265,12 @@ float factorOf(const Material &material, std::uint32_t slot) {
         return material.metallic;
     case layout::slotNormal:
         return material.normalStrength;
+    case layout::slotClearcoatRoughness:
+        return material.clearcoatRoughness;
+    case layout::slotClearcoatNormal:
+        return material.clearcoatNormalStrength;
+    case layout::slotSheenRoughness:
+        return material.sheenRoughness;
     default:
         return 1.0f;
     }
@@ -227,7 +279,7 @@ float factorOf(const Material &material, std::uint32_t slot) {
 layout::TextureRecord recordOf(const ImageStore &images, const Texture &texture, const TextureUse &use,
                                const Material &material, std::uint32_t slot) {
     layout::TextureRecord record{};
-    images.describe(texture, slot, record);
+    images.describe(use, slot, record);
     record.size = static_cast<std::uint32_t>(texture.width) | static_cast<std::uint32_t>(texture.height)
                                                                   << 16u;
     record.factor = factorOf(material, slot);
@@ -235,6 +287,8 @@ layout::TextureRecord recordOf(const ImageStore &images, const Texture &texture,
     record.scaleV = use.scale.y;
     record.offsetU = use.offset.x;
     record.offsetV = use.offset.y;
+    record.shearU = use.shear.x;
+    record.shearV = use.shear.y;
     return record;
 }
 
@@ -250,7 +304,8 @@ void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std:
         return;
     constexpr std::size_t rowsPerMaterial = layout::rowsPerTexture * layout::textureSlotCount;
     std::size_t firstTexelRow =
-        layout::firstCoordinateRow + layout::rowsPerCoordinates * packed.triangles.size();
+        layout::firstCoordinateRow +
+        std::size_t{layout::rowsPerTriangle(packed.texturing)} * packed.triangles.size();
     for (const Material &material : scene.materials)
         firstTexelRow += hasTextures(material) ? rowsPerMaterial : 0;
     ImageStore images(scene, maxDecoded);
@@ -262,7 +317,7 @@ void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std:
     addTable(rows, srgbDecoded);
     addTable(rows, [](double level) { return level; });
     assert(rows.size() == layout::firstCoordinateRow);
-    addCoordinates(scene, packed, rows);
+    addTriangles(scene, packed, rows);
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Material &material = scene.materials[order[i]];
         if (!hasTextures(material))

@@ -12,10 +12,19 @@
 
 namespace hyalite::reference {
 
+/// Of which ray it is asked whether it passes a sheer surface.
+struct SheerKeys {
+    glm::uvec2 pixel{0}; ///< of the whole image
+    std::uint32_t sampleIndex = 0;
+    std::uint32_t vertex =
+        0; ///< as in sheerChoice(): twice the number of the segment, or 1 more for a shadow ray
+};
+
 template <class Real> struct Ray {
     Vec3<Real> origin;
     Vec3<Real> direction;                         ///< unit length
     std::uint32_t excluded = layout::noPrimitive; ///< the primitive at the origin, which the ray cannot hit
+    SheerKeys keys{};
 };
 
 template <class Real> struct Hit {
@@ -27,12 +36,18 @@ template <class Real> struct Hit {
     std::uint32_t instance = layout::noInstance; ///< of a triangle
 };
 
-/// Whether the opacity texture cuts out the triangle at the hit.
+/// Whether the triangle is not there for the ray: it is culled, or sheer at the hit.
 template <class Real>
-[[nodiscard]] bool isCutOut(const SceneView<Real> &scene, const TriangleRecord<Real> &triangle,
-                            std::uint32_t record, const TriangleHit<Real> &hit) {
-    return (triangle.flags & layout::triangleIsCutOut) != 0 &&
-           isCutAway<Real>(scene, triangle.materialIndex, record, hit.u, hit.v);
+[[nodiscard]] bool isPassed(const SceneView<Real> &scene, const Ray<Real> &ray,
+                            const TriangleRecord<Real> &triangle, std::uint32_t record,
+                            const TriangleHit<Real> &hit) {
+    if ((triangle.flags & layout::triangleIsCulled) != 0 && hit.isBehind)
+        return true;
+    if ((triangle.flags & layout::triangleIsSheer) == 0)
+        return false;
+    const Real choice = sheerChoice<Real>(ray.keys.pixel, scene.frame.seed, ray.keys.sampleIndex,
+                                          ray.keys.vertex, triangle.primitiveId);
+    return isPassed<Real>(scene, triangle.materialIndex, record, hit.u, hit.v, choice);
 }
 
 template <class Real> [[nodiscard]] bool isSphere(const TriangleRecord<Real> &primitive) {
@@ -75,10 +90,10 @@ template <class Real, bool hasInstances, bool hasSpheres> class TreeRay {
         if (hasSpheres && isSphere(primitive)) {
             const Real distance =
                 intersectBoxedSphere<Real>(boxRay_, ray_.direction, primitive.v0, primitive.v1.x, isExcluded);
-            return {distance, Real(0), Real(0)};
+            return {distance, Real(0), Real(0), false};
         }
         if (isExcluded)
-            return {Real(0), Real(0), Real(0)};
+            return {Real(0), Real(0), Real(0), false};
         return intersectTriangle(triangleRay_, boxRay_, primitive.v0, primitive.v1, primitive.v2);
     }
 
@@ -146,7 +161,7 @@ void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &r
             counter.testTriangle();
             const TriangleHit<Real> hit = treeRay.meet(triangle);
             const std::uint32_t found = hasSpheres && isSphere(triangle) ? triangle.primitiveId : record;
-            if (hit.distance > 0 && !isCutOut(scene, triangle, record, hit) &&
+            if (hit.distance > 0 && !isPassed(scene, ray, triangle, record, hit) &&
                 !visit(Meeting<Real>{triangle, found, treeRay.instance(), hit}))
                 return;
             if ((triangle.flags & layout::triangleEndsLeaf) != 0)
@@ -155,7 +170,7 @@ void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &r
     }
 }
 
-/// Calls visit(meeting) for every triangle that the ray hits, unless it is cut out there, in subtrees whose box it
+/// Calls visit(meeting) for every triangle that the ray hits, unless it passes it, in subtrees whose box it
 /// enters at or before `reach`, which is read again at each node. `visit` returns false to stop. `counter` counts the
 /// work.
 template <class Real, class Counter, class Visitor>

@@ -3,15 +3,18 @@
 
 #include "host/reference/closest_hit.h"
 
+#include <array>
+
 namespace hyalite::reference {
 
 /// Texture coordinates of a hit at `position`.
 template <class Real>
-[[nodiscard]] Vec2<Real> hitUv(const SceneView<Real> &scene, const Hit<Real> &hit,
-                               const Vec3<Real> &position) {
+[[nodiscard]] SurfaceUv<Real> hitUvs(const SceneView<Real> &scene, const Hit<Real> &hit,
+                                     const Vec3<Real> &position) {
     if (hit.primitive >= scene.frame.firstTriangleId)
-        return triangleUv(fetchCoordinates(scene, hit.record), hit.u, hit.v);
-    return sphereUv<Real>(position - scene.fetchSphere(hit.record).centre);
+        return triangleUvs(scene, hit.record, hit.u, hit.v);
+    const Vec2<Real> uv = sphereUv<Real>(position - scene.fetchSphere(hit.record).centre);
+    return {uv, uv};
 }
 
 /// What the surface that a ray has met at `position` is made of.
@@ -20,47 +23,101 @@ template <class Real>
                                                std::uint32_t materialIndex, const Vec3<Real> &position) {
     MaterialRecord<Real> material = scene.fetchMaterial(materialIndex);
     if (material.textures != 0)
-        material = texturedMaterial(scene, material, hitUv(scene, hit, position));
+        material = texturedMaterial(scene, material, hitUvs(scene, hit, position));
+    if ((scene.texturing & layout::texturesColours) != 0 && hit.primitive >= scene.frame.firstTriangleId)
+        material = colouredMaterial(scene, material, hit.record, hit.u, hit.v);
     return material;
 }
 
-/// Applies the normal map of the material, if it has one; only then tangent() is called.
-template <class Real, class TangentOf>
-void mapNormal(const SceneView<Real> &scene, const Ray<Real> &ray, const Hit<Real> &hit,
-               Surface<Real> &surface, std::uint32_t materialIndex, const TangentOf &tangentOf) {
-    const std::uint32_t textures = scene.packed.materials[materialIndex].textures;
-    if (textures == 0 || !hasTexture(scene, textures, layout::slotNormal))
-        return;
-    const Vec3<Real> mapped =
-        mappedNormal(scene, surface.normal, tangentOf(), textureRow(textures, layout::slotNormal),
-                     hitUv(scene, hit, surface.position));
-    surface.normal = visibleNormal(ray.direction, mapped, surface.geometricNormal);
+/// The triangle at a hit, in world space.
+template <class Real>
+[[nodiscard]] TriangleRecord<Real> hitTriangle(const SceneView<Real> &scene, const Hit<Real> &hit) {
+    const TriangleRecord<Real> triangle = scene.fetchTriangle(hit.record);
+    return hit.instance == layout::noInstance ? triangle
+                                              : placedTriangle(scene.fetchInstance(hit.instance), triangle);
 }
 
-/// The surface at `hit`, a hit of `ray` with a primitive of the scene.
+/// The surface at `hit`, a hit of `ray` with a primitive of the scene, without its normal map.
 template <class Real>
-[[nodiscard]] Surface<Real> hitSurface(const SceneView<Real> &scene, const Ray<Real> &ray,
-                                       const Hit<Real> &hit, std::uint32_t &materialIndex) {
+[[nodiscard]] Surface<Real> smoothSurface(const SceneView<Real> &scene, const Ray<Real> &ray,
+                                          const Hit<Real> &hit, std::uint32_t &materialIndex) {
     if (hit.primitive >= scene.frame.firstTriangleId) {
-        TriangleRecord<Real> triangle = scene.fetchTriangle(hit.record);
+        const TriangleRecord<Real> triangle = hitTriangle(scene, hit);
         NormalRecord<Real> normals = scene.fetchNormals(hit.record);
-        if (hit.instance != layout::noInstance) {
-            const InstanceRecord<Real> instance = scene.fetchInstance(hit.instance);
-            triangle = placedTriangle(instance, triangle);
-            normals = placedNormals(instance, normals);
-        }
+        if (hit.instance != layout::noInstance)
+            normals = placedNormals(scene.fetchInstance(hit.instance), normals);
         materialIndex = triangle.materialIndex;
-        Surface<Real> surface = triangleSurface(triangle, normals, hit.u, hit.v);
-        mapNormal(scene, ray, hit, surface, materialIndex,
-                  [&] { return triangleTangent(triangle, fetchCoordinates(scene, hit.record)); });
-        return surface;
+        return triangleSurface(triangle, normals, hit.u, hit.v);
     }
     const SphereRecord<Real> sphere = scene.fetchSphere(hit.record);
     materialIndex = materialIndexOf(sphere);
-    Surface<Real> surface = sphereSurface(ray.origin, ray.direction, hit.distance, sphere);
-    mapNormal(scene, ray, hit, surface, materialIndex,
-              [&] { return sphereTangent<Real>(surface.normal * normalSignOf(sphere)); });
+    return sphereSurface(ray.origin, ray.direction, hit.distance, sphere);
+}
+
+/// Tangents at the hit, of textures with the second coordinates or the first. `normal` is that of the smooth surface.
+template <class Real>
+[[nodiscard]] Tangent<Real> hitTangent(const SceneView<Real> &scene, const Hit<Real> &hit,
+                                       const Vec3<Real> &normal, bool isOfSecondUv) {
+    if (hit.primitive < scene.frame.firstTriangleId)
+        return sphereTangent<Real>(normal * normalSignOf(scene.fetchSphere(hit.record)));
+    if ((scene.texturing & layout::texturesTangents) != 0) {
+        const std::uint32_t row = tangentRow(scene, hit.record);
+        std::array<Vec4<Real>, 3> corners{fetchTangent(scene, row), fetchTangent(scene, row + 1),
+                                          fetchTangent(scene, row + 2)};
+        if (hit.instance != layout::noInstance)
+            for (Vec4<Real> &corner : corners)
+                corner = placedTangent(scene.fetchInstance(hit.instance), corner);
+        const Tangent<Real> tangent =
+            vertexTangent<Real>(corners[0], corners[1], corners[2], normal, hit.u, hit.v);
+        if (isKnown(tangent))
+            return tangent;
+    }
+    const bool isSecond = isOfSecondUv && (scene.texturing & layout::texturesSecondUv) != 0;
+    return triangleTangent(hitTriangle(scene, hit), isSecond ? fetchSecondCoordinates(scene, hit.record)
+                                                             : fetchCoordinates(scene, hit.record));
+}
+
+/// The normal that the map in `slot` makes of that of a smooth surface.
+template <class Real>
+[[nodiscard]] Vec3<Real> hitNormal(const SceneView<Real> &scene, const Ray<Real> &ray, const Hit<Real> &hit,
+                                   const Surface<Real> &surface, std::uint32_t textures, std::uint32_t slot) {
+    if (textures == 0 || !hasTexture(scene, textures, slot))
+        return surface.normal;
+    const std::uint32_t row = textureRow(textures, slot);
+    const Tangent<Real> tangent = hitTangent(scene, hit, surface.normal, usesSecondUv(scene, row));
+    const Vec3<Real> mapped =
+        mappedNormal(scene, surface.normal, tangent, row, hitUvs(scene, hit, surface.position));
+    return visibleNormal(ray.direction, mapped, surface.geometricNormal);
+}
+
+/// The surface at `hit`.
+template <class Real>
+[[nodiscard]] Surface<Real> hitSurface(const SceneView<Real> &scene, const Ray<Real> &ray,
+                                       const Hit<Real> &hit, std::uint32_t &materialIndex) {
+    Surface<Real> surface = smoothSurface(scene, ray, hit, materialIndex);
+    surface.normal = hitNormal(scene, ray, hit, surface, scene.packed.materials[materialIndex].textures,
+                               layout::slotNormal);
     return surface;
+}
+
+/// What the material needs at the hit beyond `normal`, which is on the side of the viewer.
+template <class Real>
+[[nodiscard]] SurfaceAxes<Real> hitAxes(const SceneView<Real> &scene, const Ray<Real> &ray,
+                                        const Hit<Real> &hit, const MaterialRecord<Real> &material,
+                                        const Vec3<Real> &normal, bool isBehind) {
+    SurfaceAxes<Real> axes{Vec3<Real>(Real(0)), normal};
+    if ((scene.scattering & (layout::scattersAtAnisotropic | layout::scattersAtCoatNormals)) == 0)
+        return axes;
+    std::uint32_t materialIndex;
+    const Surface<Real> surface = smoothSurface(scene, ray, hit, materialIndex);
+    if ((scene.scattering & layout::scattersAtAnisotropic) != 0)
+        axes.tangent = hitTangent(scene, hit, surface.normal, false).alongU;
+    if ((scene.scattering & layout::scattersAtCoatNormals) != 0) {
+        const Vec3<Real> coat =
+            hitNormal(scene, ray, hit, surface, material.textures, layout::slotClearcoatNormal);
+        axes.coatNormal = coatNormalFacing(coat, surface.geometricNormal, ray.direction, isBehind);
+    }
+    return axes;
 }
 
 } // namespace hyalite::reference

@@ -90,7 +90,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     void addEmission(const Ray<Real> &ray, const Hit<Real> &hit, const Surface<Real> &surface,
                      const MaterialRecord<Real> &material) {
         const Real facing = -dotProduct(ray.direction, surface.geometricNormal);
-        const Real cosine = isTwoSided(material) ? abs(facing) : facing;
+        const Real cosine = emitsBehind(material) ? abs(facing) : facing;
         if (material.emitterPdf <= 0 || cosine <= 0)
             return;
         Real weight = 1;
@@ -223,7 +223,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     }
 
     /// The next ray of the path; empty at its end.
-    [[nodiscard]] std::optional<Ray<Real>> followRay(const Ray<Real> &ray) {
+    [[nodiscard]] std::optional<Ray<Real>> followRay(Ray<Real> ray) {
+        ray.keys = {pixel_, sampleIndex_, 2 * depth_};
         traceEvent(layout::traceRayOrigin, 0, ray.origin);
         traceEvent(layout::traceRayDirection, 0, ray.direction);
         const Hit<Real> hit = closestHit(scene_, ray, counter_);
@@ -239,6 +240,10 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, throughput_);
+        if (showsBaseColour(scene_, material)) {
+            addRadiance(throughput_, material.albedo);
+            return std::nullopt;
+        }
         addEmission(ray, hit, surface, material);
         if (depth_ >= scene_.frame.maxDepth)
             return std::nullopt;
@@ -251,7 +256,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                 surface.geometricNormal = -surface.geometricNormal;
             }
             if (scene_.scattering != 0)
-                return scatterFromBsdf(ray, surface, material, materialIndex, isBehind, hit.primitive);
+                return scatterFromBsdf(ray, hit, surface, material, materialIndex, isBehind);
             throughput_ *= Vec3<Real>(material.albedo);
             return scatterFromDiffuse(surface, hit.primitive);
         }
@@ -289,16 +294,18 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     }
 
     /// At a surface with lobes: samples a light and the next direction.
-    [[nodiscard]] std::optional<Ray<Real>> scatterFromBsdf(const Ray<Real> &ray, const Surface<Real> &surface,
+    [[nodiscard]] std::optional<Ray<Real>> scatterFromBsdf(const Ray<Real> &ray, const Hit<Real> &hit,
+                                                           const Surface<Real> &surface,
                                                            const MaterialRecord<Real> &material,
-                                                           std::uint32_t materialIndex, bool isBehind,
-                                                           std::uint32_t primitive) {
+                                                           std::uint32_t materialIndex, bool isBehind) {
+        const std::uint32_t primitive = hit.primitive;
         const Crossing crossing = isGlass(scene_, material)
                                       ? crossingOf(materialIndex, !isBehind)
                                       : Crossing{mediaInside_, mediaInside_, Real(1), true};
         const Vec2<Real> lobe = lobeChoice();
+        const SurfaceAxes<Real> axes = hitAxes(scene_, ray, hit, material, surface.normal, isBehind);
         const Bsdf<Real> bsdf = makeBsdf<Real>(scene_, material, ray.direction, surface.normal,
-                                               surface.geometricNormal, isBehind, crossing.eta, lobe.x);
+                                               surface.geometricNormal, axes, isBehind, crossing.eta, lobe.x);
 
         litPoint_ = {surface.position, surface.normal,
                      isGlass(scene_, material) || material.transmission > 0};
@@ -351,7 +358,10 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     void aimAt(const Surface<Real> &surface, std::uint32_t emitter, const LightSample<Real> &light,
                const Vec3<Real> &weight, std::uint32_t primitive) {
         ++counts_.shadow;
-        const Ray<Real> ray{offsetRayOrigin(scene_, surface, light.direction), light.direction, primitive};
+        const Ray<Real> ray{offsetRayOrigin(scene_, surface, light.direction),
+                            light.direction,
+                            primitive,
+                            {pixel_, sampleIndex_, 2 * depth_ + 1}};
         const bool isBlocked = isAnythingBefore(scene_, ray, light.distance, light.target, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
                    Vec3<Real>(static_cast<Real>(emitter)));

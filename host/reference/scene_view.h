@@ -56,6 +56,8 @@ template <class Real> [[nodiscard]] Vec3<Real> abs(const Vec3<Real> &v) {
     return x << 16 | x >> 16;
 }
 [[nodiscard]] inline float intBitsToFloat(int bits) { return std::bit_cast<float>(bits); }
+[[nodiscard]] inline int floatBitsToInt(float x) { return std::bit_cast<int>(x); }
+[[nodiscard]] inline int floatBitsToInt(double x) { return floatBitsToInt(static_cast<float>(x)); }
 [[nodiscard]] inline float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
 [[nodiscard]] inline glm::vec2 uintBitsToFloat(const uvec2 &bits) {
     return {uintBitsToFloat(bits.x), uintBitsToFloat(bits.y)};
@@ -89,7 +91,7 @@ template <class Real> struct SceneView {
     /// `samplerKind` is one of layout::sampler...
     explicit SceneView(const PackedScene &packedScene, uint samplerKindOfRender = samplerSobol)
         : packed(packedScene), frame(packedScene.frame), samplerKind(samplerKindOfRender),
-          scattering(packedScene.scattering), texturing(packedScene.texturing),
+          scattering(packedScene.scattering), texturing(packedScene.texturing), passing(packedScene.passing),
           lighting(packedScene.lighting), camera(packedScene.camera),
           emitterCount(static_cast<uint>(packedScene.emitters.size())),
           infiniteEmitterCount(packedScene.infiniteEmitterCount), hasTriangles(packedScene.hasTriangles),
@@ -108,6 +110,7 @@ template <class Real> struct SceneView {
     uint samplerKind;
     uint scattering;
     uint texturing;
+    uint passing;
     uint lighting;
     uint camera;
     uint emitterCount;

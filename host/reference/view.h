@@ -28,7 +28,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
             scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
         ++counts_.primary;
         sampleIndex_ = sampleIndex;
-        const Ray<Real> ray{primary.origin, primary.direction};
+        const Ray<Real> ray{primary.origin, primary.direction, layout::noPrimitive, {pixel, sampleIndex, 2}};
         traceEvent(layout::traceRayOrigin, 0, ray.origin);
         traceEvent(layout::traceRayDirection, 0, ray.direction);
         const Hit<Real> hit = closestHit(scene_, ray, counter_);
@@ -46,7 +46,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         case layout::viewDepth:
             return show(Vec3<Real>(hit.distance));
         case layout::viewCoordinates: {
-            const Vec2<Real> uv = hitUv(scene_, hit, surface.position);
+            const Vec2<Real> uv = hitUvs(scene_, hit, surface.position).first;
             return show({fractionOf(uv.x), fractionOf(uv.y), Real(0)});
         }
         case layout::viewId:
@@ -87,7 +87,8 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         if (!(dotProduct(surface.geometricNormal, direction) > 0))
             return Vec3<Real>(Real(0));
         ++counts_.shadow;
-        const Ray<Real> toSky{offsetRayOrigin(scene_, surface, direction), direction, primitive};
+        const Ray<Real> toSky{
+            offsetRayOrigin(scene_, surface, direction), direction, primitive, {pixel, sampleIndex_, 3}};
         const Real length = static_cast<Real>(scene_.frame.occlusionDistance);
         const bool isBlocked = isAnythingBefore(scene_, toSky, length, layout::noPrimitive, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,

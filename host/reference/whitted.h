@@ -27,6 +27,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
         const RayCounts countsBefore = counts_;
         ++counts_.primary;
+        pixel_ = pixel;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
         pending_.push_back({{primary.origin, primary.direction}, Vec3<Real>(Real(1)), 1, layout::noMaterial});
@@ -75,6 +76,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         depth_ = segment.depth;
         traceEvent(layout::traceRayOrigin, 0, segment.ray.origin);
         traceEvent(layout::traceRayDirection, 0, segment.ray.direction);
+        segment.ray.keys = {pixel_, sampleIndex_, 2 * depth_};
         const Hit<Real> hit = closestHit(scene_, segment.ray, counter_);
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         if (hit.primitive == layout::noPrimitive) {
@@ -96,8 +98,13 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, segment.throughput);
+        if (showsBaseColour(scene_, material)) {
+            radiance_ = radiance_ + segment.throughput * material.albedo;
+            traceEvent(layout::traceRadiance, 0, radiance_);
+            return;
+        }
         const bool isSeenFromFront = dotProduct(segment.ray.direction, surface.geometricNormal) < 0;
-        if (scene_.hasEmission && (isSeenFromFront || isTwoSided(material))) {
+        if (scene_.hasEmission && (isSeenFromFront || emitsBehind(material))) {
             radiance_ = radiance_ + segment.throughput * Vec3<Real>(material.emission);
             traceEvent(layout::traceRadiance, 0, radiance_);
         }
@@ -139,7 +146,10 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                 continue;
             }
             ++counts_.shadow;
-            const Ray<Real> ray{offsetRayOrigin(scene_, surface, direction), direction, primitive};
+            const Ray<Real> ray{offsetRayOrigin(scene_, surface, direction),
+                                direction,
+                                primitive,
+                                {pixel_, sampleIndex_, 2 * depth_ + 1}};
             const Shadow shadow = castShadowRay(scene_, ray, distance, counter_);
             traceEvent(layout::traceVisibility,
                        shadow.isBlocked  ? layout::visibilityBlocked
@@ -203,7 +213,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     std::function<bool()> isToStop_;
     bool isAbandoned_ = false;
     std::vector<layout::TraceEvent> *events_ = nullptr;
-    std::uint32_t sampleIndex_ = 0; ///< sample and depth of the current segment, for trace events only
+    glm::uvec2 pixel_{0};
+    std::uint32_t sampleIndex_ = 0; ///< sample and depth of the current segment
     std::uint32_t depth_ = 0;
 };
 

@@ -67,6 +67,8 @@ TriangleMesh flattened(const TriangleMesh &prototype, const Placement &placement
         position = placedPoint(placement, position);
     for (glm::vec3 &normal : mesh.normals)
         normal = placedNormal(placement, normal);
+    for (glm::vec4 &tangent : mesh.tangents.values)
+        tangent = placedTangent(placement, tangent);
     return mesh;
 }
 
@@ -137,6 +139,14 @@ glm::vec3 placedNormal(const Placement &placement, const glm::vec3 &normal) {
     return scaled * (1.0f / std::sqrt(dotProduct(scaled, scaled)));
 }
 
+glm::vec4 placedTangent(const Placement &placement, const glm::vec4 &tangent) {
+    const auto coordinate = [&](std::size_t i) {
+        const glm::vec3 &row = placement.rows[i];
+        return row.x * tangent.x + row.y * tangent.y + row.z * tangent.z;
+    };
+    return {coordinate(0), coordinate(1), coordinate(2), tangent.w};
+}
+
 TriangleMesh mirrored(TriangleMesh mesh) {
     for (glm::vec3 &normal : mesh.normals)
         normal = -normal;
@@ -146,6 +156,15 @@ TriangleMesh mirrored(TriangleMesh mesh) {
     }
     for (glm::uvec3 &uvs : mesh.triangleUvs)
         std::swap(uvs.y, uvs.z);
+    const auto turn = [](std::vector<glm::uvec3> &corners) {
+        for (glm::uvec3 &triangle : corners)
+            std::swap(triangle.y, triangle.z);
+    };
+    turn(mesh.secondUvs.corners);
+    turn(mesh.colours.corners);
+    turn(mesh.tangents.corners);
+    for (glm::vec4 &tangent : mesh.tangents.values)
+        tangent.w = -tangent.w;
     return mesh;
 }
 

@@ -30,7 +30,10 @@ struct InputOrder {
 /// The unit normal in world space, or 0 for a normal of 0. Twin: placedNormal in shaders/geometry/instance.glsl.
 [[nodiscard]] glm::vec3 placedNormal(const Placement &placement, const glm::vec3 &normal);
 
-/// The mesh for mirroring instances: other winding, and negative normals. So its places have the winding and the
+/// The tangent in world space, of any length; w stays. Twin: placedTangent in shaders/geometry/instance.glsl.
+[[nodiscard]] glm::vec4 placedTangent(const Placement &placement, const glm::vec4 &tangent);
+
+/// The mesh for mirroring instances: other winding, negative normals, and tangents with the other side. So its places have the winding and the
 /// normals of a mesh that is seen from outside.
 [[nodiscard]] TriangleMesh mirrored(TriangleMesh mesh);
 

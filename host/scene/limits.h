@@ -30,6 +30,8 @@ inline constexpr double meshExtent = 1e-15; ///< of all meshes together, at leas
 inline constexpr Interval radius{0.0, 1e15, false};
 inline constexpr Interval texturePlacement{-1e6, 1e6}; ///< scale and offset of textures
 inline constexpr Interval normalStrength{0.0, 100.0};
+inline constexpr Interval alphaCutoff{0.0, 1e30};
+inline constexpr Interval radians{-1e6, 1e6};
 
 inline constexpr Interval meshScale{-1e15, 1e15}; ///< and not 0
 inline constexpr Interval segments{3, 4096};      ///< of disks and cylinders

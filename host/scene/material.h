@@ -67,7 +67,8 @@ struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Diffuse;
     glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]; Principled: its base colour
-    bool twoSided = false;        ///< Diffuse, Principled: turn the normal towards the viewer before shading
+    bool twoSided = false;        ///< Diffuse, Principled, Gltf: reflects and emits on both sides
+    bool reflectsBehind = false;  ///< likewise: reflects on both sides, but emits on that of the normal alone
     float refractiveIndex = 1.5f; ///< Dielectric, Principled: relative to the surroundings, in [1, 10]
     glm::vec3 segmentTint{
         1.0f}; ///< Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only
@@ -106,10 +107,11 @@ struct Material {
     float normalStrength = 1.0f; ///< how far a normal map turns normals; in [0, 100]
 };
 
-/// Whether light passes the material.
+/// Whether light passes the material, and is refracted.
 [[nodiscard]] inline bool isGlass(const Material &material) {
     return material.kind == MaterialKind::Dielectric ||
-           (material.kind == MaterialKind::Principled && material.transmission > 0.0f);
+           (material.kind == MaterialKind::Principled && material.transmission > 0.0f) ||
+           (material.kind == MaterialKind::Gltf && material.transmission > 0.0f && !material.isThin);
 }
 
 // ---- Keys
@@ -135,12 +137,16 @@ struct FlagKey {
     bool Material::*member;
 };
 
+/// Whether both sides reflect and emit; without the key both reflect, and the side of the normal emits.
+struct SidesKey {};
+
 /// One of metalNames, for both parts of the refractive index.
 struct MetalKey {};
 
 struct MaterialKey {
-    std::string_view key;                                                  ///< in scene files and messages
-    std::variant<NumberKey, ColourKey, WholeKey, FlagKey, MetalKey> value; ///< its default is the member's
+    std::string_view key; ///< in scene files and messages
+    std::variant<NumberKey, ColourKey, WholeKey, FlagKey, SidesKey, MetalKey>
+        value; ///< its default is the member's
     std::string_view help;
 };
 
@@ -148,7 +154,7 @@ namespace material_keys {
 
 using Record = layout::MaterialRecord;
 
-inline constexpr FlagKey twoSided{&Material::twoSided};
+inline constexpr SidesKey twoSided{};
 inline constexpr ColourKey emission{&Material::emission, limits::radiance, &Record::emission};
 inline constexpr NumberKey refractiveIndex{&Material::refractiveIndex, limits::refractiveIndex,
                                            &Record::refractiveIndex};
@@ -159,7 +165,9 @@ inline constexpr NumberKey roughness{&Material::roughness, limits::fraction};
 inline constexpr auto diffuse = std::to_array<MaterialKey>({
     {"albedo", ColourKey{&Material::albedo, limits::fraction, &Record::albedo},
      "share of the light that is reflected"},
-    {"twoSided", twoSided, "turn the normal towards the viewer before shading"},
+    {"twoSided", twoSided,
+     "both sides reflect and emit; `false`: the side of the normal alone, and the other one is black; by "
+     "default both reflect, and that of the normal emits"},
     {"emission", emission,
      "radiance on the side of the normal, on both if `twoSided`; in `whitted` it is seen, but lights "
      "nothing"},
@@ -200,6 +208,45 @@ inline constexpr auto principled = std::to_array<MaterialKey>({
     {"twoSided", twoSided, "as for diffuse"},
     {"emission", emission, "as for diffuse"},
 });
+inline constexpr auto gltf = std::to_array<MaterialKey>({
+    {"baseColour", ColourKey{&Material::albedo, limits::fraction, &Record::albedo},
+     "colour of metal at normal incidence, of the base below plastic, and of light that passes the surface "
+     "once"},
+    {"metallic", NumberKey{&Material::metallic, limits::fraction, &Record::metallic}, "share of metal"},
+    {"roughness", roughness, "at least 0.04 is used"},
+    {"index", refractiveIndex, "refractive index"},
+    {"dielectricWeight", NumberKey{&Material::dielectricWeight, limits::fraction, &Record::dielectricWeight},
+     "factor on the reflectance of plastic at all angles"},
+    {"dielectricColour", ColourKey{&Material::dielectricColour, limits::radiance, &Record::dielectricColour},
+     "factor on the reflectance of plastic at normal incidence, which is at most 1"},
+    {"transmission", NumberKey{&Material::transmission, limits::fraction, &Record::transmission},
+     "share of glass in what is not metal"},
+    {"thin", FlagKey{&Material::isThin},
+     "glass is a surface without volume behind it, and does not bend light"},
+    {"absorption", absorption, "as for a dielectric"},
+    {"priority", priority, "as for a dielectric"},
+    {"clearcoat", NumberKey{&Material::clearcoat, limits::fraction, &Record::clearcoat},
+     "a clear coat above everything"},
+    {"clearcoatRoughness", NumberKey{&Material::clearcoatRoughness, limits::fraction},
+     "at least 0.04 is used"},
+    {"clearcoatNormalStrength",
+     NumberKey{&Material::clearcoatNormalStrength, limits::normalStrength, &Record::clearcoatNormalStrength},
+     "how far the coat's normal map turns normals"},
+    {"sheenColour", ColourKey{&Material::sheenColour, limits::fraction, &Record::sheenColour},
+     "colour of fibres above all but the coat; 0: none"},
+    {"sheenRoughness", NumberKey{&Material::sheenRoughness, limits::fraction}, "at least 0.07 is used"},
+    {"anisotropy", NumberKey{&Material::anisotropy, limits::fraction, &Record::anisotropy},
+     "how far facets are stretched; not those of glass"},
+    {"anisotropyRotation", NumberKey{&Material::anisotropyRotation, limits::radians},
+     "of the direction in which they are stretched, in radians from the one in which u grows"},
+    {"unlit", FlagKey{&Material::isUnlit}, "shows its base colour, whatever the light"},
+    {"opacity", NumberKey{&Material::opacity, limits::fraction, &Record::opacity},
+     "factor on that of textures and vertices; meshes only"},
+    {"alphaCutoff", NumberKey{&Material::alphaCutoff, limits::alphaCutoff},
+     "the surface is not there where its opacity is below"},
+    {"twoSided", twoSided, "as for diffuse"},
+    {"emission", emission, "as for diffuse"},
+});
 
 } // namespace material_keys
 
@@ -220,12 +267,12 @@ inline constexpr std::array<TextureSlot, layout::textureSlotCount> textureSlots{
       "its alpha, or its red channel where it has none: below a half nothing is there; meshes only"},
      {"transmission", layout::slotTransmission, "its red channel"},
      {"clearcoat", layout::slotClearcoat, "its red channel"},
-     {"clearcoatRoughness", layout::slotClearcoatRoughness, "its green channel"},
+     {"clearcoatRoughness", layout::slotClearcoatRoughness, "its red channel"},
      {"clearcoatNormal", layout::slotClearcoatNormal},
-     {"dielectricWeight", layout::slotDielectricWeight, "its alpha"},
+     {"dielectricWeight", layout::slotDielectricWeight, "its red channel"},
      {"dielectricColour", layout::slotDielectricColour},
      {"sheenColour", layout::slotSheenColour},
-     {"sheenRoughness", layout::slotSheenRoughness, "its alpha"},
+     {"sheenRoughness", layout::slotSheenRoughness, "its red channel"},
      {"anisotropy", layout::slotAnisotropy,
       "a direction in red and green, a factor on the strength in blue"}}};
 
@@ -243,10 +290,27 @@ struct MaterialRow {
     std::uint32_t (*scattering)(const Material &) = [](const Material &) { return 0u; };
 };
 
+/// MaterialRow::scattering of glTF's materials.
+[[nodiscard]] constexpr std::uint32_t scatteringOfGltf(const Material &material) {
+    if (material.isUnlit)
+        return layout::scattersAtUnlit;
+    const auto has = [&](std::uint32_t slot) { return material.textures[slot].has_value(); };
+    std::uint32_t bits = layout::scattersAtGltf;
+    if (material.transmission > 0.0f)
+        bits |= material.isThin ? layout::scattersAtThin : layout::scattersAtRoughGlass;
+    if (material.sheenColour != glm::vec3(0.0f))
+        bits |= layout::scattersAtSheen;
+    if (material.anisotropy > 0.0f)
+        bits |= layout::scattersAtAnisotropic;
+    if (material.clearcoat > 0.0f && (has(layout::slotNormal) || has(layout::slotClearcoatNormal)))
+        bits |= layout::scattersAtCoatNormals;
+    return bits;
+}
+
 inline constexpr auto materialTable = std::to_array<MaterialRow>({
     {.kind = MaterialKind::Diffuse,
      .name = "diffuse",
-     .help = "a matt surface; its far side is dark unless it is `twoSided`",
+     .help = "a matt surface",
      .keys = material_keys::diffuse,
      .textures = layout::texturesBaseColour | layout::texturesEmission | layout::texturesNormal |
                  layout::texturesOpacity,
@@ -281,6 +345,14 @@ inline constexpr auto materialTable = std::to_array<MaterialRow>({
          [](const Material &material) {
              return layout::scattersAtPrincipled | (isGlass(material) ? layout::scattersAtRoughGlass : 0u);
          }},
+    {.kind = MaterialKind::Gltf,
+     .name = "gltf",
+     .help = "the material of glTF 2.0: metal, plastic and glass below sheen and a clear coat",
+     .keys = material_keys::gltf,
+     .textures = (1u << layout::textureSlotCount) - 1u,
+     .defaultRoughness = 1.0f,
+     .scattersDiffusely = true,
+     .scattering = scatteringOfGltf},
 });
 
 [[nodiscard]] constexpr const MaterialRow &rowOf(MaterialKind kind) {

@@ -135,6 +135,12 @@ TriangleMesh transformed(TriangleMesh mesh, const glm::dmat4x3 &map) {
     const glm::dmat3 cofactors(glm::cross(b, c), glm::cross(c, a), glm::cross(a, b));
     for (glm::vec3 &normal : mesh.normals)
         normal = glm::vec3(glm::normalize(cofactors * glm::dvec3(normal)));
+    for (glm::vec4 &tangent : mesh.tangents.values) {
+        const glm::dvec3 turned = linear * glm::dvec3(tangent);
+        const double length = glm::length(turned);
+        if (length > 0.0)
+            tangent = glm::vec4(glm::vec3(turned / length), tangent.w);
+    }
     return mesh;
 }
 

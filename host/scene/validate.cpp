@@ -104,6 +104,8 @@ void checkKey(const Checked &checked, std::string_view key, const Ranged &value,
 }
 void checkKey(const Checked & /*checked*/, std::string_view /*key*/, const FlagKey & /*value*/,
               const Material & /*material*/) {}
+void checkKey(const Checked & /*checked*/, std::string_view /*key*/, const SidesKey & /*value*/,
+              const Material & /*material*/) {}
 void checkKey(const Checked & /*checked*/, std::string_view /*key*/, const MetalKey & /*value*/,
               const Material & /*material*/) {}
 
@@ -120,10 +122,11 @@ void checkMaterial(const Material &material, const std::vector<Texture> &texture
         if (!use)
             continue;
         if (rowOf(material.kind).textures == 0)
-            checked.refuse("textures", "some", "on a diffuse or a principled material");
+            checked.refuse("textures", "some", "on a diffuse, a principled or a gltf material");
         checked.indexBelow(textures.size(), use->textureIndex, "texture");
-        for (const float number : {use->scale.x, use->scale.y, use->offset.x, use->offset.y})
-            checked.within(limits::texturePlacement, number, "scale or offset of a texture");
+        for (const glm::vec2 &pair : {use->scale, use->offset, use->shear})
+            for (const float number : {pair.x, pair.y})
+                checked.within(limits::texturePlacement, number, "placement of a texture");
     }
     for (std::size_t slot = 0; slot < material.textures.size(); ++slot) {
         if (!material.textures[slot] || !textures[material.textures[slot]->textureIndex].isFloat())
@@ -136,7 +139,8 @@ void checkMaterial(const Material &material, const std::vector<Texture> &texture
                 checked.within(limits::radiance, value * material.emission,
                                fmt::format("emission times {}", texture.name));
     }
-    if (material.clearcoat > 0.0f && material.transmission > 0.0f)
+    if (material.kind == MaterialKind::Principled && material.clearcoat > 0.0f &&
+        material.transmission > 0.0f)
         checked.refuse("clearcoat",
                        fmt::format("{}, and a transmission of {}", material.clearcoat, material.transmission),
                        "a clear coat, which only opaque materials have: one of the two must be 0");
@@ -168,6 +172,20 @@ void checkTexturable(const TriangleMesh &mesh, const std::vector<Material> &mate
         check(materials[index]);
 }
 
+template <class Value>
+void checkCorners(const CornerValues<Value> &attribute, std::size_t triangleCount, std::string_view name,
+                  const Checked &checked) {
+    if (!attribute.corners.empty() && attribute.corners.size() != triangleCount)
+        checked.refuse(fmt::format("{} of triangles", name), fmt::format("{}", attribute.corners.size()),
+                       fmt::format("{}, or none", triangleCount));
+    for (std::size_t i = 0; i < attribute.corners.size(); ++i)
+        for (glm::length_t corner = 0; corner < 3; ++corner)
+            if (attribute.corners[i] != glm::uvec3(CornerValues<Value>::none) &&
+                attribute.corners[i][corner] >= attribute.values.size())
+                checked.indexBelow(attribute.values.size(), attribute.corners[i][corner],
+                                   fmt::format("{} of triangle {}", name, i));
+}
+
 void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checked &checked) {
     checked.indexBelow(materialCount, mesh.materialIndex, "material");
     if (!mesh.triangleMaterials.empty() && mesh.triangleMaterials.size() != mesh.triangles.size())
@@ -186,6 +204,14 @@ void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checke
                 mesh.triangleUvs[i][corner] >= mesh.uvs.size())
                 checked.indexBelow(mesh.uvs.size(), mesh.triangleUvs[i][corner],
                                    fmt::format("texture coordinates of triangle {}", i));
+    checkCorners(mesh.secondUvs, mesh.triangles.size(), "second texture coordinates", checked);
+    checkCorners(mesh.colours, mesh.triangles.size(), "colours", checked);
+    checkCorners(mesh.tangents, mesh.triangles.size(), "tangents", checked);
+    for (std::size_t i = 0; i < mesh.colours.values.size(); ++i)
+        for (glm::length_t channel = 0; channel < 4; ++channel)
+            if (!limits::fraction.contains(static_cast<double>(mesh.colours.values[i][channel])))
+                checked.within(limits::fraction, mesh.colours.values[i][channel],
+                               fmt::format("colour of vertex {}", i));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         if (!Checked::isWithin(limits::coordinate, mesh.positions[i]))
             checked.within(limits::coordinate, mesh.positions[i], fmt::format("vertex {}", i));

@@ -5,16 +5,29 @@
 #include "shaders/bsdf/opaque_ggx.glsl"
 #include "shaders/bsdf/glass_ggx.glsl"
 #include "shaders/bsdf/clearcoat.glsl"
+#include "shaders/bsdf/sheen.glsl"
 #include "shaders/bsdf/principled.glsl"
+#include "shaders/bsdf/gltf.glsl"
 
 // ---- Classes: what a ray may do where it meets a material
 
-// Whether light passes the material.
+// Whether light passes the material, and is refracted.
 bool isGlass(MaterialRecord material) {
     return kindOf(material) == materialDielectric ||
            ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled &&
-            material.transmission > 0.0);
+            material.transmission > 0.0) ||
+           ((scattering & scattersAtGltf) != 0u && kindOf(material) == materialGltf && material.transmission > 0.0 &&
+            !isThin(material));
 }
+
+// Whether light passes thin glass.
+bool isThinGlass(MaterialRecord material) {
+    return (scattering & scattersAtThin) != 0u && kindOf(material) == materialGltf && material.transmission > 0.0 &&
+           isThin(material);
+}
+
+// Whether the material shows its base colour, whatever the light.
+bool showsBaseColour(MaterialRecord material) { return (scattering & scattersAtUnlit) != 0u && isUnlit(material); }
 
 // Whether reflection and refraction have one direction each: mirrors, and conductors and glass of roughness 0. Only
 // these are not lit by light samples.
@@ -24,13 +37,15 @@ bool isSpecular(MaterialRecord material) {
 
 // Whether the back side is black: that of scattering surfaces, unless they are two-sided, metal or glass.
 bool isBlackBehind(MaterialRecord material) {
-    return !isTwoSided(material) && (scattering == 0u || kindOf(material) != materialConductor && !isGlass(material));
+    return !isTwoSided(material) && (scattering == 0u || kindOf(material) != materialConductor && !isGlass(material) &&
+                                                            !isThinGlass(material));
 }
 
-// The Whitted integrator shows principled materials as diffuse, and rough metals as mirrors.
+// The Whitted integrator shows principled materials and those of glTF as diffuse, and rough metals as mirrors.
 bool isDiffuseForWhitted(MaterialRecord material) {
     return kindOf(material) == materialDiffuse ||
-           ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled);
+           ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled) ||
+           ((scattering & scattersAtGltf) != 0u && kindOf(material) == materialGltf);
 }
 
 bool isGlassForWhitted(MaterialRecord material) { return kindOf(material) == materialDielectric; }
@@ -57,29 +72,36 @@ vec3 mirrorReflectance(MaterialRecord material, float cosine) {
 // ---- BSDFs
 
 // The BSDF where a ray in `direction` hits a surface. The unit normals `normal` and `geometricNormal` are on the side
-// of the viewer. `eta` is as in Bsdf; `choice`, in [0, 1), is random.
-Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, bool isBehind, float eta,
-              float choice) {
+// of the viewer, as is that of `axes`. `eta` is as in Bsdf; `choice`, in [0, 1), is random.
+Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, SurfaceAxes axes, bool isBehind,
+              float eta, float choice) {
     Bsdf bsdf;
     bsdf.frame = makeOrthonormalBasis(dotProduct(direction, normal) < 0.0 ? normal : geometricNormal);
     bsdf.wo = toLocal(bsdf.frame, -direction);
     bsdf.kind = bsdfOpaque;
     bsdf.alpha = material.alpha;
+    bsdf.alphas = vec2(material.alpha);
     bsdf.roughness = squareRoot(material.alpha);
     bsdf.stretchWo = stretchOf(bsdf.wo, material.alpha);
     bsdf.isConductor = false;
     bsdf.index = material.conductorIndex;
     bsdf.extinction = material.conductorExtinction;
     bsdf.reflectance = material.albedo;
+    bsdf.grazing = 1.0;
     bsdf.eta = eta;
     bsdf.tint = vec3(1.0);
     bsdf.multiScatter = vec3(0.0);
     bsdf.diffuseBase = vec3(0.0);
     bsdf.plasticReflectance = 0.0;
+    bsdf.plasticGrazing = 1.0;
+    bsdf.thinTint = vec3(0.0);
+    bsdf.thinProbability = 0.0;
     bsdf.weight = 1.0;
     bsdf.specularProbability = 0.0;
     if ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled)
         return makePrincipled(bsdf, material, isBehind, choice);
+    if ((scattering & scattersAtGltf) != 0u && kindOf(material) == materialGltf)
+        return makeGltf(bsdf, material, axes, -direction, isBehind, choice);
     if ((scattering & scattersAtRoughConductors) != 0u && kindOf(material) == materialConductor) {
         bsdf.isConductor = true;
         return addOpaqueLobes(bsdf, 1.0, 0.0, vec3(0.0), material.averageReflectance);
@@ -90,18 +112,30 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     return bsdf;
 }
 
+// Where neither tangents nor the normals of a clear coat are needed.
+Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, bool isBehind, float eta,
+              float choice) {
+    return makeBsdf(material, direction, normal, geometricNormal, SurfaceAxes(vec3(0.0), normal), isBehind, eta, choice);
+}
+
 // Samples a direction wi in the frame. It is 0 if the facet sends light to the wrong side. `u` in [0, 1)^2 and `choice`
 // in [0, 1) are random. The pdf is evalBsdf(bsdf, wi).pdf.
 vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
-    if (bsdf.kind == bsdfDiffuse || bsdf.kind == bsdfOpaque && choice >= bsdf.specularProbability)
+    if ((scattering & scattersAtSheen) != 0u && bsdf.kind == bsdfSheen)
+        return sampleHemisphere(u);
+    bool isThrough = (scattering & scattersAtThin) != 0u && bsdf.kind == bsdfOpaque &&
+                     choice >= bsdf.specularProbability && choice < bsdf.specularProbability + bsdf.thinProbability;
+    if (bsdf.kind == bsdfDiffuse || bsdf.kind == bsdfOpaque && choice >= bsdf.specularProbability && !isThrough)
         return sampleDiffuse(u);
-    vec3 facet = sampleGgxVndf(bsdf.wo, bsdf.alpha, u);
+    vec3 facet = sampleGgxVndf(bsdf.wo, bsdf.alphas, u);
     if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass) {
         DielectricFresnel glass = fresnelDielectric(-bsdf.wo, facet, bsdf.eta);
         if (choice >= glass.reflectance)
             return glass.refracted.z < 0.0 ? glass.refracted : vec3(0.0);
     }
     vec3 reflected = unitVector(mirrorDirection(-bsdf.wo, facet));
+    if (isThrough && reflected.z > 0.0)
+        return vec3(vec2(reflected), -reflected.z);
     return reflected.z > 0.0 ? reflected : vec3(0.0);
 }
 
@@ -109,12 +143,18 @@ vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
 BsdfEval evalBsdf(Bsdf bsdf, vec3 wi) {
     if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass && wi.z != 0.0)
         return evalGlass(bsdf, wi);
-    if (wi.z <= 0.0)
+    if (wi.z <= 0.0 && ((scattering & scattersAtThin) == 0u || bsdf.thinProbability == 0.0 || wi.z == 0.0))
         return BsdfEval(vec3(0.0), 0.0);
     if (bsdf.kind == bsdfDiffuse)
         return evalDiffuse(bsdf, wi);
-    BsdfEval opaque = evalOpaque(bsdf, wi);
-    if ((scattering & scattersAtPrincipled) != 0u)
+    if ((scattering & scattersAtSheen) != 0u && bsdf.kind == bsdfSheen)
+        return evalSheen(bsdf, wi);
+    BsdfEval opaque;
+    if ((scattering & scattersAtThin) != 0u && wi.z < 0.0)
+        opaque = evalThin(bsdf, wi);
+    else
+        opaque = evalOpaque(bsdf, wi);
+    if ((scattering & (scattersAtPrincipled | scattersAtGltf)) != 0u)
         opaque.value = opaque.value * bsdf.weight;
     return opaque;
 }

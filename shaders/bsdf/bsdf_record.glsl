@@ -2,28 +2,34 @@
 //
 // All directions are unit vectors in the frame of the surface, whose +z is the normal on the side of the viewer: `wo`
 // leads back along the path, `wi` towards the light. Each lobe has a file: diffuse, opaque_ggx (metal and plastic),
-// glass_ggx, and clearcoat. principled.glsl mixes them, and bsdf.glsl chooses among them.
+// glass_ggx, clearcoat, and sheen. principled.glsl and gltf.glsl mix them, and bsdf.glsl chooses among them.
 
 const uint bsdfDiffuse = 0u;
 const uint bsdfOpaque = 1u;
 const uint bsdfGlass = 2u;
+const uint bsdfSheen = 3u;
 
 struct Bsdf {
     Frame frame; // its z is the normal on the side of the viewer
     vec3 wo;     // unit length, in the frame; wo.z > 0
     uint kind;   // bsdf...
     float alpha;
+    vec2 alphas;     // along x and y, where there is anisotropy
     float roughness; // square root of alpha
     float stretchWo; // stretchOf(wo, alpha)
     bool isConductor;
     vec3 index; // of a conductor
     vec3 extinction;
     vec3 reflectance;         // of facets at normal incidence, unless a conductor; of a diffuse surface its albedo
+    float grazing;            // of facets at grazing angles
     float eta;                // of glass: refractive index on the side of wo divided by that on the other side
     vec3 tint;                // of light that passes glass
     vec3 multiScatter;        // multiple scattering between facets of metal, without the factor (1 - E(wi)) cos
     vec3 diffuseBase;         // diffuse reflection below a plastic surface, without the factor (1 - E(wi)) cos
     float plasticReflectance; // of that surface, at normal incidence
+    float plasticGrazing;     // at grazing angles
+    vec3 thinTint;            // of thin glass: of light that passes, divided by the energy of white facets
+    float thinProbability;    // of sampling a facet that lets light pass
     float weight; // share of the chosen component divided by the probability of choosing it; of glass by its energy too
     float specularProbability; // of sampling a facet instead of the diffuse part
 };

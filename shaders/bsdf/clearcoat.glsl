@@ -6,13 +6,14 @@ const float clearcoatReflectance = 0.04; // at normal incidence: a refractive in
 
 // Directional albedo of the coat, at this cosine to the normal.
 float clearcoatAlbedo(float cosine, float roughness) {
-    return energyAt(energyOf(cosine, roughness), clearcoatReflectance);
+    return energyAt(energyOf(cosine, roughness), clearcoatReflectance, 1.0);
 }
 
 // The coat alone, chosen with the probability `share`.
 Bsdf makeClearcoat(Bsdf bsdf, MaterialRecord material, float share) {
     bsdf.weight = divide(material.clearcoat, share);
     bsdf.alpha = material.clearcoatAlpha;
+    bsdf.alphas = vec2(material.clearcoatAlpha);
     bsdf.roughness = squareRoot(material.clearcoatAlpha);
     bsdf.stretchWo = stretchOf(bsdf.wo, bsdf.alpha);
     bsdf.reflectance = vec3(clearcoatReflectance);

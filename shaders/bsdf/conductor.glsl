@@ -31,10 +31,11 @@ vec3 conductorReflectance(float cosine, vec3 index, vec3 extinction) {
                 conductorReflectance(cosine, index.z, extinction.z));
 }
 
-// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994: from `normal` at normal incidence to 1.
-vec3 schlickReflectance(float cosine, vec3 normal) {
+// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994: from `normal` at normal incidence to
+// `grazing`.
+vec3 schlickReflectance(float cosine, vec3 normal, float grazing) {
     float k = 1.0 - lesser(cosine, 1.0);
     float k2 = k * k;
-    float grazing = k2 * k2 * k;
-    return normal + (1.0 - normal) * grazing;
+    float share = k2 * k2 * k;
+    return normal + (grazing - normal) * share;
 }

@@ -73,8 +73,10 @@ Energy averageEnergy(float roughness) {
                   mixture(ends.value.z, uintBitsToFloat(ends.word), along.share));
 }
 
-// Directional albedo of facets with the reflectance `normal` at normal incidence.
-float energyAt(Energy energy, float normal) { return mixture(energy.grazing, energy.white, normal); }
+// Directional albedo of facets with the reflectance `normal` at normal incidence and `grazing` at grazing angles.
+float energyAt(Energy energy, float normal, float grazing) {
+    return energy.grazing * grazing + (energy.white - energy.grazing) * normal;
+}
 
 // Colour of multiple scattering by facets with the average reflectance `average`, relative to the energy that single
 // scattering loses; `white` is the average energy. Hill, "A Multi-Faceted Exploration", 2018, part 3.

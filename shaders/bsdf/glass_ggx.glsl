@@ -18,11 +18,11 @@ BsdfEval evalGlassTransmission(Bsdf bsdf, vec3 wi) {
         return BsdfEval(vec3(0.0), 0.0);
     DielectricFresnel glass = fresnelDielectric(-bsdf.wo, facet, bsdf.eta);
     float facets = ggxD(facet, bsdf.alpha);
-    float passing = (1.0 - glass.reflectance) *
+    float passed = (1.0 - glass.reflectance) *
                             pdfRefraction(facets, bsdf.wo, bsdf.stretchWo, viewCosine, lightCosine, bsdf.eta);
     float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, wi.z, stretchOf(wi, bsdf.alpha));
-    float value = passing * lit * (bsdf.eta * bsdf.eta) * bsdf.weight;
-    return BsdfEval(bsdf.tint * value, passing);
+    float value = passed * lit * (bsdf.eta * bsdf.eta) * bsdf.weight;
+    return BsdfEval(bsdf.tint * value, passed);
 }
 
 // Reflection, for `wi` above the surface.

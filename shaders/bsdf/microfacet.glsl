@@ -25,14 +25,36 @@ float ggxD(vec3 m, float alpha) {
 
 // Samples a visible normal, with the pdf ggxD G1 (wo.m) / wo.z: Dupuy and Benyoub,
 // "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
-vec3 sampleGgxVndf(vec3 wo, float alpha, vec2 u) {
-    vec3 stretched = unitVector(vec3(vec2(wo) * alpha, wo.z));
+vec3 sampleGgxVndf(vec3 wo, vec2 alphas, vec2 u) {
+    vec3 stretched = unitVector(vec3(vec2(wo) * alphas, wo.z));
     float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
     float squaredSine = 1.0 - z * z;
     float sine = squareRoot(greater(squaredSine, 0.0));
     SineCosine angle = sineCosine(u.x);
     vec3 cap = vec3(sine * angle.cosine, sine * angle.sine, z) + stretched;
-    return unitVector(vec3(vec2(cap) * alpha, cap.z));
+    return unitVector(vec3(vec2(cap) * alphas, cap.z));
+}
+
+vec3 sampleGgxVndf(vec3 wo, float alpha, vec2 u) { return sampleGgxVndf(wo, vec2(alpha), u); }
+
+// The same for facets that are stretched along x and y by different alphas.
+float stretchOf(vec3 w, vec2 alphas) {
+    float x = w.x * alphas.x;
+    float y = w.y * alphas.y;
+    float squared = x * x + y * y + w.z * w.z;
+    return squareRoot(squared);
+}
+
+// Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 courses, section B.2.
+float ggxD(vec3 m, vec2 alphas) {
+    float product = alphas.x * alphas.y;
+    float x = m.x * alphas.y;
+    float y = m.y * alphas.x;
+    float z = m.z * product;
+    float spread = x * x + y * y + z * z;
+    float squared = spread * spread;
+    float scaled = product * product * product * inversePi;
+    return divide(scaled, squared);
 }
 
 // The pdf, per solid angle, of the direction to which a visible facet reflects `wo`. `pdf` is ggxD of the facet.

@@ -18,8 +18,21 @@ float lossShare(float energy, float average) {
 vec3 fresnelReflectance(Bsdf bsdf, float cosine) {
     if ((scattering & scattersAtRoughConductors) != 0u && bsdf.isConductor)
         return conductorReflectance(lesser(cosine, 1.0), bsdf.index, bsdf.extinction);
-    return schlickReflectance(cosine, bsdf.reflectance);
+    return schlickReflectance(cosine, bsdf.reflectance, bsdf.grazing);
 }
+
+float facetStretch(Bsdf bsdf, vec3 w) {
+    if ((scattering & scattersAtAnisotropic) != 0u)
+        return stretchOf(w, bsdf.alphas);
+    return stretchOf(w, bsdf.alpha);
+}
+
+float facetD(Bsdf bsdf, vec3 m) {
+    if ((scattering & scattersAtAnisotropic) != 0u)
+        return ggxD(m, bsdf.alphas);
+    return ggxD(m, bsdf.alpha);
+}
+
 
 // Adds the lobes of metal and plastic to `bsdf`. `metal` and `plastic` are their shares of the surface; `metalAverage`
 // is the cosine-weighted average reflectance of the metal.
@@ -28,13 +41,19 @@ Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 met
     Energy average = averageEnergy(bsdf.roughness);
     vec3 multiScatterColour = multiScatterReflectance(metalAverage, average.white) * metal;
     bsdf.multiScatter = multiScatterColour * lossShare(energy.white, average.white);
-    float plasticEnergy = energyAt(energy, bsdf.plasticReflectance);
+    float plasticEnergy = energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing);
     vec3 diffuseBaseColour = colour * plastic;
-    bsdf.diffuseBase = diffuseBaseColour * lossShare(plasticEnergy, energyAt(average, bsdf.plasticReflectance));
+    bsdf.diffuseBase = diffuseBaseColour * lossShare(plasticEnergy, energyAt(average, bsdf.plasticReflectance, bsdf.plasticGrazing));
     float facets = mean(fresnelReflectance(bsdf, bsdf.wo.z)) * energy.white;
     float others = mean(multiScatterColour) * (1.0 - energy.white) + mean(diffuseBaseColour) * (1.0 - plasticEnergy);
-    float sum = greater(facets + others, 1e-20);
+    float through = 0.0;
+    if ((scattering & scattersAtThin) != 0u) {
+        bsdf.thinTint = bsdf.thinTint * divide(1.0, energy.white);
+        through = mean(bsdf.thinTint) * (1.0 - plasticEnergy);
+    }
+    float sum = greater(facets + others + through, 1e-20);
     bsdf.specularProbability = divide(facets, sum);
+    bsdf.thinProbability = divide(through, sum);
     return bsdf;
 }
 
@@ -42,16 +61,29 @@ BsdfEval evalOpaque(Bsdf bsdf, vec3 wi) {
     vec3 facet = halfVector(bsdf.wo, wi);
     float cosinePdf = pdfCosine(wi.z);
     float cosine = dotProduct(bsdf.wo, facet);
-    float reflected = pdfReflection(ggxD(facet, bsdf.alpha), bsdf.wo, bsdf.stretchWo);
-    float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, wi.z, stretchOf(wi, bsdf.alpha));
+    float reflected = pdfReflection(facetD(bsdf, facet), bsdf.wo, bsdf.stretchWo);
+    float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, wi.z, facetStretch(bsdf, wi));
     float once = reflected * lit;
     vec3 value = fresnelReflectance(bsdf, cosine) * once;
-    float pdf = bsdf.specularProbability * reflected + (1.0 - bsdf.specularProbability) * cosinePdf;
+    float diffuseProbability = 1.0 - bsdf.specularProbability - bsdf.thinProbability;
+    float pdf = bsdf.specularProbability * reflected + diffuseProbability * cosinePdf;
     if (bsdf.specularProbability < 1.0) {
         Energy energy = energyOf(wi.z, bsdf.roughness);
         float multiScatterShare = (1.0 - energy.white) * wi.z;
-        float diffuseBaseShare = (1.0 - energyAt(energy, bsdf.plasticReflectance)) * wi.z;
+        float diffuseBaseShare = (1.0 - energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing)) * wi.z;
         value = value + bsdf.multiScatter * multiScatterShare + bsdf.diffuseBase * diffuseBaseShare;
     }
     return BsdfEval(value, pdf);
+}
+
+// Transmission by thin glass, for `wi` below the surface: the facets' reflection, mirrored at the surface
+// (KHR_materials_transmission).
+BsdfEval evalThin(Bsdf bsdf, vec3 wi) {
+    vec3 mirrored = vec3(vec2(wi), -wi.z);
+    vec3 facet = halfVector(bsdf.wo, mirrored);
+    float cosine = dotProduct(bsdf.wo, facet);
+    float passed = pdfReflection(facetD(bsdf, facet), bsdf.wo, bsdf.stretchWo);
+    float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, mirrored.z, facetStretch(bsdf, mirrored));
+    float kept = 1.0 - schlickReflectance(cosine, vec3(bsdf.plasticReflectance), bsdf.plasticGrazing).x;
+    return BsdfEval(bsdf.thinTint * (passed * lit * kept), bsdf.thinProbability * passed);
 }

@@ -80,3 +80,11 @@ NormalRecord placedNormals(InstanceRecord instance, NormalRecord normals) {
     placed.n2 = placedNormal(instance, normals.n2);
     return placed;
 }
+
+// A tangent follows the map itself, and keeps the side in w: the mesh's copy for mirroring instances has the other one.
+vec4 placedTangent(InstanceRecord instance, vec4 tangent) {
+    vec3 along = vec3(instance.toX.x * tangent.x + instance.toX.y * tangent.y + instance.toX.z * tangent.z,
+                      instance.toY.x * tangent.x + instance.toY.y * tangent.y + instance.toY.z * tangent.z,
+                      instance.toZ.x * tangent.x + instance.toZ.y * tangent.y + instance.toZ.z * tangent.z);
+    return vec4(along, tangent.w);
+}

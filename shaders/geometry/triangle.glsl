@@ -18,6 +18,7 @@ struct TriangleHit {
     float distance; // not positive: no hit
     float u;        // weights of the first and the second vertex
     float v;
+    bool isBehind; // the ray comes from where the vertices are clockwise
 };
 
 // Rotates components so that the given axis becomes z.
@@ -63,7 +64,9 @@ TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, 
         relativeBoxInterval(boxRay, lesser(lesser(to0, to1), to2), greater(greater(to0, to1), to2));
     float distance = lesser(greater(depth, interval.x), interval.y);
     bool isHit = isInside && determinant != 0.0 && interval.x <= interval.y;
-    return TriangleHit(isHit ? distance : 0.0, u, v);
+    // The determinant is twice the area of the image: of triangles seen from their front it has the sign of shear.z.
+    bool isBehind = (determinant < 0.0) != (ray.shear.z < 0.0);
+    return TriangleHit(isHit ? distance : 0.0, u, v, isBehind);
 }
 
 // The point at barycentric weights u, v, 1-u-v.

@@ -64,7 +64,7 @@ LitPoint litPoint(uint slot) {
 void addEmission(uint slot, Surface surface, MaterialRecord material) {
     vec3 direction = path[slot].rayDirection;
     float facing = -dotProduct(direction, surface.geometricNormal);
-    float cosine = isTwoSided(material) ? abs(facing) : facing;
+    float cosine = emitsBehind(material) ? abs(facing) : facing;
     if (material.emitterPdf <= 0.0 || cosine <= 0.0)
         return;
     float weight = 1.0;
@@ -207,6 +207,10 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
+    if (showsBaseColour(material)) {
+        addRadiance(slot, path[slot].throughput, material.albedo);
+        return;
+    }
     if (hasEmission)
         addEmission(slot, surface, material);
     if (path[slot].rayDepth >= frame.maxDepth)
@@ -271,7 +275,8 @@ void aimFromBsdf(uint slot) {
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
         crossing = crossingOf(slot, materialIndex, !isBehind);
     vec2 lobe = lobeChoice(slot);
-    Bsdf bsdf = makeBsdf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, isBehind,
+    SurfaceAxes axes = hitAxes(slot, material, path[slot].surfaceNormal, isBehind);
+    Bsdf bsdf = makeBsdf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, axes, isBehind,
                           crossing.eta, lobe.x);
 
     EmitterChoice choice = chooseEmitter(litPoint(slot), vertexBits(slot, pairChoice).x);

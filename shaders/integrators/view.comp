@@ -42,7 +42,7 @@ void shadeHit(uint slot) {
     if (view == viewId)
         show(slot, idColour(path[slot].hitPrimitive));
     if (view == viewCoordinates) {
-        vec2 uv = hitUv(slot, surface.position);
+        vec2 uv = hitUvs(slot, surface.position).first;
         show(slot, vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
     }
     if (view == viewAlbedo) {

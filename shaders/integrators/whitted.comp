@@ -117,8 +117,14 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
+    if (showsBaseColour(material) && !showsCost) {
+        path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * material.albedo;
+        traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
+        endPath(slot);
+        return;
+    }
     bool isSeenFromFront = dotProduct(direction, surface.geometricNormal) < 0.0;
-    if (hasEmission && !showsCost && (isSeenFromFront || isTwoSided(material))) {
+    if (hasEmission && !showsCost && (isSeenFromFront || emitsBehind(material))) {
         path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * material.emission;
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     }

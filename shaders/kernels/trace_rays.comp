@@ -57,6 +57,9 @@ void beginRay(uint slot) {
     path[slot].rayDirection = ray.direction;
     path[slot].rayLength = ray.maxDistance;
     path[slot].rayExcluded = ray.excluded;
+    path[slot].rayDepth = 1u; // with the next two: decides about sheer surfaces
+    path[slot].sampleIndex = 0u;
+    imagePixel[slot] = uvec2(0u);
     path[slot].hitPrimitive = noPrimitive;
     path[slot].hitU = 0.0;
     path[slot].hitV = 0.0;

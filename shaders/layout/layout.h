@@ -69,9 +69,10 @@ struct TriangleRecord {
 
 const uint triangleIsTransmissive = 1u; // a dielectric: it dims light instead of blocking it
 const uint triangleEndsLeaf = 2u;       // the last triangle of its leaf
-const uint triangleIsCutOut = 4u;       // its material has an opacity texture
+const uint triangleIsSheer = 4u;        // its material is not there for every ray: see passing
 const uint triangleIsSphere = 8u;
-const uint triangleEmitterShift = 4u; // the other bits: of the light tree, the index of its emitter
+const uint triangleIsCulled = 16u;    // it is not there for rays from behind
+const uint triangleEmitterShift = 5u; // the other bits: of the light tree, the index of its emitter
 
 // Shading normals of the triangle with the same index. Zero vectors mean: use the geometric normal.
 struct NormalRecord {
@@ -190,14 +191,45 @@ struct MaterialRecord {
     float clearcoat;
     float clearcoatAlpha;
     uint textures; // row of its first texture, see below; 0: none
+    // glTF: of the dielectric part, a factor on its reflectance at normal incidence, and one at all angles
+    vec3 dielectricColour;
+    float dielectricWeight;
+    vec3 sheenColour;
+    float sheenAlpha;       // of Charlie's distribution: roughness squared
+    float anisotropy;       // strength
+    float anisotropyCosine; // of its rotation from the tangent along u
+    float anisotropySine;
+    float alphaCutoff; // the surface is not there where its opacity is below; or sheerBlended
+    float opacity;     // a factor on those of textures and vertices
+    float clearcoatNormalStrength;
+    uint pad1;
+    uint pad2;
 };
 
-const uint materialIsTwoSided = 0x80000000u;
+// Flags of MaterialRecord::kindAndSides.
+const uint materialIsTwoSided = 0x80000000u;       // reflects on both sides
+const uint materialEmitsBehind = 0x40000000u;      // emits on both sides
+const uint materialIsThin = 0x20000000u;           // glTF: what it transmits is not refracted
+const uint materialIsSpecularGlossy = 0x10000000u; // glTF: textures of roughness have glossiness
+const uint materialIsUnlit = 0x08000000u;          // glTF: shows its base colour
+const uint materialKindMask = 0xFFu;
 
-HYALITE_INLINE uint kindOf(MaterialRecord material) { return material.kindAndSides & ~materialIsTwoSided; }
+const float sheerBlended = -1.0f; // of alphaCutoff: the surface is there with the probability of its opacity
+
+HYALITE_INLINE uint kindOf(MaterialRecord material) { return material.kindAndSides & materialKindMask; }
 
 HYALITE_INLINE bool isTwoSided(MaterialRecord material) {
     return (material.kindAndSides & materialIsTwoSided) != 0u;
+}
+
+HYALITE_INLINE bool emitsBehind(MaterialRecord material) {
+    return (material.kindAndSides & materialEmitsBehind) != 0u;
+}
+
+HYALITE_INLINE bool isThin(MaterialRecord material) { return (material.kindAndSides & materialIsThin) != 0u; }
+
+HYALITE_INLINE bool isUnlit(MaterialRecord material) {
+    return (material.kindAndSides & materialIsUnlit) != 0u;
 }
 
 // What the materials of a scene need of the path integrator: bits of constantScattering.
@@ -205,7 +237,20 @@ const uint scattersAtConductors = 1u; // conductors, smooth or rough
 const uint scattersAtRoughConductors = 2u;
 const uint scattersAtRoughGlass = 4u; // dielectrics, and principled materials that transmit
 const uint scattersAtPrincipled = 8u;
-const uint scattersAtRough = 14u; // any of those that need microfacets
+const uint scattersAtGltf = 16u;
+const uint scattersAtRough = 30u; // any of those that need microfacets
+// Features of glTF materials.
+const uint scattersAtSheen = 32u;
+const uint scattersAtAnisotropic = 64u;
+const uint scattersAtThin = 128u;
+const uint scattersAtCoatNormals = 256u; // a clear coat's normals differ from those below
+const uint scattersAtUnlit = 512u;
+
+// What rays may pass through: bits of constantPassing.
+const uint passesCutOut = 1u;  // surfaces where their opacity is below a threshold
+const uint passesBlended = 2u; // by chance, the more often the less opaque a surface is
+const uint passesSheer = 3u;   // any of those
+const uint passesCulled = 4u;  // triangles from behind
 
 // Lookup tables, in rows of four numbers: the energy of microfacets (shaders/bsdf/energy.glsl), where
 // constantScattering needs it; the environment; the pixel filter.
@@ -216,7 +261,9 @@ struct LookupRow {
 
 // Textures, in rows of four words:
 // - two tables with the values of the levels 0 to 255 of 8-bit images, four floats a row;
-// - from firstCoordinateRow, the texture coordinates of each triangle record: u and v of v0 and v1, then of v2;
+// - from firstCoordinateRow, rowsPerTriangle() rows for each triangle record: texture coordinates, u and v of v0 and v1,
+//   then of v2; and where constantTexturing asks for them, second texture coordinates likewise, then a row with the colour
+//   of each corner, then one with the tangent of each corner;
 // - for each material with textures, a TextureRecord for each slot;
 // - the texels of the images, from the top row down: one a row, as floats; or four a row, with 8 bits each for red,
 //   green,
@@ -243,12 +290,28 @@ struct TextureRecord {
     float scaleV;
     float offsetU;
     float offsetV;
+    float shearU; // u' = scaleU u + shearU v + offsetU
+    float shearV; // v' = shearV u + scaleV v + offsetV
+    uint pad0;
+    uint pad1;
 };
 
-const uint rowsPerTexture = 2u;
+const uint rowsPerTexture = 3u;
+// Bits of TextureRecord::format.
 const uint textureIsFloat = 1u;
 const uint textureIsSrgb = 2u;
-const uint textureIsAlpha = 4u; // the alpha channel is read, not the colours
+const uint textureChannelShift = 2u; // two bits: the channel that is read in place of all; 0: all
+const uint textureChannelMask = 3u;
+const uint textureIsAlpha = 12u; // channel 3
+const uint textureUsesSecondUv = 16u;
+const uint textureIsNearest = 32u;
+const uint textureWrapShiftU = 6u; // two bits: wrap...
+const uint textureWrapShiftV = 8u;
+const uint textureWrapMask = 3u;
+
+const uint wrapRepeat = 0u;
+const uint wrapMirror = 1u;
+const uint wrapClamp = 2u;
 
 const uint slotBaseColour = 0u;
 const uint slotEmission = 1u;
@@ -267,8 +330,8 @@ const uint slotSheenRoughness = 13u;
 const uint slotAnisotropy = 14u; // red and green: a direction; blue: a factor on the strength
 const uint textureSlotCount = 15u;
 
-// Bits of constantTexturing: the slots in which materials of the scene have textures, and whether any texels have 8
-// bits.
+// Bits of constantTexturing: the slots in which materials of the scene have textures, whether any texels have 8 bits,
+// and what triangles and lookups need beyond one pair of coordinates and repeated images.
 const uint texturesBaseColour = 1u;
 const uint texturesEmission = 2u;
 const uint texturesRoughness = 4u;
@@ -276,8 +339,27 @@ const uint texturesMetallic = 8u;
 const uint texturesNormal = 16u;
 const uint texturesOpacity = 32u;
 const uint texturesLevels = 1u << textureSlotCount;
+const uint texturesSecondUv = texturesLevels << 1u;
+const uint texturesColours = texturesLevels << 2u;  // of vertices
+const uint texturesTangents = texturesLevels << 3u; // of vertices
+const uint texturesPlaced = texturesLevels << 4u; // images that are turned, mirrored, clamped or not filtered
+const uint texturesChannels = texturesLevels
+                              << 5u; // a channel that is not the red one, where one number is wanted
+const uint texturesClearcoatNormal = 1u << slotClearcoatNormal;
+const uint texturesAnisotropy = 1u << slotAnisotropy;
+// Slots that change the material.
 const uint texturesMaterials =
-    texturesLevels - 1u - texturesNormal - texturesOpacity; // any slot that changes the material
+    texturesLevels - 1u - texturesNormal - texturesClearcoatNormal - texturesOpacity;
+// Of these, the slots that only glTF's materials have.
+const uint texturesOfGltf = texturesMaterials & ~15u;
+// Slots whose levels are sRGB.
+const uint texturesSrgb =
+    texturesBaseColour + texturesEmission + (1u << slotDielectricColour) + (1u << slotSheenColour);
+
+HYALITE_INLINE uint rowsPerTriangle(uint texturing) {
+    return rowsPerCoordinates + ((texturing & texturesSecondUv) != 0u ? rowsPerCoordinates : 0u) +
+           ((texturing & texturesColours) != 0u ? 3u : 0u) + ((texturing & texturesTangents) != 0u ? 3u : 0u);
+}
 
 const uint energyCosines = 32u; // nodes of the table over the cosine, and over the roughness
 const uint energyRoughnesses = 32u;
@@ -285,6 +367,7 @@ const uint energyCellCount = (energyCosines - 1u) * (energyRoughnesses - 1u);
 const uint energyTexelCount = 2u * energyCellCount + energyRoughnesses - 1u;
 const uint energyIndices = 20u; // nodes over the refractive index of rough glass, for each of its sides
 const uint glassTexelCount = 2u * energyIndices * energyCellCount; // they follow, in scenes with rough glass
+const uint sheenTexelCount = energyCellCount; // of scenes with sheen, from FrameRecord::sheenTexels on
 
 // Lights without size, for the Whitted and the path integrator.
 
@@ -327,7 +410,7 @@ struct EmitterRecord {
     float cosineOuter; // of a spot
 };
 
-const uint noEmitter = 0x0FFFFFFFu;
+const uint noEmitter = 0x07FFFFFFu;
 
 // A cluster of emitters with places: a child in the light tree (shaders/lights/light_tree.glsl). Siblings follow each
 // other, the first two at index 0. `cumulative` of these emitters is the way to them: a bit for each node, 1 for the right
@@ -419,7 +502,7 @@ struct FrameRecord {
     uint
         topListLength; // nodes of the scene's own tree in each skip list; those of meshes with instances follow
     uint firstTriangleId; // of the triangle with input index 0
-    uint pad0;
+    uint sheenTexels;     // the first one
 };
 
 // ---- Dispatch constants A dispatch works on one tile of the film, with `samplesAbreast` path slots for each pixel.
@@ -605,7 +688,8 @@ const uint constantHasInstances = 22u;
 const uint constantTreeSpheres = 23u; // what the tree holds
 const uint constantHasLightTree = 24u;
 const uint constantInfiniteEmitters = 25u; // of a scene with a light tree: emitters that are not in it
-const uint constantCount = 26u;
+const uint constantPassing = 26u;
+const uint constantCount = 27u;
 
 const uint treeHasTriangles = 0u;
 const uint treeHasSpheresToo = 1u;
@@ -618,7 +702,7 @@ static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
 static_assert(sizeof(InstanceRecord) == 128 && offsetof(InstanceRecord, slack) == 96);
 static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
-static_assert(sizeof(MaterialRecord) == 128 && offsetof(MaterialRecord, normalReflectance) == 112);
+static_assert(sizeof(MaterialRecord) == 192 && offsetof(MaterialRecord, opacity) == 176);
 static_assert(sizeof(LookupRow) == 16);
 static_assert(sizeof(TextureRow) == 16);
 static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));

@@ -40,16 +40,15 @@ LightSample sampleEnvironmentLight(EmitterRecord emitter, uvec2 bits) {
 
 // Emission of a triangle at the point with these weights, relative to that of its material.
 vec3 triangleEmission(vec3 emission, TriangleRecord triangle, uint record, vec2 weights) {
-    uint textures = fetchMaterial(triangle.materialIndex).textures;
+    MaterialRecord material = fetchMaterial(triangle.materialIndex);
+    uint textures = material.textures;
+    if ((passing & passesSheer) != 0u && (triangle.flags & triangleIsSheer) != 0u)
+        emission = emission * presenceAt(material, record, weights.x, weights.y);
     if (textures == 0u)
         return emission;
-    if ((texturing & texturesOpacity) != 0u && (triangle.flags & triangleIsCutOut) != 0u &&
-        isCutAway(triangle.materialIndex, record, weights.x, weights.y))
-        return vec3(0.0);
     if ((texturing & texturesEmission) == 0u || !hasTexture(textures, slotEmission))
         return emission;
-    return emission * lookUpTexture(textureRow(textures, slotEmission),
-                                    triangleUv(fetchCoordinates(record), weights.x, weights.y));
+    return emission * lookUpTexture(textureRow(textures, slotEmission), triangleUvs(record, weights.x, weights.y));
 }
 
 // Emission of a sphere at the point `outward` from its centre, likewise.
@@ -57,7 +56,8 @@ vec3 sphereEmission(vec3 emission, SphereRecord sphere, vec3 outward) {
     uint textures = fetchMaterial(materialIndexOf(sphere)).textures;
     if (textures == 0u || !hasTexture(textures, slotEmission))
         return emission;
-    return emission * lookUpTexture(textureRow(textures, slotEmission), sphereUv(outward));
+    vec2 uv = sphereUv(outward);
+    return emission * lookUpTexture(textureRow(textures, slotEmission), SurfaceUv(uv, uv));
 }
 
 LightSample sampleTriangleLight(EmitterRecord emitter, float areaPdf, vec3 position, vec2 u) {
@@ -72,7 +72,7 @@ LightSample sampleTriangleLight(EmitterRecord emitter, float areaPdf, vec3 posit
     float pdf = solidAnglePdf(areaPdf, distance, cosine);
     bool isSeen = cosine > 0.0 && distance > 0.0;
     vec3 emission = emitter.emission;
-    if ((texturing & (texturesEmission | texturesOpacity)) != 0u)
+    if ((texturing & texturesEmission) != 0u || (passing & passesSheer) != 0u)
         emission = triangleEmission(emission, triangle, emitter.record, weights);
     return LightSample(direction, distance, isSeen ? emission * divide(1.0, pdf) : vec3(0.0), pdf,
                        triangle.primitiveId);

@@ -61,4 +61,27 @@ float expNegative(float x) {
     return x < 86.0 ? (x > 0.0 ? scaled : 1.0) : 0.0;
 }
 
+// e^x for x in [-86, 86].
+float exponential(float x) {
+    float power = expNegative(abs(x));
+    return x < 0.0 ? power : divide(1.0, power);
+}
+
+// -ln x for x in (0, 1] that is not subnormal, within 2e-7 (1 - ln x): the exponent, and the series of the inverse
+// hyperbolic tangent for a significand within a factor of sqrt(2) of 1.
+float negativeLog(float x) {
+    int bits = floatBitsToInt(x);
+    int exponent = (bits >> 23) - 127;
+    float significand = intBitsToFloat((bits & 0x7FFFFF) | 0x3F800000);
+    bool isUpper = significand > 1.4142135623730951;
+    float m = isUpper ? 0.5 * significand : significand;
+    float k = float(isUpper ? exponent + 1 : exponent);
+    float below = m - 1.0;
+    float above = m + 1.0;
+    float t = divide(below, above);
+    float tt = t * t;
+    float series = t * (2.0 + tt * (2.0 / 3.0 + tt * (2.0 / 5.0 + tt * (2.0 / 7.0 + tt * (2.0 / 9.0)))));
+    return -(k * 0.69314718055994531 + series);
+}
+
 vec3 expNegative(vec3 x) { return vec3(expNegative(x.x), expNegative(x.y), expNegative(x.z)); }

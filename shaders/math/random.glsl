@@ -61,3 +61,10 @@ vec2 samplePixel(uvec2 pixel, uint sampleIndex, uint seed) {
         return vec2(0.5);
     return unitFloats(sampleBits(pairKeys(pixel, seed, 0u), sampleIndex));
 }
+
+// Decides whether a ray passes through a sheer surface: a number in [0, 1) for each primitive at each vertex of a path,
+// whatever the order in which rays meet primitives. `vertex` counts rays: two for each segment, the second one to a light.
+float sheerChoice(uvec2 pixel, uint seed, uint sampleIndex, uint vertex, uint primitive) {
+    uvec3 keys = hashKeys(uvec3(pixel, seed)) ^ uvec3(primitive, vertex, 0x5EE7u);
+    return unitFloat(sampleBits(hashKeys(keys), sampleIndex).x);
+}

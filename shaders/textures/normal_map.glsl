@@ -33,6 +33,24 @@ Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
     return determinant > 0.0 ? Tangent(alongU, alongV) : Tangent(-alongU, -alongV);
 }
 
+// Interpolated tangents of the vertices; w of each corner is the side of alongV. In a triangle without them it is 0, and so
+// are these. `normal` is that of the shading.
+Tangent vertexTangent(vec4 t0, vec4 t1, vec4 t2, vec3 normal, float u, float v) {
+    vec3 alongU = trianglePoint(vec3(t0.x, t0.y, t0.z), vec3(t1.x, t1.y, t1.z), vec3(t2.x, t2.y, t2.z), u, v);
+    vec3 alongV = crossProduct(normal, alongU) * t0.w;
+    return Tangent(alongU, alongV);
+}
+
+bool isKnown(Tangent tangent) { return dotProduct(tangent.alongU, tangent.alongU) > 0.0; }
+
+// Whether a lookup by the TextureRecord at `row` takes the second texture coordinates.
+bool usesSecondUv(uint row) { return (textureWords(row).z & textureUsesSecondUv) != 0u; }
+
+// Row of the tangents of a triangle's vertices.
+uint tangentRow(uint triangleRecord) { return triangleRow(triangleRecord) + rowsPerTriangle(texturing) - 3u; }
+
+vec4 fetchTangent(uint row) { return uintBitsToFloat(textureWords(row)); }
+
 // Tangents at the point of a sphere with the outward normal `outward`.
 Tangent sphereTangent(vec3 outward) {
     vec3 alongU = vec3(outward.z, 0.0, -outward.x);
@@ -40,7 +58,7 @@ Tangent sphereTangent(vec3 outward) {
 }
 
 // Applies the normal map of a TextureRecord's row to a unit normal, which stays as it is if the tangents are unknown.
-vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
+vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, SurfaceUv at) {
     vec3 flatU = tangent.alongU - normal * dotProduct(normal, tangent.alongU);
     if (!(dotProduct(flatU, flatU) > minSpan))
         return normal;
@@ -48,7 +66,7 @@ vec3 mappedNormal(vec3 normal, Tangent tangent, uint row, vec2 uv) {
     vec3 left = crossProduct(normal, x);
     vec3 y = dotProduct(left, tangent.alongV) < 0.0 ? -left : left;
     float strength = uintBitsToFloat(textureWords(row).w);
-    vec3 texel = lookUpTexture(row, uv);
+    vec3 texel = lookUpTexture(row, at);
     vec3 turned = 2.0 * texel - 1.0;
     vec2 sideways = vec2(turned) * strength;
     vec3 mapped = x * sideways.x + y * sideways.y + normal * greater(turned.z, minHeight);
@@ -73,4 +91,12 @@ vec3 visibleNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
         facing = unitVector(grazing - direction);
     }
     return isBehind ? -facing : facing;
+}
+
+// The normal of a clear coat on the side of the viewer; the geometric one where the other one faces away. Both are on the
+// front side.
+vec3 coatNormalFacing(vec3 normal, vec3 geometricNormal, vec3 direction, bool isBehind) {
+    vec3 coat = isBehind ? -normal : normal;
+    vec3 up = isBehind ? -geometricNormal : geometricNormal;
+    return dotProduct(direction, coat) < 0.0 ? coat : up;
 }

@@ -14,16 +14,49 @@ uvec4 textureWords(uint row) {
     return uvec4(words.x, words.y, words.z, words.w);
 }
 
-Coordinates fetchCoordinates(uint triangleRecord) {
-    uint row = firstCoordinateRow + rowsPerCoordinates * triangleRecord;
+Coordinates coordinatesAt(uint row) {
     vec4 first = uintBitsToFloat(textureWords(row));
     return Coordinates(vec2(first), vec2(first.z, first.w), uintBitsToFloat(uvec2(textureWords(row + 1u))));
+}
+
+// The first of what textures have of a triangle: see layout.h.
+uint triangleRow(uint triangleRecord) { return firstCoordinateRow + rowsPerTriangle(texturing) * triangleRecord; }
+
+Coordinates fetchCoordinates(uint triangleRecord) { return coordinatesAt(triangleRow(triangleRecord)); }
+
+Coordinates fetchSecondCoordinates(uint triangleRecord) {
+    return coordinatesAt(triangleRow(triangleRecord) + rowsPerCoordinates);
 }
 
 // Interpolated as trianglePoint does.
 vec2 triangleUv(Coordinates at, float u, float v) {
     float w = 1.0 - u - v;
     return at.uv0 * u + at.uv1 * v + at.uv2 * w;
+}
+
+// Texture coordinates at a point of a surface.
+struct SurfaceUv {
+    vec2 first;
+    vec2 second;
+};
+
+SurfaceUv triangleUvs(uint triangleRecord, float u, float v) {
+    vec2 first = triangleUv(fetchCoordinates(triangleRecord), u, v);
+    if ((texturing & texturesSecondUv) == 0u)
+        return SurfaceUv(first, first);
+    return SurfaceUv(first, triangleUv(fetchSecondCoordinates(triangleRecord), u, v));
+}
+
+// The colour of the vertices, interpolated: a factor on base colour and opacity.
+vec4 triangleColour(uint triangleRecord, float u, float v) {
+    uint row = triangleRow(triangleRecord) + rowsPerCoordinates;
+    if ((texturing & texturesSecondUv) != 0u)
+        row += rowsPerCoordinates;
+    float w = 1.0 - u - v;
+    vec4 c0 = uintBitsToFloat(textureWords(row));
+    vec4 c1 = uintBitsToFloat(textureWords(row + 1u));
+    vec4 c2 = uintBitsToFloat(textureWords(row + 2u));
+    return c0 * u + c1 * v + c2 * w;
 }
 
 // Texture coordinates of a sphere, at the point in direction `outward`, of any length, from its centre: by longitude
@@ -51,38 +84,83 @@ float decodeLevel(uint tableRow, uint level) {
     return uintBitsToFloat(wordOf(textureWords(tableRow + (level >> 2u)), level));
 }
 
+vec3 decodedTexel(uvec4 words, uint format) {
+    uint channel = (format >> textureChannelShift) & textureChannelMask;
+    if ((texturing & texturesChannels) != 0u && channel != 0u)
+        return vec3(uintBitsToFloat(wordOf(words, channel)));
+    return uintBitsToFloat(uvec3(words));
+}
+
 vec3 textureTexel(uvec4 description, uint x, uint y) {
     uint index = y * (description.y & 0xFFFFu) + x;
     if ((texturing & texturesLevels) == 0u || (description.z & textureIsFloat) != 0u)
-        return uintBitsToFloat(uvec3(textureWords(description.x + index)));
+        return decodedTexel(textureWords(description.x + index), description.z);
     uint levels = wordOf(textureWords(description.x + (index >> 2u)), index);
-    if ((description.z & textureIsAlpha) != 0u)
-        levels = (levels >> 24u) * 0x010101u;
+    if ((texturing & texturesChannels) != 0u) {
+        uint channel = (description.z >> textureChannelShift) & textureChannelMask;
+        levels = channel != 0u ? ((levels >> (8u * channel)) & 255u) * 0x010101u : levels;
+    }
     uint table = (description.z & textureIsSrgb) != 0u ? srgbTableRow : linearTableRow;
     return vec3(decodeLevel(table, levels & 255u), decodeLevel(table, (levels >> 8u) & 255u),
                 decodeLevel(table, (levels >> 16u) & 255u));
 }
 
-// Bilinear lookup; the image repeats. `row` is that of a TextureRecord.
-vec3 lookUpTexture(uint row, vec2 uv) {
+// A coordinate of an image, in [0, 1].
+float wrapped(float x, uint wrap) {
+    float folded = 2.0 * fractionOf(0.5 * x);
+    float mirrored = folded > 1.0 ? 2.0 - folded : folded;
+    float clamped = greater(lesser(x, 1.0), 0.0);
+    return wrap == wrapRepeat ? fractionOf(x) : (wrap == wrapMirror ? mirrored : clamped);
+}
+
+// Where a lookup reads: the two texels beside it along an axis, and the weight of the second one.
+struct TexelPair {
+    uint low;
+    uint high;
+    float share;
+};
+
+// `x` counts texels, from the edge of the image, and a half; `repeats`: beyond an edge the image begins anew, otherwise the
+// texel at the edge goes on.
+TexelPair texelPair(float x, uint size, bool repeats) {
+    uint high = uint(x);
+    float share = x - float(high);
+    uint low = high == 0u ? (repeats ? size - 1u : 0u) : high - 1u;
+    high = high >= size ? (repeats ? high - size : size - 1u) : high;
+    return TexelPair(low, high, share);
+}
+
+// Bilinear lookup. `row` is that of a TextureRecord.
+vec3 lookUpTexture(uint row, SurfaceUv at) {
     uvec4 description = textureWords(row);
     vec4 placement = uintBitsToFloat(textureWords(row + 1u));
+    uint format = description.z;
     uint width = description.y & 0xFFFFu;
     uint height = description.y >> 16u;
-    vec2 placed = uv * vec2(placement) + vec2(placement.z, placement.w);
-    float x = fractionOf(placed.x) * float(width) + 0.5;
-    float y = (1.0 - fractionOf(placed.y)) * float(height) + 0.5;
-    uint right = uint(x);
-    uint lower = uint(y);
-    float across = x - float(right);
-    float down = y - float(lower);
-    uint left = right == 0u ? width - 1u : right - 1u;
-    uint upper = lower == 0u ? height - 1u : lower - 1u;
-    right = right >= width ? right - width : right;
-    lower = lower >= height ? lower - height : lower;
-    vec3 above = mixtureOf(textureTexel(description, left, upper), textureTexel(description, right, upper), across);
-    vec3 below = mixtureOf(textureTexel(description, left, lower), textureTexel(description, right, lower), across);
-    return mixtureOf(above, below, down);
+    vec2 uv = at.first;
+    if ((texturing & texturesSecondUv) != 0u && (format & textureUsesSecondUv) != 0u)
+        uv = at.second;
+    vec2 placed = uv * vec2(placement);
+    uint wrapU = wrapRepeat;
+    uint wrapV = wrapRepeat;
+    if ((texturing & texturesPlaced) != 0u) {
+        vec2 shear = uintBitsToFloat(uvec2(textureWords(row + 2u)));
+        placed += vec2(uv.y, uv.x) * shear;
+        wrapU = (format >> textureWrapShiftU) & textureWrapMask;
+        wrapV = (format >> textureWrapShiftV) & textureWrapMask;
+    }
+    placed += vec2(placement.z, placement.w);
+    TexelPair across = texelPair(wrapped(placed.x, wrapU) * float(width) + 0.5, width, wrapU == wrapRepeat);
+    TexelPair down = texelPair((1.0 - wrapped(placed.y, wrapV)) * float(height) + 0.5, height, wrapV == wrapRepeat);
+    if ((texturing & texturesPlaced) != 0u && (format & textureIsNearest) != 0u) {
+        across.share = across.share < 0.5 ? 0.0 : 1.0;
+        down.share = down.share < 0.5 ? 0.0 : 1.0;
+    }
+    vec3 above = mixtureOf(textureTexel(description, across.low, down.low),
+                           textureTexel(description, across.high, down.low), across.share);
+    vec3 below = mixtureOf(textureTexel(description, across.low, down.high),
+                           textureTexel(description, across.high, down.high), across.share);
+    return mixtureOf(above, below, down.share);
 }
 
 uint textureRow(uint textures, uint slot) { return textures + rowsPerTexture * slot; }
@@ -90,9 +168,9 @@ uint textureRow(uint textures, uint slot) { return textures + rowsPerTexture * s
 // Whether a material with textures has one in the slot.
 bool hasTexture(uint textures, uint slot) { return textureWords(textureRow(textures, slot)).y != 0u; }
 
-// Lookup of one number: the red channel, times the factor of the texture.
-float lookUpNumber(uint row, vec2 uv) {
-    return lookUpTexture(row, uv).x * uintBitsToFloat(textureWords(row).w);
+// Lookup of one number: a channel, times the factor of the texture.
+float lookUpNumber(uint row, SurfaceUv at) {
+    return lookUpTexture(row, at).x * uintBitsToFloat(textureWords(row).w);
 }
 
 // Alpha of GGX. Roughness has a minimum, so that float32 resolves the peak of the reflection.
@@ -101,24 +179,97 @@ float alphaOf(float roughness) {
     return used * used;
 }
 
-// Whether the opacity texture cuts out the point of a triangle with these weights.
-bool isCutAway(uint materialIndex, uint triangleRecord, float u, float v) {
-    uint row = textureRow(fetchMaterial(materialIndex).textures, slotOpacity);
-    return lookUpNumber(row, triangleUv(fetchCoordinates(triangleRecord), u, v)) < 0.5;
+// Opacity at the point of a triangle with these weights: that of material, texture and vertices.
+float opacityAt(MaterialRecord material, uint triangleRecord, float u, float v) {
+    float opacity = material.opacity;
+    if ((texturing & texturesOpacity) != 0u && material.textures != 0u && hasTexture(material.textures, slotOpacity))
+        opacity *= lookUpNumber(textureRow(material.textures, slotOpacity), triangleUvs(triangleRecord, u, v));
+    if ((texturing & texturesColours) != 0u)
+        opacity *= triangleColour(triangleRecord, u, v).w;
+    return opacity;
 }
 
-// The material with its textures applied at (u, v).
-MaterialRecord texturedMaterial(MaterialRecord material, vec2 uv) {
+// The share of rays for which a sheer triangle is there at the point with these weights.
+float presenceAt(MaterialRecord material, uint triangleRecord, float u, float v) {
+    float opacity = opacityAt(material, triangleRecord, u, v);
+    if ((passing & passesBlended) != 0u && material.alphaCutoff == sheerBlended)
+        return opacity;
+    return opacity < material.alphaCutoff ? 0.0 : 1.0;
+}
+
+// Whether a ray passes through it. `choice`, in [0, 1), is sheerChoice().
+bool isPassed(uint materialIndex, uint triangleRecord, float u, float v, float choice) {
+    return choice >= presenceAt(fetchMaterial(materialIndex), triangleRecord, u, v);
+}
+
+// Direction of the anisotropy that a texture turns, and a factor on its strength: KHR_materials_anisotropy.
+MaterialRecord anisotropicMaterial(MaterialRecord material, vec3 texel) {
+    vec2 turned = 2.0 * vec2(texel) - 1.0;
+    float squared = turned.x * turned.x + turned.y * turned.y;
+    float scale = squared > 1e-12 ? divide(1.0, squareRoot(squared)) : 0.0;
+    float cosine = squared > 1e-12 ? turned.x * scale : 1.0;
+    float sine = turned.y * scale;
+    float c = material.anisotropyCosine;
+    float s = material.anisotropySine;
+    material.anisotropyCosine = c * cosine - s * sine;
+    material.anisotropySine = s * cosine + c * sine;
+    material.anisotropy *= texel.z;
+    return material;
+}
+
+bool isWorn(uint textures, uint slot) { return (texturing & (1u << slot)) != 0u && hasTexture(textures, slot); }
+
+// The material with what glTF's textures alone change; `factor` is that of the texture.
+MaterialRecord wornMaterial(MaterialRecord material, uint slot, vec3 texel, float factor) {
+    if (slot == slotTransmission)
+        material.transmission *= texel.x;
+    if (slot == slotClearcoat)
+        material.clearcoat *= texel.x;
+    if (slot == slotClearcoatRoughness)
+        material.clearcoatAlpha = alphaOf(texel.x * factor);
+    if (slot == slotDielectricWeight)
+        material.dielectricWeight *= texel.x;
+    if (slot == slotDielectricColour)
+        material.dielectricColour *= texel;
+    if (slot == slotSheenColour)
+        material.sheenColour *= texel;
+    if (slot == slotSheenRoughness)
+        material.sheenAlpha = sheenAlphaOf(texel.x * factor);
+    if (slot == slotAnisotropy)
+        return anisotropicMaterial(material, texel);
+    return material;
+}
+
+// The material with its textures applied at `at`.
+MaterialRecord texturedMaterial(MaterialRecord material, SurfaceUv at) {
     uint textures = material.textures;
     if (textures == 0u)
         return material;
-    if ((texturing & texturesBaseColour) != 0u && hasTexture(textures, slotBaseColour))
-        material.albedo *= lookUpTexture(textureRow(textures, slotBaseColour), uv);
-    if ((texturing & texturesEmission) != 0u && hasTexture(textures, slotEmission))
-        material.emission *= lookUpTexture(textureRow(textures, slotEmission), uv);
-    if ((texturing & texturesRoughness) != 0u && hasTexture(textures, slotRoughness))
-        material.alpha = alphaOf(lookUpNumber(textureRow(textures, slotRoughness), uv));
-    if ((texturing & texturesMetallic) != 0u && hasTexture(textures, slotMetallic))
-        material.metallic = lookUpNumber(textureRow(textures, slotMetallic), uv);
+    if (isWorn(textures, slotBaseColour))
+        material.albedo *= lookUpTexture(textureRow(textures, slotBaseColour), at);
+    if (isWorn(textures, slotEmission))
+        material.emission *= lookUpTexture(textureRow(textures, slotEmission), at);
+    if (isWorn(textures, slotRoughness)) {
+        float roughness = lookUpNumber(textureRow(textures, slotRoughness), at);
+        if ((scattering & scattersAtGltf) != 0u && (material.kindAndSides & materialIsSpecularGlossy) != 0u)
+            roughness = 1.0 - roughness;
+        material.alpha = alphaOf(roughness);
+    }
+    if (isWorn(textures, slotMetallic))
+        material.metallic = lookUpNumber(textureRow(textures, slotMetallic), at);
+    // The rest in a loop over the slots that the scene uses: inlined for each slot, lookups would double the kernel.
+    for (uint slots = texturing & texturesOfGltf; slots != 0u; slots &= slots - 1u) {
+        uint slot = uint(findLSB(slots));
+        if (hasTexture(textures, slot))
+            material = wornMaterial(material, slot, lookUpTexture(textureRow(textures, slot), at),
+                                    uintBitsToFloat(textureWords(textureRow(textures, slot)).w));
+    }
+    return material;
+}
+
+// The material with the colour of the vertices applied.
+MaterialRecord colouredMaterial(MaterialRecord material, uint triangleRecord, float u, float v) {
+    vec4 colour = triangleColour(triangleRecord, u, v);
+    material.albedo *= vec3(colour.x, colour.y, colour.z);
     return material;
 }

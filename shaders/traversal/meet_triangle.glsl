@@ -1,5 +1,5 @@
-// Shared by all traversals: the position of a ray in the tree, and the test of a triangle. A point that an opacity
-// texture cuts out is not hit.
+// Shared by all traversals: the position of a ray in the tree, and the test of a triangle. A ray passes triangles that are
+// culled, and points of sheer ones, as if they were not there.
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 
@@ -11,7 +11,7 @@ bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle
     bool isExcluded = id == path[slot].rayExcluded;
     bool isSphere = treeSpheres == treeHasSpheresOnly ||
                     (treeSpheres == treeHasSpheresToo && (triangle.flags & triangleIsSphere) != 0u);
-    TriangleHit hit = TriangleHit(0.0, 0.0, 0.0);
+    TriangleHit hit = TriangleHit(0.0, 0.0, 0.0, false);
     if (treeSpheres != treeHasSpheresOnly && !isSphere) {
         hit = intersectTriangle(ray, boxRay, triangle.v0, triangle.v1, triangle.v2);
         hit.distance = isExcluded ? 0.0 : hit.distance;
@@ -22,8 +22,15 @@ bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle
         record = id;
     }
     bool isHit = hit.distance > 0.0;
-    if ((texturing & texturesOpacity) != 0u && (triangle.flags & triangleIsCutOut) != 0u && isHit)
-        isHit = !isCutAway(triangle.materialIndex, record, hit.u, hit.v);
+    if ((passing & passesCulled) != 0u)
+        isHit = isHit && !(hit.isBehind && (triangle.flags & triangleIsCulled) != 0u);
+    if ((passing & passesSheer) != 0u && (triangle.flags & triangleIsSheer) != 0u && isHit) {
+        float choice = 0.0;
+        if ((passing & passesBlended) != 0u)
+            choice = sheerChoice(imagePixel[slot], frame.seed, path[slot].sampleIndex,
+                                 2u * path[slot].rayDepth + (isShadow ? 1u : 0u), id);
+        isHit = !isPassed(triangle.materialIndex, record, hit.u, hit.v, choice);
+    }
     if (isShadow) {
         bool isBetween =
             isHit && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);

@@ -85,9 +85,29 @@ Bsdf::Bsdf(const Substance &substance, double indexRatio, bool isBehind) {
         averageReflectance_ = colour_ + (1.0 - colour_) / 21.0; // 2 times the integral of (1 - x)^5 x is 1/21
         tint_ = glm::sqrt(colour_);
         const double n = material.refractiveIndex;
-        plasticReflectance_ = std::min(2.0 * material.specular * squared((n - 1.0) / (n + 1.0)), 1.0);
+        plasticReflectance_ = Vec(std::min(2.0 * material.specular * squared((n - 1.0) / (n + 1.0)), 1.0));
         coat_ = isBehind ? 0.0 : material.clearcoat;
         coatRoughness_ = material.clearcoatRoughness;
+        break;
+    }
+    case MaterialKind::Gltf: {
+        isGltf_ = true;
+        const double dielectric = 1.0 - substance.metallic;
+        const bool isInside = isBehind && material.transmission > 0.0f && !material.isThin;
+        thin_ = material.isThin ? dielectric * material.transmission : 0.0;
+        glass_ = isInside ? 1.0 : (material.isThin ? 0.0 : dielectric * material.transmission);
+        metal_ = isInside ? 0.0 : substance.metallic;
+        plastic_ = 1.0 - glass_ - metal_;
+        averageReflectance_ = colour_ + (1.0 - colour_) / 21.0;
+        tint_ = colour_;
+        const double n = material.refractiveIndex;
+        const Vec head = squared((n - 1.0) / (n + 1.0)) * Vec(material.dielectricColour);
+        plasticReflectance_ = glm::min(head, Vec(1.0)) * double{material.dielectricWeight};
+        plasticGrazing_ = material.dielectricWeight;
+        coat_ = isInside ? 0.0 : material.clearcoat;
+        coatRoughness_ = material.clearcoatRoughness;
+        sheen_ = material.sheenColour;
+        sheenRoughness_ = material.sheenRoughness;
         break;
     }
     case MaterialKind::Diffuse:
@@ -100,7 +120,8 @@ Bsdf::Bsdf(const Substance &substance, double indexRatio, bool isBehind) {
     glassChance_ = glass_ * (1.0 - coatChance_);
     const double opaque = (1.0 - glass_) * (1.0 - coatChance_);
     facetChance_ = diffuse_ > 0.0 ? 0.0 : (metal_ > 0.5 ? 0.8 : 0.4) * opaque;
-    cosineChance_ = std::max(0.0, 1.0 - coatChance_ - glassChance_ - facetChance_);
+    thinChance_ = thin_ > 0.0 ? 0.3 * opaque : 0.0;
+    cosineChance_ = std::max(0.0, 1.0 - coatChance_ - glassChance_ - facetChance_ - thinChance_);
     if (glass_ == 1.0)
         cosineChance_ = 0.0;
 }
@@ -123,12 +144,15 @@ Vec Bsdf::evaluateMetal(const Vec &view, const Vec &light) const {
 
 Vec Bsdf::evaluatePlastic(const Vec &view, const Vec &light) const {
     const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
-    const double r = plasticReflectance_;
+    const double r = std::max({plasticReflectance_.x, plasticReflectance_.y, plasticReflectance_.z});
+    const double g = plasticGrazing_;
     const double share =
-        lost(directionalEnergy(view.z, roughness_).of(r), directionalEnergy(light.z, roughness_).of(r),
-             averageEnergy(roughness_).of(r), light.z);
-    return schlickFresnel(cosine, Vec(r)) * reflectedByFacets(view, light, alphaOf(roughness_)) +
-           colour_ * share;
+        lost(directionalEnergy(view.z, roughness_).of(r, g), directionalEnergy(light.z, roughness_).of(r, g),
+             averageEnergy(roughness_).of(r, g), light.z);
+    const double opaque = plastic_ > 0.0 ? 1.0 - thin_ / plastic_ : 1.0;
+    return schlickFresnel(cosine, plasticReflectance_, g) *
+               reflectedByFacets(view, light, alphaOf(roughness_)) +
+           colour_ * (share * opaque);
 }
 
 /// Walter 2007, equations 20 and 21. Radiance is larger by the square of the index in glass, so that equation 21 has
@@ -151,6 +175,43 @@ Vec Bsdf::evaluateGlass(const Vec &view, const Vec &light) const {
                     view.z * squared(indexRatio_ / (indexRatio_ * toView + toLight)));
 }
 
+/// KHR_materials_transmission without volume: what facets reflect, mirrored at the surface. What they send to each other
+/// makes up for it: Turquin 2019.
+Vec Bsdf::evaluateThin(const Vec &view, const Vec &light) const {
+    const Vec mirrored(light.x, light.y, -light.z);
+    const double cosine = std::min(glm::dot(view, glm::normalize(view + mirrored)), 1.0);
+    const double r = std::max({plasticReflectance_.x, plasticReflectance_.y, plasticReflectance_.z});
+    return colour_ * ((1.0 - schlickFresnel(cosine, Vec(r), plasticGrazing_).x) *
+                      reflectedByFacets(view, mirrored, alphaOf(roughness_)) /
+                      directionalEnergy(view.z, roughness_).white);
+}
+
+/// What is left for what lies below the coat.
+double Bsdf::coatShare(const Vec &view) const {
+    if (isGltf_) // KHR_materials_clearcoat, fresnel_coat()
+        return 1.0 - coat_ * schlickFresnel(view.z, Vec(coatReflectance)).x;
+    return 1.0 - coat_ * directionalEnergy(view.z, coatRoughness_).of(coatReflectance);
+}
+
+Vec Bsdf::underSheenAndCoat(const Vec &view, const Vec &light, const Vec &below) const {
+    Vec sum = below;
+    if (sheen_ != Vec(0.0)) {
+        const double strongest = std::max({sheen_.x, sheen_.y, sheen_.z});
+        sum *= 1.0 - strongest * sheenEnergy(view.z, sheenRoughness_);
+        if (light.z > 0.0)
+            sum += sheen_ * sheen(view, light, sheenRoughness_);
+    }
+    if (coat_ == 0.0)
+        return sum;
+    sum *= coatShare(view);
+    if (light.z < 0.0)
+        return sum;
+    const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
+    return coat_ * schlickFresnel(cosine, Vec(coatReflectance)) *
+               reflectedByFacets(view, light, alphaOf(coatRoughness_)) +
+           sum;
+}
+
 Vec Bsdf::evaluate(const Vec &view, const Vec &light) const {
     if (light.z == 0.0)
         return Vec(0.0);
@@ -158,20 +219,14 @@ Vec Bsdf::evaluate(const Vec &view, const Vec &light) const {
     if (glass_ > 0.0)
         sum += glass_ * evaluateGlass(view, light);
     if (light.z < 0.0)
-        return sum;
+        return underSheenAndCoat(view, light, thin_ > 0.0 ? sum + thin_ * evaluateThin(view, light) : sum);
     if (diffuse_ > 0.0)
         sum += diffuse_ * colour_ * light.z / pi;
     if (metal_ > 0.0)
         sum += metal_ * evaluateMetal(view, light);
     if (plastic_ > 0.0)
         sum += plastic_ * evaluatePlastic(view, light);
-    if (coat_ == 0.0)
-        return sum;
-    const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
-    const double energy = directionalEnergy(view.z, coatRoughness_).of(coatReflectance);
-    return coat_ * schlickFresnel(cosine, Vec(coatReflectance)) *
-               reflectedByFacets(view, light, alphaOf(coatRoughness_)) +
-           (1.0 - coat_ * energy) * sum;
+    return underSheenAndCoat(view, light, sum);
 }
 
 double Bsdf::density(const Vec &view, const Vec &light) const {
@@ -188,6 +243,8 @@ double Bsdf::density(const Vec &view, const Vec &light) const {
                    reflectionDensity(view, light, alphaOf(roughness_));
         return sum;
     }
+    if (thinChance_ > 0.0 && light.z < 0.0)
+        sum += thinChance_ * reflectionDensity(view, {light.x, light.y, -light.z}, alphaOf(roughness_));
     if (glassChance_ == 0.0 || light.z == 0.0)
         return sum;
     const Vec facet = facetAcross(view, light, indexRatio_);
@@ -195,8 +252,9 @@ double Bsdf::density(const Vec &view, const Vec &light) const {
     const double toLight = glm::dot(light, facet);
     if (toView <= 0.0 || toLight >= 0.0)
         return sum;
-    return glassChance_ * (1.0 - dielectricFresnel(toView, indexRatio_)) * ggx(facet, alphaOf(roughness_)) *
-           facet.z * -toLight / squared(indexRatio_ * toView + toLight); // equation 17
+    return sum + glassChance_ * (1.0 - dielectricFresnel(toView, indexRatio_)) *
+                     ggx(facet, alphaOf(roughness_)) * facet.z * -toLight /
+                     squared(indexRatio_ * toView + toLight); // equation 17
 }
 
 std::optional<Vec> Bsdf::sample(const Vec &view, Generator &generator) const {
@@ -209,6 +267,11 @@ std::optional<Vec> Bsdf::sample(const Vec &view, Generator &generator) const {
     choice -= facetChance_;
     if (choice < coatChance_)
         return reflectedByRandomFacet(view, alphaOf(coatRoughness_), generator);
+    choice -= coatChance_;
+    if (choice < thinChance_) {
+        const std::optional<Vec> light = reflectedByRandomFacet(view, alphaOf(roughness_), generator);
+        return light ? std::optional(Vec(light->x, light->y, -light->z)) : std::nullopt;
+    }
     const Vec facet = randomFacet(alphaOf(roughness_), generator);
     const double cosine = glm::dot(view, facet);
     if (cosine <= 0.0 || glassChance_ == 0.0)

@@ -7,6 +7,9 @@
 // below a plastic surface gets what the surface does not reflect in the same way; what facets of glass do not pass on at
 // once makes up for it in what they do (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models",
 // 2019); and the coat leaves 1 - coat E(view).
+//
+// A material of glTF is the specification's, with the first three of these choices, and with facets of thin glass as of
+// thick.
 #pragma once
 
 #include "tests/images/plain_microfacets.h"
@@ -38,13 +41,20 @@ class Bsdf {
     [[nodiscard]] Vec evaluateMetal(const Vec &view, const Vec &light) const;
     [[nodiscard]] Vec evaluatePlastic(const Vec &view, const Vec &light) const;
     [[nodiscard]] Vec evaluateGlass(const Vec &view, const Vec &light) const;
+    [[nodiscard]] Vec evaluateThin(const Vec &view, const Vec &light) const;
+    [[nodiscard]] Vec underSheenAndCoat(const Vec &view, const Vec &light, const Vec &below) const;
+    [[nodiscard]] double coatShare(const Vec &view) const;
 
     // Shares of what lies below the coat; they add up to 1.
     double diffuse_ = 0.0;
     double metal_ = 0.0;
     double plastic_ = 0.0;
     double glass_ = 0.0;
+    double thin_ = 0.0; ///< light passes it straight
     double coat_ = 0.0; ///< how much of a coat is above
+    bool isGltf_ = false;
+    Vec sheen_{0.0};
+    double sheenRoughness_ = 0.0;
 
     bool isConductor_ = false; ///< the metal has a complex refractive index, else a colour
     Vec index_{0.0};
@@ -53,7 +63,8 @@ class Bsdf {
     Vec colour_{0.0};
     Vec tint_{1.0}; ///< of what glass lets pass
     double indexRatio_ = 1.0;
-    double plasticReflectance_ = 0.0; ///< head on
+    Vec plasticReflectance_{0.0}; ///< head on
+    double plasticGrazing_ = 1.0;
     double roughness_ = 0.0;
     double coatRoughness_ = 0.0;
 
@@ -62,6 +73,7 @@ class Bsdf {
     double facetChance_ = 0.0;
     double glassChance_ = 0.0;
     double coatChance_ = 0.0;
+    double thinChance_ = 0.0;
 };
 
 } // namespace hyalite::testing::plain

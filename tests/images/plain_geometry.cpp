@@ -59,7 +59,9 @@ void addTriangles(const Scene &scene, const TriangleMesh &mesh, std::vector<Shap
         const MeshTriangle &triangle = mesh.triangles[i];
         Shape shape;
         shape.materialIndex = mesh.materialOf(i);
-        shape.isCutOut = scene.materials[shape.materialIndex].textures[layout::slotOpacity].has_value();
+        const Material &material = scene.materials[shape.materialIndex];
+        shape.isSheer = material.alphaMode != AlphaMode::Opaque;
+        shape.isCulled = material.isCulled;
         shape.isSmooth = triangle.normals.x != MeshTriangle::noNormal;
         const bool hasUvs = !mesh.triangleUvs.empty() && mesh.triangleUvs[i].x != TriangleMesh::noUv;
         for (glm::length_t k = 0; k < 3; ++k) {

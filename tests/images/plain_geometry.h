@@ -34,7 +34,8 @@ struct Shape {
     Vec centre{0.0};              ///< Sphere
     double radius = 0.0;          ///< Sphere
     bool isInward = false;        ///< Sphere: its normal points to its centre
-    bool isCutOut = false;        ///< its material has a texture of opacity
+    bool isSheer = false;         ///< its material is not there for every ray
+    bool isCulled = false;        ///< Triangle: it is not there for rays from behind
 
     [[nodiscard]] double area() const;
 

@@ -51,6 +51,35 @@ Look principled(const std::string &name, float roughness) {
     return made;
 }
 
+Look gltf(const std::string &name, float roughness) {
+    Look made = look(name, MaterialKind::Gltf, roughness);
+    made.material.albedo = {0.7f, 0.4f, 0.2f};
+    return made;
+}
+
+void addGltfLooks(std::vector<Look> &all) {
+    all.push_back(gltf("GltfPlastic", 0.4f));
+    all.push_back(gltf("GltfHalfMetal", 0.6f));
+    all.back().material.metallic = 0.5f;
+    all.push_back(gltf("GltfColouredSpecular", 0.5f));
+    all.back().material.dielectricColour = {9.0f, 3.0f, 1.0f};
+    all.back().material.dielectricWeight = 0.7f;
+    all.push_back(gltf("GltfCoat", 0.6f));
+    all.back().material.clearcoat = 0.8f;
+    all.back().material.clearcoatRoughness = 0.3f;
+    all.push_back(gltf("GltfCloth", 0.7f));
+    all.back().material.sheenColour = {0.9f, 0.6f, 0.3f};
+    all.back().material.sheenRoughness = 0.5f;
+    all.push_back(gltf("GltfWindow", 0.3f));
+    all.back().material.transmission = 0.8f;
+    all.back().material.isThin = true;
+    all.back().maxDepth = 3;
+    all.push_back(gltf("GltfGlass", 0.3f));
+    all.back().material.transmission = 0.7f;
+    all.back().material.absorption = {0.1f, 0.2f, 0.4f};
+    all.back().maxDepth = 4;
+}
+
 std::vector<Look> looks() {
     std::vector<Look> all;
     all.push_back(look("Diffuse", MaterialKind::Diffuse));
@@ -92,6 +121,7 @@ std::vector<Look> looks() {
     all.back().material.transmission = 0.8f;
     all.back().material.metallic = 0.5f;
     all.back().maxDepth = 4;
+    addGltfLooks(all);
     return all;
 }
 

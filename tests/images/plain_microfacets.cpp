@@ -149,8 +149,8 @@ double averageConductorFresnel(double n, double k) {
     return sum / steps;
 }
 
-Vec schlickFresnel(double cosine, const Vec &normalReflectance) {
-    return normalReflectance + (1.0 - normalReflectance) * fifthPower(1.0 - cosine);
+Vec schlickFresnel(double cosine, const Vec &normalReflectance, double grazing) {
+    return normalReflectance + (grazing - normalReflectance) * std::pow(1.0 - cosine, 5.0);
 }
 
 double alphaOf(double roughness) { return squared(std::max(roughness, minRoughness)); }
@@ -239,6 +239,59 @@ Energy directionalEnergy(double cosine, double roughness) {
 
 Energy averageEnergy(double roughness) {
     return betweenRows(roughness, [](const Row &row) { return row.average(); });
+}
+
+namespace {
+
+/// Equation 3, with the coefficients of table 1.
+double sheenLambda(double cosine, double alpha) {
+    const double t = (1.0 - alpha) * (1.0 - alpha);
+    const double a = glm::mix(21.5473, 25.3245, t);
+    const double b = glm::mix(3.82987, 3.32435, t);
+    const double c = glm::mix(0.19823, 0.16801, t);
+    const double d = glm::mix(-1.97760, -1.27393, t);
+    const double e = glm::mix(-4.32054, -4.85967, t);
+    const auto curve = [&](double x) { return a / (1.0 + b * std::pow(x, c)) + d * x + e; };
+    return cosine < 0.5 ? std::exp(curve(cosine)) : std::exp(2.0 * curve(0.5) - curve(1.0 - cosine));
+}
+
+double integrateSheen(double cosine, double roughness) {
+    constexpr int steps = 200;
+    const Vec view(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const double z = (i + 0.5) / steps;
+            const double turn = std::numbers::pi * (j + 0.5) / steps;
+            const double sine = std::sqrt(1.0 - z * z);
+            sum += sheen(view, {sine * std::cos(turn), sine * std::sin(turn), z}, roughness);
+        }
+    return sum * 2.0 * std::numbers::pi / (steps * steps);
+}
+
+} // namespace
+
+double sheen(const Vec &view, const Vec &light, double roughness) {
+    const double alpha = std::pow(std::max(roughness, 0.07), 2.0);
+    const double cosine = std::min(glm::normalize(view + light).z, 1.0);
+    const double density =
+        (2.0 + 1.0 / alpha) * std::pow(1.0 - cosine * cosine, 0.5 / alpha) / (2.0 * std::numbers::pi);
+    const double masking = 1.0 / (1.0 + sheenLambda(view.z, alpha) + sheenLambda(light.z, alpha));
+    return density * masking / (4.0 * view.z);
+}
+
+double sheenEnergy(double cosine, double roughness) {
+    constexpr std::size_t count = 65;
+    static std::mutex mutex;
+    static std::map<double, std::array<double, count>> tables;
+    const std::lock_guard lock(mutex);
+    const auto [entry, isNew] = tables.try_emplace(roughness);
+    std::array<double, count> &table = entry->second;
+    for (std::size_t i = 0; isNew && i < count; ++i)
+        table[i] = integrateSheen(std::max(static_cast<double>(i) / (count - 1), 1e-3), roughness);
+    const double place = std::clamp(cosine, 0.0, 1.0) * (count - 1);
+    const auto cell = std::min(static_cast<std::size_t>(place), count - 2);
+    return glm::mix(table[cell], table[cell + 1], place - static_cast<double>(cell));
 }
 
 } // namespace hyalite::testing::plain

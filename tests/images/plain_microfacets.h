@@ -17,7 +17,7 @@ namespace hyalite::testing::plain {
 [[nodiscard]] double averageConductorFresnel(double n, double k);
 
 /// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994, equation 15.
-[[nodiscard]] Vec schlickFresnel(double cosine, const Vec &normalReflectance);
+[[nodiscard]] Vec schlickFresnel(double cosine, const Vec &normalReflectance, double grazing = 1.0);
 
 /// Roughness as an artist gives it to GGX's alpha: its square (Burley 2012, section 5.4), from 0.04 on.
 [[nodiscard]] double alphaOf(double roughness);
@@ -33,14 +33,21 @@ namespace hyalite::testing::plain {
 /// A facet drawn with the density ggx(facet) facet.z per solid angle: Walter 2007, equations 35 and 36.
 [[nodiscard]] Vec randomFacet(double alpha, Generator &generator);
 
+/// The sheen lobe of white fibres, times the cosine of the light: Estevez and Kulla, "Production Friendly Microfacet
+/// Sheen BRDF", SIGGRAPH 2017 courses, equations 2 to 4, as KHR_materials_sheen has them, but for the least roughness.
+[[nodiscard]] double sheen(const Vec &view, const Vec &light, double roughness);
+
+/// The share of light from one direction that it reflects. Between quadratures at 65 cosines it is linear.
+[[nodiscard]] double sheenEnergy(double cosine, double roughness);
+
 /// What facets reflect at once of light from one direction.
 struct Energy {
     double white = 1.0;   ///< if they reflect everything
     double grazing = 0.0; ///< if they reflect (1 - cosine)^5
 
     /// By Schlick's Fresnel term.
-    [[nodiscard]] double of(double normalReflectance) const {
-        return normalReflectance * white + (1.0 - normalReflectance) * grazing;
+    [[nodiscard]] double of(double normalReflectance, double atGrazing = 1.0) const {
+        return normalReflectance * white + (atGrazing - normalReflectance) * grazing;
     }
 };
 

@@ -26,14 +26,18 @@ struct World {
         : scene(plainScene), search(how), shapes(shapesOf(plainScene)), substances(plainScene),
           emitters(plainScene, shapes) {}
 
-    [[nodiscard]] std::optional<Meeting> nearest(const Vec &origin, const Vec &direction,
-                                                 const Shape *left) const {
+    [[nodiscard]] std::optional<Meeting> nearest(const Vec &origin, const Vec &direction, const Shape *left,
+                                                 Generator &generator) const {
         std::optional<Meeting> best;
         for (const Shape &shape : shapes) {
             const std::optional<Meeting> meeting = meet(shape, origin, direction, left);
             if (!meeting || (best && meeting->distance >= best->distance))
                 continue;
-            if (shape.isCutOut && substances.isCutAway(shape.materialIndex, uvOf(*meeting, Vec(0.0))))
+            if (shape.isSheer &&
+                uniform(generator) >= substances.presence(shape.materialIndex, uvOf(*meeting, Vec(0.0))))
+                continue;
+            if (shape.isCulled && glm::dot(direction, glm::cross(shape.corners[1] - shape.corners[0],
+                                                                 shape.corners[2] - shape.corners[0])) > 0.0)
                 continue;
             best = meeting;
         }
@@ -41,9 +45,9 @@ struct World {
     }
 
     /// Shadow rays pass no glass.
-    [[nodiscard]] bool isVisible(const Vec &origin, const Vec &direction, double distance,
-                                 const Shape *left) const {
-        const std::optional<Meeting> meeting = nearest(origin, direction, left);
+    [[nodiscard]] bool isVisible(const Vec &origin, const Vec &direction, double distance, const Shape *left,
+                                 Generator &generator) const {
+        const std::optional<Meeting> meeting = nearest(origin, direction, left, generator);
         return !meeting || meeting->distance >= distance;
     }
 
@@ -72,6 +76,7 @@ bool isSmooth(const Substance &substance, bool isPassable, const std::optional<C
         return substance.roughness == 0.0;
     case MaterialKind::Diffuse:
     case MaterialKind::Principled:
+    case MaterialKind::Gltf:
         break;
     }
     return false;
@@ -93,7 +98,7 @@ class Path {
   private:
     /// Follows one segment; whether the path goes on.
     bool advance(int segment) {
-        const std::optional<Meeting> meeting = world_.nearest(origin_, direction_, left_);
+        const std::optional<Meeting> meeting = world_.nearest(origin_, direction_, left_, generator_);
         throughput_ *=
             media_.transmittance(meeting ? meeting->distance : std::numeric_limits<double>::infinity());
         if (!meeting) {
@@ -120,8 +125,9 @@ class Path {
             seesEmitters_ = true;
             return isPassable ? passGlass(point, *sides, isBehind) : reflect(point, substance);
         }
-        if (isBehind && !isPassable && !substance.material->twoSided &&
-            substance.material->kind != MaterialKind::Conductor)
+        const bool isThinGlass = substance.material->isThin && substance.material->transmission > 0.0f;
+        if (isBehind && !isPassable && !isThinGlass && !substance.material->twoSided &&
+            !substance.material->reflectsBehind && substance.material->kind != MaterialKind::Conductor)
             return false; // black from behind
         if (isBehind) {
             point.normal = -point.normal;
@@ -183,7 +189,7 @@ class Path {
             const Arrival arrival = arrivalFrom(light, point.position);
             const Vec lit = evaluate(arrival.direction) * arrival.irradiance;
             if (lit != Vec(0.0) &&
-                world_.isVisible(point.position, arrival.direction, arrival.distance, left_))
+                world_.isVisible(point.position, arrival.direction, arrival.distance, left_, generator_))
                 radiance_ +=
                     throughput_ * mediaTowards(arrival.direction).transmittance(arrival.distance) * lit;
         }
@@ -211,7 +217,7 @@ class Path {
         const Vec value = evaluate(direction);
         if (!(distance > 0.0) || value == Vec(0.0))
             return;
-        const std::optional<Meeting> meeting = world_.nearest(point.position, direction, left_);
+        const std::optional<Meeting> meeting = world_.nearest(point.position, direction, left_, generator_);
         if (!meeting || meeting->shape != choice.shape ||
             std::abs(meeting->distance - distance) > 1e-6 * distance)
             return;

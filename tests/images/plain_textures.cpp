@@ -98,9 +98,13 @@ Substance Substances::at(std::uint32_t materialIndex, const Vec2 &uv) const {
     return substance;
 }
 
-bool Substances::isCutAway(std::uint32_t materialIndex, const Vec2 &uv) const {
-    const auto &use = scene_.materials[materialIndex].textures[layout::slotOpacity];
-    return use && lookUp(*use, layout::slotOpacity, uv).x < 0.5;
+double Substances::presence(std::uint32_t materialIndex, const Vec2 &uv) const {
+    const Material &material = scene_.materials[materialIndex];
+    const auto &use = material.textures[layout::slotOpacity];
+    const double opacity = material.opacity * (use ? lookUp(*use, layout::slotOpacity, uv).x : 1.0);
+    if (material.alphaMode == AlphaMode::Blend)
+        return opacity;
+    return opacity < material.alphaCutoff ? 0.0 : 1.0;
 }
 
 void Substances::bendNormal(std::uint32_t materialIndex, const Vec &direction, SurfacePoint &point) const {

@@ -22,8 +22,8 @@ class Substances {
 
     [[nodiscard]] Substance at(std::uint32_t materialIndex, const Vec2 &uv) const;
 
-    /// Whether a texture of opacity leaves nothing of the shape at this point.
-    [[nodiscard]] bool isCutAway(std::uint32_t materialIndex, const Vec2 &uv) const;
+    /// The probability with which the shape is there for a ray at this point, by its opacity.
+    [[nodiscard]] double presence(std::uint32_t materialIndex, const Vec2 &uv) const;
 
     /// Turns the point's shading normal by the normal map of its material. `direction` is that of the ray that meets
     /// it.

@@ -185,5 +185,25 @@ TEST(PlainTextures, CutTheSameHoles) {
     testing::expectPlainRadiance("cpu", testing::renderOnCpu(scene).film, scene, comparison);
 }
 
+// By chance, before a wall that they shade.
+TEST(PlainTextures, BlendTheSame) {
+    Scene scene = room();
+    scene.lights.push_back({{-1.0, 1.0, 3.0}, {30.0, 40.0, 50.0}});
+    Material leaf = grey();
+    leaf.twoSided = true;
+    leaf.alphaMode = AlphaMode::Blend;
+    leaf.opacity = 0.8f;
+    testing::wear(scene, leaf, layout::slotOpacity, holes);
+    testing::addQuad(scene, {-0.7f, -0.7f, 0.8f}, {1.2f, 0.0f, 0.0f}, {0.0f, 1.2f, 0.2f}, leaf);
+    Material glowing = testing::lamp({1.0f, 2.0f, 3.0f});
+    glowing.alphaMode = AlphaMode::Blend;
+    glowing.opacity = 0.5f;
+    testing::addQuad(scene, {-1.5f, 0.8f, 0.5f}, {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, glowing);
+    testing::addQuad(scene, {-2.0f, -2.0f, 0.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 4.0f, 0.0f}, grey());
+    testing::expectPlainRadiance(
+        scene,
+        {.regions = {{2, 8, 2, 8}, {8, 14, 2, 8}, {2, 8, 8, 14}, {8, 14, 8, 14}}, .pathCount = 100'000});
+}
+
 } // namespace
 } // namespace hyalite

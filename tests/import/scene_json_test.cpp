@@ -45,7 +45,7 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(scene.lights[0].position, glm::dvec3(-10, 20, 40));
     EXPECT_EQ(scene.lights[0].power, glm::dvec3(1, 2, 3));
 
-    ASSERT_EQ(scene.materials.size(), 5u);
+    ASSERT_EQ(scene.materials.size(), 6u);
     const Material &brass = scene.materials[0]; // in the order of the alphabet
     EXPECT_EQ(brass.kind, MaterialKind::Conductor);
     EXPECT_EQ(brass.conductorIndex, glm::vec3(0.4f, 0.5f, 0.6f));
@@ -64,6 +64,15 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(varnish.clearcoatRoughness, 0.0625f);
     EXPECT_TRUE(varnish.twoSided);
     EXPECT_EQ(varnish.emission, glm::vec3(5.0f));
+    const Material &velvet = scene.materials[5];
+    EXPECT_EQ(velvet.kind, MaterialKind::Gltf);
+    EXPECT_EQ(velvet.dielectricColour, glm::vec3(2.0f, 1.0f, 0.5f));
+    EXPECT_EQ(velvet.sheenRoughness, 0.625f);
+    EXPECT_EQ(velvet.anisotropyRotation, -1.5f);
+    EXPECT_EQ(velvet.clearcoatNormalStrength, 3.0f);
+    EXPECT_TRUE(velvet.isThin && velvet.isUnlit && velvet.twoSided);
+    EXPECT_EQ(velvet.alphaCutoff, 0.25f);
+    EXPECT_TRUE(velvet.textures[layout::slotAnisotropy] && velvet.textures[layout::slotClearcoatNormal]);
     ASSERT_EQ(scene.spheres.size(), 1u);
     EXPECT_EQ(scene.spheres[0].centre, glm::dvec3(4, 5, 6));
     EXPECT_EQ(scene.spheres[0].radius, 7.0);

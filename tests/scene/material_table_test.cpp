@@ -44,6 +44,7 @@ std::string allowedText(const NumberKey &key) { return "number " + key.allowed.t
 std::string allowedText(const ColourKey &key) { return "colour " + key.allowed.text(); }
 std::string allowedText(const WholeKey &key) { return "whole number " + key.allowed.text(); }
 std::string allowedText(const FlagKey & /*key*/) { return "boolean"; }
+std::string allowedText(const SidesKey & /*key*/) { return "boolean"; }
 std::string allowedText(const MetalKey & /*key*/) {
     std::vector<std::string> names;
     for (const auto &[name, metal] : metalNames)
@@ -63,6 +64,7 @@ std::string defaultText(const WholeKey &key, const Material &material) {
 std::string defaultText(const FlagKey &key, const Material &material) {
     return material.*key.member ? "true" : "false";
 }
+std::string defaultText(const SidesKey & /*key*/, const Material & /*material*/) { return "neither"; }
 std::string defaultText(const MetalKey & /*key*/, const Material & /*material*/) {
     return fmt::format("\"{}\"", metalNames[0].first);
 }
@@ -95,6 +97,9 @@ void addSchema(Json &schema, const WholeKey &key, const Material &material) {
 void addSchema(Json &schema, const FlagKey &key, const Material &material) {
     schema["type"] = "boolean";
     schema["default"] = material.*key.member;
+}
+void addSchema(Json &schema, const SidesKey & /*key*/, const Material & /*material*/) {
+    schema["type"] = "boolean";
 }
 void addSchema(Json &schema, const MetalKey & /*key*/, const Material & /*material*/) {
     for (const auto &[name, metal] : metalNames)

@@ -1,8 +1,7 @@
 // BSDFs: energy, reciprocity, and directions with the density that they say they have.
-#include "tests/fixtures/leaves.h"
+#include "tests/fixtures/bsdf_fixture.h"
 
 #include "host/packing/microfacet_energy.h"
-#include "tests/fixtures/geometry_fixture.h"
 
 #include <algorithm>
 #include <array>
@@ -11,84 +10,6 @@
 
 namespace hyalite::reference {
 namespace {
-
-using hyalite::testing::Random;
-
-constexpr double pi = std::numbers::pi;
-using Direction = Vec3<double>;
-
-const SceneView<double> scene(sceneOfAllMaterials());
-
-/// A direction above the plane z = 0, with the given cosine to +z.
-Direction viewAt(double cosine) { return {std::sqrt(1.0 - cosine * cosine), 0.0, cosine}; }
-
-Bsdf<double> seenFrom(const layout::MaterialRecord &material, const Direction &view, double choice = 0.999,
-                      double eta = 1.0 / 1.5, bool isBehind = false) {
-    const Direction normal(0, 0, 1);
-    return makeBsdf<double>(scene, material, -view, normal, normal, isBehind, eta, choice);
-}
-
-layout::MaterialRecord conductor(double alpha, float index, float extinction) {
-    layout::MaterialRecord material{};
-    material.kindAndSides = layout::materialConductor;
-    material.alpha = static_cast<float>(alpha);
-    material.conductorIndex = glm::vec3(index);
-    material.conductorExtinction = glm::vec3(extinction);
-    material.averageReflectance =
-        glm::vec3(static_cast<float>(averageConductorReflectance(double{index}, double{extinction})));
-    return material;
-}
-
-/// A metal that reflects everything.
-layout::MaterialRecord whiteMetal(double alpha) { return conductor(alpha, 0.0f, 1.0f); }
-
-layout::MaterialRecord principled(double alpha, float metallic, float colour, float clearcoat = 0.0f) {
-    layout::MaterialRecord material{};
-    material.kindAndSides = layout::materialPrincipled;
-    material.alpha = static_cast<float>(alpha);
-    material.albedo = glm::vec3(colour);
-    material.metallic = metallic;
-    material.normalReflectance = 0.04f;
-    material.clearcoat = clearcoat;
-    material.clearcoatAlpha = 0.01f;
-    return material;
-}
-
-layout::MaterialRecord frostedGlass(double alpha) {
-    layout::MaterialRecord material{};
-    material.kindAndSides = layout::materialDielectric;
-    material.alpha = static_cast<float>(alpha);
-    return material;
-}
-
-/// What is reflected and transmitted of even light, with the directions that the surface draws itself; `choices` of its
-/// components are averaged. With its standard deviation.
-struct Albedo {
-    double mean;
-    double error;
-};
-
-Albedo albedoOf(const layout::MaterialRecord &material, const Direction &view, std::uint64_t seed,
-                double eta = 1.0 / 1.5, bool isBehind = false) {
-    constexpr int count = 400000;
-    Random random(seed);
-    double sum = 0.0;
-    double squares = 0.0;
-    for (int i = 0; i < count; ++i) {
-        const Bsdf<double> rough = seenFrom(material, view, random.uniform(0.0, 1.0), eta, isBehind);
-        const double x = random.uniform(0.0, 1.0);
-        const Direction light =
-            sampleBsdf(scene, rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
-        const BsdfEval<double> scattered = evalBsdf(scene, rough, light);
-        double value = scattered.pdf > 0.0 ? scattered.value.x / scattered.pdf : 0.0;
-        if (light.z < 0.0)
-            value /= eta * eta; // radiance is larger in glass by the square of the index
-        sum += value;
-        squares += value * value;
-    }
-    const double mean = sum / count;
-    return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
-}
 
 TEST(MicrofacetEnergy, TheTableIsWhatFacetsReflectAtOnce) {
     // At nodes and between them, by the reference's own facets, drawn at random.
@@ -362,60 +283,6 @@ TEST(RoughReciprocity, LightGoesBothWaysAlike) {
             ASSERT_NEAR(through * 2.25 / back, 1.0, 1e-5) << "alpha " << alpha;
         }
     }
-}
-
-/// Chi-square of the directions that a surface draws against the density that it says they have, in boxes of the sphere
-/// (longitude and cosine), as a number of standard deviations.
-double chiSquareOf(const Bsdf<double> &rough, std::uint64_t seed) {
-    constexpr int across = 16;
-    constexpr int up = 32;
-    constexpr int count = 400000;
-    constexpr int fineAcross = 12; // quadrature points along the sides of a box
-    constexpr int fineUp = 240;
-    std::vector<double> counts(across * up, 0.0);
-    Random random(seed);
-    for (int i = 0; i < count; ++i) {
-        const double x = random.uniform(0.0, 1.0);
-        const Direction drawn =
-            sampleBsdf(scene, rough, Vec2<double>(x, random.uniform(0.0, 1.0)), random.uniform(0.0, 1.0));
-        if (evalBsdf(scene, rough, drawn).pdf <= 0.0)
-            continue;
-        const int column = std::min(
-            static_cast<int>((std::atan2(drawn.y, drawn.x) / (2.0 * pi) + 0.5) * across), across - 1);
-        const int row = std::min(static_cast<int>((drawn.z * 0.5 + 0.5) * up), up - 1);
-        counts[static_cast<std::size_t>(row * across + column)] += 1.0;
-    }
-    double chiSquare = 0.0;
-    double freedom = 0.0;
-    double pooledCount = 0.0;
-    double pooledExpected = 0.0;
-    for (int row = 0; row < up; ++row)
-        for (int column = 0; column < across; ++column) {
-            double expected = 0.0;
-            for (int k = 0; k < fineAcross * fineUp; ++k) {
-                const double z = -1.0 + 2.0 * (row + (k / fineAcross + 0.5) / fineUp) / up;
-                const double angle =
-                    2.0 * pi * ((column + (k % fineAcross + 0.5) / fineAcross) / across - 0.5);
-                const double sine = std::sqrt(1.0 - z * z);
-                expected +=
-                    evalBsdf(scene, rough, Direction(sine * std::cos(angle), sine * std::sin(angle), z)).pdf;
-            }
-            expected *= count * 4.0 * pi / (across * up) / (fineAcross * fineUp);
-            const double found = counts[static_cast<std::size_t>(row * across + column)];
-            if (expected < 20.0) {
-                pooledCount += found;
-                pooledExpected += expected;
-                continue;
-            }
-            chiSquare += (found - expected) * (found - expected) / expected;
-            freedom += 1.0;
-        }
-    if (pooledExpected > 20.0) {
-        chiSquare += (pooledCount - pooledExpected) * (pooledCount - pooledExpected) / pooledExpected;
-        freedom += 1.0;
-    }
-    const double spread = 2.0 / (9.0 * freedom);
-    return (std::cbrt(chiSquare / freedom) - (1.0 - spread)) / std::sqrt(spread);
 }
 
 TEST(RoughDensity, IsThatOfTheDirectionsDrawn) {

@@ -1,0 +1,126 @@
+#include "host/packing/sheen_energy.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::size_t cosineCount = layout::energyCosines;
+constexpr std::size_t roughnessCount = layout::energyRoughnesses;
+constexpr double leastRoughness = 0.07; ///< sheenAlphaOf in sheen.glsl
+constexpr int heightSteps = 64;         ///< over the cosine of the light
+constexpr int azimuthSteps = 32;        ///< over half a turn
+
+/// ln x for x > 0: the exponent, and the series of the inverse hyperbolic tangent.
+double logarithm(double x) {
+    int exponent = 0;
+    double m = std::frexp(x, &exponent); // in [1/2, 1)
+    if (m < std::numbers::sqrt2 / 2.0) {
+        m *= 2.0;
+        --exponent;
+    }
+    const double t = (m - 1.0) / (m + 1.0);
+    double sum = 0.0;
+    for (int k = 25; k >= 1; k -= 2)
+        sum = sum * (t * t) + 1.0 / k;
+    return exponent * std::numbers::ln2 + 2.0 * t * sum;
+}
+
+/// e^x, for |x| < 700: a power of two, and Taylor's series.
+double exponential(double x) {
+    const double k = std::floor(x / std::numbers::ln2 + 0.5);
+    const double y = x - k * std::numbers::ln2;
+    double sum = 1.0;
+    for (int n = 16; n >= 1; --n)
+        sum = 1.0 + sum * y / n;
+    return std::ldexp(sum, static_cast<int>(k));
+}
+
+double power(double base, double exponent) {
+    return base > 0.0 ? exponential(exponent * logarithm(base)) : 0.0;
+}
+
+/// Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017 courses, table 1 and equation 4.
+double lambda(double cosine, double roughnessAlpha) {
+    const double share = 1.0 - (1.0 - roughnessAlpha) * (1.0 - roughnessAlpha);
+    const auto between = [&](double smooth, double rough) { return smooth + (rough - smooth) * share; };
+    const double a = between(25.3245, 21.5473);
+    const double b = between(3.32435, 3.82987);
+    const double c = between(0.16801, 0.19823);
+    const double d = between(-1.27393, -1.97760);
+    const double e = between(-4.85967, -4.32054);
+    const auto curve = [&](double x) { return a / (1.0 + b * power(x, c)) + d * x + e; };
+    return exponential(cosine < 0.5 ? curve(cosine) : 2.0 * curve(0.5) - curve(1.0 - cosine));
+}
+
+/// The share of light from everywhere that comes to the viewer. The midpoint rule.
+double albedoOf(double viewCosine, double alpha, const std::array<double, azimuthSteps> &azimuthCosines) {
+    const double viewSine = std::sqrt(1.0 - viewCosine * viewCosine);
+    const double viewLambda = lambda(viewCosine, alpha);
+    double sum = 0.0;
+    for (int i = 0; i < heightSteps; ++i) {
+        const double lightCosine = (i + 0.5) / heightSteps;
+        const double lightSine = std::sqrt(1.0 - lightCosine * lightCosine);
+        const double masked = 1.0 + viewLambda + lambda(lightCosine, alpha);
+        for (const double azimuthCosine : azimuthCosines) {
+            const double between = viewCosine * lightCosine + viewSine * lightSine * azimuthCosine;
+            const double height =
+                (viewCosine + lightCosine) * (viewCosine + lightCosine) / (2.0 + 2.0 * between);
+            const double squaredSine = std::fmax(1.0 - height, 0.0);
+            const double density = (2.0 + 1.0 / alpha) * power(squaredSine, 0.5 / alpha);
+            sum += density / masked;
+        }
+    }
+    // The lobe times the light's cosine is D / (4 cos masked); D lacks 1 / (2 pi), and the hemisphere has 2 pi.
+    return sum / (4.0 * viewCosine) / (heightSteps * azimuthSteps);
+}
+
+/// Cosines of the midpoints of `azimuthSteps` intervals over half a turn, by halving a quarter turn.
+std::array<double, azimuthSteps> azimuths() {
+    static_assert(azimuthSteps == 32);
+    double c = 0.0;
+    for (int i = 0; i < 5; ++i)
+        c = std::sqrt(0.5 + 0.5 * c);
+    const double s = std::sqrt(1.0 - c * c);
+    double cosine = c;
+    double sine = s;
+    std::array<double, azimuthSteps> cosines{};
+    for (double &entry : cosines) {
+        entry = cosine;
+        const double nextCosine = cosine * (c * c - s * s) - sine * (2.0 * s * c);
+        sine = sine * (c * c - s * s) + cosine * (2.0 * s * c);
+        cosine = nextCosine;
+    }
+    return cosines;
+}
+
+} // namespace
+
+std::vector<layout::LookupRow> makeSheenTexels() {
+    const std::array<double, azimuthSteps> azimuthCosines = azimuths();
+    std::array<std::array<float, cosineCount>, roughnessCount> albedos{};
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t j = 0; j < roughnessCount; ++j)
+        for (std::size_t i = 0; i < cosineCount; ++i) {
+            const double roughness =
+                std::fmax(static_cast<double>(j) / static_cast<double>(roughnessCount - 1), leastRoughness);
+            const double root =
+                std::fmax(static_cast<double>(i) / static_cast<double>(cosineCount - 1), 1e-3);
+            albedos[j][i] = static_cast<float>(albedoOf(root * root, roughness * roughness, azimuthCosines));
+        }
+    std::vector<layout::LookupRow> texels;
+    texels.reserve(layout::sheenTexelCount);
+    for (std::size_t j = 0; j + 1 < roughnessCount; ++j)
+        for (std::size_t i = 0; i + 1 < cosineCount; ++i)
+            texels.push_back({glm::vec3(albedos[j][i], albedos[j][i + 1], albedos[j + 1][i]),
+                              std::bit_cast<std::uint32_t>(albedos[j + 1][i + 1])});
+    return texels;
+}
+
+} // namespace hyalite

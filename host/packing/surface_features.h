@@ -1,0 +1,25 @@
+// Features of surfaces: what kernels must have code for. What no surface of a scene needs is left out of them.
+#pragma once
+
+#include "host/scene/scene.h"
+
+#include <cstdint>
+
+namespace hyalite {
+
+/// Which channel of the image in `slot` is read in place of all, as in TextureRecord::format: 0 for all, or for the red one.
+[[nodiscard]] std::uint32_t channelOf(const Texture &texture, const TextureUse &use, std::uint32_t slot);
+
+/// Bits of layout::textures... that the material needs.
+[[nodiscard]] std::uint32_t texturingOf(const Material &material, const std::vector<Texture> &textures);
+
+/// Bits of layout::textures... that the mesh brings.
+[[nodiscard]] std::uint32_t texturingOf(const TriangleMesh &mesh);
+
+/// Whether any vertex is less than opaque by its colour.
+[[nodiscard]] bool hasSheerColours(const TriangleMesh &mesh);
+
+/// Bits of layout::passes...: how rays pass through triangles of the material. `hasSheerColours` is that of their mesh.
+[[nodiscard]] std::uint32_t passingOf(const Material &material, bool hasSheerColours);
+
+} // namespace hyalite
