@@ -50,7 +50,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     command.add_option("scene", options.scene, "a .json scene, a .obj mesh, or the name of a shipped scene")
         ->required()
         ->type_name("SCENE");
-    addPaths(command, "--allow-path", options.allowedPaths,
+    addPaths(command, "--allow-path", options.load.allowedPaths,
              "also let a scene file read this file, or files in this folder; repeatable");
     const std::string image(imageGroup);
     addNumber(command, "--width", options.width, limits::imageSize, "pixels")->group(image);

@@ -1,6 +1,7 @@
 #include "host/import/assets.h"
 
 #include "host/base/error.h"
+#include "host/import/formats.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,14 +48,14 @@ std::vector<std::string> availableScenes() {
 }
 
 std::filesystem::path resolveScene(const std::string &argument) {
-    if (hasExtension(argument, ".json") || hasExtension(argument, ".obj"))
+    if (formatOf(argument) != nullptr)
         return argument;
     if (argument.empty() || argument.find_first_of("./") != std::string::npos)
         throw Error(
             ErrorKind::BadInput,
-            fmt::format("\"{}\" is not a scene: give a file that ends in .json or .obj, or the name of a "
-                        "shipped scene{}",
-                        argument, listOfScenes()));
+            fmt::format(
+                "\"{}\" is not a scene: give a file that ends in {}, or the name of a shipped scene{}",
+                argument, listOfExtensions(), listOfScenes()));
     std::vector<std::string> lookedAt;
     for (const std::filesystem::path &folder : assetFolders()) {
         std::filesystem::path file = folder / "scenes" / (argument + ".json");

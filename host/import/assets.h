@@ -15,7 +15,7 @@ namespace hyalite {
 /// The sorted names of the shipped scenes: scenes/NAME.json in any asset folder.
 [[nodiscard]] std::vector<std::string> availableScenes();
 
-/// The file of a SCENE argument. An argument that ends in .json or .obj is a path, which need not exist; a bare word is
+/// The file of a SCENE argument. An argument with the extension of a format (formats.h) is a path, which need not exist; a bare word is
 /// the name of a shipped scene. Throws Error{BadInput} for an unknown name, with the folders searched and the names
 /// that exist.
 [[nodiscard]] std::filesystem::path resolveScene(const std::string &argument);

@@ -38,6 +38,12 @@ FileReach::FileReach(const std::filesystem::path &sceneFile,
     std::ranges::for_each(allowedPaths, add);
 }
 
+FileReach FileReach::from(const std::filesystem::path &file) const {
+    FileReach reach = *this;
+    reach.folder_ = file.parent_path();
+    return reach;
+}
+
 std::filesystem::path FileReach::resolve(const JsonNode &node) const {
     if (node.text().empty())
         node.fail("found an empty name; allowed: that of a file");

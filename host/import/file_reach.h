@@ -19,6 +19,9 @@ class FileReach {
     /// there is no such file, or if it is out of reach after symbolic links and `..` are resolved. It opens nothing.
     [[nodiscard]] std::filesystem::path resolve(const JsonNode &node) const;
 
+    /// The same reach for names in a file that the scene names: relative to the folder of that file.
+    [[nodiscard]] FileReach from(const std::filesystem::path &file) const;
+
   private:
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> reachable_; ///< canonical

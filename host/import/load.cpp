@@ -2,12 +2,16 @@
 
 #include "host/base/error.h"
 #include "host/import/assets.h"
+#include "host/import/file_reach.h"
+#include "host/import/formats.h"
+#include "host/import/texture_library.h"
 #include "host/scene/framing.h"
 #include "host/scene/validate.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -30,30 +34,34 @@ void requireFile(const std::filesystem::path &file) {
                             isName ? fmt::format("; did you mean the shipped scene {}?", stem) : ""));
 }
 
-LoadedScene loadBareMesh(const std::filesystem::path &file, const LoadEvents &events) {
-    if (events.onOutline)
-        events.onOutline({true, RenderSettings{}});
+/// One mesh of all that the file has, framed and lit.
+LoadedScene loadBareMesh(const std::filesystem::path &file, const Format &format,
+                         const LoadOptions &options) {
+    if (options.events.onOutline)
+        options.events.onOutline({true, RenderSettings{}});
     TextureLibrary textures;
-    ObjMesh mesh = loadObj(file, {}, events.onReading, &textures);
+    const FileReach reach(file, options.allowedPaths);
+    MeshFile meshes = format.readMeshes(
+        file, {.onReading = options.events.onReading, .textures = &textures, .reach = reach});
     LoadedScene loaded;
-    loaded.scene = frameMesh(std::move(mesh.mesh));
+    loaded.scene = frameMesh(std::move(meshes.meshes.front().mesh));
     // The neutral material comes first, for triangles without a material.
-    loaded.scene.materials.insert(loaded.scene.materials.end(), mesh.materials.begin(), mesh.materials.end());
+    std::ranges::move(meshes.materials, std::back_inserter(loaded.scene.materials));
     loaded.scene.textures = textures.give();
     loaded.file = file;
-    loaded.meshReports = {mesh.report};
+    loaded.meshReports = {std::move(meshes.report)};
     loaded.autoFramed = true;
     return loaded;
 }
 
 } // namespace
 
-LoadedScene loadScene(const std::string &argument, const LoadEvents &events,
-                      std::span<const std::filesystem::path> allowedPaths) {
+LoadedScene loadScene(const std::string &argument, const LoadOptions &options) {
     const std::filesystem::path file = resolveScene(argument);
     requireFile(file);
+    const Format &format = *formatOf(file);
     LoadedScene loaded =
-        hasExtension(file, ".obj") ? loadBareMesh(file, events) : loadSceneFile(file, events, allowedPaths);
+        format.readScene != nullptr ? format.readScene(file, options) : loadBareMesh(file, format, options);
     loaded.inputFiles.push_back(file.string());
     for (const MeshReport &report : loaded.meshReports)
         for (const std::filesystem::path &path : report.files)

@@ -228,4 +228,11 @@ ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transfor
     return loaded;
 }
 
+MeshFile readObjMeshes(const std::filesystem::path &file, const MeshOptions &options) {
+    ObjMesh loaded = loadObj(file, options.transform, options.onReading, options.textures);
+    MeshFile meshes{.materials = std::move(loaded.materials), .report = std::move(loaded.report)};
+    meshes.meshes.push_back({std::move(loaded.mesh)});
+    return meshes;
+}
+
 } // namespace hyalite

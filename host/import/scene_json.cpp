@@ -220,8 +220,7 @@ RenderSettings readSettings(const JsonObject &object) {
 
 } // namespace
 
-LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &events,
-                          std::span<const std::filesystem::path> allowedPaths) {
+LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &options) {
     const nlohmann::json document = readJsonFile(file);
     const std::string fileName = file.string();
     const JsonObject top({&document, &fileName}, scene_keys::top);
@@ -236,13 +235,13 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
         scene.shadowThroughGlass = static_cast<float>(
             settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
     }
-    if (events.onOutline)
-        events.onOutline({!top.elements("meshes", limits::meshCount).empty() ||
-                              !top.elements("shapes", limits::meshCount).empty(),
-                          scene.settings});
+    if (options.events.onOutline)
+        options.events.onOutline({!top.elements("meshes", limits::meshCount).empty() ||
+                                      !top.elements("shapes", limits::meshCount).empty(),
+                                  scene.settings});
 
     scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
-    const FileReach reach(file, allowedPaths);
+    const FileReach reach(file, options.allowedPaths);
     TextureLibrary textures;
     if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
         scene.environment = readEnvironment(*environment, reach, loaded);
@@ -253,7 +252,7 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &e
     if (const std::optional<JsonNode> materials = top.find("materials"))
         for (const auto &[name, material] : JsonObject(*materials).members(limits::materialCount))
             scene.materials.push_back(readMaterial(name, JsonObject(material), {reach, textures}));
-    readObjects(top, reach, textures, events.onReading, loaded);
+    readObjects(top, reach, textures, options.events.onReading, loaded);
     scene.textures = textures.give();
     return loaded;
 }

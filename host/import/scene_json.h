@@ -48,7 +48,7 @@
 //       "inwardNormal"   true: the normal points to the centre, default false
 //     } ],
 //     "meshes": [ {
-//       "file"           OBJ, relative to the scene file, and in its folder or below, or in the assets
+//       "file"           OBJ, or another format of meshes (formats.h), relative to the scene file, and in its folder or below, or in the assets
 //       "material"       NAME; without it the mesh has those that its own libraries (MTL) give it
 //       "scale"          not 0, default 1; then
 //       "rotateDegrees"  about x, y and z in that order, default [0, 0, 0]; then
@@ -74,48 +74,25 @@
 // default is required where its object is given; every object of the top level may be left out.
 #pragma once
 
-#include "host/import/obj.h"
+#include "host/import/loaded_scene.h"
 #include "host/scene/scene.h"
 #include "host/scene/settings_table.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 namespace hyalite {
 
-/// What is known of a scene before its large files are read.
-struct SceneOutline {
-    bool hasMeshes;
-    RenderSettings settings;
-};
-
-/// What is told while a scene is loaded.
-struct LoadEvents {
-    std::function<void(const SceneOutline &)> onOutline;
-    OnReading onReading; ///< the share of all meshes that is read, each counting the same
-};
-
-struct LoadedScene {
-    Scene scene;
-    std::filesystem::path file;
-    std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
-    std::vector<std::string> warnings;   ///< of what is not a mesh
-    std::vector<MeshReport> meshReports; ///< one for each mesh of the input
-    bool autoFramed = false; ///< a bare mesh: where the image size is overridden, call frameCamera again
-};
-
 /// Reads a scene file and the meshes that it names. Values are in range and names are defined; what concerns
 /// several values at once (is up parallel to the view?) is left to validateScene. Files outside of the scene's
-/// folder, the assets and `allowedPaths` are not read (file_reach.h). Throws Error{BadInput}
+/// folder, the assets and `options.allowedPaths` are not read (file_reach.h). Throws Error{BadInput}
 /// naming the file, the key as a JSON path such as /spheres/3/radius (a syntax error: line and column), what
 /// was found and what is allowed.
-[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadEvents &events = {},
-                                        std::span<const std::filesystem::path> allowedPaths = {});
+[[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &options = {});
 
 /// The keys of each object of a scene file.
 namespace scene_keys {

@@ -1,5 +1,7 @@
 #include "host/import/scene_objects.h"
 
+#include "host/import/formats.h"
+#include "host/import/obj.h"
 #include "host/import/transform_json.h"
 #include "host/scene/framing.h"
 #include "host/scene/instances.h"
@@ -41,22 +43,33 @@ Sphere readSphere(const JsonObject &object, const std::vector<Material> &materia
 }
 
 /// Moves the mesh by the object's key "transform".
-void applyTransform(const JsonObject &object, TriangleMesh &mesh) {
+void applyTransform(const JsonObject &object, PlacedMesh &placed) {
     const std::optional<JsonNode> node = object.find("transform");
     if (!node)
         return;
     const glm::dmat4x3 map = readTransform(*node);
-    mesh = transformed(std::move(mesh), map);
-    for (const glm::vec3 &position : mesh.positions)
+    for (glm::dmat4x3 &place : placed.places)
+        place = composed(map, place);
+    if (!placed.places.empty())
+        return;
+    placed.mesh = transformed(std::move(placed.mesh), map);
+    for (const glm::vec3 &position : placed.mesh.positions)
         for (glm::length_t axis = 0; axis < 3; ++axis)
             if (!limits::coordinate.contains(static_cast<double>(position[axis])))
                 node->fail(fmt::format("moves a vertex to {}; allowed: coordinates {}", position[axis],
                                        limits::coordinate.text()));
 }
 
+/// How files of meshes are read for a scene file.
+struct MeshSource {
+    const FileReach &reach;
+    TextureLibrary &textures;
+    const OnReading &onReading;
+};
+
 /// `materials` are those of the scene file. A mesh that names none of them has its own.
-ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &materials, const FileReach &reach,
-                 TextureLibrary &textures, const OnReading &onReading) {
+MeshFile readMeshes(const JsonObject &object, const std::vector<Material> &materials,
+                    const MeshSource &source) {
     MeshTransform transform;
     transform.scale = object.number("scale", limits::meshScale, transform.scale);
     if (transform.scale == 0.0)
@@ -66,38 +79,50 @@ ObjMesh readMesh(const JsonObject &object, const std::vector<Material> &material
     const bool isNamed = object.find("material").has_value();
     const std::uint32_t materialIndex = isNamed ? readMaterialIndex(object.at("material"), materials) : 0;
 
-    ObjMesh mesh =
-        loadObj(reach.resolve(object.at("file")), transform, onReading, isNamed ? nullptr : &textures);
-    mesh.mesh.materialIndex = materialIndex;
-    applyTransform(object, mesh.mesh);
-    return mesh;
+    const JsonNode fileNode = object.at("file");
+    const std::filesystem::path path = source.reach.resolve(fileNode);
+    const Format *const format = formatOf(path);
+    if (format != nullptr && format->readMeshes == nullptr)
+        fileNode.refuse("a file of meshes");
+    // A file of another extension is OBJ by tradition.
+    const auto read = format != nullptr ? format->readMeshes : readObjMeshes;
+    MeshFile file = read(path, {.transform = transform,
+                                .onReading = source.onReading,
+                                .textures = isNamed ? nullptr : &source.textures,
+                                .reach = source.reach});
+    for (PlacedMesh &placed : file.meshes) {
+        if (isNamed)
+            placed.mesh.materialIndex = materialIndex;
+        applyTransform(object, placed);
+    }
+    return file;
 }
 
 constexpr int defaultSegments = 64;
 
-TriangleMesh readShape(const JsonObject &object, const std::vector<Material> &materials) {
+PlacedMesh readShape(const JsonObject &object, const std::vector<Material> &materials) {
     const ShapeKind kind = object.choice("type", shapeNames);
     const std::optional<JsonNode> segments = object.find("segments");
     if (segments && kind != ShapeKind::Disk && kind != ShapeKind::Cylinder)
         segments->fail(fmt::format("found with \"{}\"; allowed: with \"disk\" and \"cylinder\"",
                                    nameIn(shapeNames, kind)));
-    TriangleMesh mesh = makeShape(kind, object.integer("segments", limits::segments, defaultSegments));
-    mesh.name = nameIn(shapeNames, kind);
-    mesh.materialIndex = readMaterialIndex(object.at("material"), materials);
-    applyTransform(object, mesh);
-    return mesh;
+    PlacedMesh shape{makeShape(kind, object.integer("segments", limits::segments, defaultSegments))};
+    shape.mesh.name = nameIn(shapeNames, kind);
+    shape.mesh.materialIndex = readMaterialIndex(object.at("material"), materials);
+    applyTransform(object, shape);
+    return shape;
 }
 
 /// Gives triangles the scene's materials in place of those of the mesh that the object names. `first` is the index of the
 /// mesh's first material in the scene.
-void overrideMaterials(const JsonObject &object, ObjMesh &mesh, std::uint32_t first,
-                       const std::vector<Material> &own, const std::vector<Material> &named) {
+void overrideMaterials(const JsonObject &object, MeshFile &file, std::uint32_t first,
+                       const std::vector<Material> &named) {
     const std::optional<JsonNode> overrides = object.find("materialOverrides");
     if (!overrides)
         return;
     std::vector<std::string_view> names;
-    names.reserve(own.size());
-    for (const Material &material : own)
+    names.reserve(file.materials.size());
+    for (const Material &material : file.materials)
         names.push_back(material.name);
     for (const auto &[name, replacement] : JsonObject(*overrides).members(limits::materialCount)) {
         const auto found = std::ranges::find(names, name);
@@ -105,38 +130,63 @@ void overrideMaterials(const JsonObject &object, ObjMesh &mesh, std::uint32_t fi
             replacement.fail("the mesh has no material of this name; " +
                              (names.empty() ? "this mesh has none at all"
                                             : "it has " + quotedList(names) + suggestion(name, names)));
-        std::ranges::replace(mesh.mesh.triangleMaterials,
-                             first + static_cast<std::uint32_t>(found - names.begin()),
-                             readMaterialIndex(replacement, named));
+        const std::uint32_t replaced = first + static_cast<std::uint32_t>(found - names.begin());
+        const std::uint32_t index = readMaterialIndex(replacement, named);
+        for (PlacedMesh &placed : file.meshes) {
+            std::ranges::replace(placed.mesh.triangleMaterials, replaced, index);
+            if (placed.mesh.materialIndex == replaced)
+                placed.mesh.materialIndex = index;
+        }
     }
 }
 
-/// Gives the scene the materials that a mesh has brought, behind a neutral one for triangles without any. `named` are those
+/// Gives the scene the materials that a file has brought, behind a neutral one for triangles without any. `named` are those
 /// of the scene file, which may override them.
-void addMaterialsOf(const JsonObject &object, ObjMesh &mesh, const std::vector<Material> &named,
+void addMaterialsOf(const JsonObject &object, MeshFile &file, const std::vector<Material> &named,
                     Scene &scene) {
     const auto first = static_cast<std::uint32_t>(scene.materials.size());
-    mesh.mesh.materialIndex = first;
-    for (std::uint32_t &material : mesh.mesh.triangleMaterials)
-        material += first;
-    overrideMaterials(object, mesh, first + 1, mesh.materials, named);
+    for (PlacedMesh &placed : file.meshes) {
+        placed.mesh.materialIndex += first;
+        for (std::uint32_t &material : placed.mesh.triangleMaterials)
+            material += first;
+    }
+    overrideMaterials(object, file, first + 1, named);
     scene.materials.push_back(neutralMaterial());
-    std::ranges::move(mesh.materials, std::back_inserter(scene.materials));
+    std::ranges::move(file.materials, std::back_inserter(scene.materials));
 }
 
-/// Adds an instance of the mesh for each transform of the array.
-void readInstances(const JsonNode &transforms, TriangleMesh &&mesh, Scene &scene) {
+/// The key "instances": an array of transforms.
+std::vector<glm::dmat4x3> readInstances(const JsonNode &transforms) {
     if (!transforms.value->is_array() || transforms.value->empty())
         transforms.refuse("an array of transforms, at least one");
-    if (scene.instances.size() + transforms.value->size() > limits::instanceCount)
+    if (transforms.value->size() > limits::instanceCount)
         transforms.refuse(fmt::format("at most {} instances in all", limits::instanceCount));
-    std::vector<Placement> placements;
-    placements.reserve(transforms.value->size());
-    for (std::size_t i = 0; i < transforms.value->size(); ++i) {
-        const JsonNode node{&(*transforms.value)[i], transforms.fileName, transforms.path / i};
-        placements.push_back(toPlacement(readTransform(node)));
+    std::vector<glm::dmat4x3> maps;
+    maps.reserve(transforms.value->size());
+    for (std::size_t i = 0; i < transforms.value->size(); ++i)
+        maps.push_back(readTransform({&(*transforms.value)[i], transforms.fileName, transforms.path / i}));
+    return maps;
+}
+
+/// Adds the mesh at each of its places, under each of the object's instances.
+void addMesh(const JsonNode &node, const std::vector<glm::dmat4x3> &instances, PlacedMesh &&placed,
+             Scene &scene) {
+    if (instances.empty() && placed.places.empty()) {
+        scene.meshes.push_back(std::move(placed.mesh));
+        return;
     }
-    addInstances(scene, std::move(mesh), placements);
+    const std::size_t innerCount = std::max<std::size_t>(placed.places.size(), 1);
+    const std::size_t outerCount = std::max<std::size_t>(instances.size(), 1);
+    if (outerCount > (limits::instanceCount - scene.instances.size()) / innerCount)
+        node.fail(fmt::format("it has more instances than {}, with those before it", limits::instanceCount));
+    std::vector<Placement> placements;
+    placements.reserve(outerCount * innerCount);
+    for (std::size_t i = 0; i < outerCount; ++i)
+        for (std::size_t j = 0; j < innerCount; ++j)
+            placements.push_back(toPlacement(placed.places.empty() ? instances[i]
+                                             : instances.empty()   ? placed.places[j]
+                                                                 : composed(instances[i], placed.places[j])));
+    addInstances(scene, std::move(placed.mesh), placements);
 }
 
 } // namespace
@@ -147,38 +197,40 @@ void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &
     for (const JsonNode &sphere : top.elements("spheres", limits::sphereCount))
         scene.spheres.push_back(readSphere({sphere, scene_keys::sphere}, scene.materials));
     const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
-    const auto onReadingMesh = [&](double share) {
+    const OnReading onReadingMesh = [&](double share) {
         if (onReading)
             onReading((static_cast<double>(loaded.meshReports.size()) + share) /
                       static_cast<double>(meshes.size()));
     };
     const std::vector<Material> named = scene.materials;
     std::size_t triangleTotal = 0;
-    const auto addMesh = [&](const JsonNode &node, const JsonObject &object, TriangleMesh &&mesh) {
-        triangleTotal += mesh.triangles.size();
-        if (triangleTotal > limits::triangleCount) // before the next mesh takes memory
-            node.fail(fmt::format("found {} triangles up to this mesh; allowed: at most {}", triangleTotal,
-                                  limits::triangleCount));
-        if (const std::optional<JsonNode> transforms = object.find("instances"))
-            readInstances(*transforms, std::move(mesh), scene);
-        else
-            scene.meshes.push_back(std::move(mesh));
+    const auto add = [&](const JsonNode &node, const JsonObject &object, std::vector<PlacedMesh> &&placed) {
+        const std::optional<JsonNode> transforms = object.find("instances");
+        const auto instances = transforms ? readInstances(*transforms) : std::vector<glm::dmat4x3>();
+        for (PlacedMesh &mesh : placed) {
+            triangleTotal += mesh.mesh.triangles.size();
+            if (triangleTotal > limits::triangleCount) // before the next mesh takes memory
+                node.fail(fmt::format("found {} triangles up to this mesh; allowed: at most {}",
+                                      triangleTotal, limits::triangleCount));
+            addMesh(node, instances, std::move(mesh), scene);
+        }
+        return instances.size();
     };
     for (const JsonNode &node : top.elements("shapes", limits::meshCount)) {
         const JsonObject object(node, scene_keys::shape);
-        addMesh(node, object, readShape(object, named));
+        std::vector<PlacedMesh> shape;
+        shape.push_back(readShape(object, named));
+        add(node, object, std::move(shape));
     }
     for (const JsonNode &node : meshes) {
         const JsonObject object(node, scene_keys::mesh);
-        ObjMesh mesh = readMesh(object, named, reach, textures, onReadingMesh);
+        MeshFile file = readMeshes(object, named, {reach, textures, onReadingMesh});
         if (!object.find("material"))
-            addMaterialsOf(object, mesh, named, scene);
+            addMaterialsOf(object, file, named, scene);
         else if (const std::optional<JsonNode> overrides = object.find("materialOverrides"))
             overrides->fail("found beside \"material\"; allowed: one of the two");
-        if (const std::optional<JsonNode> transforms = object.find("instances"))
-            mesh.report.instanceCount = transforms->value->size();
-        addMesh(node, object, std::move(mesh.mesh));
-        loaded.meshReports.push_back(std::move(mesh.report));
+        file.report.instanceCount = add(node, object, std::move(file.meshes));
+        loaded.meshReports.push_back(std::move(file.report));
     }
 }
 

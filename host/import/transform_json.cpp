@@ -74,11 +74,8 @@ glm::dmat4x3 readStep(const JsonNode &node) {
 
 glm::dmat4x3 readSteps(const JsonNode &node) {
     glm::dmat4x3 map = mapOf(glm::dmat3(1.0), glm::dvec3(0.0));
-    for (std::size_t i = 0; i < node.value->size(); ++i) {
-        const glm::dmat4x3 step = readStep({&(*node.value)[i], node.fileName, node.path / i});
-        const glm::dmat3 linear = linearPartOf(step);
-        map = mapOf(linear * linearPartOf(map), linear * map[3] + step[3]);
-    }
+    for (std::size_t i = 0; i < node.value->size(); ++i)
+        map = composed(readStep({&(*node.value)[i], node.fileName, node.path / i}), map);
     return map;
 }
 
@@ -92,6 +89,11 @@ glm::dmat4x3 readTransform(const JsonNode &node) {
     if (determinant(toPlacement(map)) == 0.0)
         node.fail("the transform makes everything flat; allowed: one with a volume");
     return map;
+}
+
+glm::dmat4x3 composed(const glm::dmat4x3 &outer, const glm::dmat4x3 &inner) {
+    const glm::dmat3 linear = linearPartOf(outer);
+    return mapOf(linear * linearPartOf(inner), linear * inner[3] + outer[3]);
 }
 
 Placement toPlacement(const glm::dmat4x3 &transform) {

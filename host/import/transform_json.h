@@ -14,6 +14,9 @@ namespace hyalite {
 /// `matrix`. Throws Error{BadInput} for anything else, and for a map that flattens space in single precision.
 [[nodiscard]] glm::dmat4x3 readTransform(const JsonNode &node);
 
+/// `inner` first, then `outer`.
+[[nodiscard]] glm::dmat4x3 composed(const glm::dmat4x3 &outer, const glm::dmat4x3 &inner);
+
 /// The map in single precision.
 [[nodiscard]] Placement toPlacement(const glm::dmat4x3 &transform);
 

@@ -34,7 +34,7 @@ std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const Loaded
     if (!options.lookAt.empty())
         return toVector(options.lookAt);
     if (loaded.autoFramed && !options.cameraPosition.empty())
-        return triangleBounds(loaded.scene.meshes.front()).centre();
+        return triangleBounds(loaded.scene, loaded.file.string()).centre();
     return std::nullopt;
 }
 
@@ -78,7 +78,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
                                                nameIn(cameraNames, camera.kind)));
     camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
     if (loaded.autoFramed)
-        camera = frameCamera(triangleBounds(scene.meshes.front()), camera.width, camera.height,
+        camera = frameCamera(triangleBounds(scene, loaded.file.string()), camera.width, camera.height,
                              camera.horizontalFovDegrees);
     moveCamera(options, loaded, camera);
 }
@@ -176,9 +176,9 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
             if (onOutline)
                 onOutline(outline);
         };
-        prepared.loaded =
-            loadScene(options.scene, {tellOutline, [&](double share) { progress.update(share); }},
-                      options.allowedPaths);
+        LoadOptions load = options.load;
+        load.events = {tellOutline, [&](double share) { progress.update(share); }};
+        prepared.loaded = loadScene(options.scene, load);
     }
     for (const std::string &warning : prepared.loaded.warnings)
         printMessage("hyalite: warning: {}\n", warning);

@@ -4,12 +4,11 @@
 #include "host/base/error.h"
 #include "host/bvh/bvh.h"
 #include "host/film/film.h"
-#include "host/import/scene_json.h"
+#include "host/import/loaded_scene.h"
 #include "host/packing/packed_scene.h"
 #include "host/report/provenance.h"
 #include "host/scene/settings_table.h"
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -30,7 +29,7 @@ struct SceneOptions {
     std::vector<double> up;
     std::vector<double> background;
     std::vector<int> crop;
-    std::vector<std::filesystem::path> allowedPaths;
+    LoadOptions load;         ///< but its events
     bool isFlattened = false; ///< instances become meshes
 };
 

@@ -1,6 +1,7 @@
 #include "host/scene/framing.h"
 
 #include "host/base/error.h"
+#include "host/scene/instances.h"
 #include "host/scene/limits.h"
 
 #include <fmt/format.h>
@@ -46,25 +47,47 @@ Light lightFrom(const glm::dvec3 &direction, double radiance, const Bounds &boun
     return {bounds.centre() + distance * direction, glm::dvec3(power)};
 }
 
-} // namespace
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Bounds nothing{glm::dvec3(infinity), glm::dvec3(-infinity)};
 
-Bounds triangleBounds(const TriangleMesh &mesh) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Bounds bounds{glm::dvec3(infinity), glm::dvec3(-infinity)};
+/// Makes the box enclose the mesh, whose positions are where `place` brings them.
+template <class Place> void enclose(Bounds &bounds, const TriangleMesh &mesh, const Place &place) {
     for (const MeshTriangle &triangle : mesh.triangles)
         for (glm::length_t corner = 0; corner < 3; ++corner) {
-            const glm::dvec3 position(mesh.positions[triangle.positions[corner]]);
+            const glm::dvec3 position(place(mesh.positions[triangle.positions[corner]]));
             bounds.low = glm::min(bounds.low, position);
             bounds.high = glm::max(bounds.high, position);
         }
-    if (mesh.triangles.empty())
-        throw Error(ErrorKind::BadInput, fmt::format("{}: has no triangle to look at", mesh.name));
+}
+
+void requireFramed(const Bounds &bounds, const std::string &name) {
+    if (!(bounds.low.x <= bounds.high.x))
+        throw Error(ErrorKind::BadInput, fmt::format("{}: has no triangle to look at", name));
     const double extent = 2.0 * halfDiagonal(bounds);
     if (!limits::framedExtent.contains(extent))
         throw Error(ErrorKind::BadInput,
                     fmt::format("{}: the mesh is {:g} across, and a camera is placed for meshes {}; write a "
                                 "scene file that scales it",
-                                mesh.name, extent, limits::framedExtent.text()));
+                                name, extent, limits::framedExtent.text()));
+}
+
+} // namespace
+
+Bounds triangleBounds(const TriangleMesh &mesh) {
+    Bounds bounds = nothing;
+    enclose(bounds, mesh, [](const glm::vec3 &position) { return position; });
+    requireFramed(bounds, mesh.name);
+    return bounds;
+}
+
+Bounds triangleBounds(const Scene &scene, const std::string &name) {
+    Bounds bounds = nothing;
+    for (const TriangleMesh &mesh : scene.meshes)
+        enclose(bounds, mesh, [](const glm::vec3 &position) { return position; });
+    for (const Instance &instance : scene.instances)
+        enclose(bounds, scene.prototypes[instance.prototype],
+                [&](const glm::vec3 &position) { return placedPoint(instance.toWorld, position); });
+    requireFramed(bounds, name);
     return bounds;
 }
 

@@ -15,6 +15,9 @@ struct Bounds {
 };
 [[nodiscard]] Bounds triangleBounds(const TriangleMesh &mesh);
 
+/// The same of all meshes and instances of the scene; `name` is the scene's, for the message.
+[[nodiscard]] Bounds triangleBounds(const Scene &scene, const std::string &name);
+
 /// The camera in front of the box, to the right and slightly above, as near as it may come: the projected box
 /// leaves a small margin at each edge of an image of width x height pixels (>= 1), whatever the aspect. The
 /// field of view is in (0, 180).

@@ -177,7 +177,7 @@ TEST_F(SceneJson, MeshesAreFoundFromTheFolderOfTheSceneFile) {
         "below/scene.json",
         R"({"materials": {"m": {"type": "mirror"}}, "meshes": [{"file": "../triangle.obj", "material": "m"}]})");
     EXPECT_TRUE(refusalOf(file).starts_with(" /meshes/0/file: ")) << "what is out of reach is not read";
-    const LoadedScene loaded = loadSceneFile(file, {}, std::array{folder});
+    const LoadedScene loaded = loadSceneFile(file, {.allowedPaths = {folder}});
     EXPECT_EQ(triangleCount(loaded.scene), 1u);
     EXPECT_EQ(loaded.meshReports.size(), 1u);
 }

@@ -1,0 +1,42 @@
+// A loaded scene: what every reader of scenes takes and gives, whatever the format.
+#pragma once
+
+#include "host/import/mesh_file.h"
+#include "host/scene/scene.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// What is known of a scene before its large files are read.
+struct SceneOutline {
+    bool hasMeshes;
+    RenderSettings settings;
+};
+
+/// What is told while a scene is loaded.
+struct LoadEvents {
+    std::function<void(const SceneOutline &)> onOutline{};
+    OnReading onReading{}; ///< the share of all meshes that is read, each counting the same
+};
+
+/// How a scene is loaded.
+struct LoadOptions {
+    LoadEvents events{};
+    std::vector<std::filesystem::path> allowedPaths{}; ///< files that a scene may name beside those near it
+};
+
+struct LoadedScene {
+    Scene scene;
+    std::filesystem::path file;
+    std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
+    std::vector<std::string> warnings;   ///< of what is not a mesh
+    std::vector<MeshReport> meshReports; ///< one for each mesh of the input
+    bool autoFramed =
+        false; ///< no camera in the file: where the image size is overridden, call frameCamera again
+};
+
+} // namespace hyalite
