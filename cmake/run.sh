@@ -20,7 +20,7 @@ build=$root/build/release
 target=all
 needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
         libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
-        zlib1g-dev)
+        zlib1g-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
 needed_for_bench=(libbenchmark-dev libembree-dev)
 needed_for_check=(clang-format-14 clang-tidy-14 libomp-14-dev)

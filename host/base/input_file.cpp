@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -54,10 +55,21 @@ InputFile::InputFile(const std::filesystem::path &path) : path_(path) {
     sizeBytes_ = static_cast<std::uint64_t>(status.st_size);
 }
 
-InputFile::~InputFile() { close(descriptor_); }
+InputFile::InputFile(std::filesystem::path name, std::span<const std::byte> contents)
+    : path_(std::move(name)), sizeBytes_(contents.size()), contents_(contents) {}
+
+InputFile::~InputFile() {
+    if (descriptor_ >= 0)
+        close(descriptor_);
+}
 
 void InputFile::read(std::uint64_t offsetBytes, std::span<std::byte> destination) const {
     assert(offsetBytes <= sizeBytes_ && destination.size() <= sizeBytes_ - offsetBytes);
+    if (descriptor_ < 0) {
+        std::ranges::copy(contents_.subspan(static_cast<std::size_t>(offsetBytes), destination.size()),
+                          destination.begin());
+        return;
+    }
     while (!destination.empty()) {
         const ssize_t count =
             pread(descriptor_, destination.data(), destination.size(), static_cast<off_t>(offsetBytes));

@@ -1,5 +1,5 @@
 // Input file: a regular file that is read piece by piece, so that its contents can be checked before memory is
-// allocated. All files that a user or a scene names are opened here.
+// allocated. All files that a user or a scene names are opened here. Or a file inside another one, already in memory.
 #pragma once
 
 #include "host/base/error.h"
@@ -18,6 +18,8 @@ class InputFile {
     /// Throws Error{BadInput} if there is no such file, it cannot be read, or it is a folder, device, pipe or socket,
     /// which are never opened or waited for.
     explicit InputFile(const std::filesystem::path &path);
+    /// A file inside another one. `name` is for messages; the contents outlive the object.
+    InputFile(std::filesystem::path name, std::span<const std::byte> contents);
     InputFile(const InputFile &) = delete;
     InputFile &operator=(const InputFile &) = delete;
     ~InputFile();
@@ -39,7 +41,8 @@ class InputFile {
   private:
     std::filesystem::path path_;
     std::uint64_t sizeBytes_ = 0;
-    int descriptor_ = -1;
+    int descriptor_ = -1; ///< -1: in memory
+    std::span<const std::byte> contents_{};
 };
 
 } // namespace hyalite

@@ -123,8 +123,10 @@ std::string readText(const std::filesystem::path &path) {
 } // namespace
 
 nlohmann::json readJsonFile(const std::filesystem::path &file) {
-    const std::string text = readText(file);
-    const std::string fileName = file.string();
+    return parseJson(readText(file), file.string());
+}
+
+nlohmann::json parseJson(const std::string &text, const std::string &fileName) {
     DocumentCheck check(fileName, text);
     json::sax_parse(text, &check);
     // The parser takes a NUL behind the document for the file's end, and would not see what follows.

@@ -60,15 +60,29 @@ std::int64_t readWholeNumber(const std::string &option, std::string_view text, c
     return *number;
 }
 
-CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
-                     const std::string &typeName, const std::string &help) {
-    const auto read = [name, &path](const CLI::results_t &words) {
+namespace {
+
+CLI::Option *addWord(CLI::App &command, const std::string &name, std::string &word,
+                     const std::string &allowed, const std::string &typeName, const std::string &help) {
+    const auto read = [name, &word, allowed](const CLI::results_t &words) {
         if (words.front().empty())
-            refuseValue(name, "", "the name of a file");
-        path = words.front();
+            refuseValue(name, "", allowed);
+        word = words.front();
         return true;
     };
     return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);
+}
+
+} // namespace
+
+CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
+                     const std::string &typeName, const std::string &help) {
+    return addWord(command, name, path, "the name of a file", typeName, help);
+}
+
+CLI::Option *addText(CLI::App &command, const std::string &name, std::string &text,
+                     const std::string &typeName, const std::string &help) {
+    return addWord(command, name, text, "a name", typeName, help);
 }
 
 CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,

@@ -118,6 +118,10 @@ CLI::Option *addChoice(CLI::App &command, const std::string &name, std::optional
 CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
                      const std::string &typeName, const std::string &help);
 
+/// An option with a text, which must not be empty.
+CLI::Option *addText(CLI::App &command, const std::string &name, std::string &text,
+                     const std::string &typeName, const std::string &help);
+
 /// An option that may be repeated, each time with an existing folder or file.
 CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,
                       const std::string &help);

@@ -47,7 +47,9 @@ void addSettings(CLI::App &command, std::string_view group, SettingChanges &chan
 } // namespace
 
 void addSceneOptions(CLI::App &command, SceneOptions &options) {
-    command.add_option("scene", options.scene, "a .json scene, a .obj mesh, or the name of a shipped scene")
+    command
+        .add_option("scene", options.scene,
+                    "a .json, .gltf or .glb scene, a .obj mesh, or the name of a shipped scene")
         ->required()
         ->type_name("SCENE");
     addPaths(command, "--allow-path", options.load.allowedPaths,
@@ -75,6 +77,25 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->group(view);
     addNumbers(command, "--background", options.background, limits::radiance, "R,G,B",
                "radiance of rays that leave the scene, linear RGB")
+        ->group(view);
+
+    addFile(
+        command, "--environment", options.environment, "FILE",
+        "light from all around, in place of the scene's: .hdr, .exr, .pfm, .png or .jpg, by longitude and "
+        "latitude")
+        ->group(view);
+    addNumber(command, "--environment-scale", options.environmentScale, limits::environmentScale,
+              "factor on the environment")
+        ->group(view);
+    addNumber(command, "--environment-rotate", options.environmentRotateDegrees, limits::rotateDegrees,
+              "degrees by which it is turned about +y")
+        ->group(view);
+    addText(command, "--camera", options.load.camera, "NAME", "glTF: the camera of this name or index")
+        ->group(view);
+    addText(command, "--gltf-scene", options.load.gltfScene, "NAME", "glTF: the scene of this name or index")
+        ->group(view);
+    addNumber(command, "--time", options.load.timeSeconds, limits::timeSeconds,
+              "glTF: seconds into its animations; without it, the pose of rest")
         ->group(view);
 
     addSettings(command, tracingGroup, options.settings);

@@ -1,9 +1,9 @@
 #include "host/image/texture_file.h"
 
-#include "host/base/input_file.h"
 #include "host/image/hdr.h"
 #include "host/image/jpeg.h"
 #include "host/image/png.h"
+#include "host/image/webp.h"
 
 #include <utility>
 #include <vector>
@@ -12,7 +12,7 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::size_t headBytes = 8;
+constexpr std::size_t headBytes = 12;
 
 Texture readHdrTexture(const InputFile &file) {
     Image image = readHdr(file);
@@ -28,21 +28,24 @@ Texture readHdrTexture(const InputFile &file) {
 
 bool isTextureFile(const std::filesystem::path &path) {
     const std::vector<std::byte> head = InputFile(path).head(headBytes);
-    return isPng(head) || isJpeg(head) || isHdr(head);
+    return isPng(head) || isJpeg(head) || isWebp(head) || isHdr(head);
 }
 
-Texture readTexture(const std::filesystem::path &path) {
-    const InputFile file(path);
+Texture readTexture(const std::filesystem::path &path) { return readTexture(InputFile(path)); }
+
+Texture readTexture(const InputFile &file) {
     const std::vector<std::byte> head = file.head(headBytes);
     if (isPng(head))
         return readPngTexture(file);
     if (isJpeg(head))
         return readJpeg(file);
+    if (isWebp(head))
+        return readWebp(file);
     if (isHdr(head))
         return readHdrTexture(file);
     throw file.bad(file.sizeBytes() == 0
                        ? "it is empty"
-                       : "it is no PNG, JPEG or Radiance (HDR) file, which textures are read from");
+                       : "it is no PNG, JPEG, WebP or Radiance (HDR) file, which textures are read from");
 }
 
 } // namespace hyalite

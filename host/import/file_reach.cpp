@@ -44,10 +44,12 @@ FileReach FileReach::from(const std::filesystem::path &file) const {
     return reach;
 }
 
-std::filesystem::path FileReach::resolve(const JsonNode &node) const {
-    if (node.text().empty())
+std::filesystem::path FileReach::resolve(const JsonNode &node) const { return resolve(node, node.text()); }
+
+std::filesystem::path FileReach::resolve(const JsonNode &node, const std::string &name) const {
+    if (name.empty())
         node.fail("found an empty name; allowed: that of a file");
-    std::filesystem::path file = folder_ / node.text();
+    std::filesystem::path file = folder_ / name;
     std::error_code error;
     const std::filesystem::path absolute = std::filesystem::absolute(file, error);
     if (error)

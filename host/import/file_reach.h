@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace hyalite {
@@ -18,6 +19,9 @@ class FileReach {
     /// The path of the file that `node` names, relative to the folder of the scene file. Throws Error{BadInput} if
     /// there is no such file, or if it is out of reach after symbolic links and `..` are resolved. It opens nothing.
     [[nodiscard]] std::filesystem::path resolve(const JsonNode &node) const;
+
+    /// The same for a name that the node's text stands for.
+    [[nodiscard]] std::filesystem::path resolve(const JsonNode &node, const std::string &name) const;
 
     /// The same reach for names in a file that the scene names: relative to the folder of that file.
     [[nodiscard]] FileReach from(const std::filesystem::path &file) const;

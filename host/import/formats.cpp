@@ -1,6 +1,7 @@
 #include "host/import/formats.h"
 
 #include "host/import/assets.h"
+#include "host/import/gltf/gltf.h"
 #include "host/import/obj.h"
 #include "host/import/scene_json.h"
 
@@ -15,6 +16,8 @@ namespace {
 constexpr auto table = std::to_array<Format>({
     {.extension = ".json", .readScene = loadSceneFile},
     {.extension = ".obj", .readMeshes = readObjMeshes},
+    {.extension = ".gltf", .readScene = loadGltf, .hasChoices = true, .readMeshes = readGltfMeshes},
+    {.extension = ".glb", .readScene = loadGltf, .hasChoices = true, .readMeshes = readGltfMeshes},
 });
 
 } // namespace

@@ -15,6 +15,7 @@ struct Format {
     std::string_view extension; ///< ".obj", in lower case
     /// Reads the file as a scene. Null: a file of meshes alone, which is framed and lit.
     LoadedScene (*readScene)(const std::filesystem::path &file, const LoadOptions &options) = nullptr;
+    bool hasChoices = false; ///< of cameras, scenes and times: LoadOptions
     /// Reads its meshes and their materials, for a scene file that places them. Null: no scene file may.
     MeshFile (*readMeshes)(const std::filesystem::path &file, const MeshOptions &options) = nullptr;
 };

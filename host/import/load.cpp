@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -54,12 +55,29 @@ LoadedScene loadBareMesh(const std::filesystem::path &file, const Format &format
     return loaded;
 }
 
+/// Throws Error{Usage} for choices that files of this format do not offer.
+void requireChoices(const Format &format, const LoadOptions &options, const std::filesystem::path &file) {
+    const auto refuse = [&](std::string_view what) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{}: {}; glTF files have (.gltf, .glb)", file.string(), what));
+    };
+    if (format.hasChoices)
+        return;
+    if (!options.camera.empty())
+        refuse("this format has no cameras to choose from");
+    if (!options.gltfScene.empty())
+        refuse("this format has no scenes to choose from");
+    if (options.timeSeconds)
+        refuse("this format has no animations");
+}
+
 } // namespace
 
 LoadedScene loadScene(const std::string &argument, const LoadOptions &options) {
     const std::filesystem::path file = resolveScene(argument);
     requireFile(file);
     const Format &format = *formatOf(file);
+    requireChoices(format, options, file);
     LoadedScene loaded =
         format.readScene != nullptr ? format.readScene(file, options) : loadBareMesh(file, format, options);
     loaded.inputFiles.push_back(file.string());

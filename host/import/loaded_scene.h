@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ struct LoadEvents {
 struct LoadOptions {
     LoadEvents events{};
     std::vector<std::filesystem::path> allowedPaths{}; ///< files that a scene may name beside those near it
+    // Formats that have a choice, as glTF does; others refuse them.
+    std::string camera{};                ///< name or index; empty: the first one
+    std::string gltfScene{};             ///< name or index; empty: the file's default one
+    std::optional<double> timeSeconds{}; ///< of animations; empty: the pose of rest
 };
 
 struct LoadedScene {
@@ -35,6 +40,8 @@ struct LoadedScene {
     std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
     std::vector<std::string> warnings;   ///< of what is not a mesh
     std::vector<MeshReport> meshReports; ///< one for each mesh of the input
+    /// Of the camera, where the file gives this one: the horizontal one follows from the size of the image.
+    std::optional<double> verticalFovDegrees{};
     bool autoFramed =
         false; ///< no camera in the file: where the image size is overridden, call frameCamera again
 };

@@ -14,19 +14,31 @@ namespace hyalite {
 
 std::uint32_t TextureLibrary::load(const std::filesystem::path &file) {
     std::error_code error; // a path without a canonical form is its own key
-    const std::string key = std::filesystem::weakly_canonical(file, error).string();
-    const auto index = static_cast<std::uint32_t>(textures_.size());
-    const auto [found, isNew] = indices_.try_emplace(key.empty() ? file.string() : key, index);
-    if (!isNew)
-        return found->second;
-    textures_.push_back(readTexture(file));
-    sizeBytes_ += bytesOnDevice(textures_.back());
-    if (sizeBytes_ > limits::textureBytes) // before the next one takes memory
+    std::string key = std::filesystem::weakly_canonical(file, error).string();
+    if (key.empty())
+        key = file.string();
+    const auto found = indices_.find(key);
+    return found != indices_.end() ? found->second : add(key, InputFile(file));
+}
+
+std::uint32_t TextureLibrary::load(const std::string &name, std::span<const std::byte> image) {
+    const auto found = indices_.find(name);
+    return found != indices_.end() ? found->second : add(name, InputFile(name, image));
+}
+
+std::uint32_t TextureLibrary::add(const std::string &key, const InputFile &file) {
+    Texture texture = readTexture(file);
+    const std::size_t sizeBytes = sizeBytes_ + bytesOnDevice(texture);
+    if (sizeBytes > limits::textureBytes) // before the next one takes memory
         throw Error(
             ErrorKind::BadInput,
             fmt::format("{}: {} x {} pixels make it {} bytes of textures; allowed: {}; make images smaller",
-                        file.string(), textures_.back().width, textures_.back().height, sizeBytes_,
+                        file.path().string(), texture.width, texture.height, sizeBytes,
                         limits::textureBytes));
+    sizeBytes_ = sizeBytes;
+    const auto index = static_cast<std::uint32_t>(textures_.size());
+    textures_.push_back(std::move(texture));
+    indices_.emplace(key, index);
     return index;
 }
 

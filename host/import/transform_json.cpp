@@ -91,6 +91,11 @@ glm::dmat4x3 readTransform(const JsonNode &node) {
     return map;
 }
 
+glm::dmat4x3 mapOf(const MeshTransform &transform) {
+    return mapOf(rotationOf(transform.rotateDegrees) * scaleBy(glm::dvec3(transform.scale)),
+                 transform.translate);
+}
+
 glm::dmat4x3 composed(const glm::dmat4x3 &outer, const glm::dmat4x3 &inner) {
     const glm::dmat3 linear = linearPartOf(outer);
     return mapOf(linear * linearPartOf(inner), linear * inner[3] + outer[3]);

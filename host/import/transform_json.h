@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/base/json_reader.h"
+#include "host/import/mesh_file.h"
 #include "host/scene/scene.h"
 
 #include <glm/mat4x3.hpp>
@@ -13,6 +14,9 @@ namespace hyalite {
 /// an object with one key: `scale` (a number or three), `rotateDegrees` (about x, then y, then z), `translate`,
 /// `matrix`. Throws Error{BadInput} for anything else, and for a map that flattens space in single precision.
 [[nodiscard]] glm::dmat4x3 readTransform(const JsonNode &node);
+
+/// The steps of a mesh file's transform as a map.
+[[nodiscard]] glm::dmat4x3 mapOf(const MeshTransform &transform);
 
 /// `inner` first, then `outer`.
 [[nodiscard]] glm::dmat4x3 composed(const glm::dmat4x3 &outer, const glm::dmat4x3 &inner);

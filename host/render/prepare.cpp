@@ -4,6 +4,7 @@
 #include "host/base/message.h"
 #include "host/bvh/bvh.h"
 #include "host/bvh/tree_statistics.h"
+#include "host/import/environment_file.h"
 #include "host/import/load.h"
 #include "host/report/progress.h"
 #include "host/scene/framing.h"
@@ -18,8 +19,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace hyalite {
@@ -58,6 +61,31 @@ void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
         change(settings);
 }
 
+void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
+    Environment &environment = loaded.scene.environment;
+    if (!options.environment.empty()) {
+        EnvironmentImage image = readEnvironmentImage(options.environment);
+        environment = {.radiance = std::move(image.radiance)};
+        loaded.inputFiles.push_back(options.environment);
+        std::ranges::move(image.warnings, std::back_inserter(loaded.warnings));
+    }
+    const bool isMissing = environment.radiance.pixels().empty();
+    const auto require = [&](std::string_view option) {
+        if (isMissing)
+            throw OverrideError(
+                std::string(option),
+                "found a scene without an environment; allowed: with one, or with --environment");
+    };
+    if (options.environmentScale) {
+        require("environment-scale");
+        environment.scale = static_cast<float>(*options.environmentScale);
+    }
+    if (options.environmentRotateDegrees) {
+        require("environment-rotate");
+        environment.rotateDegrees = *options.environmentRotateDegrees;
+    }
+}
+
 void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     RenderSettings &settings = scene.settings;
@@ -68,6 +96,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
                                                   nameOf(settings.filter)));
     if (!options.background.empty())
         scene.background = glm::vec3(toVector(options.background));
+    overrideEnvironment(options, loaded);
 
     Camera &camera = scene.camera;
     camera.width = options.width.value_or(camera.width);
@@ -76,6 +105,9 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
         throw OverrideError("fov", fmt::format("found a camera of the type {}, which has no field of "
                                                "view; allowed: with a perspective one",
                                                nameIn(cameraNames, camera.kind)));
+    if (loaded.verticalFovDegrees)
+        camera.horizontalFovDegrees =
+            horizontalFovDegrees(*loaded.verticalFovDegrees, camera.width, camera.height);
     camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
     if (loaded.autoFramed)
         camera = frameCamera(triangleBounds(scene, loaded.file.string()), camera.width, camera.height,
@@ -180,12 +212,12 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
         load.events = {tellOutline, [&](double share) { progress.update(share); }};
         prepared.loaded = loadScene(options.scene, load);
     }
+    applyOverrides(options, prepared.loaded);
     for (const std::string &warning : prepared.loaded.warnings)
         printMessage("hyalite: warning: {}\n", warning);
     for (const MeshReport &report : prepared.loaded.meshReports)
         for (const std::string &warning : report.warnings)
             printMessage("hyalite: warning: {}\n", warning);
-    applyOverrides(options, prepared.loaded);
     Scene &scene = prepared.loaded.scene;
     validateWithOverrides(options, scene, prepared.loaded.file.string());
     prepared.crop = chooseCrop(options.crop, scene.camera);

@@ -28,6 +28,9 @@ struct SceneOptions {
     std::vector<double> lookAt;
     std::vector<double> up;
     std::vector<double> background;
+    std::string environment; ///< a file; empty: the scene's own
+    std::optional<double> environmentScale;
+    std::optional<double> environmentRotateDegrees;
     std::vector<int> crop;
     LoadOptions load;         ///< but its events
     bool isFlattened = false; ///< instances become meshes

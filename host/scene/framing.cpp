@@ -123,6 +123,11 @@ Camera frameCamera(const Bounds &bounds, int width, int height, double horizonta
     return camera;
 }
 
+double horizontalFovDegrees(double verticalFovDegrees, int width, int height) {
+    const double tangent = std::tan(glm::radians(0.5 * verticalFovDegrees)) * width / height;
+    return glm::degrees(2.0 * std::atan(tangent));
+}
+
 Material neutralMaterial() {
     Material neutral;
     neutral.name = "neutral";

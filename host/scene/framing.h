@@ -31,6 +31,9 @@ struct Bounds {
 ///          +z
 [[nodiscard]] Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees);
 
+/// The horizontal field of view of an image of width x height pixels whose vertical one this is.
+[[nodiscard]] double horizontalFovDegrees(double verticalFovDegrees, int width, int height);
+
 /// What triangles without a material are made of.
 [[nodiscard]] Material neutralMaterial();
 

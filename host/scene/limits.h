@@ -39,6 +39,8 @@ inline constexpr Interval rotateDegrees{-3600.0, 3600.0};
 inline constexpr double normalLengthTolerance = 1e-3; ///< of a mesh normal's length around 1
 inline constexpr Interval framedExtent{1e-12, 1e12};  ///< box diagonal of a mesh that can be framed
 
+inline constexpr Interval timeSeconds{0.0, 1e9};
+
 inline constexpr Interval threadCount{1, 1024};
 inline constexpr Interval inspectedRays{1, 1e6}; ///< each is tested against all triangles
 

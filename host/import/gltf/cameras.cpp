@@ -1,0 +1,72 @@
+#include "host/import/gltf/cameras.h"
+
+#include "host/scene/framing.h"
+#include "host/scene/limits.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <numbers>
+#include <string_view>
+
+namespace hyalite::gltf {
+namespace {
+
+PlacedCamera placed(const JsonNode &node, const glm::dmat4x3 &toWorld) {
+    const JsonObject object(node);
+    PlacedCamera found;
+    Camera &camera = found.camera;
+    camera.position = toWorld[3];
+    camera.direction = -glm::normalize(toWorld[2]);
+    camera.up = glm::normalize(toWorld[1]);
+    const std::string type = object.text("type");
+    if (type == "perspective") {
+        const JsonObject perspective(object.at("perspective"));
+        found.verticalFovDegrees =
+            glm::degrees(perspective.number("yfov", {0.0, std::numbers::pi, false, false}));
+        camera.horizontalFovDegrees =
+            horizontalFovDegrees(*found.verticalFovDegrees, camera.width, camera.height);
+    } else if (type == "orthographic") {
+        const JsonObject orthographic(object.at("orthographic"));
+        camera.kind = CameraKind::Orthographic;
+        camera.viewWidth = 2.0 * orthographic.number("xmag", {0.0, 0.5 * limits::viewWidth.high, false});
+    } else {
+        object.at("type").refuse("\"perspective\" or \"orthographic\"");
+    }
+    return found;
+}
+
+/// What a user may call the camera of a node.
+bool isCalled(const std::string &choice, const Document &document, std::size_t camera,
+              const JsonObject &node) {
+    return choice == nameOf(JsonObject(document.at("cameras", camera))) || choice == nameOf(node) ||
+           choice == fmt::format("{}", camera);
+}
+
+} // namespace
+
+std::optional<PlacedCamera> readCamera(const Document &document, const std::vector<std::size_t> &nodes,
+                                       const std::vector<glm::dmat4x3> &toWorld, const std::string &choice) {
+    std::vector<std::string> names;
+    for (const std::size_t index : nodes) {
+        const JsonObject node(document.at("nodes", index));
+        const std::optional<std::size_t> camera = document.reference(node, "camera", "cameras");
+        const glm::dmat4x3 &map = toWorld[index];
+        if (!camera || !(glm::length(map[2]) > 0.0 && glm::length(map[1]) > 0.0))
+            continue;
+        if (choice.empty() || isCalled(choice, document, *camera, node))
+            return placed(document.at("cameras", *camera), map);
+        const std::string own = nameOf(JsonObject(document.at("cameras", *camera)));
+        const std::string name = own.empty() ? nameOf(node) : own;
+        names.push_back(name.empty() ? fmt::format("{}", *camera) : name);
+    }
+    if (choice.empty())
+        return std::nullopt;
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    throw Error(ErrorKind::Usage,
+                fmt::format("{}: its scene has no camera \"{}\"; it has {}", document.fileName(), choice,
+                            names.empty() ? "none" : quotedList(views)));
+}
+
+} // namespace hyalite::gltf

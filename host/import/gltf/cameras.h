@@ -1,0 +1,30 @@
+// Cameras of a glTF file (glTF 2.0, section 3.10).
+#pragma once
+
+#include "host/import/gltf/document.h"
+#include "host/scene/scene.h"
+
+#include <glm/mat4x3.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite::gltf {
+
+struct PlacedCamera {
+    Camera camera;
+    std::optional<double>
+        verticalFovDegrees{}; ///< of a perspective one: the image's shape gives the horizontal one
+};
+
+/// The camera that a user means by its name, the name of its node, or its index in /cameras; with an empty choice the
+/// first one of the nodes, which are those of the scene; nothing where they have none. Throws Error{Usage} for a choice
+/// that no node has.
+[[nodiscard]] std::optional<PlacedCamera> readCamera(const Document &document,
+                                                     const std::vector<std::size_t> &nodes,
+                                                     const std::vector<glm::dmat4x3> &toWorld,
+                                                     const std::string &choice);
+
+} // namespace hyalite::gltf

@@ -1,0 +1,162 @@
+#include "host/import/gltf/contents.h"
+
+#include "host/import/gltf/animation.h"
+#include "host/import/gltf/extensions.h"
+#include "host/import/gltf/instancing.h"
+#include "host/import/gltf/lights.h"
+#include "host/import/gltf/materials.h"
+#include "host/import/gltf/meshes.h"
+#include "host/import/gltf/skins.h"
+#include "host/import/transform_json.h"
+#include "host/scene/instances.h"
+#include "host/scene/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace hyalite::gltf {
+namespace {
+
+/// Meshes that are the same but for their place: by index and weights of morph targets.
+struct MeshUse {
+    std::size_t mesh;
+    Deformation deformation;
+    std::vector<glm::dmat4x3> places; ///< none for a skin, whose mesh is in world space
+};
+
+bool isFlat(const glm::dmat4x3 &map) { return determinant(toPlacement(map)) == 0.0; }
+
+void requireInRange(const glm::dmat4x3 &map, const JsonNode &node) {
+    for (glm::length_t column = 0; column < 4; ++column)
+        for (glm::length_t row = 0; row < 3; ++row)
+            if (!limits::coordinate.contains(map[column][row]))
+                node.fail(fmt::format("brings its mesh beyond coordinates {}", limits::coordinate.text()));
+}
+
+/// Where nodes see meshes.
+class MeshUses {
+  public:
+    MeshUses(Buffers &buffers, const std::vector<Pose> &poses, const std::vector<glm::dmat4x3> &toWorld,
+             std::vector<std::string> &warnings)
+        : buffers_(buffers), poses_(poses), toWorld_(toWorld), warnings_(warnings) {}
+
+    void add(std::size_t index) {
+        const Document &document = buffers_.document();
+        const JsonNode node = document.at("nodes", index);
+        const JsonObject object(node);
+        const std::optional<std::size_t> mesh = document.reference(object, "mesh", "meshes");
+        if (!mesh)
+            return;
+        if (const auto skin = document.reference(object, "skin", "skins")) {
+            uses_.push_back({*mesh, {poses_[index].weights, jointMaps(buffers_, *skin, toWorld_)}, {}});
+            return;
+        }
+        std::vector<glm::dmat4x3> places{toWorld_[index]};
+        if (const auto instancing = extensionOf(object, "EXT_mesh_gpu_instancing")) {
+            places = readInstancing(buffers_, *instancing);
+            for (glm::dmat4x3 &place : places)
+                place = composed(toWorld_[index], place);
+        }
+        for (const glm::dmat4x3 &place : places)
+            requireInRange(place, node);
+        const std::size_t flatCount = std::erase_if(places, isFlat);
+        if (flatCount > 0)
+            warnings_.push_back(
+                fmt::format("{}: {}: the mesh is flattened to a plane, a line or a point by its "
+                            "transform, and is left out",
+                            document.fileName(), node.path.to_string()));
+        if (places.empty())
+            return;
+        const auto [known, isNew] = known_.try_emplace({*mesh, poses_[index].weights}, uses_.size());
+        if (isNew)
+            uses_.push_back({*mesh, {poses_[index].weights, {}}, {}});
+        std::vector<glm::dmat4x3> &all = uses_[known->second].places;
+        all.insert(all.end(), places.begin(), places.end());
+    }
+
+    [[nodiscard]] const std::vector<MeshUse> &uses() const { return uses_; }
+
+  private:
+    Buffers &buffers_;
+    const std::vector<Pose> &poses_;
+    const std::vector<glm::dmat4x3> &toWorld_;
+    std::vector<std::string> &warnings_;
+    std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> known_;
+    std::vector<MeshUse> uses_;
+};
+
+void addWarnings(const MeshFindings &findings, const std::string &fileName, MeshReport &report) {
+    const auto warn = [&](std::size_t count, std::string_view what) {
+        if (count > 0)
+            report.warnings.push_back(fmt::format("{}: {} {}", fileName, count, what));
+    };
+    warn(findings.passedOver.points, "primitives of points are passed over");
+    warn(findings.passedOver.lines, "primitives of lines are passed over");
+    warn(findings.passedOver.empty, "primitives without positions are passed over");
+    warn(findings.uvLess,
+         "triangles have no texture coordinates that their material wants, and show one texel");
+    report.degenerateTriangleCount = findings.degenerateTriangles;
+    report.lostNormalCount = findings.lostNormals;
+}
+
+void readMeshes(Buffers &buffers, const std::vector<MeshUse> &uses, const OnReading &onReading,
+                MeshFile &file) {
+    MeshReader reader(buffers, file.materials);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        if (onReading)
+            onReading(static_cast<double>(i) / static_cast<double>(uses.size()));
+        TriangleMesh mesh = reader.read(uses[i].mesh, uses[i].deformation);
+        if (mesh.triangles.empty())
+            continue;
+        MeshReport &report = file.report;
+        report.triangleCount += mesh.triangles.size();
+        report.vertexCount += mesh.positions.size();
+        report.normalCount += mesh.normals.size();
+        report.instanceCount += uses[i].places.size() > 1 ? uses[i].places.size() : 0;
+        file.meshes.push_back({std::move(mesh), uses[i].places});
+    }
+    file.report.faceCount = file.report.triangleCount + reader.findings().degenerateTriangles;
+    addWarnings(reader.findings(), buffers.document().fileName(), file.report);
+}
+
+} // namespace
+
+Contents readContents(const std::filesystem::path &path, const FileReach &reach, TextureLibrary &textures,
+                      const ContentOptions &options) {
+    const Document document(path);
+    Allowance allowance;
+    allowance.addFile(document.sizeBytes());
+    const FileReach near = reach.from(path);
+    Buffers buffers(document, near, allowance);
+    Contents contents;
+    MeshReport &report = contents.file.report;
+    report.name = document.fileName();
+    checkExtensions(document, report.warnings);
+
+    const NodeTree tree(document);
+    std::vector<Pose> poses = readPoses(document);
+    if (options.timeSeconds)
+        animate(buffers, *options.timeSeconds, poses);
+    const std::vector<glm::dmat4x3> toWorld = tree.toWorld(poses);
+    const std::vector<std::size_t> nodes = tree.nodesOfScene(document, options.scene);
+
+    TextureReader textureReader(buffers, near, textures, report.warnings);
+    contents.file.materials = readMaterials(document, textureReader, report.warnings);
+    MeshUses uses(buffers, poses, toWorld, report.warnings);
+    for (const std::size_t node : nodes) {
+        uses.add(node);
+        if (const auto light =
+                readLight(document, JsonObject(document.at("nodes", node)), toWorld[node], report.warnings))
+            contents.lights.push_back(*light);
+    }
+    readMeshes(buffers, uses.uses(), options.onReading, contents.file);
+    contents.camera = readCamera(document, nodes, toWorld, options.camera);
+    report.files = buffers.files();
+    report.files.insert(report.files.begin(), path);
+    return contents;
+}
+
+} // namespace hyalite::gltf

@@ -1,0 +1,34 @@
+// Contents of a glTF file: meshes, materials, lights and a camera, in world space.
+#pragma once
+
+#include "host/import/file_reach.h"
+#include "host/import/gltf/cameras.h"
+#include "host/import/mesh_file.h"
+#include "host/import/texture_library.h"
+#include "host/scene/scene.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite::gltf {
+
+struct ContentOptions {
+    std::string scene{};  ///< name or index; empty: the file's default one
+    std::string camera{}; ///< likewise; empty: the first one
+    std::optional<double> timeSeconds{};
+    const OnReading &onReading;
+};
+
+struct Contents {
+    MeshFile file; ///< names its buffers, too, in its report
+    std::vector<Light> lights;
+    std::optional<PlacedCamera> camera;
+};
+
+[[nodiscard]] Contents readContents(const std::filesystem::path &file, const FileReach &reach,
+                                    TextureLibrary &textures, const ContentOptions &options);
+
+} // namespace hyalite::gltf

@@ -1,0 +1,72 @@
+// The document of a glTF file (glTF 2.0, sections 3 and 4): its JSON, its binary chunk, references between its objects.
+//
+// Everything that is refused is an Error{BadInput} "FILE: /path/to/the/key: found ...; allowed: ...".
+#pragma once
+
+#include "host/base/interval.h"
+#include "host/base/json_reader.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyalite::gltf {
+
+/// Of counts, offsets and lengths in bytes: whole numbers that a double holds exactly.
+inline constexpr Interval byteCount{0.0, 9007199254740991.0};
+inline constexpr Interval anyNumber{-3.4028234663852886e38, 3.4028234663852886e38}; ///< a finite float
+
+class Document {
+  public:
+    /// Reads a .gltf or a .glb, told apart by its first bytes, without the files that it names. Versions other than 2
+    /// are refused.
+    explicit Document(const std::filesystem::path &file);
+
+    [[nodiscard]] const std::filesystem::path &path() const { return path_; }
+    [[nodiscard]] const std::string &fileName() const { return fileName_; }
+    [[nodiscard]] std::uint64_t sizeBytes() const { return sizeBytes_; } ///< of the file
+    /// The binary chunk of a .glb; empty where there is none.
+    [[nodiscard]] std::span<const std::byte> binaryChunk() const { return binaryChunk_; }
+
+    [[nodiscard]] JsonObject top() const { return JsonObject(topNode()); }
+    [[nodiscard]] JsonNode topNode() const { return {&json_, &fileName_}; }
+
+    /// How many elements an array of the top level has; 0 without it.
+    [[nodiscard]] std::size_t count(std::string_view array) const;
+    /// An element of it.
+    [[nodiscard]] JsonNode at(std::string_view array, std::size_t index) const;
+    /// The index in that array that the node says.
+    [[nodiscard]] std::size_t reference(const JsonNode &node, std::string_view array) const;
+    /// The same of a member, which may be missing.
+    [[nodiscard]] std::optional<std::size_t> reference(const JsonObject &object, std::string_view key,
+                                                       std::string_view array) const;
+
+  private:
+    std::filesystem::path path_;
+    std::string fileName_;
+    nlohmann::json json_;
+    std::vector<std::byte> binaryChunk_;
+    std::uint64_t sizeBytes_ = 0;
+};
+
+/// The elements of an array in an object; none where the key is missing.
+[[nodiscard]] std::vector<JsonNode> elementsOf(const JsonObject &object, std::string_view key);
+
+/// The numbers of an array, exactly `count` of them.
+[[nodiscard]] std::vector<double> numbersOf(const JsonNode &node, std::size_t count,
+                                            const Interval &allowed = anyNumber);
+
+/// The object of an extension, if this object has it.
+[[nodiscard]] std::optional<JsonObject> extensionOf(const JsonObject &object, std::string_view name);
+
+/// The member "name", for messages and choices; empty without it.
+[[nodiscard]] std::string nameOf(const JsonObject &object);
+
+} // namespace hyalite::gltf

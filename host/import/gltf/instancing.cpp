@@ -1,0 +1,45 @@
+#include "host/import/gltf/instancing.h"
+
+#include "host/import/gltf/nodes.h"
+#include "host/import/gltf/primitive.h"
+
+#include <glm/geometric.hpp>
+
+namespace hyalite::gltf {
+
+std::vector<glm::dmat4x3> readInstancing(Buffers &buffers, const JsonObject &extension) {
+    const JsonNode node = extension.at("attributes");
+    const Attributes attributes = readAttributes(buffers, node);
+    if (attributes.empty())
+        node.refuse("TRANSLATION, ROTATION or SCALE");
+    const auto accessor = [&](std::string_view name, std::string_view type) -> const Accessor * {
+        const auto found = attributes.find(name);
+        if (found == attributes.end())
+            return nullptr;
+        found->second.requireType(type);
+        return &found->second;
+    };
+    const Accessor *const translations = accessor("TRANSLATION", "VEC3");
+    const Accessor *const rotations = accessor("ROTATION", "VEC4");
+    const Accessor *const scales = accessor("SCALE", "VEC3");
+    const std::size_t count = attributes.begin()->second.count();
+    constexpr std::size_t bytesEach = 256; // of a map and an instance
+    buffers.allowance().take(count * bytesEach, node);
+    std::vector<glm::dmat4x3> maps;
+    maps.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Pose pose;
+        if (translations != nullptr)
+            pose.translation = glm::dvec3(translations->vec3(i));
+        if (rotations != nullptr)
+            pose.rotation = glm::dvec4(rotations->vec4(i));
+        if (scales != nullptr)
+            pose.scale = glm::dvec3(scales->vec3(i));
+        if (!(glm::length(pose.rotation) > 1e-3))
+            rotations->node().fail(fmt::format("element {} is a rotation of length 0", i));
+        maps.push_back(pose.toParent());
+    }
+    return maps;
+}
+
+} // namespace hyalite::gltf

@@ -1,0 +1,264 @@
+#include "host/import/gltf/materials.h"
+
+#include "host/scene/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+namespace hyalite::gltf {
+namespace {
+
+constexpr auto alphaModes = std::to_array<std::pair<std::string_view, AlphaMode>>(
+    {{"OPAQUE", AlphaMode::Opaque}, {"MASK", AlphaMode::CutOut}, {"BLEND", AlphaMode::Blend}});
+
+float number(const JsonObject &object, std::string_view key, const Interval &allowed, double fallback) {
+    return static_cast<float>(object.number(key, allowed, fallback));
+}
+
+glm::vec3 colour(const JsonObject &object, std::string_view key, const Interval &allowed, double fallback) {
+    const std::optional<JsonNode> node = object.find(key);
+    return node ? glm::vec3(node->vector(allowed)) : glm::vec3(static_cast<float>(fallback));
+}
+
+/// Reads one material.
+class MaterialReader {
+  public:
+    MaterialReader(const JsonNode &node, TextureReader &textures, std::vector<std::string> &warnings)
+        : node_(node), object_(node), textures_(textures), warnings_(warnings) {
+        material_.kind = MaterialKind::Gltf;
+    }
+
+    Material read() {
+        material_.name = nameOf(object_);
+        if (material_.name.empty())
+            material_.name = node_.path.to_string();
+        readBase();
+        if (const auto glossy = extensionOf(object_, "KHR_materials_pbrSpecularGlossiness"))
+            readSpecularGlossiness(*glossy);
+        readAlpha();
+        readSurface();
+        readSpecular();
+        readTransmission();
+        readClearcoat();
+        readSheen();
+        readAnisotropy();
+        material_.isUnlit = extensionOf(object_, "KHR_materials_unlit").has_value();
+        const bool isDoubleSided = object_.boolean("doubleSided", false);
+        material_.twoSided = isDoubleSided;
+        material_.isCulled = !isDoubleSided && material_.transmission == 0.0f && material_.isThin;
+        return std::move(material_);
+    }
+
+  private:
+    /// Puts the texture of a member into a slot.
+    void wear(std::uint32_t slot, const JsonObject &object, std::string_view key,
+              Channel channel = Channel::Red) {
+        const std::optional<JsonNode> info = object.find(key);
+        if (!info)
+            return;
+        std::optional<TextureUse> use = textures_.read(*info);
+        if (!use)
+            return;
+        use->channel = channel;
+        material_.textures[slot] = *use;
+    }
+
+    void readFactors(const JsonObject &object, std::string_view factorKey) {
+        const std::optional<JsonNode> factor = object.find(factorKey);
+        const std::vector<double> numbers =
+            factor ? numbersOf(*factor, 4, limits::fraction) : std::vector<double>(4, 1.0);
+        material_.albedo = glm::vec3(glm::dvec3(numbers[0], numbers[1], numbers[2]));
+        material_.opacity = static_cast<float>(numbers[3]);
+    }
+
+    void readBase() {
+        material_.albedo = glm::vec3(1.0f);
+        material_.metallic = 1.0f;
+        material_.roughness = 1.0f;
+        const std::optional<JsonNode> node = object_.find("pbrMetallicRoughness");
+        if (!node)
+            return;
+        const JsonObject base(*node);
+        readFactors(base, "baseColorFactor");
+        wear(layout::slotBaseColour, base, "baseColorTexture");
+        material_.metallic = number(base, "metallicFactor", limits::fraction, 1.0);
+        material_.roughness = number(base, "roughnessFactor", limits::fraction, 1.0);
+        wear(layout::slotRoughness, base, "metallicRoughnessTexture", Channel::Green);
+        wear(layout::slotMetallic, base, "metallicRoughnessTexture", Channel::Blue);
+    }
+
+    /// In place of the base. With a texture, `roughness` is the factor on its alpha, which is glossiness.
+    void readSpecularGlossiness(const JsonObject &glossy) {
+        material_.isSpecularGlossy = true;
+        material_.metallic = 0.0f;
+        for (const std::uint32_t slot : {layout::slotBaseColour, layout::slotRoughness, layout::slotMetallic})
+            material_.textures[slot].reset();
+        readFactors(glossy, "diffuseFactor");
+        wear(layout::slotBaseColour, glossy, "diffuseTexture");
+        material_.dielectricColour = colour(glossy, "specularFactor", limits::fraction, 1.0);
+        wear(layout::slotDielectricColour, glossy, "specularGlossinessTexture");
+        wear(layout::slotRoughness, glossy, "specularGlossinessTexture", Channel::Alpha);
+        const float glossiness = number(glossy, "glossinessFactor", limits::fraction, 1.0);
+        material_.roughness = material_.textures[layout::slotRoughness] ? glossiness : 1.0f - glossiness;
+    }
+
+    void readAlpha() {
+        material_.alphaMode = object_.choice("alphaMode", alphaModes, AlphaMode::Opaque);
+        material_.alphaCutoff = number(object_, "alphaCutoff", {0.0, 1e30}, 0.5);
+        const std::optional<TextureUse> &base = material_.textures[layout::slotBaseColour];
+        if (material_.alphaMode == AlphaMode::Opaque) {
+            material_.opacity = 1.0f;
+        } else if (base && textures_.hasAlpha(*base)) {
+            material_.textures[layout::slotOpacity] = base;
+            material_.textures[layout::slotOpacity]->channel = Channel::Alpha;
+        }
+    }
+
+    void readSurface() {
+        wear(layout::slotNormal, object_, "normalTexture");
+        if (material_.textures[layout::slotNormal])
+            material_.normalStrength = readStrength(object_, "normalTexture");
+        double strength = 1.0;
+        if (const auto emissive = extensionOf(object_, "KHR_materials_emissive_strength"))
+            strength = emissive->number("emissiveStrength", limits::radiance, 1.0);
+        material_.emission =
+            colour(object_, "emissiveFactor", limits::fraction, 0.0) * static_cast<float>(strength);
+        if (material_.emission != glm::vec3(0.0f))
+            wear(layout::slotEmission, object_, "emissiveTexture");
+    }
+
+    [[nodiscard]] float readStrength(const JsonObject &object, std::string_view key) {
+        const double most = limits::normalStrength.high;
+        const float strength = number(JsonObject(object.at(key)), "scale", {-most, most}, 1.0);
+        if (strength < 0.0f)
+            warnings_.push_back(
+                fmt::format("{}: {}: its normal map turns normals the wrong way by a scale of "
+                            "{}, which counts as {}",
+                            *node_.fileName, node_.path.to_string(), strength, -strength));
+        return std::abs(strength);
+    }
+
+    void readSpecular() {
+        if (const auto specular = extensionOf(object_, "KHR_materials_specular");
+            specular && !material_.isSpecularGlossy) {
+            material_.dielectricWeight = number(*specular, "specularFactor", limits::fraction, 1.0);
+            material_.dielectricColour = colour(*specular, "specularColorFactor", limits::radiance, 1.0);
+            wear(layout::slotDielectricWeight, *specular, "specularTexture", Channel::Alpha);
+            wear(layout::slotDielectricColour, *specular, "specularColorTexture");
+        }
+        const auto ior = extensionOf(object_, "KHR_materials_ior");
+        if (!ior)
+            return;
+        const double index = ior->number("ior", {0.0, 1e6}, 1.5);
+        if (index > 0.0 && index < 1.0)
+            ior->at("ior").refuse("0, or a number from 1 on");
+        const double most = limits::refractiveIndex.high;
+        material_.refractiveIndex = static_cast<float>(index == 0.0 ? most : std::min(index, most));
+        if (index == 0.0 && !material_.isSpecularGlossy) // by definition everything is reflected head on
+            material_.dielectricColour *= static_cast<float>(std::pow((most + 1.0) / (most - 1.0), 2.0));
+        if (index > most)
+            warnings_.push_back(fmt::format("{}: {}: its refractive index of {} counts as {}",
+                                            *node_.fileName, node_.path.to_string(), index, most));
+    }
+
+    void readTransmission() {
+        material_.isThin = true;
+        if (const auto transmission = extensionOf(object_, "KHR_materials_transmission")) {
+            material_.transmission = number(*transmission, "transmissionFactor", limits::fraction, 0.0);
+            wear(layout::slotTransmission, *transmission, "transmissionTexture", Channel::Red);
+        }
+        const auto volume = extensionOf(object_, "KHR_materials_volume");
+        if (!volume)
+            return;
+        material_.isThin = !(volume->number("thicknessFactor", limits::radiance, 0.0) > 0.0);
+        const std::optional<JsonNode> distance = volume->find("attenuationDistance");
+        if (!distance || material_.isThin)
+            return;
+        const double length = distance->number({0.0, 1e30, false});
+        const glm::vec3 tint = colour(*volume, "attenuationColor", limits::fraction, 1.0);
+        for (glm::length_t channel = 0; channel < 3; ++channel)
+            material_.absorption[channel] = absorptionOf(static_cast<double>(tint[channel]), length);
+    }
+
+    /// Beer's law: light is dimmed by `tint` over the length. A tint of 0 counts as 1e-6.
+    static float absorptionOf(double tint, double length) {
+        const double absorption = -std::log(std::max(tint, 1e-6)) / length;
+        return static_cast<float>(std::clamp(absorption, 0.0, limits::absorption.high));
+    }
+
+    void readClearcoat() {
+        const auto coat = extensionOf(object_, "KHR_materials_clearcoat");
+        if (!coat)
+            return;
+        material_.clearcoat = number(*coat, "clearcoatFactor", limits::fraction, 0.0);
+        material_.clearcoatRoughness = number(*coat, "clearcoatRoughnessFactor", limits::fraction, 0.0);
+        if (material_.clearcoat == 0.0f)
+            return;
+        wear(layout::slotClearcoat, *coat, "clearcoatTexture", Channel::Red);
+        wear(layout::slotClearcoatRoughness, *coat, "clearcoatRoughnessTexture", Channel::Green);
+        wear(layout::slotClearcoatNormal, *coat, "clearcoatNormalTexture");
+        if (material_.textures[layout::slotClearcoatNormal])
+            material_.clearcoatNormalStrength = readStrength(*coat, "clearcoatNormalTexture");
+    }
+
+    void readSheen() {
+        const auto sheen = extensionOf(object_, "KHR_materials_sheen");
+        if (!sheen)
+            return;
+        material_.sheenColour = colour(*sheen, "sheenColorFactor", limits::fraction, 0.0);
+        material_.sheenRoughness = number(*sheen, "sheenRoughnessFactor", limits::fraction, 0.0);
+        if (material_.sheenColour == glm::vec3(0.0f))
+            return;
+        wear(layout::slotSheenColour, *sheen, "sheenColorTexture");
+        wear(layout::slotSheenRoughness, *sheen, "sheenRoughnessTexture", Channel::Alpha);
+    }
+
+    void readAnisotropy() {
+        const auto anisotropy = extensionOf(object_, "KHR_materials_anisotropy");
+        if (!anisotropy)
+            return;
+        material_.anisotropy = number(*anisotropy, "anisotropyStrength", limits::fraction, 0.0);
+        material_.anisotropyRotation = number(*anisotropy, "anisotropyRotation", {-1e6, 1e6}, 0.0);
+        if (material_.anisotropy > 0.0f)
+            wear(layout::slotAnisotropy, *anisotropy, "anisotropyTexture", Channel::Blue);
+    }
+
+    JsonNode node_;
+    JsonObject object_;
+    TextureReader &textures_;
+    std::vector<std::string> &warnings_;
+    Material material_;
+};
+
+/// glTF 2.0, section 3.9.6 and 5.19: the defaults of a material.
+Material defaultMaterial() {
+    Material material;
+    material.name = "default";
+    material.kind = MaterialKind::Gltf;
+    material.albedo = glm::vec3(1.0f);
+    material.metallic = 1.0f;
+    material.roughness = 1.0f;
+    material.alphaMode = AlphaMode::Opaque;
+    material.isThin = true;
+    material.isCulled = true;
+    return material;
+}
+
+} // namespace
+
+std::vector<Material> readMaterials(const Document &document, TextureReader &textures,
+                                    std::vector<std::string> &warnings) {
+    std::vector<Material> materials;
+    for (const JsonNode &node : document.top().elements("materials", limits::materialCount - 2))
+        materials.push_back(MaterialReader(node, textures, warnings).read());
+    materials.push_back(defaultMaterial());
+    return materials;
+}
+
+} // namespace hyalite::gltf

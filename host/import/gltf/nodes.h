@@ -1,0 +1,59 @@
+// The tree of nodes of a glTF file (glTF 2.0, section 3.5), and where its nodes are.
+#pragma once
+
+#include "host/import/gltf/document.h"
+
+#include <glm/mat4x3.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite::gltf {
+
+/// Where a node is, relative to its parent. Animations change it.
+struct Pose {
+    std::optional<glm::dmat4x3> matrix{}; ///< in place of the three that follow
+    glm::dvec3 translation{0.0};
+    glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0}; ///< a quaternion x, y, z, w of any length but 0
+    glm::dvec3 scale{1.0};
+    std::vector<double> weights{}; ///< of the morph targets of its mesh; none: those of the mesh
+
+    [[nodiscard]] glm::dmat4x3 toParent() const;
+};
+
+/// The poses that the file gives its nodes, in the order of /nodes.
+[[nodiscard]] std::vector<Pose> readPoses(const Document &document);
+
+/// Which nodes are children of which.
+class NodeTree {
+  public:
+    /// Throws Error{BadInput} for a node with two parents, and for one that is its own ancestor.
+    explicit NodeTree(const Document &document);
+
+    /// Of all nodes, from their own space to the world.
+    [[nodiscard]] std::vector<glm::dmat4x3> toWorld(const std::vector<Pose> &poses) const;
+
+    /// The nodes of a scene, parents before their children. `choice` is the name or the index of a scene; empty: the
+    /// file's default one, or the first; all nodes where the file has no scenes. Throws Error{Usage} for a choice that
+    /// is none.
+    [[nodiscard]] std::vector<std::size_t> nodesOfScene(const Document &document,
+                                                        const std::string &choice) const;
+
+  private:
+    [[nodiscard]] std::vector<std::size_t> descend(const std::vector<std::size_t> &roots) const;
+
+    std::vector<std::vector<std::size_t>> children_;
+    std::vector<std::optional<std::size_t>> parents_;
+    std::vector<std::size_t> all_; ///< parents before their children
+};
+
+/// The index of the element of `array` that a user means: by its member "name", or by its index in digits. Throws
+/// Error{Usage} for a choice that is none, with the names that there are; `what` is for the message: "scene".
+[[nodiscard]] std::size_t chosenElement(const Document &document, std::string_view array,
+                                        std::string_view what, const std::string &choice);
+
+} // namespace hyalite::gltf
