@@ -53,6 +53,16 @@ TEST_F(GltfView, WithoutACameraSeesItWhole) {
     EXPECT_NE(loaded.scene.camera.position, Camera{}.position);
 }
 
+TEST_F(GltfView, WithoutTrianglesSaysSo) {
+    GltfMaker maker = oneTriangle();
+    maker.json["scenes"][0]["nodes"] = nlohmann::json::array();
+    maker.json["scenes"][0].erase("nodes");
+    const LoadedScene loaded = load(maker);
+    EXPECT_FALSE(loaded.autoFramed);
+    ASSERT_EQ(loaded.warnings.size(), 1u);
+    EXPECT_NE(loaded.warnings[0].find("nothing to see"), std::string::npos);
+}
+
 TEST_F(GltfView, ChoicesAreRefusedForOtherFormats) {
     const std::string mesh = write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
     EXPECT_THROW(static_cast<void>(loadScene(mesh, {.camera = "a"})), Error);

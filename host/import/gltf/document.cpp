@@ -69,6 +69,15 @@ std::vector<Chunk> chunksOf(const InputFile &file) {
     return chunks;
 }
 
+/// What all elements of the arrays of the top level are.
+void checkObjects(const JsonObject &top) {
+    for (const std::string_view array :
+         {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes",
+          "nodes", "samplers", "scenes", "skins", "textures"})
+        for (const JsonNode &element : elementsOf(top, array))
+            static_cast<void>(nameOf(JsonObject(element)));
+}
+
 void checkVersion(const JsonObject &top) {
     const JsonObject asset(top.at("asset"));
     const JsonNode version = asset.at("version");
@@ -96,6 +105,7 @@ Document::Document(const std::filesystem::path &file) : path_(file), fileName_(f
     }
     json_ = parseJson(text, fileName_);
     checkVersion(top());
+    checkObjects(top());
 }
 
 std::size_t Document::count(std::string_view array) const {
@@ -126,6 +136,8 @@ std::optional<std::size_t> Document::reference(const JsonObject &object, std::st
 }
 
 std::vector<JsonNode> elementsOf(const JsonObject &object, std::string_view key) {
+    if (const std::optional<JsonNode> node = object.find(key); node && !node->value->is_array())
+        node->refuse("an array");
     return object.elements(key, static_cast<std::size_t>(byteCount.high));
 }
 

@@ -38,6 +38,9 @@ void setCamera(const std::optional<gltf::PlacedCamera> &camera, LoadedScene &loa
     if (camera) {
         scene.camera = camera->camera;
         loaded.verticalFovDegrees = camera->verticalFovDegrees;
+    } else if (scene.meshes.empty() && scene.instances.empty()) {
+        loaded.warnings.push_back(fmt::format(
+            "{}: the scene has no triangle and no camera: there is nothing to see", loaded.file.string()));
     } else {
         loaded.autoFramed = true;
         scene.camera = frameCamera(triangleBounds(scene, loaded.file.string()), scene.camera.width,

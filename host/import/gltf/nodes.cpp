@@ -130,11 +130,11 @@ std::vector<glm::dmat4x3> NodeTree::toWorld(const std::vector<Pose> &poses) cons
 }
 
 std::vector<std::size_t> NodeTree::nodesOfScene(const Document &document, const std::string &choice) const {
+    const std::optional<std::size_t> ownChoice = document.reference(document.top(), "scene", "scenes");
     if (document.count("scenes") == 0 && choice.empty())
         return all_;
-    const std::size_t scene = choice.empty()
-                                  ? document.reference(document.top(), "scene", "scenes").value_or(0)
-                                  : chosenElement(document, "scenes", "scene", choice);
+    const std::size_t scene =
+        choice.empty() ? ownChoice.value_or(0) : chosenElement(document, "scenes", "scene", choice);
     const JsonObject object(document.at("scenes", scene));
     const std::vector<std::size_t> roots = readChildren(document, object, "nodes");
     std::vector<bool> isTaken(children_.size(), false);
