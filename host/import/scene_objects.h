@@ -8,8 +8,8 @@
 
 namespace hyalite {
 
-/// Reads the spheres, shapes and meshes of the scene file whose materials `loaded` has, in this order, and the files of the
-/// meshes. `onReading` gets the share of the meshes that is read. Throws as loadSceneFile does.
+/// Reads the spheres, shapes and meshes of the scene file whose materials `loaded` has, in this order, and the files of
+/// the meshes. `onReading` gets the share of the meshes that is read. Throws as loadSceneFile does.
 void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &textures,
                  const OnReading &onReading, LoadedScene &loaded);
 

@@ -27,10 +27,11 @@ struct Tangents {
     std::vector<glm::uvec3> corners; ///< of each triangle's corners the indices in `values`
 };
 
-/// Corners are one vertex where position, normal and texture coordinates are equal. Around a vertex, triangles that share
-/// edges and whose texture is not mirrored, or that all have it mirrored, share a tangent: the sum of their directions
-/// of u, projected to the tangent plane and of unit length, weighted by their angles there. A triangle without area in
-/// the texture takes the tangent of a neighbour; where there is none, the tangent is any at right angles.
+/// Corners are one vertex where position, normal and texture coordinates are equal. Around a vertex, triangles that
+/// share edges and whose texture is not mirrored, or that all have it mirrored, share a tangent: the sum of their
+/// directions of u, projected to the tangent plane and of unit length, weighted by their angles there. A triangle
+/// without area in the texture takes the tangent of a neighbour; where there is none, the tangent is any at right
+/// angles.
 [[nodiscard]] Tangents mikkTangents(const TangentInput &input);
 
 } // namespace hyalite

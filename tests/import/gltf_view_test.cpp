@@ -140,7 +140,8 @@ TEST_F(GltfView, AnimationsMoveNodesInTime) {
     const GltfMaker step = animated("STEP", {1, 3}, {0, 0, 0, 4, 0, 0});
     EXPECT_EQ(placeAt(step, 2.9), 0.0f);
     EXPECT_EQ(placeAt(step, 3.0), 4.0f);
-    // Tangents of 2 a second lead straight from 0 to 4 in two seconds; with others the middle is off by their difference.
+    // Tangents of 2 a second lead straight from 0 to 4 in two seconds; with others the middle is off by their
+    // difference.
     const GltfMaker spline =
         animated("CUBICSPLINE", {1, 3}, {0, 0, 0, 0, 0, 0, 2, 0, 0, 2, 0, 0, 4, 0, 0, 0, 0, 0});
     EXPECT_NEAR(placeAt(spline, 1.5), 1.0f, 1e-6f);

@@ -9,7 +9,8 @@
 namespace hyalite::gltf {
 
 /// Moves the poses to where all animations of the file have them at that time: before its first key a channel has the
-/// first value, behind the last one the last. Where two animations move the same member of a node, the first one counts.
+/// first value, behind the last one the last. Where two animations move the same member of a node, the first one
+/// counts.
 void animate(Buffers &buffers, double seconds, std::vector<Pose> &poses);
 
 } // namespace hyalite::gltf

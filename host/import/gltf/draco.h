@@ -13,8 +13,8 @@ struct DracoMesh {
     std::vector<std::uint32_t> indices; ///< three a triangle
 };
 
-/// Decodes the primitive whose extension object is `extension`. Throws Error{BadInput} for damaged data, and for counts that
-/// differ from those of its accessors.
+/// Decodes the primitive whose extension object is `extension`. Throws Error{BadInput} for damaged data, and for counts
+/// that differ from those of its accessors.
 [[nodiscard]] DracoMesh decodeDraco(Buffers &buffers, const JsonObject &primitive,
                                     const JsonObject &extension);
 

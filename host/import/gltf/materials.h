@@ -8,8 +8,8 @@
 
 namespace hyalite::gltf {
 
-/// The materials of the file in its order, and the default one for primitives that name none. Throws Error{BadInput} for
-/// numbers out of range.
+/// The materials of the file in its order, and the default one for primitives that name none. Throws Error{BadInput}
+/// for numbers out of range.
 [[nodiscard]] std::vector<Material> readMaterials(const Document &document, TextureReader &textures,
                                                   std::vector<std::string> &warnings);
 

@@ -44,8 +44,8 @@ struct PassedOver {
     std::size_t empty = 0;  ///< without positions
 };
 
-/// Reads a primitive of triangles, strips or fans; nothing for another one, which is counted. Throws Error{BadInput} for
-/// accessors of wrong types and counts, and for indices out of range.
+/// Reads a primitive of triangles, strips or fans; nothing for another one, which is counted. Throws Error{BadInput}
+/// for accessors of wrong types and counts, and for indices out of range.
 [[nodiscard]] std::optional<Primitive> readPrimitive(Buffers &buffers, const JsonNode &node,
                                                      PassedOver &passedOver);
 
