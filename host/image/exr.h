@@ -20,9 +20,10 @@ void writeExr(AtomicFile &file, const Picture &picture);
 [[nodiscard]] bool isExr(std::span<const std::byte> head);
 
 /// Reads R, G and B, or Y as three equal channels, of the data window: from the named layer, or from the channels
-/// without a layer. A layer with a single value is read as grey. Half floats and integers become float32; all
-/// compressions are supported. Throws Error{BadInput}, also for tiles, deep pixels, several parts, and a missing layer.
-/// Throws Error{LimitExceeded} for files that would take more memory than readingBytesMax.
+/// without a layer. A layer with a single value is read as grey; "depth" and "Z" are the same layer. Half floats and
+/// integers become float32; all compressions are supported. Throws Error{BadInput}, also for tiles, deep pixels,
+/// several parts, and a missing layer. Throws Error{LimitExceeded} for files that would take more memory than
+/// readingBytesMax.
 [[nodiscard]] Image readExr(const InputFile &file, const std::string &layer = "");
 
 /// Whether the file has that layer. Throws as readExr() does if the header cannot be read.

@@ -7,6 +7,10 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfTileDescription.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -35,21 +39,32 @@ std::uint32_t little32(std::span<const std::byte> bytes) {
     return value;
 }
 
-/// A header that is safe to pass to the library. For some attributes the library allocates the size that they claim
+/// The header of a file, or the headers of its parts, that are safe to pass to the library. For some attributes the library allocates the size that they claim
 /// before it checks the data. Here they get a type that it does not know, so that it keeps their bytes as they are.
 ///
-///     76 2f 31 01   version and flags   (name \0 type \0 size value)...   \0
+///     76 2f 31 01   version and flags   (name \0 type \0 size value)...   \0     of several parts: one after the other,
+///                                                                            and another \0
 class SafeHeader {
   public:
     explicit SafeHeader(const InputFile &file) : file_(file), bytes_(file.head(headerBytesMax)) {
-        requireSingleImage();
+        requireKnownKind();
+        constexpr std::size_t maxParts = 1000;
         std::size_t position = 8;
-        while (byteAt(position) != std::byte{0})
-            position = passAttribute(position);
-        bytes_.resize(position + 1);
+        do {
+            if (parts_.size() == maxParts)
+                throw file_.bad(fmt::format("it has more than {} parts", maxParts));
+            parts_.push_back(position);
+            while (byteAt(position) != std::byte{0})
+                position = passAttribute(position);
+            ++position;
+        } while (hasParts_ && byteAt(position) != std::byte{0});
+        bytes_.resize(position + (hasParts_ ? 1 : 0));
     }
 
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+    [[nodiscard]] bool hasParts() const { return hasParts_; }
+    /// Where the header of each part begins; of a file without parts, of its only one.
+    [[nodiscard]] std::span<const std::size_t> parts() const { return parts_; }
 
   private:
     [[nodiscard]] std::byte byteAt(std::size_t position) const {
@@ -60,19 +75,20 @@ class SafeHeader {
         return bytes_[position];
     }
 
-    void requireSingleImage() const {
+    void requireKnownKind() {
         (void)byteAt(7);
         const std::uint32_t version = little32(std::span(bytes_).subspan(4));
         if ((version & 0xffu) != 2)
             throw file_.bad(fmt::format("it is OpenEXR of version {}; version 2 is read", version & 0xffu));
+        constexpr std::uint32_t tiles = 0x200;
         constexpr std::uint32_t longNames = 0x400;
-        const std::pair<std::uint32_t, const char *> refused[] = {
-            {0x800, "deep pixels"}, {0x1000, "several parts"}, {0x200, "tiles"}};
-        for (const auto &[flag, what] : refused)
-            if ((version & flag) != 0)
-                throw file_.bad(fmt::format("it is OpenEXR with {}; store one image of scan lines", what));
-        if ((version & ~(0xffu | longNames)) != 0)
+        constexpr std::uint32_t deepPixels = 0x800;
+        constexpr std::uint32_t severalParts = 0x1000;
+        if ((version & deepPixels) != 0)
+            throw file_.bad("it is OpenEXR with deep pixels; store flat ones");
+        if ((version & ~(0xffu | tiles | longNames | severalParts)) != 0)
             throw file_.bad(fmt::format("its OpenEXR version field is {:#x}, which is unknown", version));
+        hasParts_ = (version & severalParts) != 0;
     }
 
     /// The text that begins at `begin`. Its terminating zero lies within the header.
@@ -105,13 +121,16 @@ class SafeHeader {
         const std::size_t valueBegin = sizeBegin + 4;
         (void)byteAt(valueBegin + size);
         // For these types the library reads a fixed number of bytes, whatever the size says.
-        constexpr std::array<std::pair<std::string_view, std::size_t>, 7> needed{{{"compression", 1},
+        constexpr std::array<std::pair<std::string_view, std::size_t>, 9> needed{{{"compression", 1},
                                                                                   {"dataWindow", 16},
                                                                                   {"displayWindow", 16},
                                                                                   {"lineOrder", 1},
                                                                                   {"pixelAspectRatio", 4},
                                                                                   {"screenWindowCenter", 8},
-                                                                                  {"screenWindowWidth", 4}}};
+                                                                                  {"screenWindowWidth", 4},
+                                                                                  {"tiles", 9},
+                                                                                  {"chunkCount", 4}}};
+        const bool isText = name == "name" || name == "type"; // of a part
         const auto found =
             std::find_if(needed.begin(), needed.end(), [&](const auto &n) { return n.first == name; });
         const bool isRight = name == "channels"      ? isChannelList(valueBegin, size)
@@ -119,13 +138,15 @@ class SafeHeader {
                                                      : true;
         if (!isRight)
             throw file_.bad(fmt::format("its OpenEXR attribute {} is damaged", name));
-        if (name != "channels" && found == needed.end())
+        if (name != "channels" && !isText && found == needed.end())
             std::fill_n(bytes_.begin() + static_cast<std::ptrdiff_t>(typeBegin), typeSize, std::byte{'~'});
         return valueBegin + size;
     }
 
     const InputFile &file_;
     std::vector<std::byte> bytes_;
+    std::vector<std::size_t> parts_;
+    bool hasParts_ = false;
 };
 
 /// The input file with its header replaced by the safe one.
@@ -173,6 +194,11 @@ int linesPackedTogether(Imf::Compression compression) {
     }
 }
 
+/// The depth is the channel Z, as compositors know it; files of Hyalite up to 0.1 call it depth.
+std::string otherNameOf(const std::string &layer) {
+    return layer == "depth" ? "Z" : layer == "Z" ? "depth" : layer;
+}
+
 std::string prefixOf(const std::string &layer) { return layer.empty() ? "" : layer + "."; }
 
 /// The names of the R, G and B channels of a layer, if it has them.
@@ -183,7 +209,7 @@ std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &c
     if (std::all_of(rgb.begin(), rgb.end(),
                     [&](const std::string &name) { return channels.findChannel(name); }))
         return rgb;
-    for (const std::string &name : {layer, prefix + "Y"})
+    for (const std::string &name : {layer, prefix + "Y", otherNameOf(layer)})
         if (channels.findChannel(name) != nullptr && channels.findChannel(prefix + "RY") == nullptr)
             return {{name, name, name}};
     return std::nullopt;
@@ -221,33 +247,68 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
     // Decompressed lines and the buffers of the library: DWA needs the most, five copies.
     constexpr std::uint64_t copyCount = 8;
     const std::uint64_t pixelCount = static_cast<std::uint64_t>(width * height);
-    const std::uint64_t packedBytes = static_cast<std::uint64_t>(width) * bytesPerPixel *
-                                      static_cast<std::uint64_t>(linesPackedTogether(header.compression()));
+    std::uint64_t linesTogether = static_cast<std::uint64_t>(linesPackedTogether(header.compression()));
+    std::uint64_t widthTogether = static_cast<std::uint64_t>(width);
+    if (header.hasTileDescription()) {
+        const Imf::TileDescription &tiles = header.tileDescription();
+        if (tiles.xSize == 0 || tiles.ySize == 0)
+            throw file.bad("its tiles have no pixels");
+        // The library keeps an offset for each tile, of each reduced image too, before it looks for one.
+        constexpr std::uint64_t levelCopies = 4;
+        const std::uint64_t tileCount =
+            levelCopies * ((static_cast<std::uint64_t>(width) + tiles.xSize - 1) / tiles.xSize) *
+            ((static_cast<std::uint64_t>(height) + tiles.ySize - 1) / tiles.ySize);
+        if (tileCount > file.sizeBytes())
+            throw file.bad(fmt::format("it is too short for its tiles of {} x {} pixels: it is damaged",
+                                       tiles.xSize, tiles.ySize));
+        linesTogether = tiles.ySize;
+        widthTogether = std::max<std::uint64_t>(widthTogether, tiles.xSize);
+    }
+    constexpr std::uint64_t farTooMuch = std::uint64_t{1} << 40; // so that products fit
+    if (linesTogether * widthTogether > farTooMuch)
+        throw file.bad("its tiles are larger than any image");
+    const std::uint64_t packedBytes = widthTogether * bytesPerPixel * linesTogether;
     const std::uint64_t neededBytes = pixelCount * sizeof(glm::vec3) + copyCount * packedBytes;
     requireReadingMemory(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
                          neededBytes);
 }
 
-Imf::Header readHeader(ExrInput &input) {
-    Imf::Header header;
-    input.seekg(8);
-    int version = 2;
-    header.readFrom(input, version);
-    return header;
+/// The header of each part, checked.
+std::vector<Imf::Header> readHeaders(const InputFile &file, const SafeHeader &safeHeader, ExrInput &input) {
+    std::vector<Imf::Header> headers;
+    for (const std::size_t begin : safeHeader.parts()) {
+        int version = 2;
+        input.seekg(begin);
+        headers.emplace_back().readFrom(input, version);
+        if (headers.back().hasType() && !Imf::isImage(headers.back().type()))
+            throw file.bad("it is OpenEXR with deep pixels; store flat ones");
+        requireReadable(file, headers.back());
+    }
+    return headers;
 }
 
-Image readLayer(const InputFile &file, const std::string &layer) {
-    const SafeHeader safeHeader(file);
-    ExrInput input(file, safeHeader);
-    const Imf::Header header = readHeader(input);
-    requireReadable(file, header);
-    const std::optional<std::array<std::string, 3>> channels = findChannels(header.channels(), layer);
-    if (!channels)
-        refuseChannels(file, header.channels(), layer);
-    const std::array<std::string, 3> &names = *channels;
+/// A layer of a part.
+struct FoundLayer {
+    std::size_t part;
+    std::array<std::string, 3> channels;
+};
 
-    input.seekg(0);
-    Imf::InputFile reader(input, 0);
+/// A layer is a group of channels, or a part of its name with R, G and B.
+std::optional<FoundLayer> findLayer(const std::vector<Imf::Header> &headers, const std::string &layer) {
+    for (std::size_t part = 0; part < headers.size(); ++part)
+        if (const auto channels = findChannels(headers[part].channels(), layer))
+            return FoundLayer{part, *channels};
+    for (std::size_t part = 0; part < headers.size(); ++part)
+        if (headers[part].hasName() && headers[part].name() == layer)
+            if (const auto channels = findChannels(headers[part].channels(), ""))
+                return FoundLayer{part, *channels};
+    return std::nullopt;
+}
+
+/// Reads the layer's channels. Reader is Imf::InputFile or Imf::InputPart, both of which read tiles as lines.
+template <class Reader>
+Image readPixels(const InputFile &file, Reader &reader, const Imf::Header &header,
+                 const std::array<std::string, 3> &names) {
     if (!reader.isComplete())
         throw file.bad("some of its rows are missing");
     const Imath::Box2i &window = header.dataWindow();
@@ -265,6 +326,23 @@ Image readLayer(const InputFile &file, const std::string &layer) {
         for (glm::vec3 &pixel : image.pixels())
             pixel = glm::vec3(pixel.x);
     return image;
+}
+
+Image readLayer(const InputFile &file, const std::string &layer) {
+    const SafeHeader safeHeader(file);
+    ExrInput input(file, safeHeader);
+    const std::vector<Imf::Header> headers = readHeaders(file, safeHeader, input);
+    const std::optional<FoundLayer> found = findLayer(headers, layer);
+    if (!found)
+        refuseChannels(file, headers.front().channels(), layer);
+    input.seekg(0);
+    if (!safeHeader.hasParts()) {
+        Imf::InputFile reader(input, 0);
+        return readPixels(file, reader, headers.front(), found->channels);
+    }
+    Imf::MultiPartInputFile parts(input, 0);
+    Imf::InputPart reader(parts, static_cast<int>(found->part));
+    return readPixels(file, reader, headers[found->part], found->channels);
 }
 
 } // namespace
@@ -300,7 +378,7 @@ bool hasExrLayer(const InputFile &file, const std::string &layer) {
     return asked(file, [&] {
         const SafeHeader safeHeader(file);
         ExrInput input(file, safeHeader);
-        return findChannels(readHeader(input).channels(), layer).has_value();
+        return findLayer(readHeaders(file, safeHeader, input), layer).has_value();
     });
 }
 
