@@ -77,6 +77,8 @@ void ProgressLine::update(double share) {
     begin();
     const Clock::time_point now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - start_).count();
+    if (!std::exchange(isUpdated_, true))
+        timeLeft_.begin(elapsed, share);
     const double sinceLast = std::chrono::duration<double>(now - lastPrint_).count();
     if (isQuiet_ || elapsed < firstPrintSeconds ||
         sinceLast < (isTerminal_ ? terminalIntervalSeconds : logIntervalSeconds))

@@ -15,6 +15,10 @@ namespace hyalite {
 /// cost, and recent ones predict the next ones best.
 class TimeLeft {
   public:
+    /// Starts at a moment: what was finished before it, while files were read or a driver compiled, says nothing of
+    /// speed.
+    void begin(double elapsedSeconds, double share) { moments_ = {{elapsedSeconds, share}}; }
+
     /// In seconds, after `elapsedSeconds` in which `share` of the work was finished. Both never decrease. Empty if
     /// no work was finished recently.
     [[nodiscard]] std::optional<double> update(double elapsedSeconds, double share);
@@ -52,6 +56,7 @@ class ProgressLine {
     bool isQuiet_;
     bool isTerminal_;
     bool isDrawn_ = false;
+    bool isUpdated_ = false;
     TimeLeft timeLeft_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point lastPrint_ = start_;

@@ -16,6 +16,13 @@ TEST(TimeLeft, OfASteadyTaskIsExact) {
         EXPECT_NEAR(timeLeft.update(0.1 * i, 0.01 * i).value(), 0.1 * (100 - i), 1e-9) << i;
 }
 
+TEST(TimeLeft, LeavesOutWhatWasBeforeTheWork) {
+    TimeLeft timeLeft;
+    timeLeft.begin(100.0, 0.25); // a driver compiled, and a checkpoint was resumed
+    for (int i = 1; i <= 75; ++i)
+        EXPECT_NEAR(timeLeft.update(100.0 + 0.1 * i, 0.25 + 0.01 * i).value(), 0.1 * (75 - i), 1e-6) << i;
+}
+
 TEST(TimeLeft, IsUnknownUntilWorkIsFinished) {
     TimeLeft timeLeft;
     EXPECT_FALSE(timeLeft.update(1.0, 0.0).has_value());
