@@ -53,7 +53,8 @@ class JsonObject {
         allowOnly(keys);
     }
 
-    /// Throws for a key that is not listed, and suggests the most similar one.
+    /// Throws for a key that is not listed, and suggests the most similar one. Every object may have a "description":
+    /// JSON has no comments. It is a text, and is passed over.
     void allowOnly(std::span<const std::string_view> keys) const;
 
     [[nodiscard]] std::optional<JsonNode> find(std::string_view key) const;

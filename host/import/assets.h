@@ -15,9 +15,9 @@ namespace hyalite {
 /// The sorted names of the shipped scenes: scenes/NAME.json in any asset folder.
 [[nodiscard]] std::vector<std::string> availableScenes();
 
-/// The file of a SCENE argument. An argument with the extension of a format (formats.h) is a path, which need not exist; a bare word is
-/// the name of a shipped scene. Throws Error{BadInput} for an unknown name, with the folders searched and the names
-/// that exist.
+/// The file of a SCENE argument. An argument with the extension of a format (formats.h) is a path, which need not
+/// exist; a bare word is the name of a shipped scene. Throws Error{BadInput} for an unknown name, with the folders
+/// searched and the names that exist.
 [[nodiscard]] std::filesystem::path resolveScene(const std::string &argument);
 
 /// Whether the file name ends in `extension` (".obj", in lower case), ignoring case.

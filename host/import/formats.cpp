@@ -3,7 +3,9 @@
 #include "host/import/assets.h"
 #include "host/import/gltf/gltf.h"
 #include "host/import/obj.h"
+#include "host/import/ply.h"
 #include "host/import/scene_json.h"
+#include "host/import/stl.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +20,8 @@ constexpr auto table = std::to_array<Format>({
     {.extension = ".obj", .readMeshes = readObjMeshes},
     {.extension = ".gltf", .readScene = loadGltf, .hasChoices = true, .readMeshes = readGltfMeshes},
     {.extension = ".glb", .readScene = loadGltf, .hasChoices = true, .readMeshes = readGltfMeshes},
+    {.extension = ".ply", .readMeshes = readPlyMeshes},
+    {.extension = ".stl", .readMeshes = readStlMeshes},
 });
 
 } // namespace

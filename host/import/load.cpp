@@ -52,6 +52,7 @@ LoadedScene loadBareMesh(const std::filesystem::path &file, const Format &format
     loaded.file = file;
     loaded.meshReports = {std::move(meshes.report)};
     loaded.autoFramed = true;
+    loaded.isAutoLit = true;
     return loaded;
 }
 

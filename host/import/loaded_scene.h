@@ -44,6 +44,7 @@ struct LoadedScene {
     std::optional<double> verticalFovDegrees{};
     bool autoFramed =
         false; ///< no camera in the file: where the image size is overridden, call frameCamera again
+    bool isAutoLit = false; ///< no lights in the file: where the camera is overridden, call frameLights
 };
 
 } // namespace hyalite

@@ -41,6 +41,8 @@ struct MeshReport {
     /// finite, or the face has normals at some of its corners only.
     std::size_t lostNormalCount = 0;
 
+    std::size_t undefinedNormalCount = 0; ///< of these, those with an index past the file's normals
+
     std::size_t unknownMaterialCount = 0;       ///< `usemtl` with a name that no library of the file has
     std::vector<std::filesystem::path> files{}; ///< the mesh and its libraries
     std::vector<std::string>

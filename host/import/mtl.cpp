@@ -1,6 +1,7 @@
 #include "host/import/mtl.h"
 
 #include "host/base/clean_text.h"
+#include "host/base/error.h"
 #include "host/image/texture_file.h"
 #include "host/import/obj_lines.h"
 #include "host/scene/limits.h"
@@ -37,6 +38,7 @@ struct MtlStatements {
     int illumination = 2;
     TextureSlots textures{};
     float normalStrength = 1.0f;
+    std::string cutOutName; ///< of a map_Kd with transparent places; empty: it has none
 };
 
 float fraction(float value) { return std::clamp(value, 0.0f, 1.0f); }
@@ -199,6 +201,7 @@ class TextureReader {
             return false;
         TextureUse use;
         float strength = 1.0f;
+        const bool hasOptions = words.isAtOption();
         while (words.isAtOption())
             takeOption(words, use, strength);
         const std::string_view name = words.remainder();
@@ -214,13 +217,25 @@ class TextureReader {
         if (!statement->slot)
             warn(fmt::format("{} {} is ignored; textures are read for {}", keyword, quoteInput(name),
                              "map_Kd, map_Ke, map_Pr, map_Pm, map_d, norm and map_Bump"));
-        else if (const std::optional<std::uint32_t> index = load(keyword, name, *statement->slot)) {
+        else if (const std::optional<std::uint32_t> index =
+                     load(keyword, {name, hasOptions}, *statement->slot)) {
             use.textureIndex = *index;
             mtl.textures[*statement->slot] = use;
             if (*statement->slot == layout::slotNormal)
                 mtl.normalStrength = strength;
+            if (*statement->slot == layout::slotBaseColour)
+                mtl.cutOutName = textures_.library.lookOf(*index).hasCutOuts ? std::string(name) : "";
         }
         return true;
+    }
+
+    /// Cuts out what is transparent in map_Kd, where there is no map_d. Call it when all of a material is read.
+    void cutOut(MtlStatements &mtl) {
+        if (mtl.cutOutName.empty() || mtl.textures[layout::slotOpacity])
+            return;
+        mtl.textures[layout::slotOpacity] = mtl.textures[layout::slotBaseColour];
+        warn(fmt::format("the material {} is cut out where map_Kd {} is transparent, as there is no map_d",
+                         quoteInput(mtl.name), quoteInput(mtl.cutOutName)));
     }
 
   private:
@@ -263,34 +278,59 @@ class TextureReader {
                          excerpt(value, maxExcerptBytes)));
     }
 
-    std::optional<std::uint32_t> load(std::string_view keyword, std::string_view name, std::uint32_t slot) {
-        std::string unixName(name);
-        std::replace(unixName.begin(), unixName.end(), '\\', '/');
-        std::optional<std::filesystem::path> file = findWithin(textures_.folder, base_, name);
-        if (!file)
-            file = findWithin(textures_.folder, base_, unixName);
+    /// The end of a statement: a file's name, perhaps between what belongs to options.
+    struct Name {
+        std::string_view text;
+        bool isAfterOptions;
+    };
+
+    /// The file of a name. Behind options that are not known, their words stand before it, and some programs write
+    /// options after it.
+    std::optional<std::filesystem::path> find(const Name &name) {
+        std::optional<std::filesystem::path> file = textures_.files.find(base_, name.text);
+        std::string_view rest = name.text;
+        while (!file && name.isAfterOptions && rest.find(' ') != std::string_view::npos) {
+            rest.remove_prefix(rest.find(' ') + 1);
+            file = textures_.files.find(base_, rest);
+        }
+        if (const std::size_t options = name.text.find(" -");
+            !file && options != std::string_view::npos && options > 0) {
+            file = textures_.files.find(base_, name.text.substr(0, options));
+            if (file)
+                warn(fmt::format("{} is ignored; options stand before the name",
+                                 quoteInput(name.text.substr(options + 1))));
+        }
+        return file;
+    }
+
+    std::optional<std::uint32_t> load(std::string_view keyword, const Name &name, std::uint32_t slot) {
+        const std::optional<std::filesystem::path> file = find(name);
+        const auto ignore = [&](std::string_view reason) {
+            warn(fmt::format("{} {} is ignored: {}", keyword, quoteInput(name.text), reason));
+            return std::nullopt;
+        };
         if (!file) {
-            warn(fmt::format("{} {}: there is no such file in the mesh's folder", keyword, quoteInput(name)));
+            warn(fmt::format("{} {}: there is no such file in the mesh's folder", keyword,
+                             quoteInput(name.text)));
             return std::nullopt;
         }
-        if (!isTextureFile(*file)) {
-            warn(fmt::format("{} {} is ignored: it is not a PNG, JPEG or Radiance (HDR) file", keyword,
-                             quoteInput(name)));
-            return std::nullopt;
+        try {
+            if (!isTextureFile(*file))
+                return ignore("it is not a PNG, JPEG or Radiance (HDR) file");
+            const std::uint32_t index = textures_.library.load(*file);
+            if (textures_.library.at(index).isFloat() && slot != layout::slotEmission)
+                return ignore("only map_Ke takes images of floats");
+            const TextureLook &look = textures_.library.lookOf(index);
+            if (slot == layout::slotNormal && look.isGrey)
+                return ignore("it is grey, so a height map; only normal maps are read");
+            if (slot == layout::slotNormal && keyword != "norm" && !look.isNormalMap)
+                return ignore("its colours are not those of a normal map; height maps are not read");
+            return index;
+        } catch (const Error &error) {
+            if (error.kind != ErrorKind::BadInput)
+                throw;
+            return ignore(error.what());
         }
-        const std::uint32_t index = textures_.library.load(*file);
-        const Texture &texture = textures_.library.at(index);
-        if (texture.isFloat() && slot != layout::slotEmission) {
-            warn(fmt::format("{} {} is ignored: only map_Ke takes images of floats", keyword,
-                             quoteInput(name)));
-            return std::nullopt;
-        }
-        if (slot == layout::slotNormal && isGrey(texture)) {
-            warn(fmt::format("{} {} is ignored: it is grey, so a height map; only normal maps are read",
-                             keyword, quoteInput(name)));
-            return std::nullopt;
-        }
-        return index;
     }
 
     std::filesystem::path base_;
@@ -329,18 +369,6 @@ bool knows(std::string_view keyword) {
 
 } // namespace
 
-std::optional<std::filesystem::path> findWithin(const std::filesystem::path &folder,
-                                                const std::filesystem::path &base, std::string_view name) {
-    std::error_code error;
-    const std::filesystem::path file =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(base / name, error), error);
-    const bool isInside =
-        std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-    if (error || !isInside || !std::filesystem::is_regular_file(file, error))
-        return std::nullopt;
-    return file;
-}
-
 std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures textures) {
     ObjLines lines(file);
     TextureReader textureReader(file, textures, lines);
@@ -348,8 +376,10 @@ std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures tex
     std::unordered_set<std::string> names;
     std::optional<MtlStatements> current;
     const auto finish = [&] {
-        if (current && names.insert(current->name).second)
+        if (current && names.insert(current->name).second) {
+            textureReader.cutOut(*current);
             materials.push_back(materialOf(*current));
+        }
         if (materials.size() > limits::materialCount)
             lines.fail(fmt::format("there are more than {} materials", limits::materialCount));
     };

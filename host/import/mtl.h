@@ -1,20 +1,19 @@
 // Material libraries of Wavefront OBJ files.
 #pragma once
 
+#include "host/import/file_finder.h"
 #include "host/import/texture_library.h"
 #include "host/scene/scene.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace hyalite {
 
-/// Textures of material libraries: the folder to read from, and where to put them.
+/// Textures of material libraries: where to look for them, and where to put them.
 struct MtlTextures {
-    std::filesystem::path folder; ///< canonical; files outside it are not read
+    FileFinder &files;
     TextureLibrary &library;
     std::vector<std::string>
         &warnings; ///< statements that were ignored although they would change the picture
@@ -33,18 +32,15 @@ struct MtlTextures {
 ///     map_Kd, map_Ke      textures of the base colour and of the emission, times Kd and Ke, or 1 where these are left out or,
 ///                         of Ke, 0
 ///     map_Pr, map_Pm      in place of roughness and metallic
-///     map_d               opacity, by its alpha if it has that, cut out at a half
+///     map_d               opacity, by its alpha if it has that, cut out at a half; without it by the alpha of map_Kd
 ///     norm, map_Bump, bump  a normal map; -bm says how strong
 ///
-/// Names are relative to the folder of the library. -s and -o scale and move a texture. Other options, missing
-/// textures, other formats, other uses and height maps are ignored with a warning. Fractions are clamped to [0, 1].
-/// Other statements are ignored. Throws Error{BadInput}, with file and line, if it is not a regular file, for numbers
-/// that are missing or not finite, statements before the first newmtl, and more materials than limits::materialCount;
-/// and for damaged textures, as TextureLibrary does.
+/// Names are relative to the folder of the library; FileFinder also finds those of another computer. -s and -o scale
+/// and move a texture. Other options, missing and damaged textures, other formats, other uses, and pictures as map_Bump
+/// whose colours are no normals are ignored with a warning. Fractions are clamped to [0, 1]. Other statements are
+/// ignored. Throws Error{BadInput}, with file and line, if it is not a regular file, for numbers that are missing or
+/// not finite, statements before the first newmtl, and more materials than limits::materialCount; and
+/// Error{LimitExceeded} as TextureLibrary does.
 [[nodiscard]] std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures textures);
-
-/// The file `name`, relative to `base`, if it is inside `folder`, which is canonical.
-[[nodiscard]] std::optional<std::filesystem::path>
-findWithin(const std::filesystem::path &folder, const std::filesystem::path &base, std::string_view name);
 
 } // namespace hyalite

@@ -1,8 +1,12 @@
 #include "host/import/obj.h"
 
+#include "host/base/error.h"
+#include "host/base/quantities.h"
+#include "host/import/content_guess.h"
+#include "host/import/file_finder.h"
+#include "host/import/mesh_builder.h"
 #include "host/import/mtl.h"
 #include "host/import/obj_lines.h"
-#include "host/import/obj_mesh.h"
 #include "host/import/obj_plain.h"
 #include "host/import/obj_statement.h"
 
@@ -20,6 +24,7 @@
 #include <functional>
 #include <istream>
 #include <map>
+#include <optional>
 #include <set>
 #include <streambuf>
 #include <string>
@@ -35,9 +40,8 @@ namespace {
 class ObjMaterials {
   public:
     /// `textureLibrary` may be null: then materials are ignored.
-    ObjMaterials(const std::filesystem::path &file, ObjMeshBuilder &meshBuilder,
-                 TextureLibrary *textureLibrary)
-        : folder(file.parent_path()), builder(meshBuilder), textures(textureLibrary) {}
+    ObjMaterials(const std::filesystem::path &file, MeshBuilder &meshBuilder, TextureLibrary *textureLibrary)
+        : finder(folderOf(file)), builder(meshBuilder), textures(textureLibrary) {}
 
     /// Reads a statement if it is about materials.
     void take(std::string_view statement) {
@@ -48,6 +52,30 @@ class ObjMaterials {
     }
 
     [[nodiscard]] std::vector<Material> give() { return std::move(materials); }
+
+    /// Warns of what is lost, and of names of another computer.
+    void warn(const std::string &mesh) const {
+        MeshReport &report = builder.report();
+        if (!report.lostLibraries.empty())
+            report.warnings.push_back(fmt::format(
+                "{}: there is no material library {}{} in the mesh's folder: its materials are neutral", mesh,
+                quoteInput(report.lostLibraries.front()),
+                report.lostLibraries.size() > 1
+                    ? fmt::format(" (nor {} more)", report.lostLibraries.size() - 1)
+                    : ""));
+        else if (report.unknownMaterialCount > 0)
+            report.warnings.push_back(
+                fmt::format("{}: {} use{} a material that no library has, and {} neutral", mesh,
+                            countText(report.unknownMaterialCount, "usemtl statement"),
+                            report.unknownMaterialCount == 1 ? "s" : "",
+                            report.unknownMaterialCount == 1 ? "is" : "are"));
+        if (finder.renamedCount() > 0)
+            report.warnings.push_back(fmt::format(
+                "{}: {} by another name than it says, such as {}", mesh,
+                finder.renamedCount() == 1 ? "1 file was found"
+                                           : fmt::format("{} files were found", finder.renamedCount()),
+                finder.firstRenamed()));
+    }
 
   private:
     /// The text after the keyword, without blanks around it; empty for another keyword.
@@ -61,26 +89,41 @@ class ObjMaterials {
         return statement.substr(0, statement.find_last_not_of(blanks) + 1);
     }
 
-    /// Reads a library. A missing one is not an error: many meshes have lost theirs. A library outside the folder is
-    /// not read, because a mesh may come from a stranger. Each is read once, or a small file could request a large one
-    /// again and again.
-    void read(std::string_view name) {
-        if (!names.emplace(name).second)
-            return;
+    /// Canonical.
+    static std::filesystem::path folderOf(const std::filesystem::path &file) {
         std::error_code error;
-        const std::filesystem::path base =
-            std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-        const std::optional<std::filesystem::path> library = findWithin(base, base, name);
-        if (error || !library) {
-            builder.report().lostLibraries.emplace_back(name);
+        const std::filesystem::path folder = file.parent_path();
+        return std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+    }
+
+    /// Reads a library, or several. A missing one is not an error: many meshes have lost theirs. A library outside the
+    /// folder is not read, because a mesh may come from a stranger. Each is read once, or a small file could request a
+    /// large one again and again.
+    void read(std::string_view list) {
+        if (!names.emplace(list).second || readOne(list))
             return;
+        std::size_t lostCount = 0;
+        for (std::string_view rest = list; !rest.empty();) {
+            const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
+            lostCount += end > 0 && !readOne(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
         }
+        if (lostCount > 0)
+            builder.report().lostLibraries.emplace_back(list);
+    }
+
+    /// False if there is no such file.
+    bool readOne(std::string_view name) {
+        const std::optional<std::filesystem::path> library = finder.find(finder.folder(), name);
+        if (!library)
+            return false;
         if (!libraries.insert(*library).second)
-            return;
+            return true;
         builder.report().files.push_back(*library);
-        for (Material &material : loadMtl(*library, {base, *textures, builder.report().warnings}))
+        for (Material &material : loadMtl(*library, {finder, *textures, builder.report().warnings}))
             if (indices.emplace(material.name, static_cast<std::uint32_t>(materials.size() + 1)).second)
                 materials.push_back(std::move(material));
+        return true;
     }
 
     void use(std::string_view name) {
@@ -95,8 +138,8 @@ class ObjMaterials {
         return found == indices.end() ? 0 : found->second;
     }
 
-    std::filesystem::path folder;
-    ObjMeshBuilder &builder;
+    FileFinder finder;
+    MeshBuilder &builder;
     TextureLibrary *textures;
     std::vector<Material> materials;
     std::map<std::string, std::uint32_t, std::less<>> indices; ///< of the materials, by name
@@ -110,10 +153,13 @@ class ObjMaterials {
 class CheckedObjSource : public std::streambuf {
   public:
     /// `objMaterials` may be null: then materials are ignored.
-    CheckedObjSource(ObjLines &objLines, ObjMeshBuilder &meshBuilder, ObjMaterials *objMaterials,
+    CheckedObjSource(ObjLines &objLines, MeshBuilder &meshBuilder, ObjMaterials *objMaterials,
                      std::size_t &unusedCount, const OnReading &listener)
         : lines(objLines), builder(meshBuilder), materials(objMaterials), unusedStatementCount(unusedCount),
           onReading(listener) {}
+
+    /// The colour of the vertex that was passed on last, which tinyobjloader does not pass on.
+    [[nodiscard]] const std::optional<glm::vec3> &colour() const { return vertexColour; }
 
   protected:
     int_type underflow() override {
@@ -129,6 +175,7 @@ class CheckedObjSource : public std::streambuf {
                 materials->take({line->data(), line->size()});
             const CheckedStatement statement = checkStatement(*line, lines);
             if (statement.kind == ObjStatement::Geometry) {
+                vertexColour = statement.colour;
                 char *const begin = statement.text.data();
                 setg(begin, begin, begin + statement.text.size());
                 return traits_type::to_int_type(*begin);
@@ -148,17 +195,19 @@ class CheckedObjSource : public std::streambuf {
     }
 
     ObjLines &lines;
-    ObjMeshBuilder &builder;
+    MeshBuilder &builder;
     ObjMaterials *materials;
     std::size_t &unusedStatementCount;
     const OnReading &onReading;
+    std::optional<glm::vec3> vertexColour;
     std::size_t nextReportBytes = stepBytes;
 };
 
 struct CallbackData {
     const ObjLines &lines;
-    ObjMeshBuilder &builder;
-    std::vector<ObjCorner> corners{}; ///< of the current face
+    MeshBuilder &builder;
+    const std::optional<glm::vec3> &colour; ///< of the current vertex
+    std::vector<FaceCorner> corners{};      ///< of the current face
 };
 
 CallbackData &callbackData(void *userData) { return *static_cast<CallbackData *>(userData); }
@@ -168,6 +217,8 @@ tinyobj::callback_t makeCallbacks() {
     callbacks.vertex_cb = [](void *userData, double x, double y, double z, double) {
         const CallbackData &data = callbackData(userData);
         data.builder.addPosition({x, y, z}, data.lines.lineNumber());
+        if (data.colour)
+            data.builder.setColour(*data.colour);
     };
     callbacks.normal_cb = [](void *userData, double x, double y, double z) {
         callbackData(userData).builder.addNormal({x, y, z});
@@ -184,6 +235,14 @@ tinyobj::callback_t makeCallbacks() {
         data.builder.addFace(data.corners, data.lines.lineNumber());
     };
     return callbacks;
+}
+
+/// Throws Error{BadInput} for a file that is something else.
+void requireText(const ObjLines &lines) {
+    const std::string guess = guessContent(lines.head());
+    if (!guess.empty())
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("{}: this is not OBJ text; it looks like {}", lines.fileName(), guess));
 }
 
 /// Removes textures that the mesh cannot use.
@@ -210,7 +269,8 @@ void leaveOutUselessTextures(ObjMesh &loaded) {
 ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform, const OnReading &onReading,
                 TextureLibrary *textures) {
     ObjLines lines(file);
-    ObjMeshBuilder builder(lines.fileName(), transform);
+    requireText(lines);
+    MeshBuilder builder(lines.fileName(), transform);
     builder.report().files.push_back(file);
     std::size_t unusedStatementCount = 0;
     ObjMaterials materials(file, builder, textures);
@@ -218,21 +278,32 @@ ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transfor
                             onReading);
     std::istream stream(&source);
     stream.exceptions(std::ios::badbit); // so that an Error of the source passes through the stream
-    CallbackData data{lines, builder};
+    CallbackData data{lines, builder, source.colour()};
     tinyobj::LoadObjWithCallback(stream, makeCallbacks(), &data);
+    if (textures != nullptr)
+        materials.warn(lines.fileName());
     ObjMesh loaded = builder.finish();
     loaded.report.unusedStatementCount = unusedStatementCount;
     if (!loaded.mesh.triangleMaterials.empty())
         loaded.materials = materials.give();
     leaveOutUselessTextures(loaded);
+    if (loaded.report.undefinedNormalCount > 0)
+        loaded.report.warnings.push_back(
+            fmt::format("{}: {} name{} normals that the file does not have, and get{} the geometric one",
+                        lines.fileName(), countText(loaded.report.undefinedNormalCount, "triangle"),
+                        loaded.report.undefinedNormalCount == 1 ? "s" : "",
+                        loaded.report.undefinedNormalCount == 1 ? "s" : ""));
     return loaded;
 }
 
-MeshFile readObjMeshes(const std::filesystem::path &file, const MeshOptions &options) {
-    ObjMesh loaded = loadObj(file, options.transform, options.onReading, options.textures);
+MeshFile meshFileOf(ObjMesh loaded) {
     MeshFile meshes{.materials = std::move(loaded.materials), .report = std::move(loaded.report)};
     meshes.meshes.push_back({std::move(loaded.mesh)});
     return meshes;
+}
+
+MeshFile readObjMeshes(const std::filesystem::path &file, const MeshOptions &options) {
+    return meshFileOf(loadObj(file, options.transform, options.onReading, options.textures));
 }
 
 } // namespace hyalite

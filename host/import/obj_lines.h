@@ -3,6 +3,7 @@
 
 #include "host/base/input_file.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -35,6 +36,11 @@ class ObjLines {
     /// are valid until the next call. Empty at the end of the file. Throws Error{BadInput} if a line or the file is too
     /// long, or on a read error.
     [[nodiscard]] std::optional<std::span<char>> next();
+
+    /// The beginning of the file, before the first line is taken.
+    [[nodiscard]] std::span<const char> head() const {
+        return std::span(buffer).first(std::min(filled, std::size_t{512}));
+    }
 
     /// The text from the next logical line on, without consuming it. A zero follows the last character in memory,
     /// wherever that is.

@@ -1,5 +1,8 @@
 #include "host/import/obj_plain.h"
 
+#include "host/image/tone_curve.h"
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -84,11 +87,11 @@ const char *readNumber(const char *at, double &value) {
     return digitCount > 0 && endsToken(*at) && at - begin <= maxCharacters ? at : nullptr;
 }
 
-// Reads `count` numbers and returns the position after the line end.
+// Reads `count` numbers and returns the position after them.
 const char *readNumbers(const char *at, int count, glm::dvec3 &values) {
     for (int i = 0; i < count && at; ++i)
         at = readNumber(at, values[i]);
-    return at ? skipToNextLine(at) : nullptr;
+    return at;
 }
 
 // Reads an index of up to nine digits, which fit any int, with an optional minus sign; not 0.
@@ -107,7 +110,7 @@ const char *readIndex(const char *at, std::int32_t &index) {
 }
 
 // Reads a corner: v, v/vt, v//vn or v/vt/vn.
-const char *readCorner(const char *at, ObjCorner &corner) {
+const char *readCorner(const char *at, FaceCorner &corner) {
     corner.normal = 0;
     corner.uv = 0;
     at = readIndex(at, corner.position);
@@ -122,8 +125,8 @@ const char *readCorner(const char *at, ObjCorner &corner) {
     return readIndex(at + 1, corner.normal);
 }
 
-const char *readFace(const char *at, std::size_t lineNumber, ObjMeshBuilder &builder) {
-    std::array<ObjCorner, 8> corners;
+const char *readFace(const char *at, std::size_t lineNumber, MeshBuilder &builder) {
+    std::array<FaceCorner, 8> corners;
     std::size_t count = 0;
     for (at = skipBlanks(at); count < corners.size() && *at >= '-'; at = skipBlanks(at)) {
         at = readCorner(at, corners[count++]);
@@ -138,7 +141,7 @@ const char *readFace(const char *at, std::size_t lineNumber, ObjMeshBuilder &bui
 
 } // namespace
 
-const char *readPlainStatement(const char *line, std::size_t lineNumber, ObjMeshBuilder &builder) {
+const char *readPlainStatement(const char *line, std::size_t lineNumber, MeshBuilder &builder) {
     if (line[0] == 'f' && isBlank(line[1]))
         return readFace(line + 2, lineNumber, builder);
     if (line[0] != 'v')
@@ -149,14 +152,34 @@ const char *readPlainStatement(const char *line, std::size_t lineNumber, ObjMesh
     glm::dvec3 values;
     if (!isBlank(*at))
         return nullptr;
-    at = readNumbers(at, isUv ? 2 : 3, values);
-    if (at && isNormal)
+    const char *const behind = readNumbers(at, isUv ? 2 : 3, values);
+    at = behind ? skipToNextLine(behind) : nullptr;
+    if (!at)
+        return nullptr;
+    if (isNormal)
         builder.addNormal(values);
-    else if (at && isUv)
+    else if (isUv)
         builder.addUv(glm::dvec2(values));
-    else if (at)
+    else {
         builder.addPosition(values, lineNumber);
+        if (const std::optional<glm::vec3> colour = readVertexColour(behind))
+            builder.setColour(*colour);
+    }
     return at;
+}
+
+std::optional<glm::vec3> readVertexColour(const char *at) {
+    std::array<double, 4> values{};
+    std::size_t count = 0;
+    while (count < values.size() && (at = readNumber(at, values[count])))
+        ++count;
+    if (count < 3)
+        return std::nullopt;
+    const auto linear = [&](std::size_t channel) {
+        const double value = values[count - 3 + channel];
+        return value > 0.0 ? static_cast<float>(srgbDecoded(std::min(value, 1.0))) : 0.0f; // NaN is 0, too
+    };
+    return glm::vec3(linear(0), linear(1), linear(2));
 }
 
 } // namespace hyalite

@@ -1,5 +1,7 @@
 #include "host/import/obj_statement.h"
 
+#include "host/import/obj_plain.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -199,9 +201,11 @@ CheckedStatement checkStatement(std::span<char> statement, const ObjLines &lines
         return {ObjStatement::Skipped, {}};
 
     std::span<char> text;
-    if (keyword[0] == 'v' && endsToken(keyword[1]))
+    std::optional<glm::vec3> colour;
+    if (keyword[0] == 'v' && endsToken(keyword[1])) {
         text = checkVertex(keyword, lines);
-    else if (keyword[0] == 'v' && keyword[1] == 'n' && endsToken(keyword[2]))
+        colour = readVertexColour(text.data() + text.size());
+    } else if (keyword[0] == 'v' && keyword[1] == 'n' && endsToken(keyword[2]))
         text = checkNormal(keyword, lines);
     else if (keyword[0] == 'v' && keyword[1] == 't' && endsToken(keyword[2]))
         text = checkUv(keyword, lines);
@@ -213,7 +217,7 @@ CheckedStatement checkStatement(std::span<char> statement, const ObjLines &lines
         return {isKnown ? ObjStatement::Skipped : ObjStatement::Unused, {}};
     }
     text.data()[text.size()] = '\n';
-    return {ObjStatement::Geometry, std::span<char>(text.data(), text.size() + 1)};
+    return {ObjStatement::Geometry, std::span<char>(text.data(), text.size() + 1), colour};
 }
 
 } // namespace hyalite

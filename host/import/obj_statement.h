@@ -3,7 +3,10 @@
 
 #include "host/import/obj_lines.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace hyalite {
@@ -21,6 +24,7 @@ enum class ObjStatement {
 struct CheckedStatement {
     ObjStatement kind;
     std::span<char> text;
+    std::optional<glm::vec3> colour{}; ///< of a v
 };
 
 /// Checks and cleans one line in place; the character after its end becomes a line feed. The text to pass on has one of

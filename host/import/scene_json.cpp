@@ -5,6 +5,7 @@
 #include "host/import/environment_file.h"
 #include "host/import/file_reach.h"
 #include "host/import/scene_objects.h"
+#include "host/scene/light_sources.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 #include "host/scene/settings_table.h"
@@ -134,7 +135,7 @@ void readTextures(const JsonObject &object, const MaterialRow &row, const Textur
         const Texture &texture = source.library.at(use.textureIndex);
         if (texture.isFloat() && slot != layout::slotEmission)
             file.fail("found an image of floats; allowed: a PNG or a JPEG");
-        if (isNormal && isGrey(texture))
+        if (isNormal && source.library.lookOf(use.textureIndex).isGrey)
             file.fail("found a grey image, as height maps are; allowed: a normal map, which is bluish");
         material.textures[slot] = use;
     }
@@ -218,6 +219,22 @@ RenderSettings readSettings(const JsonObject &object) {
     return settings;
 }
 
+/// Whether the materials or the environment of the file shine. Those that meshes bring are not known yet.
+bool speaksOfEmission(const nlohmann::json &document) {
+    if (document.contains("environment"))
+        return true;
+    const auto materials = document.find("materials");
+    if (materials == document.end() || !materials->is_object())
+        return false;
+    return std::ranges::any_of(*materials, [](const nlohmann::json &material) {
+        if (!material.is_object())
+            return false;
+        const auto textures = material.find("textures");
+        return material.contains("emission") ||
+               (textures != material.end() && textures->is_object() && textures->contains("emission"));
+    });
+}
+
 } // namespace
 
 LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &options) {
@@ -230,11 +247,15 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &
     LoadedScene loaded;
     loaded.file = file;
     Scene &scene = loaded.scene;
+    bool hasIntegrator = false;
     if (const std::optional<JsonObject> settings = top.object("settings", scene_keys::settings)) {
+        hasIntegrator = settings->find("integrator").has_value();
         scene.settings = readSettings(*settings);
         scene.shadowThroughGlass = static_cast<float>(
             settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
     }
+    if (!hasIntegrator && speaksOfEmission(document))
+        scene.settings.integrator = Integrator::Path;
     if (options.events.onOutline)
         options.events.onOutline({!top.elements("meshes", limits::meshCount).empty() ||
                                       !top.elements("shapes", limits::meshCount).empty(),
@@ -254,6 +275,11 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &
             scene.materials.push_back(readMaterial(name, JsonObject(material), {reach, textures}));
     readObjects(top, reach, textures, options.events.onReading, loaded);
     scene.textures = textures.give();
+    if (!hasIntegrator) {
+        const LightSources sources = lightSourcesOf(scene);
+        scene.settings.integrator =
+            sources.hasEmitters || sources.hasEnvironment ? Integrator::Path : RenderSettings{}.integrator;
+    }
     return loaded;
 }
 

@@ -48,7 +48,8 @@
 //       "inwardNormal"   true: the normal points to the centre, default false
 //     } ],
 //     "meshes": [ {
-//       "file"           OBJ, or another format of meshes (formats.h), relative to the scene file, and in its folder or below, or in the assets
+//       "file"           a format of meshes (formats.h), relative to the scene file, and in its folder or below, or in the
+//                        assets
 //       "material"       NAME; without it the mesh has those that its own libraries (MTL) give it
 //       "scale"          not 0, default 1; then
 //       "rotateDegrees"  about x, y and z in that order, default [0, 0, 0]; then

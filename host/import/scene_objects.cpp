@@ -113,8 +113,8 @@ PlacedMesh readShape(const JsonObject &object, const std::vector<Material> &mate
     return shape;
 }
 
-/// Gives triangles the scene's materials in place of those of the mesh that the object names. `first` is the index of the
-/// mesh's first material in the scene.
+/// Gives triangles the scene's materials in place of those of the mesh that the object names. `first` is the index of
+/// the mesh's first material in the scene.
 void overrideMaterials(const JsonObject &object, MeshFile &file, std::uint32_t first,
                        const std::vector<Material> &named) {
     const std::optional<JsonNode> overrides = object.find("materialOverrides");
@@ -140,8 +140,8 @@ void overrideMaterials(const JsonObject &object, MeshFile &file, std::uint32_t f
     }
 }
 
-/// Gives the scene the materials that a file has brought, behind a neutral one for triangles without any. `named` are those
-/// of the scene file, which may override them.
+/// Gives the scene the materials that a file has brought, behind a neutral one for triangles without any. `named` are
+/// those of the scene file, which may override them.
 void addMaterialsOf(const JsonObject &object, MeshFile &file, const std::vector<Material> &named,
                     Scene &scene) {
     const auto first = static_cast<std::uint32_t>(scene.materials.size());
@@ -151,7 +151,8 @@ void addMaterialsOf(const JsonObject &object, MeshFile &file, const std::vector<
             material += first;
     }
     overrideMaterials(object, file, first + 1, named);
-    scene.materials.push_back(neutralMaterial());
+    scene.materials.push_back(neutralMaterial(std::ranges::any_of(
+        file.meshes, [](const PlacedMesh &placed) { return !placed.mesh.colours.corners.empty(); })));
     std::ranges::move(file.materials, std::back_inserter(scene.materials));
 }
 

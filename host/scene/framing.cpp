@@ -30,12 +30,34 @@ constexpr double fillRadiance = 0.2;
 
 double halfDiagonal(const Bounds &bounds) { return 0.5 * glm::length(bounds.high - bounds.low); }
 
-/// The unit vector `azimuth` from +z towards +x and `elevation` above the horizon.
-glm::dvec3 towards(double azimuthDegrees, double elevationDegrees) {
+constexpr double cameraAzimuthDegrees = 35.0;
+
+/// The axes of an object whose up is not +y: those of the world, turned the short way.
+struct Axes {
+    glm::dvec3 right{1.0, 0.0, 0.0};
+    glm::dvec3 up{0.0, 1.0, 0.0};
+    glm::dvec3 front{0.0, 0.0, 1.0};
+};
+
+Axes axesOf(const glm::dvec3 &up) {
+    if (up == Axes{}.up)
+        return {}; // to the bit
+    if (up.y < -0.999999)
+        return {{1.0, 0.0, 0.0}, up, {0.0, 0.0, -1.0}};
+    // Rodrigues' formula for the turn that takes +y to `up`, about (up.z, 0, -up.x).
+    const double share = 1.0 / (1.0 + up.y);
+    return {{1.0 - share * up.x * up.x, -up.x, -share * up.x * up.z},
+            up,
+            {-share * up.x * up.z, -up.z, 1.0 - share * up.z * up.z}};
+}
+
+/// The unit vector `azimuth` from the front to the right and `elevation` above the horizon.
+glm::dvec3 towards(const Axes &axes, double azimuthDegrees, double elevationDegrees) {
     const double azimuth = glm::radians(azimuthDegrees);
     const double elevation = glm::radians(elevationDegrees);
-    return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-            std::cos(elevation) * std::cos(azimuth)};
+    const glm::dvec3 local(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                           std::cos(elevation) * std::cos(azimuth));
+    return local.x * axes.right + local.y * axes.up + local.z * axes.front;
 }
 
 /// A light under which a neutral surface at the box centre, facing the light, has the given radiance:
@@ -45,6 +67,12 @@ Light lightFrom(const glm::dvec3 &direction, double radiance, const Bounds &boun
     const double power =
         radiance * 4.0 * std::numbers::pi * std::numbers::pi * distance * distance / double{neutralAlbedo};
     return {bounds.centre() + distance * direction, glm::dvec3(power)};
+}
+
+/// The fill light stands beside the camera, so the camera does not see its shadows.
+std::vector<Light> lightsFrom(const Bounds &bounds, const Axes &axes, double eyeAzimuthDegrees) {
+    return {lightFrom(towards(axes, eyeAzimuthDegrees - 70.0, 45.0), keyRadiance, bounds),
+            lightFrom(towards(axes, eyeAzimuthDegrees + 5.0, 22.0), fillRadiance, bounds)};
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -91,10 +119,12 @@ Bounds triangleBounds(const Scene &scene, const std::string &name) {
     return bounds;
 }
 
-Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees) {
+Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees,
+                   const glm::dvec3 &worldUp) {
     assert(width >= 1 && height >= 1 && limits::horizontalFovDegrees.contains(horizontalFovDegrees));
-    const glm::dvec3 backwards = towards(35.0, 20.0); // from the box to the camera
-    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), backwards));
+    const glm::dvec3 backwards =
+        towards(axesOf(worldUp), cameraAzimuthDegrees, 20.0); // from the box to the camera
+    const glm::dvec3 right = glm::normalize(glm::cross(worldUp, backwards));
     const glm::dvec3 up = glm::cross(backwards, right);
     const double tangentX = (1.0 - margin) * std::tan(glm::radians(0.5 * horizontalFovDegrees));
     const double tangentY = tangentX * height / width;
@@ -116,7 +146,7 @@ Camera frameCamera(const Bounds &bounds, int width, int height, double horizonta
     Camera camera;
     camera.position = centre + distance * backwards;
     camera.direction = -backwards;
-    camera.up = {0.0, 1.0, 0.0};
+    camera.up = worldUp;
     camera.horizontalFovDegrees = horizontalFovDegrees;
     camera.width = width;
     camera.height = height;
@@ -128,10 +158,17 @@ double horizontalFovDegrees(double verticalFovDegrees, int width, int height) {
     return glm::degrees(2.0 * std::atan(tangent));
 }
 
-Material neutralMaterial() {
+std::vector<Light> frameLights(const Bounds &bounds, const glm::dvec3 &up, const glm::dvec3 &eye) {
+    const Axes axes = axesOf(up);
+    const glm::dvec3 way = eye - bounds.centre();
+    const double azimuth = glm::degrees(std::atan2(glm::dot(way, axes.right), glm::dot(way, axes.front)));
+    return lightsFrom(bounds, axes, azimuth); // 0 for an eye right above
+}
+
+Material neutralMaterial(bool hasColours) {
     Material neutral;
     neutral.name = "neutral";
-    neutral.albedo = glm::vec3(neutralAlbedo);
+    neutral.albedo = glm::vec3(hasColours ? 1.0f : neutralAlbedo);
     neutral.twoSided = true;
     return neutral;
 }
@@ -140,11 +177,9 @@ Scene frameMesh(TriangleMesh mesh) {
     const Bounds bounds = triangleBounds(mesh);
     Scene scene;
     scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
-    // The fill light stands beside the camera, so the camera does not see its shadows.
-    scene.lights = {lightFrom(towards(-35.0, 45.0), keyRadiance, bounds),
-                    lightFrom(towards(40.0, 22.0), fillRadiance, bounds)};
+    scene.lights = lightsFrom(bounds, {}, cameraAzimuthDegrees);
     scene.background = glm::vec3(backgroundGrey);
-    scene.materials = {neutralMaterial()};
+    scene.materials = {neutralMaterial(!mesh.colours.corners.empty())};
     mesh.materialIndex = 0;
     scene.meshes.push_back(std::move(mesh));
     return scene;

@@ -29,15 +29,24 @@ struct Bounds {
 ///             +------ +x
 ///            /
 ///          +z
-[[nodiscard]] Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees);
+///
+/// `up` is a unit vector; +y in the drawing. Another one turns all of it the short way: +z in place of +y looks from
+/// the side of -y, as programs do whose +z is up.
+[[nodiscard]] Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees,
+                                 const glm::dvec3 &up = {0.0, 1.0, 0.0});
 
 /// The horizontal field of view of an image of width x height pixels whose vertical one this is.
 [[nodiscard]] double horizontalFovDegrees(double verticalFovDegrees, int width, int height);
 
-/// What triangles without a material are made of.
-[[nodiscard]] Material neutralMaterial();
+/// The lights of frameMesh() for an eye elsewhere: they follow its direction around `up`.
+[[nodiscard]] std::vector<Light> frameLights(const Bounds &bounds, const glm::dvec3 &up,
+                                             const glm::dvec3 &eye);
 
-/// A scene of the mesh alone: two-sided, of albedo 0.8, before dark grey, seen by frameCamera at the default
+/// What triangles without a material are made of: of albedo 0.8, or 1 where the mesh has colours, which then are seen
+/// as they are.
+[[nodiscard]] Material neutralMaterial(bool hasColours);
+
+/// A scene of the mesh alone: two-sided, of the neutral material, before dark grey, seen by frameCamera at the default
 /// size and 40 degrees. A key light from the upper left and a weaker fill light from near the camera: what
 /// faces one of them has a radiance near 0.7 or 0.2, whatever the size of the mesh.
 [[nodiscard]] Scene frameMesh(TriangleMesh mesh);

@@ -51,8 +51,8 @@ std::string bilevelPng(std::uint32_t width, std::uint32_t height, int packedByte
 }
 
 struct HostileFiles : CommandLine {
-    /// Runs a command that reads `file`, which it stores first, and expects it to end with an exit code of the user guide
-    /// and without taking memory out of proportion.
+    /// Runs a command that reads `file`, which it stores first, and expects it to end with an exit code of the user
+    /// guide and without taking memory out of proportion.
     Outcome expectBounded(const std::string &command, const std::string &file,
                           const std::string &content) const {
         store(file, content);
@@ -88,6 +88,41 @@ TEST_F(HostileFiles, ObjOfAnyLineEndsIsReadAlike) {
           "\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", "v 0 0 0\nv 1 0 \\\n0\nv 0 1 0\nf 1 2 3\\",
           "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\r\n2 3\r\n"})
         expectTaken("mesh.obj", text);
+}
+
+TEST_F(HostileFiles, WhatIsNotObjIsNamed) {
+    expectRefused("mesh.obj", "\x1f\x8b\x08\0\0\0"s,
+                  {"this is not OBJ text; it looks like gzip data: unpack it"});
+    expectRefused("mesh.obj", "\xff\xfev\0 \0000\0"s, {"UTF-16 text: save it as UTF-8"});
+    expectRefused("mesh.obj", "v\0 \0000\0 \0000\0 \0000\0\n\0"s, {"UTF-16"});
+    expectRefused("mesh.obj", "PK\x03\x04"s + std::string(100, '\x01'), {"a ZIP archive"});
+    expectRefused("mesh.obj", "\x01\x02\x03\x04\0\x05"s, {"binary data"});
+    expectRefused("mesh.obj", "version https://git-lfs.github.com/spec/v1\n", {"Git LFS"});
+    expectTaken("mesh.obj", "# \xc3\xa9\x85 \f\x1a\n" + corners + "f 1 2 3\n");
+}
+
+TEST_F(HostileFiles, PlyTakesMemoryInProportion) {
+    const std::string vertices = "element vertex 4\nproperty char x\nproperty char y\nproperty char z\n";
+    const std::string head = "ply\nformat binary_little_endian 1.0\n" + vertices;
+    const std::string square = "\0\0\0\1\0\0\1\1\0\0\1\0"s;
+    // The fewest bytes for a triangle: one index of a byte.
+    const std::string strip = repeated("\0\1\2\3"s, 250'000);
+    expectTaken("mesh.ply", head +
+                                "element tristrips 1\nproperty list int char vertex_indices\nend_header\n" +
+                                square + "\x40\x42\x0f\0"s + strip);
+    expectTaken("mesh.ply",
+                head + "element face 300000\nproperty list uchar uchar vertex_indices\nend_header\n" +
+                    square + repeated("\4\0\1\2\3"s, 300'000));
+    expectRefused("mesh.ply",
+                  head + "element face 4000000000\nproperty list uchar uchar vertex_indices\nend_header\n" +
+                      square,
+                  {"4000000000 rows", "damaged or cut short"});
+    expectRefused("mesh.ply",
+                  head + "element face 1\nproperty list uint uchar vertex_indices\nend_header\n" + square +
+                      "\xff\xff\xff\xff",
+                  {": byte ", "4294967295"});
+    expectRefused("mesh.stl", std::string(80, ' ') + "\xff\xff\xff\xff",
+                  {"4294967295 triangles", "bytes for 0"});
 }
 
 TEST_F(HostileFiles, WrongIndicesAreNamedWithTheirLine) {

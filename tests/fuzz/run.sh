@@ -38,6 +38,8 @@ for format in "${formats[@]}"; do
     mtl) words=("-dict=$here/mtl.words") ;;
     obj) words=("-dict=$here/obj.words") ;;
     gltf) words=("-dict=$here/gltf.words") ;;
+    ply) words=("-dict=$here/ply.words") ;;
+    stl) words=("-dict=$here/stl.words") ;;
     baseline | scene) words=("-dict=$here/json.words") ;;
     esac
     if "$build/bin/fuzz_$format" -max_total_time="$seconds" -rss_limit_mb=1024 -timeout=30 -max_len=4096 \

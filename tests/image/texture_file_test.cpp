@@ -5,8 +5,8 @@
 #include "host/image/image_file.h"
 #include "host/image/jpeg.h"
 #include "host/image/png.h"
-#include "host/image/png_chunks.h"
 #include "host/import/texture_library.h"
+#include "tests/fixtures/png_fixture.h"
 #include "tests/fixtures/scene_json_fixture.h"
 
 #include <cstdio> // jpeglib.h needs it
@@ -96,32 +96,6 @@ TEST_F(TextureFile, ReadsPngsAsTheyAre) {
     EXPECT_EQ(texture.name, (folder / "a.png").string());
 }
 
-/// An 8-bit PNG by hand, its pixels stored and not packed.
-std::string storedPng(std::uint8_t colourType, const std::vector<std::uint8_t> &pixel) {
-    const auto bytesOf = [](std::initializer_list<int> values) {
-        std::vector<std::byte> bytes;
-        for (const int value : values)
-            bytes.push_back(static_cast<std::byte>(value));
-        return bytes;
-    };
-    std::vector<std::byte> file = bytesOf({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
-    appendChunk(file, "IHDR", bytesOf({0, 0, 0, 1, 0, 0, 0, 1, 8, colourType, 0, 0, 0}));
-    const int length = static_cast<int>(pixel.size()) + 1;
-    std::vector<std::byte> stream = bytesOf({0x78, 0x01, 1, length, 0, 255 - length, 255, 0});
-    std::uint32_t a = 1;
-    std::uint32_t b = 1; // Adler-32, after the filter byte
-    for (const std::uint8_t byte : pixel) {
-        stream.push_back(std::byte{byte});
-        a += byte;
-        b += a;
-    }
-    for (const std::uint32_t byte : {b >> 8, b, a >> 8, a})
-        stream.push_back(static_cast<std::byte>(byte & 255u));
-    appendChunk(file, "IDAT", stream);
-    appendChunk(file, "IEND", {});
-    return {reinterpret_cast<const char *>(file.data()), file.size()};
-}
-
 TEST_F(TextureFile, ReadsTheAlphaOfPngs) {
     const Texture colour = read("rgba.png", storedPng(6, {10, 20, 30, 40}));
     EXPECT_TRUE(colour.hasAlpha);
@@ -129,8 +103,8 @@ TEST_F(TextureFile, ReadsTheAlphaOfPngs) {
     const Texture grey = read("grey.png", storedPng(4, {9, 77}));
     EXPECT_TRUE(grey.hasAlpha);
     EXPECT_EQ(grey.levels, std::vector<std::uint32_t>{0x4D090909u});
-    EXPECT_TRUE(isGrey(grey));
-    EXPECT_FALSE(isGrey(colour));
+    EXPECT_TRUE(lookAt(grey).isGrey);
+    EXPECT_FALSE(lookAt(colour).isGrey);
 }
 
 TEST_F(TextureFile, ReadsJpegs) {
@@ -152,7 +126,7 @@ TEST_F(TextureFile, ReadsJpegs) {
         }
     }
     const Texture grey = read("grey.jpg", encodeJpeg(8, 8, 1, JCS_GRAYSCALE, slope));
-    EXPECT_TRUE(isGrey(grey));
+    EXPECT_TRUE(lookAt(grey).isGrey);
     EXPECT_NEAR(channelOf(grey, 5, 5, 2), 20, 4);
 }
 

@@ -1,5 +1,6 @@
 // A SCENE argument means the file it should, and the shipped scenes hold the numbers of the report.
 #include "host/import/assets.h"
+#include "host/import/scene_json.h"
 
 #include "host/base/error.h"
 #include "host/import/load.h"
@@ -114,7 +115,7 @@ TEST_F(Assets, MissingFoldersHoldNoScenes) {
 
 TEST_F(Assets, AnythingElseIsRefused) {
     for (const char *argument : {"", "foo.txt", "a/b", ".", "..", "../scenes/spheres", "spheres.json.gz"})
-        EXPECT_TRUE(contains(refusal(argument), "ends in .json, .obj")) << argument;
+        EXPECT_TRUE(contains(refusal(argument), "ends in .json, .obj, ")) << argument;
 }
 
 TEST_F(Assets, ASceneIsLoadedByItsName) {

@@ -4,6 +4,7 @@
 #include "host/image/png.h"
 #include "host/import/load.h"
 #include "host/packing/packed_scene.h"
+#include "tests/fixtures/png_fixture.h"
 #include "tests/fixtures/scene_json_fixture.h"
 
 #include <chrono>
@@ -15,7 +16,14 @@ class Mtl : public SceneFolder {
   protected:
     [[nodiscard]] std::vector<Material> loadLibrary(const std::string &name, const std::string &text) {
         warnings.clear();
-        return loadMtl(write(name, text), {std::filesystem::canonical(folder), library, warnings});
+        FileFinder files(std::filesystem::canonical(folder));
+        return loadMtl(write(name, text), {files, library, warnings});
+    }
+
+    /// An image of one pixel with alpha.
+    void writePixelWithAlpha(const std::string &name, std::uint8_t alpha) const {
+        constexpr std::uint8_t colourAndAlpha = 6;
+        static_cast<void>(write(name, storedPng(colourAndAlpha, {9, 8, 7, alpha})));
     }
 
     /// An image of one pixel.
@@ -143,10 +151,11 @@ TEST_F(Mtl, WhatIsPassedOverOfTexturesIsTold) {
     writePixel("mesh/grey.png", 9, 9, 9);
     static_cast<void>(write("mesh/photo.tga", "something else"));
     warnings.clear();
+    FileFinder files(std::filesystem::canonical(folder / "mesh"));
     const std::vector<Material> materials =
         loadMtl(write("mesh/bad.mtl", "newmtl a\nmap_Kd none.png\nmap_Kd ../outside.png\nmap_Ks grey.png\n"
                                       "bump grey.png\nmap_Ke photo.tga\nmap_d -clamp on -t 1 2 grey.png\n"),
-                {std::filesystem::canonical(folder / "mesh"), library, warnings});
+                {files, library, warnings});
     ASSERT_EQ(materials.size(), 1u);
     for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot)
         EXPECT_EQ(materials[0].textures[slot].has_value(), slot == layout::slotOpacity) << slot;
@@ -162,7 +171,7 @@ TEST_F(Mtl, WhatIsPassedOverOfTexturesIsTold) {
         EXPECT_NE(warnings[i].find(parts[i]), std::string::npos) << warnings[i];
 }
 
-TEST_F(Mtl, DamagedTexturesAreRefused) {
+TEST_F(Mtl, StatementsWithoutAFileOrWithWrongNumbersAreRefused) {
     const auto refusalOfMtl = [&](const std::string &text) -> std::string {
         try {
             static_cast<void>(loadLibrary("bad.mtl", "newmtl a\n" + text));
@@ -171,11 +180,104 @@ TEST_F(Mtl, DamagedTexturesAreRefused) {
         }
         return {};
     };
-    static_cast<void>(write("cut.jpg", "\xFF\xD8\xFF\xE0"));
-    EXPECT_NE(refusalOfMtl("map_Kd cut.jpg\n").find("cut.jpg: it is damaged"), std::string::npos);
     EXPECT_NE(refusalOfMtl("map_Kd\n").find("bad.mtl:2: map_Kd names no file"), std::string::npos);
     EXPECT_NE(refusalOfMtl("map_Kd -s x.png\n").find("-s has fewer numbers"), std::string::npos);
     EXPECT_NE(refusalOfMtl("map_Kd -s 1e9 x.png\n").find("out of range"), std::string::npos);
+}
+
+TEST_F(Mtl, DamagedTexturesAreLeftOutWithAWarning) {
+    static_cast<void>(write("cut.jpg", "\xFF\xD8\xFF\xE0"));
+    writePixel("whole.png", 1, 2, 3);
+    const std::vector<Material> materials = loadLibrary(
+        "a.mtl", "newmtl a\nmap_Kd cut.jpg\nnewmtl b\nmap_Kd whole.png\nnewmtl c\nmap_Kd cut.jpg\n");
+    ASSERT_EQ(materials.size(), 3u);
+    EXPECT_FALSE(materials[0].textures[layout::slotBaseColour]);
+    EXPECT_EQ(materials[0].albedo, glm::vec3(0.8f)) << "as without a texture";
+    ASSERT_TRUE(materials[1].textures[layout::slotBaseColour]);
+    EXPECT_EQ(materials[1].textures[layout::slotBaseColour]->textureIndex, 0u);
+    EXPECT_FALSE(materials[2].textures[layout::slotBaseColour]);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_NE(warnings[0].find("a.mtl:2: map_Kd \"cut.jpg\" is ignored: "), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("cut.jpg: it is damaged"), std::string::npos) << warnings[0];
+}
+
+TEST_F(Mtl, TheAlphaOfMapKdCutsOutWithoutAMapD) {
+    writePixelWithAlpha("leaf.png", 0);
+    writePixelWithAlpha("glass.png", 200);
+    writePixel("mask.png", 255, 255, 255);
+    const std::vector<Material> materials = loadLibrary(
+        "a.mtl", "newmtl leaf\nmap_Kd -s 2 2 leaf.png\nnewmtl masked\nmap_Kd leaf.png\nmap_d mask.png\n"
+                 "newmtl dense\nmap_Kd glass.png\n");
+    ASSERT_EQ(materials.size(), 3u);
+    const auto &opacity = materials[0].textures[layout::slotOpacity];
+    ASSERT_TRUE(opacity);
+    EXPECT_EQ(opacity->textureIndex, materials[0].textures[layout::slotBaseColour]->textureIndex);
+    EXPECT_EQ(opacity->scale, glm::vec2(2.0f));
+    EXPECT_NE(materials[1].textures[layout::slotOpacity]->textureIndex, opacity->textureIndex);
+    EXPECT_FALSE(materials[2].textures[layout::slotOpacity]) << "nothing of it is below a half";
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("\"leaf\" is cut out where map_Kd \"leaf.png\" is transparent"),
+              std::string::npos)
+        << warnings[0];
+}
+
+TEST_F(Mtl, APictureAsMapBumpIsANormalMapIfItsColoursAreNormals) {
+    writePixel("normal.png", 100, 140, 250);
+    writePixel("bricks.png", 150, 70, 40);
+    const std::vector<Material> materials = loadLibrary(
+        "a.mtl", "newmtl a\nmap_Bump normal.png\nnewmtl b\nbump bricks.png\nnewmtl c\nnorm bricks.png\n");
+    EXPECT_TRUE(materials.at(0).textures[layout::slotNormal]);
+    EXPECT_FALSE(materials.at(1).textures[layout::slotNormal]);
+    EXPECT_TRUE(materials.at(2).textures[layout::slotNormal]) << "as it says";
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("a.mtl:4: bump \"bricks.png\" is ignored: its colours"), std::string::npos);
+}
+
+TEST_F(Mtl, WordsOfUnknownOptionsAreNotTakenForTheName) {
+    writePixel("old oak.png", 1, 2, 3);
+    const std::vector<Material> materials = loadLibrary(
+        "a.mtl", "newmtl a\nmap_Kd -colorspace linear old oak.png\nnewmtl b\nmap_Kd -mm 0 1 old oak.png\n"
+                 "newmtl c\nmap_Kd old oak.png -s 1 1 1\n");
+    for (const Material &material : materials)
+        EXPECT_TRUE(material.textures[layout::slotBaseColour]) << material.name;
+    ASSERT_EQ(warnings.size(), 3u);
+    EXPECT_NE(warnings[0].find("a.mtl:2: the option -colorspace is ignored"), std::string::npos)
+        << warnings[0];
+    EXPECT_NE(warnings[2].find("a.mtl:6: \"-s 1 1 1\" is ignored"), std::string::npos) << warnings[2];
+}
+
+TEST_F(Mtl, NamesOfOtherComputersAreFoundBesideTheFile) {
+    std::filesystem::create_directories(folder / "Textures");
+    writePixel("Textures/Wood.png", 1, 2, 3);
+    writePixel("stone.PNG", 1, 2, 3);
+    static_cast<void>(write("Colours.mtl",
+                            "newmtl a\nmap_Kd C:\\models\\textures\\wood.PNG\nmap_Ke STONE.png\n"
+                            "newmtl b\nmap_Kd /home/bob/stone.PNG\nnewmtl c\nmap_Kd \"stone.PNG\"\n"));
+    const LoadedScene loaded =
+        loadScene(write("mesh.obj",
+                        "mtllib .\\colours.MTL\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n")
+                      .string());
+    ASSERT_EQ(loaded.scene.materials.size(), 4u);
+    EXPECT_TRUE(loaded.scene.materials[1].textures[layout::slotBaseColour]);
+    EXPECT_TRUE(loaded.scene.materials[1].textures[layout::slotEmission]);
+    EXPECT_TRUE(loaded.scene.materials[2].textures[layout::slotBaseColour]);
+    EXPECT_TRUE(loaded.scene.materials[3].textures[layout::slotBaseColour]);
+    EXPECT_EQ(loaded.scene.textures.size(), 2u);
+    ASSERT_EQ(loaded.meshReports.at(0).warnings.size(), 1u);
+    EXPECT_NE(
+        loaded.meshReports[0].warnings[0].find("5 files were found by another name than it says, such as "
+                                               "\".\\colours.MTL\", which is Colours.mtl"),
+        std::string::npos)
+        << loaded.meshReports[0].warnings[0];
+}
+
+TEST_F(Mtl, SeveralLibrariesMayBeNamedAtOnce) {
+    static_cast<void>(write("a.mtl", "newmtl red\n"));
+    static_cast<void>(write("b.mtl", "newmtl blue\n"));
+    const LoadedScene loaded = loadScene(
+        write("mesh.obj", "mtllib a.mtl b.mtl\nusemtl blue\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string());
+    EXPECT_EQ(loaded.scene.materials.size(), 3u);
+    EXPECT_TRUE(loaded.meshReports.at(0).warnings.empty());
 }
 
 TEST_F(Mtl, ABareMeshWearsItsTextures) {
@@ -269,6 +371,12 @@ TEST_F(Mtl, LibrariesThatAreNotThereOrOutOfReachAreTold) {
               (std::vector<std::string>{"../outside.mtl", "none.mtl"}));
     EXPECT_TRUE(loaded.scene.meshes.at(0).triangleMaterials.empty());
     EXPECT_EQ(loaded.scene.materials.size(), 1u) << "the neutral one";
+    ASSERT_EQ(loaded.meshReports.at(0).warnings.size(), 1u) << "once";
+    EXPECT_NE(
+        loaded.meshReports[0].warnings[0].find(
+            "mesh.obj: there is no material library \"../outside.mtl\" (nor 1 more) in the mesh's folder"),
+        std::string::npos)
+        << loaded.meshReports[0].warnings[0];
 }
 
 } // namespace

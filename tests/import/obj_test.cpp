@@ -313,6 +313,43 @@ TEST(Obj, GroupsMaterialsAndMissingMaterialFilesAreIgnored) {
     EXPECT_EQ(loaded.report.unusedStatementCount, 5u);
 }
 
+TEST(Obj, NormalsThatTheFileDoesNotHaveGiveWayToTheGeometricOne) {
+    const ObjMesh loaded =
+        loadText("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//1 2//9 3//1\n"
+                 "f 1//-5 2//1 3//1\n");
+    ASSERT_EQ(loaded.mesh.triangles.size(), 3u);
+    EXPECT_EQ(loaded.mesh.triangles[0].normals, glm::uvec3(0));
+    EXPECT_EQ(loaded.mesh.triangles[1].normals, glm::uvec3(MeshTriangle::noNormal));
+    EXPECT_EQ(loaded.mesh.triangles[2].normals, glm::uvec3(MeshTriangle::noNormal));
+    EXPECT_EQ(loaded.report.undefinedNormalCount, 2u);
+    EXPECT_EQ(loaded.report.lostNormalCount, 2u);
+    ASSERT_EQ(loaded.report.warnings.size(), 1u) << "once";
+    EXPECT_NE(loaded.report.warnings[0].find("2 triangles name normals that the file does not have"),
+              std::string::npos)
+        << loaded.report.warnings[0];
+}
+
+TEST(Obj, HasTheColoursOfItsVertices) {
+    // The second vertex is read by tinyobjloader, as it is indented.
+    const ObjMesh loaded =
+        loadText("v 0 0 0 1 0.5 0\n v 1 0 0 0.25 2 -1\nv 0 1 0 7 1 1 0.5\nv 0 0 1\nv 0 0 2 1\n"
+                 "f 1 2 3\nf 1 2 4 5\n");
+    const CornerValues<glm::vec4> &colours = loaded.mesh.colours;
+    ASSERT_EQ(colours.values.size(), 5u);
+    ASSERT_EQ(colours.corners.size(), loaded.mesh.triangles.size());
+    for (std::size_t i = 0; i < colours.corners.size(); ++i)
+        EXPECT_EQ(colours.corners[i], loaded.mesh.triangles[i].positions);
+    EXPECT_EQ(colours.values[0].x, 1.0f);
+    EXPECT_NEAR(colours.values[0].y, 0.21404f, 1e-5f) << "0.5 of sRGB, as light";
+    EXPECT_NEAR(colours.values[1].x, 0.05088f, 1e-5f);
+    EXPECT_EQ(colours.values[1].y, 1.0f);
+    EXPECT_EQ(colours.values[1].z, 0.0f);
+    EXPECT_EQ(colours.values[2].x, 1.0f) << "behind the weight";
+    EXPECT_EQ(colours.values[3], glm::vec4(1.0f)) << "white, as it has none";
+    EXPECT_EQ(colours.values[4], glm::vec4(1.0f)) << "a weight is no colour";
+    EXPECT_TRUE(loadText(threeVertices + "f 1 2 3\n").mesh.colours.corners.empty());
+}
+
 TEST(Obj, ErrorsNameTheLineWhatWasFoundAndWhatIsAllowed) {
     expectError("\n# c\nv 1 2\n", ":3: v has fewer than three numbers");
     expectError("v\n", ":1: v has fewer than three numbers");
@@ -324,9 +361,7 @@ TEST(Obj, ErrorsNameTheLineWhatWasFoundAndWhatIsAllowed) {
     expectError(threeVertices + "f 1 2 0\n", ":4: the face's corner \"0\"", "not 0");
     expectError(threeVertices + "f 1 2 3//0\n", ":4: the face's corner \"3//0\"");
     expectError(threeVertices + "f 1 2 4\n", ":4: the face has the vertex index 4", "the file has 3");
-    expectError(threeVertices + "\nf 1 2 3//1\n", ":5: the face has the normal index 1", "the file has 0");
     expectError(threeVertices + "f 1 2 -4\n", ":4: the face has the vertex index -4", "3 are defined");
-    expectError(threeVertices + "f 1//-1 2 3\n", ":4: the face has the normal index -1", "0 are defined");
     expectError(threeVertices + "f 1 \\\n2 \\\n4\n", ":4: the face has the vertex index 4");
     expectError("v 0 0 0\\\r\n\r\nv 1\r\n", ":3: v has fewer");
     for (const std::string corner :
@@ -390,8 +425,8 @@ TEST(Obj, NumbersThatAreNoFiniteFloatsAreErrors) {
         expectError("v 0 0 0\nv 0 " + number + " 0\n", ":2: v has \"" + number + "\"");
     expectError("v 0 " + std::string(129, '1') + " 0\n", ":1: v has \"1111", "128 characters");
     for (const std::string number : {"1e39", "-1e39", "1e308", "1e309", "1e999", "3.5e38"})
-        expectError("v 0 0 " + number + "\n", ":1: v (", "is no finite float");
-    expectError("v 0 1e38 0\n", ":1: v is at (0, 1e+38, 0) after the transform", "1e15");
+        expectError("v 0 0 " + number + "\n", ":1: vertex (", "is no finite float");
+    expectError("v 0 1e38 0\n", ":1: the vertex is at (0, 1e+38, 0) after the transform", "1e15");
 }
 
 TEST(Obj, ACommaLocaleHasNoEffect) {
@@ -411,7 +446,7 @@ TEST(Obj, ACommaLocaleHasNoEffect) {
     std::locale::global(before);
     EXPECT_EQ(loaded.mesh.positions[0], glm::vec3(0.5f, 1234.25f, 0.0f));
     EXPECT_TRUE(message.starts_with(":1: v has \"1,5\"")) << message;
-    EXPECT_TRUE(decimals.starts_with(":1: v (1.5e+39, 0.25, 0)")) << decimals;
+    EXPECT_TRUE(decimals.starts_with(":1: vertex (1.5e+39, 0.25, 0)")) << decimals;
 }
 
 TEST(Obj, FilesWithoutATriangleAreErrors) {

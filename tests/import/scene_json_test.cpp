@@ -438,5 +438,16 @@ TEST_F(SceneJson, TransformOfAMeshComesAfterItsOwnSteps) {
     EXPECT_EQ(mesh.triangles.at(0).positions, glm::uvec3(0, 2, 1)) << "it faces +z still";
 }
 
+TEST_F(SceneJson, EveryObjectMayHaveADescription) {
+    const auto described = [](const std::string &words) {
+        return R"({"camera": {"description": )" + words +
+               R"(}, "materials": {"m": {"type": "mirror", "description": )" + words +
+               R"(}}, "spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "m", "description": )" +
+               words + R"(}], "settings": {"description": )" + words + "}}";
+    };
+    EXPECT_EQ(refusal(described("\"words\"")), "");
+    EXPECT_NE(refusal(described("7")).find("/description: found 7"), std::string::npos);
+}
+
 } // namespace
 } // namespace hyalite

@@ -106,6 +106,44 @@ TEST(Framing, TheCameraLooksFromFrontRightAndAbove) {
     EXPECT_NEAR(glm::length(glm::cross(camera.position, camera.direction)), 0.0, 1e-9); // at the centre
 }
 
+TEST(Framing, AnotherUpTurnsCameraAndLights) {
+    const Bounds bounds{{-1, -1, -1}, {1, 1, 1}};
+    const Camera usual = frameCamera(bounds, 512, 512, 40.0);
+    const Camera standing = frameCamera(bounds, 512, 512, 40.0, {0.0, 0.0, 1.0});
+    EXPECT_NEAR(
+        glm::length(standing.position - glm::dvec3(usual.position.x, -usual.position.z, usual.position.y)),
+        0.0, 1e-9)
+        << "+y became +z, and the front -y";
+    EXPECT_EQ(standing.up, glm::dvec3(0.0, 0.0, 1.0));
+    const Scene scene = frameMesh(spanning({-1, -1, -1}, {1, 1, 1}));
+    const std::vector<Light> lights = frameLights(bounds, {0.0, 0.0, 1.0}, standing.position);
+    ASSERT_EQ(lights.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const glm::dvec3 expected = scene.lights[i].position;
+        EXPECT_NEAR(glm::length(lights[i].position - glm::dvec3(expected.x, -expected.z, expected.y)), 0.0,
+                    1e-6);
+    }
+    for (const glm::dvec3 &up :
+         {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1), glm::dvec3(0.6, 0.8, 0)}) {
+        const Camera camera = frameCamera(bounds, 512, 512, 40.0, up);
+        EXPECT_NEAR(glm::length(camera.position), glm::length(usual.position), 0.7) << "as far, more or less";
+        EXPECT_GT(glm::dot(camera.position, up), 0.0) << "from above";
+    }
+}
+
+TEST(Framing, LightsFollowTheEye) {
+    const Bounds bounds{{-1, -1, -1}, {1, 1, 1}};
+    const Camera camera = frameCamera(bounds, 512, 512, 40.0);
+    const std::vector<Light> usual = frameLights(bounds, {0, 1, 0}, camera.position);
+    const std::vector<Light> behind =
+        frameLights(bounds, {0, 1, 0}, {-camera.position.x, 5.0, -camera.position.z});
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_NEAR(behind[i].position.x, -usual[i].position.x, 1e-6);
+        EXPECT_NEAR(behind[i].position.y, usual[i].position.y, 1e-6);
+        EXPECT_NEAR(behind[i].position.z, -usual[i].position.z, 1e-6);
+    }
+}
+
 TEST(Framing, TheLightAtTheCentreIsTheSameForAnySize) {
     for (const Shape &shape : shapes()) {
         const Scene scene = frameMesh(spanning(shape.low, shape.high));

@@ -64,7 +64,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
                                                   .timeSeconds = options.timeSeconds,
                                                   .onReading = options.events.onReading});
     // The neutral material comes first, for triangles without a material.
-    scene.materials = {neutralMaterial()};
+    scene.materials = {neutralMaterial(false)};
     std::ranges::move(contents.file.materials, std::back_inserter(scene.materials));
     scene.textures = textures.give();
     scene.lights = std::move(contents.lights);

@@ -1,4 +1,4 @@
-#include "host/import/obj_mesh.h"
+#include "host/import/mesh_builder.h"
 
 #include "host/base/error.h"
 #include "host/import/obj_lines.h"
@@ -17,6 +17,7 @@ namespace {
 
 constexpr double maxCoordinate = 1e15;
 constexpr glm::vec3 lostNormal(0.0f);
+constexpr std::uint32_t undefinedNormal = MeshTriangle::noNormal - 1; ///< a normal before the first one
 
 struct SinCos {
     double sine, cosine;
@@ -69,32 +70,50 @@ bool isDegenerate(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c)
 
 } // namespace
 
-ObjMeshBuilder::ObjMeshBuilder(std::string file, const MeshTransform &transform)
-    : rotation(rotationMatrix(transform.rotateDegrees)), scale(transform.scale),
+void failAtPlace(const std::string &file, PlaceUnit unit, std::size_t place, std::string_view message) {
+    if (unit == PlaceUnit::Line)
+        failAtLine(file, place, message);
+    throw Error(ErrorKind::BadInput, file + ": byte " + std::to_string(place) + ": " + std::string(message));
+}
+
+MeshBuilder::MeshBuilder(std::string file, const MeshTransform &transform, PlaceUnit placeUnit)
+    : unit(placeUnit), rotation(rotationMatrix(transform.rotateDegrees)), scale(transform.scale),
       translate(transform.translate) {
     assert(transform.scale != 0.0);
     result.mesh.name = std::move(file);
 }
 
-void ObjMeshBuilder::addPosition(const glm::dvec3 &positionObject, std::size_t line) {
+void MeshBuilder::reserve(std::size_t vertexCount, std::size_t triangleCount) {
+    result.mesh.positions.reserve(vertexCount);
+    result.mesh.triangles.reserve(triangleCount);
+}
+
+void MeshBuilder::addPosition(const glm::dvec3 &positionObject, std::size_t place) {
     constexpr double maxFloat = std::numeric_limits<float>::max();
     // written so that a NaN fails, too
     const auto isWithin = [](const glm::dvec3 &v, double limit) {
         return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
     };
     if (!isWithin(positionObject, maxFloat))
-        failAtLine(result.mesh.name, line,
-                   "v " + describe(positionObject) + " is no finite float; allowed are magnitudes up to " +
-                       decimal(maxFloat));
+        fail(place, "vertex " + describe(positionObject) +
+                        " is no finite float; allowed are magnitudes up to " + decimal(maxFloat));
     const glm::dvec3 world = rotation * (scale * positionObject) + translate;
     if (!isWithin(world, maxCoordinate))
-        failAtLine(result.mesh.name, line,
-                   "v is at " + describe(world) + " after the transform; allowed are magnitudes up to 1e15");
+        fail(place, "the vertex is at " + describe(world) +
+                        " after the transform; allowed are magnitudes up to 1e15");
     result.mesh.positions.emplace_back(world);
 }
 
+void MeshBuilder::setColour(const glm::vec3 &colour) {
+    std::vector<glm::vec4> &colours = result.mesh.colours.values;
+    if (colours.empty()) // most files have none
+        colours.reserve(result.mesh.positions.capacity());
+    colours.resize(result.mesh.positions.size(), glm::vec4(1.0f));
+    colours.back() = glm::vec4(colour, 1.0f);
+}
+
 // Of a uniform scale s only the sign remains in the inverse transpose of the transform: (s R)^-T = R / s.
-void ObjMeshBuilder::addNormal(const glm::dvec3 &normalObject) {
+void MeshBuilder::addNormal(const glm::dvec3 &normalObject) {
     const double size = largestMagnitude(normalObject);
     glm::vec3 normal = lostNormal;
     if (size > 0.0 && std::isfinite(normalObject.x + normalObject.y + normalObject.z)) {
@@ -106,14 +125,14 @@ void ObjMeshBuilder::addNormal(const glm::dvec3 &normalObject) {
     result.mesh.normals.push_back(normal);
 }
 
-void ObjMeshBuilder::addUv(const glm::dvec2 &uv) {
+void MeshBuilder::addUv(const glm::dvec2 &uv) {
     const auto finite = [](double x) {
         return std::abs(x) <= double{std::numeric_limits<float>::max()} ? static_cast<float>(x) : 0.0f;
     };
     result.mesh.uvs.emplace_back(finite(uv.x), finite(uv.y));
 }
 
-void ObjMeshBuilder::setMaterial(std::uint32_t index) {
+void MeshBuilder::setMaterial(std::uint32_t index) {
     material = index;
     if (!hasMaterials && index != 0) {
         hasMaterials = true;
@@ -121,62 +140,63 @@ void ObjMeshBuilder::setMaterial(std::uint32_t index) {
     }
 }
 
-void ObjMeshBuilder::addFace(std::span<const ObjCorner> corners, std::size_t line) {
+void MeshBuilder::addFace(std::span<const FaceCorner> corners, std::size_t place) {
     ++result.report.faceCount;
     face.clear();
     bool isCuttable = waitingFaces.empty();
-    for (const ObjCorner &corner : corners) {
-        Corner &added =
-            face.emplace_back(Corner{resolve(corner.position, result.mesh.positions.size(), "vertex", line),
-                                     MeshTriangle::noNormal, TriangleMesh::noUv});
-        if (corner.normal != 0)
-            added.normal = resolve(corner.normal, result.mesh.normals.size(), "normal", line);
+    for (const FaceCorner &corner : corners) {
+        Corner &added = face.emplace_back(Corner{resolvePosition(corner.position, place),
+                                                 resolveNormal(corner.normal), TriangleMesh::noUv});
         if (corner.uv > 0)
             added.uv = static_cast<std::uint32_t>(corner.uv) - 1;
         else if (const auto back = static_cast<std::size_t>(-std::int64_t{corner.uv});
                  back > 0 && back <= result.mesh.uvs.size())
             added.uv = static_cast<std::uint32_t>(result.mesh.uvs.size() - back);
-        isCuttable = isCuttable && isDefined(added) &&
-                     (added.uv == TriangleMesh::noUv || added.uv < result.mesh.uvs.size());
+        isCuttable = isCuttable && isDefined(added);
     }
     if (isCuttable) {
         cutFace(face);
         return;
     }
     waitingFaces.push_back(
-        {static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(waitingCorners.size()), material});
+        {static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(waitingCorners.size()), material});
     waitingCorners.insert(waitingCorners.end(), face.begin(), face.end());
 }
 
-std::uint32_t ObjMeshBuilder::resolve(std::int32_t index, std::size_t count, const char *what,
-                                      std::size_t line) const {
+std::uint32_t MeshBuilder::resolvePosition(std::int32_t index, std::size_t place) const {
     if (index > 0)
         return static_cast<std::uint32_t>(index) - 1;
+    const std::size_t count = result.mesh.positions.size();
     const std::int64_t fromStart = static_cast<std::int64_t>(count) + index;
     if (index == 0 || fromStart < 0)
-        failAtLine(result.mesh.name, line,
-                   std::string("the face has the ") + what + " index " + std::to_string(index) + "; " +
-                       std::to_string(count) + " are defined before it");
+        fail(place, "the face has the vertex index " + std::to_string(index) + "; " + std::to_string(count) +
+                        " are defined before it");
     return static_cast<std::uint32_t>(fromStart);
 }
 
-bool ObjMeshBuilder::isDefined(const Corner &corner) const {
+std::uint32_t MeshBuilder::resolveNormal(std::int32_t index) const {
+    if (index == 0)
+        return MeshTriangle::noNormal;
+    const std::int64_t fromStart =
+        index > 0 ? std::int64_t{index} - 1 : static_cast<std::int64_t>(result.mesh.normals.size()) + index;
+    return fromStart < 0 ? undefinedNormal : static_cast<std::uint32_t>(fromStart);
+}
+
+/// Whether all that the corner names is known already.
+bool MeshBuilder::isDefined(const Corner &corner) const {
     return corner.position < result.mesh.positions.size() &&
-           (corner.normal == MeshTriangle::noNormal || corner.normal < result.mesh.normals.size());
+           (corner.normal == MeshTriangle::noNormal || corner.normal == undefinedNormal ||
+            corner.normal < result.mesh.normals.size()) &&
+           (corner.uv == TriangleMesh::noUv || corner.uv < result.mesh.uvs.size());
 }
 
-void ObjMeshBuilder::requireDefined(const Corner &corner, std::size_t line) const {
-    if (isDefined(corner))
-        return;
-    const bool isVertex = corner.position >= result.mesh.positions.size();
-    const std::uint32_t index = isVertex ? corner.position : corner.normal;
-    const std::size_t count = isVertex ? result.mesh.positions.size() : result.mesh.normals.size();
-    failAtLine(result.mesh.name, line,
-               std::string("the face has the ") + (isVertex ? "vertex" : "normal") + " index " +
-                   std::to_string(index + 1) + "; the file has " + std::to_string(count));
+void MeshBuilder::requirePosition(const Corner &corner, std::size_t place) const {
+    if (corner.position >= result.mesh.positions.size())
+        fail(place, "the face has the vertex index " + std::to_string(corner.position + 1) +
+                        "; the file has " + std::to_string(result.mesh.positions.size()));
 }
 
-void ObjMeshBuilder::cutFace(std::span<const Corner> corners) {
+void MeshBuilder::cutFace(std::span<const Corner> corners) {
     FaceNormals normals{true, false};
     for (const Corner &corner : corners) {
         const bool hasNormal = corner.normal != MeshTriangle::noNormal;
@@ -195,7 +215,7 @@ void ObjMeshBuilder::cutFace(std::span<const Corner> corners) {
         addTriangle(corners[part.x], corners[part.y], corners[part.z], normals);
 }
 
-void ObjMeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals) {
+void MeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals) {
     const std::vector<glm::vec3> &at = result.mesh.positions;
     if (isDegenerate(at[a.position], at[b.position], at[c.position])) {
         ++result.report.degenerateTriangleCount;
@@ -205,8 +225,14 @@ void ObjMeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner 
     if (normals.all)
         triangle.normals = {a.normal, b.normal, c.normal};
     bool isLost = normals.any && !normals.all;
-    for (int i = 0; i < 3 && normals.all; ++i)
-        isLost = isLost || result.mesh.normals[triangle.normals[i]] == lostNormal;
+    bool isUndefined = false;
+    for (const std::uint32_t normal : {a.normal, b.normal, c.normal}) {
+        isUndefined =
+            isUndefined || (normal != MeshTriangle::noNormal && normal >= result.mesh.normals.size());
+        isLost = isLost || (normal < result.mesh.normals.size() && result.mesh.normals[normal] == lostNormal);
+    }
+    result.report.undefinedNormalCount += isUndefined;
+    isLost = isLost || isUndefined;
     if (isLost) {
         triangle.normals = glm::uvec3(MeshTriangle::noNormal);
         ++result.report.lostNormalCount;
@@ -223,7 +249,7 @@ void ObjMeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner 
         result.mesh.triangleMaterials.push_back(material);
 }
 
-void ObjMeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
+void MeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
     const bool hasAll =
         uvs.x < result.mesh.uvs.size() && uvs.y < result.mesh.uvs.size() && uvs.z < result.mesh.uvs.size();
     if (hasAll && result.mesh.triangleUvs.empty())
@@ -233,7 +259,17 @@ void ObjMeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
         result.mesh.triangleUvs.push_back(hasAll ? uvs : glm::uvec3(TriangleMesh::noUv));
 }
 
-ObjMesh ObjMeshBuilder::finish() {
+void MeshBuilder::addColours() {
+    CornerValues<glm::vec4> &colours = result.mesh.colours;
+    if (colours.values.empty())
+        return;
+    colours.values.resize(result.mesh.positions.size(), glm::vec4(1.0f));
+    colours.corners.reserve(result.mesh.triangles.size());
+    for (const MeshTriangle &triangle : result.mesh.triangles)
+        colours.corners.push_back(triangle.positions);
+}
+
+ObjMesh MeshBuilder::finish() {
     MeshReport &report = result.report;
     for (std::size_t i = 0; i < waitingFaces.size(); ++i) {
         const std::size_t begin = waitingFaces[i].cornerBegin;
@@ -241,7 +277,7 @@ ObjMesh ObjMeshBuilder::finish() {
             i + 1 < waitingFaces.size() ? waitingFaces[i + 1].cornerBegin : waitingCorners.size();
         const std::span<const Corner> corners(waitingCorners.data() + begin, end - begin);
         for (const Corner &corner : corners)
-            requireDefined(corner, waitingFaces[i].line);
+            requirePosition(corner, waitingFaces[i].place);
         material = waitingFaces[i].material;
         cutFace(corners);
     }
@@ -250,6 +286,7 @@ ObjMesh ObjMeshBuilder::finish() {
                                              std::to_string(report.faceCount) + " faces (" +
                                              std::to_string(report.degenerateTriangleCount) +
                                              " dropped for having no area); at least one is needed");
+    addColours();
     // No triangle uses a lost normal, but its place must hold a unit vector.
     std::replace(result.mesh.normals.begin(), result.mesh.normals.end(), lostNormal,
                  glm::vec3(0.0f, 0.0f, 1.0f));

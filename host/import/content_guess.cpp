@@ -1,0 +1,63 @@
+#include "host/import/content_guess.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace hyalite {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Signature {
+    std::string_view bytes;
+    std::string_view meaning;
+};
+
+constexpr Signature signatures[] = {
+    {"\x1f\x8b"sv, "gzip data: unpack it first (gunzip)"},
+    {"PK\x03\x04"sv, "a ZIP archive: unpack it first"},
+    {"BZh"sv, "bzip2 data: unpack it first (bunzip2)"},
+    {"\xfd"
+     "7zXZ"sv,
+     "xz data: unpack it first (unxz)"},
+    {"\x28\xb5\x2f\xfd"sv, "zstd data: unpack it first (unzstd)"},
+    {"\xff\xfe"sv, "UTF-16 text: save it as UTF-8"},
+    {"\xfe\xff"sv, "UTF-16 text: save it as UTF-8"},
+    {"glTF"sv, "binary glTF: name it .glb"},
+    {"ply\n"sv, "PLY: name it .ply"},
+    {"ply\r"sv, "PLY: name it .ply"},
+    {"\x89PNG"sv, "a PNG picture"},
+    {"\xff\xd8\xff"sv, "a JPEG picture"},
+    {"BLENDER"sv, "a Blender file: export it"},
+    {"Kaydara FBX"sv, "FBX: export it as glTF or OBJ"},
+    {"%PDF"sv, "a PDF document"},
+    {"<!DOCTYPE"sv, "a web page: download the file itself"},
+    {"<html"sv, "a web page: download the file itself"},
+    {"version https://git-lfs"sv, "a pointer of Git LFS: fetch the file itself (git lfs pull)"},
+};
+
+} // namespace
+
+std::string guessContent(std::span<const char> head) {
+    const std::string_view text(head.data(), head.size());
+    for (const auto &[bytes, meaning] : signatures)
+        if (text.starts_with(bytes))
+            return std::string(meaning);
+    const auto isZero = [](char c) { return c == '\0'; };
+    const auto isControl = [](char c) {
+        const auto code = static_cast<unsigned char>(c);
+        return code < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\v';
+    };
+    const auto zeroCount = std::ranges::count_if(text, isZero);
+    // Text of two bytes a character, without its mark: every other byte of what is ASCII is zero.
+    if (text.size() >= 8 && zeroCount * 5 >= static_cast<std::ptrdiff_t>(text.size()) * 2 &&
+        std::ranges::none_of(text, [&](char c) { return isControl(c) && !isZero(c); }))
+        return "UTF-16 text: save it as UTF-8";
+    constexpr std::ptrdiff_t someBytes = 4; // a text may be damaged in places
+    const auto controlCount = std::ranges::count_if(text, isControl);
+    if (controlCount >= someBytes && controlCount * 10 > static_cast<std::ptrdiff_t>(text.size()))
+        return "binary data";
+    return {};
+}
+
+} // namespace hyalite

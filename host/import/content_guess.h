@@ -1,0 +1,17 @@
+// Content guess: what a file looks like that is not what its name says.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace hyalite {
+
+/// What the first bytes of a file look like, with a remedy: "gzip data: unpack it first (gunzip)". Empty for plain
+/// text, which has hardly any control characters.
+[[nodiscard]] std::string guessContent(std::span<const char> head);
+
+/// How much of a file guessContent() wants to see.
+inline constexpr std::size_t guessedBytes = 512;
+
+} // namespace hyalite

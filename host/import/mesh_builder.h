@@ -1,0 +1,111 @@
+// Mesh builder: vertices, normals and faces of an OBJ, PLY or STL file become one triangle mesh in world space.
+#pragma once
+
+#include "host/import/obj.h"
+#include "host/import/triangulate.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyalite {
+
+/// How messages name a place in the file.
+enum class PlaceUnit { Line, Byte };
+
+/// Throws Error{BadInput} "FILE:LINE: message" or "FILE: byte OFFSET: message".
+[[noreturn]] void failAtPlace(const std::string &file, PlaceUnit unit, std::size_t place,
+                              std::string_view message);
+
+/// A corner of a face with the indices of the file: from 1, or from -1 backwards; 0 means no normal or no uv.
+struct FaceCorner {
+    std::int32_t position;
+    std::int32_t normal;
+    std::int32_t uv;
+};
+
+/// Takes statements in the order of the file, at most 2^32 - 1 of each kind. Files may use vertices before they
+/// define them: from the first such face on, faces are kept until the end, at 12 bytes per corner and 12 per face.
+class MeshBuilder {
+  public:
+    MeshBuilder(std::string file, const MeshTransform &transform, PlaceUnit unit = PlaceUnit::Line);
+
+    /// Takes memory for so many vertices and triangles, where a reader knows their number.
+    void reserve(std::size_t vertexCount, std::size_t triangleCount);
+
+    /// Adds a vertex. Throws Error{BadInput} if it is not a finite float, or if its magnitude exceeds 1e15 in any
+    /// coordinate after the transform.
+    void addPosition(const glm::dvec3 &positionObject, std::size_t place);
+
+    /// Gives the last vertex a colour, linear, in [0, 1]. Vertices without one are white, if any has one.
+    void setColour(const glm::vec3 &colour);
+
+    /// Adds a normal. One that is zero or not finite is kept as lost.
+    void addNormal(const glm::dvec3 &normalObject);
+
+    /// Adds texture coordinates. Numbers that are not finite floats count as 0.
+    void addUv(const glm::dvec2 &uv);
+
+    [[nodiscard]] std::size_t uvCount() const { return result.mesh.uvs.size(); }
+
+    /// Sets the material of the following faces: an index from 1, or 0 for none.
+    void setMaterial(std::uint32_t index);
+
+    [[nodiscard]] MeshReport &report() { return result.report; }
+
+    /// Adds a face of three corners or more. Throws Error{BadInput} if a relative index points before the first vertex.
+    void addFace(std::span<const FaceCorner> corners, std::size_t place);
+
+    /// Moves the mesh out. Normals and texture coordinates that the file does not define are left out. Throws
+    /// Error{BadInput} for indices past the last vertex of the file, and if no triangle is left.
+    [[nodiscard]] ObjMesh finish();
+
+  private:
+    struct Corner {
+        std::uint32_t position;
+        std::uint32_t normal; ///< or MeshTriangle::noNormal
+        std::uint32_t uv;     ///< or TriangleMesh::noUv
+    };
+
+    struct Face {
+        std::uint32_t place;
+        std::uint32_t cornerBegin;
+        std::uint32_t material;
+    };
+
+    struct FaceNormals {
+        bool all, any; ///< of its corners have a normal
+    };
+
+    [[noreturn]] void fail(std::size_t place, std::string_view message) const {
+        failAtPlace(result.mesh.name, unit, place, message);
+    }
+    [[nodiscard]] std::uint32_t resolvePosition(std::int32_t index, std::size_t place) const;
+    [[nodiscard]] std::uint32_t resolveNormal(std::int32_t index) const;
+    [[nodiscard]] bool isDefined(const Corner &corner) const;
+    void requirePosition(const Corner &corner, std::size_t place) const;
+    void cutFace(std::span<const Corner> corners);
+    void addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals);
+    void addTriangleUvs(glm::uvec3 uvs);
+    void addColours();
+
+    PlaceUnit unit;
+    glm::dmat3 rotation;
+    double scale;
+    glm::dvec3 translate;
+    std::uint32_t material = 0; ///< of the faces being triangulated
+    bool hasMaterials = false;
+    std::vector<Corner> face; ///< the face being added
+    std::vector<Corner> waitingCorners;
+    std::vector<Face> waitingFaces;
+    std::vector<glm::vec3> polygon; ///< positions of the face being triangulated
+    Triangulator triangulator;
+    ObjMesh result;
+};
+
+} // namespace hyalite

@@ -1,0 +1,250 @@
+#include "host/import/stl.h"
+
+#include "host/base/error.h"
+#include "host/import/content_guess.h"
+#include "host/import/mesh_builder.h"
+#include "host/import/obj_lines.h"
+#include "host/import/obj_statement.h"
+#include "host/import/whole_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace hyalite {
+namespace {
+
+constexpr std::size_t headBytes = 84; ///< 80 of text, and the number of triangles
+constexpr std::size_t triangleBytes = 50;
+constexpr std::uint64_t stepTriangles = 65536; ///< between two reports of progress
+
+/// Numbers the distinct vertices of a mesh, from 0, in the order in which they come. A hash table with open addressing.
+class VertexMerger {
+  public:
+    explicit VertexMerger(MeshBuilder &builder) : builder_(builder), places_(1024, none) {}
+
+    /// The number of the vertex, which is added to the builder the first time.
+    std::uint32_t add(const glm::vec3 &position, std::size_t place) {
+        const Key key = keyOf(position);
+        std::size_t slot = hashOf(key) & (places_.size() - 1);
+        while (places_[slot] != none) {
+            if (keys_[places_[slot]] == key)
+                return places_[slot];
+            slot = (slot + 1) & (places_.size() - 1);
+        }
+        builder_.addPosition(glm::dvec3(position), place);
+        const auto number = static_cast<std::uint32_t>(keys_.size());
+        places_[slot] = number;
+        keys_.push_back(key);
+        if (keys_.size() * 2 > places_.size())
+            grow();
+        return number;
+    }
+
+  private:
+    using Key = std::array<std::uint32_t, 3>;
+    static constexpr std::uint32_t none = 0xFFFF'FFFF;
+
+    /// The bits of the coordinates; 0 and -0 are the same place.
+    static Key keyOf(const glm::vec3 &position) {
+        Key key{};
+        for (glm::length_t axis = 0; axis < 3; ++axis)
+            key[static_cast<std::size_t>(axis)] =
+                std::bit_cast<std::uint32_t>(position[axis] == 0.0f ? 0.0f : position[axis]);
+        return key;
+    }
+
+    static std::size_t hashOf(const Key &key) {
+        std::uint64_t hash = key[0] * 0x9E3779B97F4A7C15u;
+        for (const std::uint32_t part : {key[1], key[2]})
+            hash = (std::rotl(hash, 29) ^ part) * 0x9E3779B97F4A7C15u;
+        return static_cast<std::size_t>(hash ^ (hash >> 32u));
+    }
+
+    void grow() {
+        places_.assign(places_.size() * 2, none);
+        for (std::uint32_t number = 0; number < keys_.size(); ++number) {
+            std::size_t slot = hashOf(keys_[number]) & (places_.size() - 1);
+            while (places_[slot] != none)
+                slot = (slot + 1) & (places_.size() - 1);
+            places_[slot] = number;
+        }
+    }
+
+    MeshBuilder &builder_;
+    std::vector<Key> keys_;             ///< by number
+    std::vector<std::uint32_t> places_; ///< numbers; a power of two
+};
+
+FaceCorner cornerOf(std::uint32_t number) { return {static_cast<std::int32_t>(number) + 1, 0, 0}; }
+
+template <class T> T littleEndian(const char *at) {
+    std::array<char, sizeof(T)> bytes{};
+    std::memcpy(bytes.data(), at, sizeof(T));
+    if constexpr (std::endian::native == std::endian::big)
+        std::ranges::reverse(bytes);
+    return std::bit_cast<T>(bytes);
+}
+
+void readBinary(std::span<const char> bytes, const std::string &fileName, MeshBuilder &builder,
+                const OnReading &onReading) {
+    const auto count = littleEndian<std::uint32_t>(bytes.data() + 80);
+    if ((bytes.size() - headBytes) / triangleBytes < count) {
+        const std::string guess = guessContent(bytes.first(std::min(bytes.size(), guessedBytes)));
+        throw Error(
+            ErrorKind::BadInput,
+            fmt::format("{}: it announces {} triangles, and has bytes for {}: it is cut short, or is not "
+                        "STL{}{}",
+                        fileName, count, (bytes.size() - headBytes) / triangleBytes,
+                        guess.empty() || guess == "binary data" ? "" : "; it looks like ",
+                        guess == "binary data" ? "" : guess));
+    }
+    builder.reserve(0, count);
+    VertexMerger merger(builder);
+    for (std::uint32_t triangle = 0; triangle < count; ++triangle) {
+        if (onReading && triangle % stepTriangles == stepTriangles - 1)
+            onReading(static_cast<double>(triangle) / count);
+        const std::size_t offset = headBytes + std::size_t{triangle} * triangleBytes;
+        std::array<FaceCorner, 3> corners{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const char *const at = bytes.data() + offset + 12 + 12 * i; // after the normal
+            corners[i] = cornerOf(merger.add(
+                {littleEndian<float>(at), littleEndian<float>(at + 4), littleEndian<float>(at + 8)}, offset));
+        }
+        builder.addFace(corners, offset);
+    }
+}
+
+/// The words of text, whose case does not matter, with their lines.
+class StlWords {
+  public:
+    StlWords(std::span<const char> text, const std::string &fileName)
+        : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), fileName_(fileName) {}
+
+    /// Empty at the end of the file.
+    std::string_view next() {
+        for (; at_ != end_ && isBlank(*at_); ++at_)
+            if (*at_ == '\n' || (*at_ == '\r' && (at_ + 1 == end_ || at_[1] != '\n')))
+                ++line_;
+        const char *const begin = at_;
+        while (at_ != end_ && !isBlank(*at_))
+            ++at_;
+        return {begin, at_};
+    }
+
+    /// Passes over the rest of the line.
+    void skipLine() {
+        while (at_ != end_ && *at_ != '\n' && *at_ != '\r')
+            ++at_;
+    }
+
+    float number() {
+        const std::string_view word = next();
+        const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        const bool isRead = end == digits.data() + digits.size() && !digits.empty();
+        if (!isRead || (error != std::errc() && error != std::errc::result_out_of_range))
+            fail("a vertex has " + (word.empty() ? "fewer than three numbers" : quoteInput(word)) +
+                 "; allowed are three finite decimal numbers");
+        return static_cast<float>(value);
+    }
+
+    [[nodiscard]] std::size_t line() const { return line_; }
+    [[nodiscard]] double shareRead() const {
+        return static_cast<double>(at_ - begin_) / static_cast<double>(end_ - begin_);
+    }
+    [[noreturn]] void fail(std::string_view message) const { failAtLine(fileName_, line_, message); }
+
+  private:
+    static bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+    const char *begin_;
+    const char *at_;
+    const char *end_;
+    std::size_t line_ = 1;
+    const std::string &fileName_;
+};
+
+bool isWord(std::string_view found, std::string_view lower) {
+    return std::ranges::equal(found, lower, [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+    });
+}
+
+void readText(std::span<const char> bytes, const std::string &fileName, MeshBuilder &builder,
+              const OnReading &onReading) {
+    constexpr std::string_view ignored[] = {"facet", "outer", "endfacet", "solid", "endsolid", "color"};
+    StlWords words(bytes, fileName);
+    VertexMerger merger(builder);
+    std::vector<FaceCorner> corners;
+    std::uint64_t faceCount = 0;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        if (isWord(word, "vertex")) {
+            const float x = words.number();
+            const float y = words.number();
+            const float z = words.number();
+            corners.push_back(cornerOf(merger.add({x, y, z}, words.line())));
+            if (corners.size() > maxFaceCorners)
+                words.fail(fmt::format("the facet has more than {} vertices", maxFaceCorners));
+        } else if (isWord(word, "endloop")) {
+            if (corners.size() < 3)
+                words.fail(fmt::format("the facet has {} vertices; allowed are 3", corners.size()));
+            builder.addFace(corners, words.line());
+            corners.clear();
+            if (onReading && ++faceCount % stepTriangles == 0)
+                onReading(words.shareRead());
+        } else if (std::ranges::any_of(ignored,
+                                       [&](std::string_view known) { return isWord(word, known); })) {
+            words.skipLine(); // with the normal, or the name of the solid
+        } else {
+            words.fail(
+                fmt::format("{} is no word of STL; allowed are solid, facet, outer loop, vertex, endloop, "
+                            "endfacet and endsolid",
+                            quoteInput(word)));
+        }
+    }
+    if (!corners.empty())
+        words.fail("the file ends within a facet: it is cut short");
+}
+
+bool isBinary(std::span<const char> bytes) {
+    if (bytes.size() < headBytes)
+        return false;
+    const std::uint64_t count = littleEndian<std::uint32_t>(bytes.data() + 80);
+    if (bytes.size() == headBytes + count * triangleBytes)
+        return true;
+    const std::string noName;
+    StlWords words(bytes.first(headBytes), noName);
+    return !isWord(words.next(), "solid");
+}
+
+} // namespace
+
+ObjMesh loadStl(const std::filesystem::path &file, const MeshTransform &transform,
+                const OnReading &onReading) {
+    const std::string fileName = file.string();
+    const std::vector<char> bytes = readWholeFile(file);
+    const bool isInBinary = isBinary(bytes);
+    MeshBuilder builder(fileName, transform, isInBinary ? PlaceUnit::Byte : PlaceUnit::Line);
+    builder.report().files.push_back(file);
+    if (isInBinary)
+        readBinary(bytes, fileName, builder, onReading);
+    else
+        readText(bytes, fileName, builder, onReading);
+    return builder.finish();
+}
+
+MeshFile readStlMeshes(const std::filesystem::path &file, const MeshOptions &options) {
+    return meshFileOf(loadStl(file, options.transform, options.onReading));
+}
+
+} // namespace hyalite
