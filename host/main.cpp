@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -65,6 +66,30 @@ std::string suggestionFor(const std::string &word, const std::vector<std::string
     return suggestion(word, candidates);
 }
 
+/// The option of one value that is given more than once, or null.
+const CLI::Option *repeatedOption(const CLI::App &command) {
+    for (const CLI::Option *option : command.get_options())
+        if (option->nonpositional() && option->get_items_expected_max() == 1 &&
+            option->results().size() > 1 &&
+            option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
+            return option;
+    return nullptr;
+}
+
+/// `hyalite help render` as `hyalite render --help`. A word that is no command stays, to be refused.
+std::vector<char *> withoutHelpCommand(std::span<char *> arguments, const CLI::App &app) {
+    static char helpFlag[] = "--help";
+    std::vector<char *> words(arguments.begin(), arguments.end());
+    if (words.size() < 2 || std::string_view(words[1]) != "help")
+        return words;
+    words.erase(words.begin() + 1);
+    const std::vector<std::string> names = commandNames(app);
+    const bool isCommand = words.size() > 1 && std::ranges::find(names, words[1]) != names.end();
+    if (words.size() == 1 || isCommand)
+        words.push_back(helpFlag);
+    return words;
+}
+
 /// Why the command line cannot be parsed.
 std::string describeMistake(const CLI::App &app, const CLI::ParseError &error) {
     if (app.get_subcommands().empty()) {
@@ -77,10 +102,13 @@ std::string describeMistake(const CLI::App &app, const CLI::ParseError &error) {
     }
     const CLI::App &command = *app.get_subcommands().front();
     const std::vector<std::string> unknown = command.remaining();
-    const std::string mistake = unknown.empty()
-                                    ? error.what()
-                                    : fmt::format("\"{}\" is not expected{}", unknown.front(),
-                                                  suggestionFor(unknown.front(), optionNames(command)));
+    const CLI::Option *const repeated = repeatedOption(command);
+    const std::string mistake =
+        repeated != nullptr ? fmt::format("{} is given {}", repeated->get_name(),
+                                          repeated->results().size() == 2 ? "twice" : "more than once")
+        : unknown.empty()   ? error.what()
+                            : fmt::format("\"{}\" is not expected{}", unknown.front(),
+                                          suggestionFor(unknown.front(), optionNames(command)));
     return fmt::format("{}\n`hyalite {} --help` lists the options\n", mistake, command.get_name());
 }
 
@@ -100,11 +128,12 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
     addInspectCommand(app, context);
     addDiffCommand(app, context);
     addToneMapCommand(app, context);
+    addNewCommand(app, context);
     // After the commands, which would take it over.
-    app.footer(
-        "`hyalite COMMAND --help` explains a command. Exit codes: 0 ok, 1 the answer is no, 2 usage, 3 bad "
-        "input, 4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written, "
-        "70 internal error, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.");
+    app.footer("`hyalite COMMAND --help`, or `hyalite help COMMAND`, explains a command. Exit codes: 0 ok, 1 "
+               "the answer is no, 2 usage, 3 bad "
+               "input, 4 no usable device, 5 memory or device limit, 6 device lost, 7 output not written, "
+               "70 internal error, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.");
     app.set_version_flag("--version", "hyalite " HYALITE_VERSION, "print the version");
     for (CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
         command->set_version_flag("--version", "hyalite " HYALITE_VERSION)->group("");
@@ -124,7 +153,8 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
         ->trigger_on_parse() // before CLI11 2.5 and later asks for a command
         ->group("");
     try {
-        app.parse(static_cast<int>(arguments.size()), arguments.data());
+        std::vector<char *> words = withoutHelpCommand(arguments, app);
+        app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::Success &request) { // of --help or --version
         std::ostringstream page;
         app.exit(request, page);

@@ -19,4 +19,10 @@ void printMessage(fmt::format_string<Arguments...> format, Arguments &&...argume
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+/// A warning, one line: "hyalite: warning: ...".
+template <class... Arguments>
+void printWarning(fmt::format_string<Arguments...> format, Arguments &&...arguments) {
+    printMessage("hyalite: warning: {}\n", fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
 } // namespace hyalite

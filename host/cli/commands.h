@@ -20,6 +20,7 @@ void addCompareCommand(CLI::App &app, CommandContext &context);
 void addDevicesCommand(CLI::App &app, CommandContext &context);
 void addDiffCommand(CLI::App &app, CommandContext &context);
 void addInspectCommand(CLI::App &app, CommandContext &context);
+void addNewCommand(CLI::App &app, CommandContext &context);
 void addProfileCommand(CLI::App &app, CommandContext &context);
 void addToneMapCommand(CLI::App &app, CommandContext &context);
 void addVerifyCommand(CLI::App &app, CommandContext &context);

@@ -4,6 +4,7 @@
 #include "host/bvh/duplicates.h"
 #include "host/bvh/tree_statistics.h"
 #include "host/cli/commands.h"
+#include "host/cli/inspect_scene.h"
 #include "host/cli/options.h"
 #include "host/cli/scene_options.h"
 #include "host/reference/closest_hit.h"
@@ -142,6 +143,7 @@ ExitCode runInspect(const InspectOptions &options) {
                countText(prepared.loaded.meshReports.size(), "mesh", "meshes"),
                countText(scene.spheres.size(), "sphere"), countText(scene.lights.size(), "light"),
                countText(scene.materials.size(), "material"));
+    printScene(prepared);
     printMeshes(prepared);
     std::vector<BuildTriangle> distinct = buildTriangles(scene);
     const std::size_t droppedCount = distinct.size() - Duplicates(scene).setAside(distinct);

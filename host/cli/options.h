@@ -75,6 +75,8 @@ CLI::Option *addNumbers(CLI::App &command, const std::string &name, std::vector<
                         const Interval &allowed, const std::string &typeName, const std::string &help) {
     const auto count = static_cast<std::size_t>(1 + std::count(typeName.begin(), typeName.end(), ','));
     const auto read = [name, &values, allowed, count](const CLI::results_t &words) {
+        if (words.size() > count && words.size() % count == 0)
+            throw Error(ErrorKind::Usage, fmt::format("{} is given twice", name));
         if (words.size() != count)
             refuseValue(name, fmt::format("{}", fmt::join(words, ",")), fmt::format("{} numbers", count));
         for (const std::string &word : words)

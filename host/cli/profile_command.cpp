@@ -27,7 +27,7 @@ struct ProfileOptions {
     ProfilePaths paths;
     bool isCounting = false;
     std::string baseline;
-    std::string maxRegression = "5%";
+    std::optional<std::string> maxRegression; ///< default: 5%
     std::optional<Gate> gate;
 };
 
@@ -82,8 +82,11 @@ struct Baseline {
 };
 
 Baseline readBaseline(const ProfileOptions &options) {
+    if (options.baseline.empty() && (options.gate || options.maxRegression))
+        throw Error(ErrorKind::Usage, fmt::format("{} needs --baseline FILE.json to compare with",
+                                                  options.gate ? "--gate" : "--max-regression"));
     Baseline baseline;
-    baseline.maxRegression = parsePercent("--max-regression", options.maxRegression);
+    baseline.maxRegression = parsePercent("--max-regression", options.maxRegression.value_or("5%"));
     baseline.gate = options.gate.value_or(Gate::All);
     if (!options.baseline.empty())
         baseline.figures = readFigures(options.baseline);
@@ -167,7 +170,7 @@ void addBaselineOptions(CLI::App &command, ProfileOptions &options) {
             "allowed slowdown of a kernel against the baseline, beyond the noise, and allowed growth of "
             "work counts")
         ->type_name("PERCENT%")
-        ->capture_default_str();
+        ->default_str("5%");
     addChoice(command, "--gate", options.gate, gateNames,
               "what fails: times and work counts (all, the default), or one of them; counts do not jitter");
 }

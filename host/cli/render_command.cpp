@@ -35,10 +35,12 @@ double percentOf(std::uint64_t sampleCount, const RenderReport &report) {
 std::vector<NamedFile> outputsOf(const RenderRequest &request) {
     const std::string olderGeneration =
         request.checkpoint.empty() ? "" : olderCheckpoint(request.checkpoint).string();
+    const std::string lock = request.checkpoint.empty() ? "" : lockOfCheckpoint(request.checkpoint).string();
     return {{"--output", request.output},
             {"--report", request.report},
             {"--checkpoint", request.checkpoint},
-            {"--checkpoint", olderGeneration}};
+            {"--checkpoint", olderGeneration},
+            {"--checkpoint", lock}};
 }
 
 /// Throws Error{Usage} for conflicting options.
@@ -53,6 +55,11 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
         throw Error(ErrorKind::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
                     "not hold; use --device cpu or a Vulkan device");
+    if (request.tone && format != ImageFormat::Png)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--tone is for .png files: --output is {}, which holds radiance as it is; "
+                                "`hyalite tonemap` makes a PNG of it",
+                                request.output));
     if (!request.layers.empty() && format != ImageFormat::Exr)
         throw Error(ErrorKind::Usage,
                     fmt::format("--layers are for .exr files: --output is {}", request.output));
@@ -102,8 +109,11 @@ void tellOutcome(const RenderJob &job, bool isQuiet) {
     const RenderReport &report = job.report();
     if (!report.finished.isComplete && !(isQuiet && job.isCutByTime()))
         tellWhatIsFinished(report);
-    if (!isQuiet)
-        tellSpeed(report);
+    if (isQuiet)
+        return;
+    tellSpeed(report);
+    if (const std::optional<std::string> fault = job.diagnosis())
+        printWarning("{}", *fault);
 }
 
 ExitCode runRender(const RenderRequest &request, const std::string &commandLine) {

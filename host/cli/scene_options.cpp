@@ -4,10 +4,14 @@
 #include "host/scene/limits.h"
 #include "host/scene/settings_table.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace hyalite {
 
@@ -19,8 +23,9 @@ constexpr Interval anyInteger{std::numeric_limits<int>::min(), std::numeric_limi
 template <class Number>
 CLI::Option *addSetting(CLI::App &command, const Setting &setting, const NumberSetting<Number> &number,
                         SettingChanges &changes) {
-    const auto take = [&changes, member = number.member](Number given) {
-        changes.emplace_back([member, given](RenderSettings &settings) { settings.*member = given; });
+    const auto take = [&changes, &setting, member = number.member](Number given) {
+        changes.push_back(
+            {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
     };
     return addNumberFor<Number>(command, std::string(setting.option), take, number.allowed,
                                 helpText(setting));
@@ -29,8 +34,9 @@ CLI::Option *addSetting(CLI::App &command, const Setting &setting, const NumberS
 template <class Value>
 CLI::Option *addSetting(CLI::App &command, const Setting &setting, const ChoiceSetting<Value> &choice,
                         SettingChanges &changes) {
-    const auto take = [&changes, member = choice.member](Value given) {
-        changes.emplace_back([member, given](RenderSettings &settings) { settings.*member = given; });
+    const auto take = [&changes, &setting, member = choice.member](Value given) {
+        changes.push_back(
+            {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
     };
     return addChoiceFor<Value>(command, std::string(setting.option), take, choice.names, helpText(setting));
 }
@@ -44,12 +50,48 @@ void addSettings(CLI::App &command, std::string_view group, SettingChanges &chan
                 ->group(std::string(group));
 }
 
+/// --up: three numbers, or the word of an axis.
+CLI::Option *addUp(CLI::App &command, std::vector<double> &up) {
+    static constexpr std::array<std::pair<std::string_view, std::array<double, 3>>, 6> axes{
+        {{"x", {1, 0, 0}},
+         {"y", {0, 1, 0}},
+         {"z", {0, 0, 1}},
+         {"-x", {-1, 0, 0}},
+         {"-y", {0, -1, 0}},
+         {"-z", {0, 0, -1}}}};
+    const auto read = [&up](const CLI::results_t &words) {
+        const auto axis = std::ranges::find(axes, words.front(), [](const auto &row) { return row.first; });
+        if (words.size() == 1 && axis != axes.end()) {
+            up.assign(axis->second.begin(), axis->second.end());
+            return true;
+        }
+        if (words.size() == 6)
+            throw Error(ErrorKind::Usage, "--up is given twice");
+        if (words.size() != 3)
+            refuseValue("--up", fmt::format("{}", fmt::join(words, ",")),
+                        "three numbers, or x, y, z, -x, -y or -z");
+        for (const std::string &word : words)
+            up.push_back(readNumber("--up", word, limits::coordinate));
+        return true;
+    };
+    return command
+        .add_option(
+            "--up", CLI::callback_t(read),
+            "the direction that is up in the image: three numbers, or x, y, z, -x, -y or -z; a bare mesh is "
+            "framed and lit as standing so")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("X,Y,Z");
+}
+
 } // namespace
 
 void addSceneOptions(CLI::App &command, SceneOptions &options) {
     command
         .add_option("scene", options.scene,
-                    "a .json, .gltf or .glb scene, a .obj mesh, or the name of a shipped scene")
+                    "a .json, .gltf or .glb scene, a .obj, .ply or .stl mesh, "
+                    "or the name of a shipped scene")
         ->required()
         ->type_name("SCENE");
     addPaths(command, "--allow-path", options.load.allowedPaths,
@@ -69,9 +111,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     addNumbers(command, "--look-at", options.lookAt, limits::coordinate, point,
                "the point to look at, world space")
         ->group(view);
-    addNumbers(command, "--up", options.up, limits::coordinate, point,
-               "the direction that is up in the image")
-        ->group(view);
+    addUp(command, options.up)->group(view);
     addNumber(command, "--fov", options.fovDegrees, limits::horizontalFovDegrees,
               "horizontal field of view in degrees")
         ->group(view);

@@ -28,7 +28,9 @@ Layer layerOf(const ViewFilm &of) {
                 *next++ = value[channel];
         }
     };
-    return {std::string(nameOf(of.view)), channelCount == 1 ? "" : isNormal ? "XYZ" : "RGB", fillRow};
+    // Compositors know the depth by the channel Z.
+    const std::string name(of.view == Integrator::Depth ? "Z" : nameOf(of.view));
+    return {name, channelCount == 1 ? "" : isNormal ? "XYZ" : "RGB", fillRow};
 }
 
 } // namespace

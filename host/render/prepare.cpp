@@ -6,6 +6,7 @@
 #include "host/bvh/tree_statistics.h"
 #include "host/import/environment_file.h"
 #include "host/import/load.h"
+#include "host/render/diagnosis.h"
 #include "host/report/progress.h"
 #include "host/scene/framing.h"
 #include "host/scene/instances.h"
@@ -41,6 +42,13 @@ std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const Loaded
     return std::nullopt;
 }
 
+/// Up of a mesh without a camera: that of --up, of unit length, or +y.
+glm::dvec3 chooseUp(const SceneOptions &options) {
+    const glm::dvec3 up = options.up.empty() ? glm::dvec3(0.0) : toVector(options.up);
+    const double length = glm::length(up);
+    return limits::directionLength.contains(length) ? up / length : glm::dvec3(0.0, 1.0, 0.0);
+}
+
 /// Moves the camera. A new position keeps the direction; a new target keeps the position.
 void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &camera) {
     if (!options.cameraPosition.empty())
@@ -57,8 +65,23 @@ void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &
 }
 
 void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
-    for (const auto &change : options.settings)
-        change(settings);
+    for (const SettingChange &change : options.settings)
+        change.apply(settings);
+}
+
+/// Throws for an option that the integrator does not look at.
+void requireEffect(const SettingChanges &changes, Integrator integrator) {
+    for (const SettingChange &change : changes) {
+        if (change.option == nullptr || change.option->integrators.empty() ||
+            std::ranges::find(change.option->integrators, integrator) != change.option->integrators.end())
+            continue;
+        std::string users;
+        for (const Integrator user : change.option->integrators)
+            users += fmt::format("{}{}", users.empty() ? "" : ", ", nameOf(user));
+        throw OverrideError(
+            std::string(change.option->option.substr(2)),
+            fmt::format("has no effect with the integrator {}; allowed: with {}", nameOf(integrator), users));
+    }
 }
 
 void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
@@ -90,6 +113,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     RenderSettings &settings = scene.settings;
     overrideSettings(options, settings);
+    requireEffect(options.settings, settings.integrator);
     if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
         throw OverrideError("filter", fmt::format("found {} with all samples at the pixel's centre; allowed: "
                                                   "with the sampler sobol, or the filter box",
@@ -109,10 +133,16 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
         camera.horizontalFovDegrees =
             horizontalFovDegrees(*loaded.verticalFovDegrees, camera.width, camera.height);
     camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
-    if (loaded.autoFramed)
-        camera = frameCamera(triangleBounds(scene, loaded.file.string()), camera.width, camera.height,
-                             camera.horizontalFovDegrees);
+    if (!loaded.autoFramed) {
+        moveCamera(options, loaded, camera);
+        return;
+    }
+    const Bounds bounds = triangleBounds(scene, loaded.file.string());
+    camera = frameCamera(bounds, camera.width, camera.height, camera.horizontalFovDegrees, chooseUp(options));
     moveCamera(options, loaded, camera);
+    const bool isMoved = !options.up.empty() || !options.cameraPosition.empty();
+    if (loaded.isAutoLit && isMoved)
+        scene.lights = frameLights(bounds, chooseUp(options), camera.position);
 }
 
 /// The override that decides the orientation of the camera, or empty.
@@ -162,8 +192,8 @@ void warnOfOverlaps(const Bvh &bvh) {
     const BvhStatistics statistics = measureBvh(bvh);
     const bool hasTree = statistics.depth > 0; // without a tree, many tests are what the user asked for
     if (hasTree && statistics.trianglesTested > manyTrianglesTested)
-        printMessage("warning: the boxes of the scene's {} triangles overlap so much that a ray tests about "
-                     "{:.0f} of them: rendering will be slow\n",
+        printWarning("the boxes of the scene's {} triangles overlap so much that a ray tests about "
+                     "{:.0f} of them: rendering will be slow",
                      statistics.triangleCount, statistics.trianglesTested);
 }
 
@@ -184,10 +214,10 @@ bool hasSmoothGlass(const Scene &scene) {
 /// `path` meets a light without size by shadow rays only, and smooth glass bends light in one direction only.
 void warnOfLightsBehindGlass(const Scene &scene) {
     if (scene.settings.integrator == Integrator::Path && !scene.lights.empty() && hasSmoothGlass(scene))
-        printMessage("hyalite: warning: path does not find the light of lights without size (point, spot, "
+        printWarning("path does not find the light of lights without size (point, spot, "
                      "directional) through smooth glass: its shadow is dark, and it focuses none of that "
                      "light. Give the light a size, as a sphere with emission, or use --integrator "
-                     "whitted\n");
+                     "whitted");
 }
 
 double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
@@ -214,15 +244,19 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     }
     applyOverrides(options, prepared.loaded);
     for (const std::string &warning : prepared.loaded.warnings)
-        printMessage("hyalite: warning: {}\n", warning);
+        printWarning("{}", warning);
     for (const MeshReport &report : prepared.loaded.meshReports)
         for (const std::string &warning : report.warnings)
-            printMessage("hyalite: warning: {}\n", warning);
+            printWarning("{}", warning);
     Scene &scene = prepared.loaded.scene;
     validateWithOverrides(options, scene, prepared.loaded.file.string());
     prepared.crop = chooseCrop(options.crop, scene.camera);
-    if (!isQuiet)
+    prepared.sources = lightSourcesOf(scene);
+    if (!isQuiet) {
         warnOfLightsBehindGlass(scene);
+        if (const std::optional<std::string> dark = diagnoseLight(scene))
+            printWarning("{}", *dark);
+    }
     const Clock::time_point loaded = Clock::now();
     // Without a tree all triangles are tested one by one, and have to be in one space.
     const bool isFlattened = options.isFlattened || scene.settings.tree == TreeKind::None;

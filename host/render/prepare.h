@@ -7,6 +7,7 @@
 #include "host/import/loaded_scene.h"
 #include "host/packing/packed_scene.h"
 #include "host/report/provenance.h"
+#include "host/scene/light_sources.h"
 #include "host/scene/settings_table.h"
 
 #include <functional>
@@ -55,13 +56,14 @@ struct PreparedScene {
     Bvh bvh;            ///< empty if the source was dropped
     PackedScene packed;
     Crop crop;
+    LightSources sources;
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
 };
 
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or OverrideError for conflicting overrides,
-/// such as a crop outside the image. Unless quiet, shows progress while it reads large meshes, and warns of lights
-/// without size behind smooth glass. `onOutline` gets an outline of the scene, with overrides applied, before large
+/// such as a crop outside the image. Unless quiet, shows progress while it reads large meshes, and warns of light
+/// that the integrator does not see. `onOutline` gets an outline of the scene, with overrides applied, before large
 /// files are read.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
                                          const std::function<void(const SceneOutline &)> &onOutline = {});

@@ -2,6 +2,7 @@
 
 #include "host/film/film_file.h"
 #include "host/image/png.h"
+#include "host/render/diagnosis.h"
 #include "host/render/identity.h"
 
 #include <fmt/format.h>
@@ -24,8 +25,10 @@ RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLin
     : request_(request), format_(imageFormatOf(request.output)), image_(request.output) {
     if (!request_.report.empty())
         reportFile_.emplace(request_.report);
-    if (!request_.checkpoint.empty())
+    if (!request_.checkpoint.empty()) {
         const CheckpointWriter writability(request_.checkpoint, {}, false);
+        checkpointLock_.emplace(request_.checkpoint);
+    }
     report_.origin.commandLine = commandLine;
     report_.output = request_.output;
 }
@@ -175,6 +178,10 @@ void RenderJob::writeReport() {
         return;
     reportFile_->write(formatReport(report_));
     reportFile_->commit();
+}
+
+std::optional<std::string> RenderJob::diagnosis() const {
+    return report_.finished.isComplete ? diagnosePicture(*scene_, *film_) : std::nullopt;
 }
 
 void RenderJob::throwFailure() const {

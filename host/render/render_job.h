@@ -3,6 +3,7 @@
 
 #include "host/base/atomic_file.h"
 #include "host/film/checkpoint.h"
+#include "host/film/checkpoint_lock.h"
 #include "host/image/image_file.h"
 #include "host/image/tone_map.h"
 #include "host/render/backend.h"
@@ -53,12 +54,14 @@ class RenderJob {
     void resume();
     /// Renders the layers.
     void renderLayers();
-    /// Renders the missing samples, until it is stopped. Once some work is finished, signals stop it gracefully; before,
-    /// while the driver compiles, they end the program. Throws if not even one sample is finished.
+    /// Renders the missing samples, until it is stopped. Once some work is finished, signals stop it gracefully;
+    /// before, while the driver compiles, they end the program. Throws if not even one sample is finished.
     void render();
     /// Stores the checkpoint, then the image.
     void writeImage();
     void writeReport();
+    /// Why the whole picture is black or not a number, or empty.
+    [[nodiscard]] std::optional<std::string> diagnosis() const;
     /// Throws the failure of the render or of the checkpoint, if there was one.
     void throwFailure() const;
 
@@ -90,6 +93,7 @@ class RenderJob {
     std::future<std::unique_ptr<Backend>> opening_;
     std::unique_ptr<Backend> backend_;
     std::optional<CaughtSignals> signals_; ///< until everything is written, when the most could be lost
+    std::optional<CheckpointLock> checkpointLock_;
     std::optional<CheckpointWriter> checkpoint_;
     std::string checkpointDamage_;
     RayCounts raysBefore_;

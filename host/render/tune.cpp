@@ -47,8 +47,8 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
     SceneOptions options;
     options.scene = trial.scene;
     options.width = options.height = imageSide;
-    options.settings.emplace_back(
-        [&trial](RenderSettings &settings) { settings.samplesPerPixel = trial.samplesPerPixel; });
+    options.settings.push_back(
+        {[&trial](RenderSettings &settings) { settings.samplesPerPixel = trial.samplesPerPixel; }});
     const PreparedScene scene = prepareScene(options, Source::Dropped, true);
     gpu::tellLavapipe(processorsFor(0, scene));
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::loadDevices().devices, deviceName);

@@ -47,8 +47,8 @@ std::vector<Contender> openAll(const std::string &device) {
 PreparedScene prepare(const ShippedFilms &shipped, const ShippedFilm &film) {
     SceneOptions options;
     options.scene = shipped.fileOf(film).string();
-    options.settings.emplace_back(
-        [&film](RenderSettings &settings) { settings.integrator = film.integrator; });
+    options.settings.push_back(
+        {[&film](RenderSettings &settings) { settings.integrator = film.integrator; }});
     return prepareScene(options, Source::Dropped, true);
 }
 

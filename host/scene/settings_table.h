@@ -126,7 +126,12 @@ template <class Number> [[nodiscard]] constexpr Interval rangeOf(Number RenderSe
 [[nodiscard]] nlohmann::ordered_json settingsToJson(const RenderSettings &settings);
 [[nodiscard]] nlohmann::ordered_json settingToJson(const Setting &setting, const RenderSettings &settings);
 
-/// The settings that a command line gives, each as a change to those of the scene file.
-using SettingChanges = std::vector<std::function<void(RenderSettings &)>>;
+/// A change to the settings of the scene file.
+struct SettingChange {
+    std::function<void(RenderSettings &)> apply;
+    const Setting *option =
+        nullptr; ///< that of the command line, which must have an effect; null: there is none
+};
+using SettingChanges = std::vector<SettingChange>;
 
 } // namespace hyalite

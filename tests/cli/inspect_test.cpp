@@ -36,6 +36,12 @@ long numberAfter(const std::string &text, const std::string &pattern) {
     return std::stol(match[1]);
 }
 
+/// The first line that begins so.
+std::string lineOf(const std::string &text, const std::string &begin) {
+    const std::size_t at = text.find("\n" + begin);
+    return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+}
+
 TEST_F(InspectCommand, ASceneIsCounted) {
     const std::string text = inspect("sheet.json");
     for (const char *part :
@@ -118,6 +124,40 @@ TEST_F(InspectCommand, TrianglesThatLieOnEachOtherAreWarnedOf) {
     EXPECT_GT(numberAfter(outcome.errors, "warning: .*3000 triangles overlap.*a ray tests about"), 1000)
         << outcome;
     EXPECT_EQ(run("inspect pile.obj --bvh none").errors, "") << "there, that is what was asked for";
+}
+
+TEST_F(InspectCommand, SaysWhatASceneIsMadeOf) {
+    store("parts.json",
+          R"({ "camera": { "position": [0, 0, 9], "target": [0, 0, 0], "width": 64, "height": 48 },
+  "background": [0.5, 0.25, 1],
+  "materials": { "paper": { "type": "diffuse" }, "lamp": { "type": "diffuse", "emission": 3 }, "spare": { "type": "mirror" } },
+  "lights": [ { "type": "spot", "position": [1, 2, 3], "power": 7 }, { "type": "directional", "irradiance": [1, 2, 3] } ],
+  "spheres": [ { "centre": [0, 0, 0], "radius": 2, "material": "paper" } ],
+  "shapes": [ { "type": "quad", "material": "lamp", "instances": [ [ { "translate": [0, 5, 0] } ], [ { "translate": [0, 7, 0] } ] ] },
+              { "type": "box", "material": "paper" } ] })");
+    const std::string text = inspect("parts.json");
+    for (const char *part :
+         {"bounds       (-2, -2, -2) to (2, 8, 2)",
+          "camera       perspective at (0, 0, 9), looks along (0, 0, -9)", "64x48 pixels",
+          "light        spot at (1, 2, 3) along (0, -1, 0), 30 degrees, power 7",
+          "light        directional along (0, -1, 0), irradiance (1, 2, 3)",
+          "emitter      \"lamp\": 4 triangles of radiance 3", "background   (0.5, 0.25, 1)",
+          "material     \"paper\": diffuse, on 1 sphere and 12 triangles",
+          "material     \"spare\": mirror, on nothing", "shapes       box x 1"})
+        EXPECT_TRUE(contains(text, part)) << part << '\n' << text;
+}
+
+TEST_F(InspectCommand, AMeshWhoseUpIsZStands) {
+    const std::string standing = inspect("sheet.obj --up z");
+    EXPECT_TRUE(contains(standing, "up is (0, 0, 1)")) << standing;
+    EXPECT_EQ(standing.substr(0, standing.find("time")),
+              inspect("sheet.obj --up 0,0,1").substr(0, standing.find("time")));
+    EXPECT_TRUE(contains(inspect("sheet.obj --up -y"), "up is (0, -1, 0)"));
+    EXPECT_NE(lineOf(standing, "light "), lineOf(inspect("sheet.obj"), "light "));
+    EXPECT_NE(lineOf(inspect("sheet.obj --camera-position 0,0,-9"), "light "),
+              lineOf(inspect("sheet.obj"), "light "))
+        << "lights follow the camera";
+    expectFailure("inspect sheet.obj --up w", 2, {"--up: found \"w\"", "x, y, z, -x, -y or -z"});
 }
 
 TEST_F(InspectCommand, RaysFindTheSameByTreeAndByBruteForce) {

@@ -9,7 +9,10 @@
 #include <csignal>
 #include <string>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace hyalite::testing {
 namespace {
@@ -44,6 +47,23 @@ const std::string small = " --width 24 --height 16 --spp 3";
 const std::string files = " -o a.pfm --report report.json --checkpoint c";
 /// Too short for any work, and so the render ends with the least that it can do.
 const std::string atOnce = " --time-limit 1e-6";
+
+TEST_F(RenderCheckpoint, IsOfOneRenderAtATime) {
+    const std::string line = "render spheres" + small + files + " --device cpu";
+    store("c.lock", "4711\n"); // left over: its process is gone
+    EXPECT_EQ(run(line).exitCode, 0);
+    EXPECT_FALSE(entries().contains("c.lock"));
+    const std::string before = load("c");
+    store("c.lock", "4711\n");
+    const int descriptor = open((folder / "c.lock").c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_EQ(flock(descriptor, LOCK_EX | LOCK_NB), 0);
+    expectFailure(line, 7, {"c: another render (process 4711) writes this checkpoint", "name another one"});
+    EXPECT_EQ(load("c"), before);
+    close(descriptor);
+    EXPECT_EQ(run(line + " --resume").exitCode, 0);
+    expectFailure("render spheres -o c.lock.pfm --report c.lock --checkpoint c" + small, 2,
+                  {"name the same file"});
+}
 
 TEST_F(RenderCheckpoint, AKilledRenderGoesOnToTheSameImage) {
     // A second or so, in which hundreds of checkpoints are written.

@@ -81,6 +81,7 @@ TEST_F(RenderOutput, LayersAreTheViews) {
     expectSame("depth", " --spp 1 --sampler centre");
     expectSame("id", " --spp 1 --sampler centre");
     EXPECT_TRUE(hasExrLayer(file, "normal"));
+    EXPECT_TRUE(hasExrLayer(file, "Z")) << "the depth, as compositors know it";
     for (const char *channel : {"normal.X", "normal.Y", "normal.Z"})
         EXPECT_TRUE(contains(load("a.exr"), channel)) << channel;
     // The image is the one without layers.

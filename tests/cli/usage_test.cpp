@@ -95,8 +95,38 @@ TEST_F(Usage, WhatIsMissingIsNamed) {
 }
 
 TEST_F(Usage, AnOptionGivenTwiceIsNoAccident) {
-    expectFailure("render spheres -o a.png --spp 1 --spp 2", 2, {"--spp"});
-    expectFailure("render spheres -o a.png -o b.png", 2, {"--output"});
+    expectFailure("render spheres -o a.png --spp 1 --spp 2", 2, {"hyalite: --spp is given twice"});
+    expectFailure("render spheres -o a.png --width 3 --height 4 --width=3", 2, {"--width is given twice"});
+    expectFailure("render spheres -o a.png -o b.png", 2, {"--output is given twice"});
+    expectFailure("render spheres -o a.png --seed 1 --seed 2 --seed 3", 2,
+                  {"--seed is given more than once"});
+    expectFailure("render spheres -o a.png --up 0,1,0 --up 0,0,1", 2, {"--up is given twice"});
+    EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
+TEST_F(Usage, AnOptionWithoutEffectIsNamed) {
+    expectFailure("render spheres -o a.png --clamp 2", 2,
+                  {"--clamp: has no effect with the integrator whitted", "path"});
+    expectFailure("render spheres -o a.png --ao-distance 2 --integrator path", 2,
+                  {"--ao-distance: has no effect with the integrator path", "allowed: with ao"});
+    expectFailure("compare spheres --max-depth 2 --integrator normal", 2,
+                  {"--max-depth", "integrator normal"});
+    expectFailure("render spheres -o a.exr --tone agx", 2, {"--tone is for .png files", "a.exr", "tonemap"});
+    expectFailure("profile spheres --gate times", 2, {"--gate needs --baseline FILE.json"});
+    expectFailure("profile spheres --max-regression 7%", 2, {"--max-regression needs --baseline FILE.json"});
+    EXPECT_EQ(entries(), std::set<std::string>{});
+    const std::string small = " --width 4 --height 4 --spp 1 --device cpu --quiet";
+    EXPECT_EQ(run("render spheres -o a.pfm --clamp 2 --integrator path" + small).exitCode, 0);
+}
+
+TEST_F(Usage, HelpIsACommandToo) {
+    EXPECT_EQ(run("help").output, run("--help").output);
+    for (const char *command : {"render", "inspect"}) {
+        const Outcome outcome = run(std::string("help ") + command);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome;
+        EXPECT_EQ(outcome.output, run(std::string(command) + " --help").output);
+    }
+    expectFailure("help rendre", 2, {"there is no command \"rendre\"", "did you mean \"render\"?"});
 }
 
 TEST_F(Usage, ErrorsSayWhoSpeaks) {

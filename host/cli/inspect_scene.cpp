@@ -1,0 +1,195 @@
+#include "host/cli/inspect_scene.h"
+
+#include "host/base/clean_text.h"
+#include "host/base/quantities.h"
+#include "host/scene/instances.h"
+#include "host/scene/names.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::size_t maxRows = 32;
+
+template <class Vector> std::string vectorText(const Vector &v) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
+
+/// One number for grey.
+template <class Vector> std::string colourText(const Vector &colour) {
+    return colour.x == colour.y && colour.y == colour.z ? fmt::format("{:.6g}", colour.x)
+                                                        : vectorText(colour);
+}
+
+/// Calls print(i) for the first rows, and says how many are left.
+template <class Print> void printRows(std::size_t count, const std::string &what, const Print &print) {
+    for (std::size_t i = 0; i < std::min(count, maxRows); ++i)
+        print(i);
+    if (count > maxRows)
+        fmt::print("             and {} more {}\n", count - maxRows, what);
+}
+
+void printBounds(const Scene &scene) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    glm::dvec3 low(infinity);
+    glm::dvec3 high(-infinity);
+    const auto add = [&](const glm::dvec3 &point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    };
+    for (const Sphere &sphere : scene.spheres) {
+        add(sphere.centre - sphere.radius);
+        add(sphere.centre + sphere.radius);
+    }
+    const auto addMesh = [&](const TriangleMesh &mesh, const auto &place) {
+        for (const MeshTriangle &triangle : mesh.triangles)
+            for (glm::length_t corner = 0; corner < 3; ++corner)
+                add(glm::dvec3(place(mesh.positions[triangle.positions[corner]])));
+    };
+    for (const TriangleMesh &mesh : scene.meshes)
+        addMesh(mesh, [](const glm::vec3 &position) { return position; });
+    for (const Instance &instance : scene.instances)
+        addMesh(scene.prototypes[instance.prototype],
+                [&](const glm::vec3 &position) { return placedPoint(instance.toWorld, position); });
+    if (low.x <= high.x)
+        fmt::print("bounds       {} to {}\n", vectorText(low), vectorText(high));
+}
+
+void printCamera(const Camera &camera) {
+    std::string lens;
+    if (camera.kind == CameraKind::Perspective)
+        lens = fmt::format(", {:.6g} degrees wide", camera.horizontalFovDegrees);
+    if (camera.kind == CameraKind::Orthographic)
+        lens = fmt::format(", {:.6g} wide", camera.viewWidth);
+    if (camera.kind == CameraKind::Perspective && camera.aperture > 0.0)
+        lens += fmt::format(", aperture {:.6g} in focus at {:.6g}", camera.aperture, camera.focusDistance);
+    fmt::print("camera       {} at {}, looks along {}, up is {}{}; {}x{} pixels\n",
+               nameIn(cameraNames, camera.kind), vectorText(camera.position), vectorText(camera.direction),
+               vectorText(camera.up), lens, camera.width, camera.height);
+}
+
+void printLight(const Light &light) {
+    const std::string_view kind = nameIn(lightNames, light.kind);
+    if (light.kind == LightKind::Directional)
+        fmt::print("light        {} along {}, irradiance {}\n", kind, vectorText(light.direction),
+                   colourText(light.power));
+    else if (light.kind == LightKind::Spot)
+        fmt::print("light        {} at {} along {}, {:.6g} degrees, power {}\n", kind,
+                   vectorText(light.position), vectorText(light.direction), light.angleDegrees,
+                   colourText(light.power));
+    else
+        fmt::print("light        {} at {}, power {}\n", kind, vectorText(light.position),
+                   colourText(light.power));
+}
+
+/// How many spheres and triangles wear a material.
+struct Wearers {
+    std::uint64_t spheres = 0;
+    std::uint64_t triangles = 0; ///< those of instances once for each place
+};
+
+std::vector<Wearers> countWearers(const Scene &scene) {
+    std::vector<Wearers> wearers(scene.materials.size());
+    std::vector<std::uint64_t> places(scene.prototypes.size(), 0);
+    for (const Instance &instance : scene.instances)
+        ++places[instance.prototype];
+    const auto add = [&](const TriangleMesh &mesh, std::uint64_t times) {
+        if (mesh.triangleMaterials.empty())
+            wearers[mesh.materialIndex].triangles += times * mesh.triangles.size();
+        for (const std::uint32_t material : mesh.triangleMaterials)
+            wearers[material].triangles += times;
+    };
+    for (const TriangleMesh &mesh : scene.meshes)
+        add(mesh, 1);
+    for (std::size_t i = 0; i < scene.prototypes.size(); ++i)
+        add(scene.prototypes[i], places[i]);
+    for (const Sphere &sphere : scene.spheres)
+        ++wearers[sphere.materialIndex].spheres;
+    return wearers;
+}
+
+std::string wearersText(const Wearers &wearers) {
+    std::string text;
+    if (wearers.spheres > 0)
+        text = countText(wearers.spheres, "sphere");
+    if (wearers.triangles > 0)
+        text += (text.empty() ? "" : " and ") + countText(wearers.triangles, "triangle");
+    return text.empty() ? "nothing" : text;
+}
+
+void printMaterial(const Scene &scene, const Material &material, const Wearers &wearers) {
+    std::string textures;
+    for (const auto &[key, slot, help] : textureSlots)
+        if (const std::optional<TextureUse> &use = material.textures[slot])
+            textures += fmt::format("{}{} {}", textures.empty() ? "; textures: " : ", ", key,
+                                    scene.textures[use->textureIndex].name);
+    fmt::print("material     {}\n",
+               cleanText(fmt::format("\"{}\": {}, on {}{}", material.name,
+                                     nameIn(materialNames, material.kind), wearersText(wearers), textures)));
+}
+
+void printEmitters(const Scene &scene, const std::vector<Wearers> &wearers) {
+    std::vector<std::size_t> emitters;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (scene.materials[i].emission != glm::vec3(0.0f) &&
+            (wearers[i].spheres > 0 || wearers[i].triangles > 0))
+            emitters.push_back(i);
+    printRows(emitters.size(), "emitters", [&](std::size_t i) {
+        const Material &material = scene.materials[emitters[i]];
+        fmt::print("emitter      {}\n",
+                   cleanText(fmt::format("\"{}\": {} of radiance {}{}", material.name,
+                                         wearersText(wearers[emitters[i]]), colourText(material.emission),
+                                         material.twoSided ? ", on both sides" : "")));
+    });
+}
+
+/// Shapes and meshes of files alike, by name: how many there are.
+void printShapes(const Scene &scene) {
+    std::map<std::string, std::size_t> shapes;
+    for (const auto &[name, kind] : shapeNames) {
+        const auto isShape = [&](const TriangleMesh &mesh) { return mesh.name == name; };
+        const auto count =
+            std::ranges::count_if(scene.meshes, isShape) + std::ranges::count_if(scene.prototypes, isShape);
+        if (count > 0)
+            shapes.emplace(name, static_cast<std::size_t>(count));
+    }
+    std::string text;
+    for (const auto &[name, count] : shapes)
+        text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", name, count);
+    if (!text.empty())
+        fmt::print("shapes       {}\n", text);
+}
+
+} // namespace
+
+void printScene(const PreparedScene &prepared) {
+    const Scene &scene = prepared.loaded.scene;
+    printBounds(scene);
+    printCamera(scene.camera);
+    const std::vector<Wearers> wearers = countWearers(scene);
+    printRows(scene.lights.size(), "lights", [&](std::size_t i) { printLight(scene.lights[i]); });
+    printEmitters(scene, wearers);
+    if (const Image &sky = scene.environment.radiance; !sky.pixels().empty())
+        fmt::print("environment  {}x{} pixels, scale {:.6g}, turned {:.6g} degrees\n", sky.width(),
+                   sky.height(), scene.environment.scale, scene.environment.rotateDegrees);
+    else
+        fmt::print("background   {}\n", colourText(scene.background));
+    printRows(scene.materials.size(), "materials",
+              [&](std::size_t i) { printMaterial(scene, scene.materials[i], wearers[i]); });
+    printShapes(scene);
+    if (!scene.instances.empty())
+        fmt::print("instances    {} of {}\n", countText(scene.instances.size(), "place"),
+                   countText(scene.prototypes.size(), "mesh", "meshes"));
+}
+
+} // namespace hyalite

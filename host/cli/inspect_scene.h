@@ -1,0 +1,11 @@
+// The contents of a scene, as `hyalite inspect` prints them: bounds, camera, lights, materials.
+#pragma once
+
+#include "host/render/prepare.h"
+
+namespace hyalite {
+
+/// On standard output. Of lists at most 32 rows.
+void printScene(const PreparedScene &prepared);
+
+} // namespace hyalite
