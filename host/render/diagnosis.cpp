@@ -27,7 +27,8 @@ struct Sight {
     int rayCount = 0;
     int hitCount = 0;
     int backCount = 0; ///< hits of surfaces from behind that are black there
-    /// Points before the surfaces that are hit, and the primitive that each lies on.
+    /// Points on the surfaces that are hit, each with the normal on the side of the eye and the primitive that it lies
+    /// on.
     std::vector<Ray> points;
 };
 
@@ -55,7 +56,8 @@ Sight lookAround(const PackedScene &packed, const Crop &crop) {
         const auto surface = reference::hitSurface(view, ray, hit, materialIndex);
         const bool isBack = glm::dot(surface.geometricNormal, ray.direction) > 0.0f;
         sight.backCount += isBack && isBlackBehind(packed.materials[materialIndex]);
-        sight.points.push_back({surface.position, {}, hit.primitive});
+        const glm::vec3 normal = isBack ? -surface.geometricNormal : surface.geometricNormal;
+        sight.points.push_back({surface.position, normal, hit.primitive});
     }
     return sight;
 }
@@ -69,6 +71,8 @@ bool isHidden(const PackedScene &packed, const Light &light, const std::vector<R
         const double length = glm::length(way);
         if (!(length > 0.0))
             return false;
+        if (glm::dot(glm::dvec3(point.direction), way) <= 0.0)
+            return true; // behind the surface itself, as a light inside a ball is
         const Ray shadow{point.origin, glm::vec3(way / length), point.excluded};
         const reference::Hit<float> hit = reference::closestHit(packed, shadow);
         const bool isBefore = light.kind == LightKind::Directional || double{hit.distance} < length * 0.9999;

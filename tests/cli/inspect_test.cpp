@@ -87,7 +87,11 @@ TEST_F(InspectCommand, AMeshIsCountedWithWhatWasRepairedAndDropped) {
                      "f 1 2 5\n"             // no area
                      "f -5//1 -4//1 -3//1\n" // a normal that has no direction
     );
-    const std::string text = inspect("odd.obj");
+    const Outcome outcome = run("inspect odd.obj");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(
+        contains(outcome.errors, "hyalite: warning: odd.obj: there is no material library \"missing.mtl\""));
+    const std::string &text = outcome.output;
     EXPECT_TRUE(contains(text, "3 triangles")) << text;
     EXPECT_EQ(numberAfter(text, "faces"), 3) << text;
     EXPECT_TRUE(contains(text, "1 of them polygons")) << text;
