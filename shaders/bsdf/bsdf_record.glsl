@@ -28,7 +28,7 @@ struct Bsdf {
     vec3 diffuseBase;         // diffuse reflection below a plastic surface, without the factor (1 - E(wi)) cos
     float plasticReflectance; // of that surface, at normal incidence
     float plasticGrazing;     // at grazing angles
-    vec3 thinTint;            // of thin glass: of light that passes, divided by the energy of white facets
+    vec3 thinTint;            // of thin glass: of light that passes, with what facets lose of it
     float thinProbability;    // of sampling a facet that lets light pass
     float weight; // share of the chosen component divided by the probability of choosing it; of glass by its energy too
     float specularProbability; // of sampling a facet instead of the diffuse part

@@ -48,8 +48,11 @@ Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 met
     float others = mean(multiScatterColour) * (1.0 - energy.white) + mean(diffuseBaseColour) * (1.0 - plasticEnergy);
     float through = 0.0;
     if ((scattering & scattersAtThin) != 0u) {
-        bsdf.thinTint = bsdf.thinTint * divide(1.0, energy.white);
-        through = mean(bsdf.thinTint) * (1.0 - plasticEnergy);
+        // What facets lose is given to what passes, so that it is all that is not reflected (Turquin 2019, see energy.glsl).
+        float left = 1.0 - plasticEnergy;
+        float passedOnce = greater(energy.white - plasticEnergy, minEnergyLoss);
+        through = mean(bsdf.thinTint) * left;
+        bsdf.thinTint = bsdf.thinTint * divide(left, passedOnce);
     }
     float sum = greater(facets + others + through, 1e-20);
     bsdf.specularProbability = divide(facets, sum);

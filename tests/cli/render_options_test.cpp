@@ -250,7 +250,8 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
                                 {"exposure", 2.0},         {"occlusionDistance", 1e15},
                                 {"filter", "box"},         {"lightChoice", "auto"}};
     EXPECT_EQ(own.at("settings"), wanted);
-    const nlohmann::json overridden = renderReport("own.json --width 4 --spp 2 --clamp 0.5" + onCpu);
+    const nlohmann::json overridden =
+        renderReport("own.json --width 4 --spp 2 --integrator path --clamp 0.5" + onCpu);
     EXPECT_EQ(overridden.at("image"), (nlohmann::json{{"width", 4}, {"height", 7}}));
     EXPECT_EQ(overridden.at("settings").at("spp"), 2);
     EXPECT_EQ(overridden.at("settings").at("clamp"), 0.5);

@@ -181,9 +181,11 @@ Vec Bsdf::evaluateThin(const Vec &view, const Vec &light) const {
     const Vec mirrored(light.x, light.y, -light.z);
     const double cosine = std::min(glm::dot(view, glm::normalize(view + mirrored)), 1.0);
     const double r = std::max({plasticReflectance_.x, plasticReflectance_.y, plasticReflectance_.z});
+    const Energy energy = directionalEnergy(view.z, roughness_);
+    const double reflected = energy.of(r, plasticGrazing_);
     return colour_ * ((1.0 - schlickFresnel(cosine, Vec(r), plasticGrazing_).x) *
-                      reflectedByFacets(view, mirrored, alphaOf(roughness_)) /
-                      directionalEnergy(view.z, roughness_).white);
+                      reflectedByFacets(view, mirrored, alphaOf(roughness_)) * (1.0 - reflected) /
+                      (energy.white - reflected));
 }
 
 /// What is left for what lies below the coat.

@@ -318,9 +318,9 @@ TEST(TextureTwin, LookUpTexture) {
                                        layout::slotNormal, layout::slotOpacity};
     const auto call = [&](Draw &draw, Words &input, Words &expected) {
         const std::uint32_t row = reference::textureRow(packed.materials[0].textures, slots[draw.index(5)]);
-        const vec2 uv = drawUvs(draw);
-        input << row << uv;
-        expected << reference::lookUpTexture(reference::SceneView<float>(packed), row, uv);
+        const reference::SurfaceUv<float> uvs{drawUvs(draw), drawUvs(draw)};
+        input << row << uvs.first << uvs.second;
+        expected << reference::lookUpTexture(reference::SceneView<float>(packed), row, uvs);
     };
     expectTwin(probeLookUpTexture, call, {.textures = packed.textures});
 }
@@ -433,7 +433,7 @@ TEST(EnergyTwin, OfTheTable) {
         const auto average = reference::averageEnergy(scene, roughness);
         input << cosine << roughness << colour << eta;
         expected << energy.white << energy.grazing << average.white << average.grazing
-                 << reference::energyAt(energy, colour.x)
+                 << reference::energyAt(energy, colour.x, colour.y)
                  << reference::multiScatterReflectance(colour, average.white)
                  << reference::glassEnergy(scene, cosine, roughness, eta);
     };
@@ -441,13 +441,16 @@ TEST(EnergyTwin, OfTheTable) {
 }
 
 TEST(BsdfTwin, DrawnAndEvaluated) {
-    const PackedScene &packed = reference::sceneOfAllMaterials();
+    PackedScene packed = reference::sceneOfAllMaterials();
+    packed.scattering &= ~layout::scattersAtSheen;
     const reference::SceneView<float> scene(packed);
     const auto call = [&](Draw &draw, Words &input, Words &expected) {
         layout::MaterialRecord material{};
-        constexpr std::array<std::uint32_t, 4> kinds{layout::materialDiffuse, layout::materialDielectric,
-                                                     layout::materialConductor, layout::materialPrincipled};
-        material.kindAndSides = kinds[draw.index(4)];
+        constexpr std::array<std::uint32_t, 6> kinds{
+            layout::materialDiffuse,    layout::materialDielectric,
+            layout::materialConductor,  layout::materialPrincipled,
+            layout::materialGltf,       layout::materialGltf | layout::materialIsThin};
+        material.kindAndSides = kinds[draw.index(6)];
         material.albedo = drawColour(draw);
         material.conductorIndex = drawColour(draw) * 2.0f;
         material.conductorExtinction = drawColour(draw) * 5.0f + vec3(0.01f);
@@ -458,11 +461,19 @@ TEST(BsdfTwin, DrawnAndEvaluated) {
         material.normalReflectance = 0.08f * draw.unit();
         material.clearcoat = material.transmission > 0.0f || draw.chance(2) ? 0.0f : draw.unit();
         material.clearcoatAlpha = drawAlpha(draw);
+        material.dielectricColour = drawColour(draw) * (draw.chance(4) ? 20.0f : 1.0f);
+        material.dielectricWeight = draw.chance(3) ? 1.0f : draw.unit();
+        material.anisotropy = draw.chance(3) ? 0.0f : draw.unit();
+        material.anisotropyCosine = 0.6f;
+        material.anisotropySine = -0.8f;
         const vec3 geometricNormal = draw.direction();
         const vec3 normal = draw.chance(2) ? geometricNormal : draw.direction();
         vec3 direction = draw.direction();
         if (reference::dotProduct(direction, geometricNormal) > 0.0f)
             direction = -direction;
+        reference::SurfaceAxes<float> axes{draw.chance(8) ? vec3(0.0f) : draw.direction(), normal};
+        if (reference::dotProduct(direction, axes.coatNormal) > 0.0f)
+            axes.coatNormal = geometricNormal;
         const bool isBehind = draw.chance(4);
         const float eta = draw.chance(2) ? 0.4f + 0.5f * draw.unit() : 1.1f + draw.unit();
         const vec2 choice = unitPair(draw);
@@ -471,16 +482,18 @@ TEST(BsdfTwin, DrawnAndEvaluated) {
         input << material.kindAndSides << material.albedo << material.conductorIndex
               << material.conductorExtinction << material.averageReflectance << material.alpha
               << material.metallic << material.transmission << material.normalReflectance
-              << material.clearcoat << material.clearcoatAlpha << direction << normal << geometricNormal
-              << static_cast<std::uint32_t>(isBehind) << eta << choice << u << light;
+              << material.clearcoat << material.clearcoatAlpha << material.dielectricColour
+              << material.dielectricWeight << material.anisotropy << material.anisotropyCosine
+              << material.anisotropySine << direction << normal << geometricNormal << axes.tangent
+              << axes.coatNormal << static_cast<std::uint32_t>(isBehind) << eta << choice << u << light;
         const auto rough = reference::makeBsdf<float>(scene, material, direction, normal, geometricNormal,
-                                                      isBehind, eta, choice.x);
+                                                      axes, isBehind, eta, choice.x);
         const vec3 drawn = reference::sampleBsdf(scene, rough, u, choice.y);
         const auto scattered = reference::evalBsdf(scene, rough, drawn);
         const auto lit = reference::evalBsdf(scene, rough, light);
         expected << drawn << scattered.value << scattered.pdf << lit.value << lit.pdf;
     };
-    expectTwin(probeBsdf, call, {.lookups = packed.lookups, .scattering = 15u});
+    expectTwin(probeBsdf, call, {.lookups = packed.lookups, .scattering = packed.scattering});
 }
 
 // ---- Functions that read nothing beside their parameters
@@ -808,7 +821,7 @@ const LeafTwin leafTwins[] = {
          const vec3 extinction = drawColour(draw) * 9.0f + vec3(0.01f);
          input << cosine << index << extinction;
          expected << reference::conductorReflectance(cosine, index, extinction)
-                  << reference::schlickReflectance(cosine, index);
+                  << reference::schlickReflectance(cosine, index, index.y);
      }},
     {"MicrofacetReflecting", probeFacets,
      [](Draw &draw, Words &input, Words &expected) {

@@ -104,7 +104,8 @@ void main() {
     switch (probedFunction) {
     case probeLookUpTexture: {
         uint row = takeUint();
-        give(lookUpTexture(row, takeVec2()));
+        vec2 first = takeVec2();
+        give(lookUpTexture(row, SurfaceUv(first, takeVec2())));
         break;
     }
     case probeTriangleUv: {
@@ -410,7 +411,7 @@ void main() {
         float cosine = takeFloat();
         vec3 index = takeVec3();
         give(conductorReflectance(cosine, index, takeVec3()));
-        give(schlickReflectance(cosine, index));
+        give(schlickReflectance(cosine, index, index.y));
         break;
     }
     case probeFacets: {
@@ -450,7 +451,7 @@ void main() {
         give(average.white);
         give(average.grazing);
         vec3 colour = takeVec3();
-        give(energyAt(energy, colour.x));
+        give(energyAt(energy, colour.x, colour.y));
         give(multiScatterReflectance(colour, average.white));
         give(glassEnergy(cosine, roughness, takeFloat()));
         break;
@@ -468,13 +469,22 @@ void main() {
         material.normalReflectance = takeFloat();
         material.clearcoat = takeFloat();
         material.clearcoatAlpha = takeFloat();
+        material.dielectricColour = takeVec3();
+        material.dielectricWeight = takeFloat();
+        material.anisotropy = takeFloat();
+        material.anisotropyCosine = takeFloat();
+        material.anisotropySine = takeFloat();
+        material.sheenColour = vec3(0.0); // its table is at a place that only scenes have
         vec3 direction = takeVec3();
         vec3 normal = takeVec3();
         vec3 geometricNormal = takeVec3();
+        SurfaceAxes axes;
+        axes.tangent = takeVec3();
+        axes.coatNormal = takeVec3();
         bool isBehind = takeUint() != 0u;
         float eta = takeFloat();
         vec2 choice = takeVec2();
-        Bsdf rough = makeBsdf(material, direction, normal, geometricNormal, isBehind, eta, choice.x);
+        Bsdf rough = makeBsdf(material, direction, normal, geometricNormal, axes, isBehind, eta, choice.x);
         vec3 drawn = sampleBsdf(rough, takeVec2(), choice.y);
         BsdfEval scattered = evalBsdf(rough, drawn);
         BsdfEval lit = evalBsdf(rough, takeVec3());

@@ -33,8 +33,9 @@ class Lookup {
         : packed_(packed(scene)), row_(reference::textureRow(packed_.materials[0].textures, slot)) {}
 
     template <class Real> [[nodiscard]] reference::Vec3<Real> at(Real u, Real v) const {
+        const reference::Vec2<Real> uv(u, v);
         return reference::lookUpTexture(reference::SceneView<Real>(packed_), row_,
-                                        reference::Vec2<Real>(u, v));
+                                        reference::SurfaceUv<Real>{uv, uv});
     }
 
   private:
