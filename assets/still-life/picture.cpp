@@ -83,7 +83,7 @@ Picture drawNormals(int width, int height, const std::function<double(double u, 
     });
 }
 
-bool writePng(const std::filesystem::path &file, const Picture &picture, bool hasAlpha) {
+std::string encodePng(const Picture &picture, bool hasAlpha) {
     std::string rows;
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         if (i % static_cast<std::size_t>(picture.width) == 0)
@@ -101,8 +101,12 @@ bool writePng(const std::filesystem::path &file, const Picture &picture, bool ha
     appendChunk(png, "IHDR", header);
     appendChunk(png, "IDAT", store(rows));
     appendChunk(png, "IEND", {});
+    return png;
+}
+
+bool writePng(const std::filesystem::path &file, const Picture &picture, bool hasAlpha) {
     std::ofstream stream(file, std::ios::binary);
-    stream << png;
+    stream << encodePng(picture, hasAlpha);
     stream.close();
     return stream.good();
 }

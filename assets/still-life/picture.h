@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace still_life {
@@ -29,7 +30,10 @@ Picture draw(int width, int height, const std::function<Pixel(double u, double v
 /// repeat.
 Picture drawNormals(int width, int height, const std::function<double(double u, double v)> &at);
 
-/// Writes a PNG of 8 bits a channel, with alpha where `hasAlpha`, its pixels stored and not packed. Whether it could.
+/// A PNG of 8 bits a channel, with alpha where `hasAlpha`, its pixels stored and not packed.
+std::string encodePng(const Picture &picture, bool hasAlpha);
+
+/// Writes such a file. Whether it could.
 bool writePng(const std::filesystem::path &file, const Picture &picture, bool hasAlpha);
 
 } // namespace still_life

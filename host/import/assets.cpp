@@ -7,12 +7,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <set>
 
 namespace hyalite {
 namespace {
+
+/// Of shipped scenes. Where a folder has both for one name, the first wins.
+constexpr std::array<std::string_view, 2> sceneExtensions{".json", ".glb"};
 
 /// "; the shipped scenes are cat, spheres"
 std::string listOfScenes() {
@@ -41,7 +45,8 @@ std::vector<std::string> availableScenes() {
         std::error_code error; // a folder that is missing or may not be read holds no scenes
         for (std::filesystem::directory_iterator entry(folder / "scenes", error), end; !error && entry != end;
              entry.increment(error))
-            if (entry->path().extension() == ".json")
+            if (std::count(sceneExtensions.begin(), sceneExtensions.end(),
+                           entry->path().extension().string()) != 0)
                 names.insert(entry->path().stem().string());
     }
     return {names.begin(), names.end()};
@@ -58,11 +63,13 @@ std::filesystem::path resolveScene(const std::string &argument) {
                 argument, listOfExtensions(), listOfScenes()));
     std::vector<std::string> lookedAt;
     for (const std::filesystem::path &folder : assetFolders()) {
-        std::filesystem::path file = folder / "scenes" / (argument + ".json");
-        std::error_code error;
-        if (std::filesystem::is_regular_file(file, error))
-            return file;
-        lookedAt.push_back(file.string());
+        for (const std::string_view extension : sceneExtensions) {
+            std::filesystem::path file = folder / "scenes" / (argument + std::string(extension));
+            std::error_code error;
+            if (std::filesystem::is_regular_file(file, error))
+                return file;
+        }
+        lookedAt.push_back((folder / "scenes" / (argument + ".json")).string() + " (or .glb)");
     }
     throw Error(ErrorKind::BadInput, fmt::format("no scene is named \"{}\": looked for {}{}", argument,
                                                  fmt::join(lookedAt, " and "), listOfScenes()));

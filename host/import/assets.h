@@ -12,7 +12,7 @@ namespace hyalite {
 /// need not exist.
 [[nodiscard]] std::vector<std::filesystem::path> assetFolders();
 
-/// The sorted names of the shipped scenes: scenes/NAME.json in any asset folder.
+/// The sorted names of the shipped scenes: scenes/NAME.json or scenes/NAME.glb in any asset folder.
 [[nodiscard]] std::vector<std::string> availableScenes();
 
 /// The file of a SCENE argument. An argument with the extension of a format (formats.h) is a path, which need not

@@ -80,6 +80,17 @@ TEST_F(Assets, ABareWordIsAShippedScene) {
     EXPECT_EQ(resolveScene("zebra-crossing"), folder / "scenes" / "zebra-crossing.json");
 }
 
+TEST_F(Assets, AShippedSceneMayBeABinaryGltfFile) {
+    add("yak.glb");
+    EXPECT_EQ(resolveScene("yak"), folder / "scenes" / "yak.glb");
+    const std::vector<std::string> names = availableScenes();
+    EXPECT_EQ(std::count(names.begin(), names.end(), "yak"), 1);
+    add("yak.json");
+    EXPECT_EQ(resolveScene("yak"), folder / "scenes" / "yak.json");
+    const std::vector<std::string> namesOnce = availableScenes();
+    EXPECT_EQ(std::count(namesOnce.begin(), namesOnce.end(), "yak"), 1);
+}
+
 TEST_F(Assets, AnArgumentWithAnExtensionIsAPathAsItStands) {
     for (const char *path : {"a.json", "no/such/b.obj", "/c.JSON", "../d.Obj"})
         EXPECT_EQ(resolveScene(path), std::filesystem::path(path));
