@@ -143,7 +143,7 @@ TEST_F(TextureFile, RefusesWhatIsDamaged) {
     });
     ASSERT_EQ(refusal(jpeg), "");
     expectRefused("", "it is empty");
-    expectRefused("no picture", "no PNG, JPEG or Radiance");
+    expectRefused("no picture", "no PNG, JPEG, WebP or Radiance");
     expectRefused("\xFF\xD8\xFF", "it is damaged");
     for (const std::size_t length : {std::size_t{20}, jpeg.size() / 2, jpeg.size() - 2})
         expectRefused(jpeg.substr(0, length), "it is damaged");

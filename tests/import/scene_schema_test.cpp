@@ -207,7 +207,8 @@ TEST_F(SceneSchema, TheDefaultsOfTheSchemaAreThoseOfTheScene) {
     }
     const json principled = defaultsOf("principled");
     EXPECT_EQ(principled.size(),
-              scene_keys::material(rowOf(MaterialKind::Principled)).size() - 2); // all but type and textures
+              scene_keys::material(rowOf(MaterialKind::Principled)).size() -
+                  3); // but type, textures, twoSided
     file["materials"]["given"] = principled;
     file["materials"]["given"]["type"] = "principled";
     file["materials"]["left out"]["type"] = "principled";

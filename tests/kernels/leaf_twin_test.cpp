@@ -341,9 +341,10 @@ TEST(NormalMapTwin, MappedNormal) {
               << row;
         const auto tangent = reference::triangleTangent<float>(triangle, at);
         expected << tangent.alongU << tangent.alongV
-                 << reference::mappedNormal(reference::SceneView<float>(packed), normal, tangent, row, at.uv0)
+                 << reference::mappedNormal(reference::SceneView<float>(packed), normal, tangent, row,
+                                            {at.uv0, at.uv0})
                  << reference::mappedNormal(reference::SceneView<float>(packed), normal,
-                                            reference::sphereTangent(normal), row, at.uv1);
+                                            reference::sphereTangent(normal), row, {at.uv1, at.uv1});
     };
     expectTwin(probeMappedNormal, call, {.textures = packed.textures});
 }
@@ -447,9 +448,9 @@ TEST(BsdfTwin, DrawnAndEvaluated) {
     const auto call = [&](Draw &draw, Words &input, Words &expected) {
         layout::MaterialRecord material{};
         constexpr std::array<std::uint32_t, 6> kinds{
-            layout::materialDiffuse,    layout::materialDielectric,
-            layout::materialConductor,  layout::materialPrincipled,
-            layout::materialGltf,       layout::materialGltf | layout::materialIsThin};
+            layout::materialDiffuse,   layout::materialDielectric,
+            layout::materialConductor, layout::materialPrincipled,
+            layout::materialGltf,      layout::materialGltf | layout::materialIsThin};
         material.kindAndSides = kinds[draw.index(6)];
         material.albedo = drawColour(draw);
         material.conductorIndex = drawColour(draw) * 2.0f;

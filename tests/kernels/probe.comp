@@ -130,8 +130,8 @@ void main() {
         give(tangent.alongU);
         give(tangent.alongV);
         vec3 normal = takeVec3();
-        give(mappedNormal(normal, tangent, takeUint(), uv0));
-        give(mappedNormal(normal, sphereTangent(normal), takeUint(), uv1));
+        give(mappedNormal(normal, tangent, takeUint(), SurfaceUv(uv0, uv0)));
+        give(mappedNormal(normal, sphereTangent(normal), takeUint(), SurfaceUv(uv1, uv1)));
         break;
     }
     case probeVisibleNormal: {

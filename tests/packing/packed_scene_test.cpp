@@ -229,8 +229,11 @@ TEST(PackedScene, FeaturesAreThoseOfTheMaterialsInUse) {
 TEST(PackedScene, SpheresLightsAndMaterialsAreCopied) {
     Scene scene;
     scene.materials.resize(2);
-    scene.materials[1] = {"glass", MaterialKind::Dielectric, {0.1f, 0.2f, 0.3f}, true,
-                          1.7f,    {0.4f, 0.5f, 0.6f}};
+    scene.materials[1].kind = MaterialKind::Dielectric;
+    scene.materials[1].albedo = {0.1f, 0.2f, 0.3f};
+    scene.materials[1].twoSided = true;
+    scene.materials[1].refractiveIndex = 1.7f;
+    scene.materials[1].segmentTint = {0.4f, 0.5f, 0.6f};
     scene.spheres.push_back({{1, 2, 3}, 4.0, 1, true});
     scene.spheres.push_back({{5, 6, 7}, 8.0, 0, false});
     scene.lights.push_back({{1, 1, 1}, glm::dvec3(4.0 * std::numbers::pi, 0.0, 8.0 * std::numbers::pi)});

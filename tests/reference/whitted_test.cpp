@@ -29,11 +29,22 @@ std::uint32_t addMaterial(Scene &scene, const Material &material) {
 }
 
 Material diffuse(const glm::vec3 &albedo, bool isTwoSided = false) {
-    return {"diffuse", MaterialKind::Diffuse, albedo, isTwoSided, 1.5f, glm::vec3(1.0f)};
+    Material material;
+    material.albedo = albedo;
+    material.twoSided = isTwoSided;
+    return material;
 }
-Material mirror() { return {"mirror", MaterialKind::Mirror, glm::vec3(1.0f), false, 1.5f, glm::vec3(1.0f)}; }
+Material mirror() {
+    Material material;
+    material.kind = MaterialKind::Mirror;
+    return material;
+}
 Material glass(float index, const glm::vec3 &tint = glm::vec3(1.0f)) {
-    return {"glass", MaterialKind::Dielectric, glm::vec3(1.0f), false, index, tint};
+    Material material;
+    material.kind = MaterialKind::Dielectric;
+    material.refractiveIndex = index;
+    material.segmentTint = tint;
+    return material;
 }
 
 void addWall(Scene &scene, std::uint32_t material, const glm::vec3 &corner, const glm::vec3 &a,

@@ -133,6 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Table, Validate,
                                          Breakage{"material 0 (wall): clearcoat: found 1, and a transmission "
                                                   "of 0.5",
                                                   [](Scene &s) {
+                                                      s.materials[0].kind = MaterialKind::Principled;
                                                       s.materials[0].clearcoat = 1.0f;
                                                       s.materials[0].transmission = 0.5f;
                                                   }},
