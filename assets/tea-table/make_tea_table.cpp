@@ -123,9 +123,11 @@ void addPearls(Glb &glb, Nodes &nodes, const Vec &middle) {
         const double turns = -static_cast<double>(i) / laceScallopCount;
         places.push_back({distance * cosTurns(turns), 0.0, distance * sinTurns(turns)});
     }
-    nodes.add("pearls", glb.addMesh("pearl", {{materialPearl, pearl()}}), middle, 0.0,
+    const int accessor = glb.addVectors(places); // not within the call: the order there is the compiler's
+    const int mesh = glb.addMesh("pearl", {{materialPearl, pearl()}});
+    nodes.add("pearls", mesh, middle, 0.0,
               ",\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":" +
-                  std::to_string(glb.addVectors(places)) + "}}}");
+                  std::to_string(accessor) + "}}}");
 }
 
 bool writeTable(const char *file) {

@@ -16,10 +16,31 @@ namespace {
 
 constexpr double step = 1e-4; // of u and v, for differences
 
-double catmullRom(double p0, double p1, double p2, double p3, double t) {
-    return p1 +
-           0.5 * t *
-               ((p2 - p0) + t * ((2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3) + t * (3.0 * (p1 - p2) + p3 - p0)));
+/// The root of the distance between two points of a profile.
+double knotBetween(const ProfilePoint &a, const ProfilePoint &b) {
+    const double x = b.radius - a.radius;
+    const double y = b.height - a.height;
+    return std::sqrt(std::sqrt(x * x + y * y));
+}
+
+/// Centripetal Catmull-Rom between p[1] and p[2]: Yuksel et al., "Parameterization and Applications of Catmull-Rom
+/// Curves", 2011. A uniform one loops where close neighbours follow distant ones, as they do at rims.
+double catmullRom(const ProfilePoint *p, double ProfilePoint::*part, double t) {
+    const double before = knotBetween(p[0], p[1]);
+    const double here = knotBetween(p[1], p[2]);
+    const double after = knotBetween(p[2], p[3]);
+    const auto slope = [&](std::size_t from, double first, double second) {
+        const double a = p[from].*part;
+        const double b = p[from + 1].*part;
+        const double c = p[from + 2].*part;
+        return here * ((b - a) / first - (c - a) / (first + second) + (c - b) / second);
+    };
+    const double leaving = slope(0, before, here);
+    const double arriving = slope(1, here, after);
+    const double from = p[1].*part;
+    const double way = p[2].*part - from;
+    return from + t * (leaving +
+                       t * ((3.0 * way - 2.0 * leaving - arriving) + t * (leaving + arriving - 2.0 * way)));
 }
 
 /// A smooth curve through the points of a profile. Where it ends on the axis it meets the axis at a right angle.
@@ -38,8 +59,8 @@ class Curve {
         const std::size_t piece = std::min(static_cast<std::size_t>(walked), pieceCount - 1);
         const double t = walked - static_cast<double>(piece);
         const ProfilePoint *p = &points_[piece];
-        return {std::max(catmullRom(p[0].radius, p[1].radius, p[2].radius, p[3].radius, t), 0.0),
-                catmullRom(p[0].height, p[1].height, p[2].height, p[3].height, t)};
+        return {std::max(catmullRom(p, &ProfilePoint::radius, t), 0.0),
+                catmullRom(p, &ProfilePoint::height, t)};
     }
 
   private:

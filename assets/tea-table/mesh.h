@@ -32,8 +32,8 @@ struct ProfilePoint {
 /// upwards it faces the viewer. Triangles that touch a pole are left out where they have no area.
 void addSheet(Mesh &mesh, int columns, int rows, const std::function<Vec(double u, double v)> &at);
 
-/// Turns a smooth curve (Catmull-Rom) through `profile` about the y axis. A profile that goes from the axis up the
-/// outside, over the rim and down the inside back to the axis makes a closed vessel. v follows its length.
+/// Turns a smooth curve (centripetal Catmull-Rom) through `profile` about the y axis. A profile that goes from the axis
+/// up the outside, over the rim and down the inside back to the axis makes a closed vessel. v follows its length.
 void addTurned(Mesh &mesh, int columns, int rowsPerPoint, const std::vector<ProfilePoint> &profile);
 
 /// A tube along a cubic Bezier curve in the plane z = 0. `along` gives, for v from 0 to 1, the place on the curve from
