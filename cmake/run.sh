@@ -97,7 +97,7 @@ build_all() {
 # as one; those in `alone` are not, as they use names for themselves that others of their folder use, too.
 check_by_clang_tidy() {
     local alone=" host/cli/profile_command.cpp host/gpu/tile_renderer.cpp host/image/hdr.cpp host/import/obj_statement.cpp
-        host/render/tune.cpp host/report/profile_table.cpp host/report/trace_json.cpp "
+        host/packing/sheen_energy.cpp host/render/tune.cpp host/report/profile_table.cpp host/report/trace_json.cpp "
     local file unit units=$build/check
     rm -rf "$units"
     mkdir -p "$units"

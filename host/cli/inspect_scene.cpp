@@ -156,7 +156,8 @@ void printEmitters(const Scene &scene, const std::vector<Wearers> &wearers) {
 /// Shapes and meshes of files alike, by name: how many there are.
 void printShapes(const Scene &scene) {
     std::map<std::string, std::size_t> shapes;
-    for (const auto &[name, kind] : shapeNames) {
+    for (const auto &entry : shapeNames) {
+        const std::string_view name = entry.first;
         const auto isShape = [&](const TriangleMesh &mesh) { return mesh.name == name; };
         const auto count =
             std::ranges::count_if(scene.meshes, isShape) + std::ranges::count_if(scene.prototypes, isShape);

@@ -15,7 +15,7 @@
 namespace hyalite {
 namespace {
 
-bool isBlank(char c) { return c == ' ' || c == '\t'; }
+bool isBlankOfPly(char c) { return c == ' ' || c == '\t'; }
 bool isLineEnd(char c) { return c == '\n' || c == '\r'; }
 
 } // namespace
@@ -29,7 +29,7 @@ void PlyTextValues::endRow() {
 
 void PlyTextValues::beginRow(const PlyElement &element) {
     element_ = &element;
-    for (; at_ != end_ && (isBlank(*at_) || isLineEnd(*at_)); ++at_)
+    for (; at_ != end_ && (isBlankOfPly(*at_) || isLineEnd(*at_)); ++at_)
         if (*at_ == '\n' || (*at_ == '\r' && (at_ + 1 == end_ || at_[1] != '\n')))
             ++line_;
     if (at_ == end_)
@@ -38,7 +38,7 @@ void PlyTextValues::beginRow(const PlyElement &element) {
 }
 
 double PlyTextValues::next(PlyType type) {
-    while (at_ != end_ && isBlank(*at_))
+    while (at_ != end_ && isBlankOfPly(*at_))
         ++at_;
     if (at_ == end_ || isLineEnd(*at_))
         fail(fmt::format("the line has fewer values than the element {} has; each row is a line",
@@ -51,16 +51,16 @@ double PlyTextValues::next(PlyType type) {
         result = std::from_chars(digits, end_, whole);
         value = static_cast<double>(whole);
     }
-    if (!isWhole(type) || (result.ptr != end_ && !isBlank(*result.ptr) && !isLineEnd(*result.ptr)))
+    if (!isWhole(type) || (result.ptr != end_ && !isBlankOfPly(*result.ptr) && !isLineEnd(*result.ptr)))
         result = std::from_chars(digits, end_, value);
-    const bool isOver = result.ptr == end_ || isBlank(*result.ptr) || isLineEnd(*result.ptr);
+    const bool isOver = result.ptr == end_ || isBlankOfPly(*result.ptr) || isLineEnd(*result.ptr);
     if (result.ec == std::errc::result_out_of_range && isOver) // with a negative exponent it is nearly 0
         value = std::string_view(at_, result.ptr).find("e-") != std::string_view::npos
                     ? 0.0
                     : std::numeric_limits<double>::infinity();
     else if (result.ec != std::errc() || !isOver) {
         const char *wordEnd = at_;
-        while (wordEnd != end_ && !isBlank(*wordEnd) && !isLineEnd(*wordEnd))
+        while (wordEnd != end_ && !isBlankOfPly(*wordEnd) && !isLineEnd(*wordEnd))
             ++wordEnd;
         fail(fmt::format("the element {} has {}; allowed are decimal numbers", quoteInput(element_->name),
                          quoteInput({at_, wordEnd})));

@@ -96,6 +96,7 @@ void Accessor::readHeader(const Buffers &buffers) {
     isNormalized_ = object.boolean("normalized", false);
     const JsonNode typeNode = object.at("type");
     std::vector<std::string_view> names;
+    names.reserve(types.size());
     for (const Type &type : types)
         names.push_back(type.name);
     const Type &type = types[typeNode.indexOfName(names)];
@@ -113,7 +114,7 @@ void Accessor::readHeader(const Buffers &buffers) {
 
 std::span<const std::byte> Accessor::elementsIn(Buffers &buffers, const JsonObject &object, std::size_t count,
                                                 std::size_t elementBytes, std::size_t componentBytes,
-                                                std::size_t &stride) const {
+                                                std::size_t &stride) {
     const JsonNode viewNode = object.at("bufferView");
     const BufferView view = buffers.view(buffers.document().reference(viewNode, "bufferViews"));
     stride = view.stride != 0 ? view.stride : elementBytes;
@@ -221,9 +222,9 @@ glm::vec4 Accessor::vec4(std::size_t element) const {
     return {number(element, 0), number(element, 1), number(element, 2), number(element, 3)};
 }
 
-void Accessor::requireType(std::span<const std::string_view> allowed) const {
-    if (std::ranges::find(allowed, type_) == allowed.end())
-        JsonObject(node_).at("type").refuse(fmt::format("{} for this use", quotedList(allowed)));
+void Accessor::requireType(std::span<const std::string_view> types) const {
+    if (std::ranges::find(types, type_) == types.end())
+        JsonObject(node_).at("type").refuse(fmt::format("{} for this use", quotedList(types)));
 }
 
 void Accessor::requireUnsigned() const {

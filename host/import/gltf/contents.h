@@ -28,7 +28,7 @@ struct Contents {
     std::optional<PlacedCamera> camera;
 };
 
-[[nodiscard]] Contents readContents(const std::filesystem::path &file, const FileReach &reach,
+[[nodiscard]] Contents readContents(const std::filesystem::path &path, const FileReach &reach,
                                     TextureLibrary &textures, const ContentOptions &options);
 
 } // namespace hyalite::gltf

@@ -41,7 +41,7 @@ float normalisation(const draco::PointAttribute &attribute, const JsonObject &ac
     }
 }
 
-std::vector<float> numbersOf(const draco::PointAttribute &attribute, std::uint32_t pointCount, float factor) {
+std::vector<float> valuesOf(const draco::PointAttribute &attribute, std::uint32_t pointCount, float factor) {
     const auto componentCount = static_cast<std::size_t>(attribute.num_components());
     std::vector<float> numbers(pointCount * componentCount);
     for (std::uint32_t point = 0; point < pointCount; ++point) {
@@ -83,7 +83,7 @@ DracoMesh decodeDraco(Buffers &buffers, const JsonObject &primitive, const JsonO
             id.fail(fmt::format("the Draco data has no attribute {}", uniqueId));
         const std::size_t index = document.reference(accessors.at(name), "accessors");
         const float factor = normalisation(*attribute, JsonObject(document.at("accessors", index)));
-        Accessor accessor(buffers, index, numbersOf(*attribute, mesh->num_points(), factor));
+        Accessor accessor(buffers, index, valuesOf(*attribute, mesh->num_points(), factor));
         if (accessor.componentCount() != static_cast<std::size_t>(attribute->num_components()))
             id.fail(fmt::format("the Draco data has {} numbers a vertex, the accessor {}",
                                 attribute->num_components(), accessor.componentCount()));

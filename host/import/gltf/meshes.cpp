@@ -64,10 +64,10 @@ FlatCorners flatCorners(const Primitive &primitive, const std::vector<glm::vec2>
         const glm::dvec3 a(positions[triangle.x]);
         const glm::dvec3 normal =
             glm::cross(glm::dvec3(positions[triangle.y]) - a, glm::dvec3(positions[triangle.z]) - a);
-        flat.triangles.push_back(glm::uvec3(0, 1, 2) + countOf(flat.positions));
+        flat.triangles.emplace_back(glm::uvec3(0, 1, 2) + countOf(flat.positions));
         for (glm::length_t corner = 0; corner < 3; ++corner) {
             flat.positions.push_back(positions[triangle[corner]]);
-            flat.normals.push_back(glm::vec3(glm::normalize(normal)));
+            flat.normals.emplace_back(glm::normalize(normal));
             flat.uvs.push_back(uvs[triangle[corner]]);
         }
     }

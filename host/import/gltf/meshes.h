@@ -44,7 +44,7 @@ class MeshReader {
     void dropDegenerate(Primitive &primitive);
     void addNormals(const Primitive &primitive, TriangleMesh &mesh);
     void addUvs(const Primitive &primitive, const MaterialNeeds &needs, TriangleMesh &mesh);
-    void addTangents(const Primitive &primitive, const MaterialNeeds &needs, TriangleMesh &mesh);
+    static void addTangents(const Primitive &primitive, const MaterialNeeds &needs, TriangleMesh &mesh);
 
     Buffers &buffers_;
     std::vector<MaterialNeeds> needs_;

@@ -13,11 +13,13 @@
 namespace hyalite::gltf {
 namespace {
 
-enum class Mode { Attributes, Triangles, Indices };
+enum class CompressedKind { Attributes, Triangles, Indices };
 enum class Filter { None, Octahedral, Quaternion, Exponential };
 
-constexpr auto modes = std::to_array<std::pair<std::string_view, Mode>>(
-    {{"ATTRIBUTES", Mode::Attributes}, {"TRIANGLES", Mode::Triangles}, {"INDICES", Mode::Indices}});
+constexpr auto modes =
+    std::to_array<std::pair<std::string_view, CompressedKind>>({{"ATTRIBUTES", CompressedKind::Attributes},
+                                                                {"TRIANGLES", CompressedKind::Triangles},
+                                                                {"INDICES", CompressedKind::Indices}});
 constexpr auto filters =
     std::to_array<std::pair<std::string_view, Filter>>({{"NONE", Filter::None},
                                                         {"OCTAHEDRAL", Filter::Octahedral},
@@ -55,15 +57,15 @@ void apply(Filter filter, std::vector<std::byte> &bytes, std::size_t count, std:
     }
 }
 
-int decode(Mode mode, std::vector<std::byte> &bytes, std::size_t count, std::size_t stride,
+int decode(CompressedKind mode, std::vector<std::byte> &bytes, std::size_t count, std::size_t stride,
            std::span<const std::byte> packed) {
     const auto *const data = reinterpret_cast<const unsigned char *>(packed.data());
     switch (mode) {
-    case Mode::Attributes:
+    case CompressedKind::Attributes:
         return meshopt_decodeVertexBuffer(bytes.data(), count, stride, data, packed.size());
-    case Mode::Triangles:
+    case CompressedKind::Triangles:
         return meshopt_decodeIndexBuffer(bytes.data(), count, stride, data, packed.size());
-    case Mode::Indices:
+    case CompressedKind::Indices:
         return meshopt_decodeIndexSequence(bytes.data(), count, stride, data, packed.size());
     }
     return -1;
@@ -73,18 +75,18 @@ int decode(Mode mode, std::vector<std::byte> &bytes, std::size_t count, std::siz
 
 std::vector<std::byte> decompressMeshopt(const JsonObject &extension, std::span<const std::byte> packed,
                                          const std::function<void(std::size_t)> &allow) {
-    const Mode mode = extension.choice("mode", modes);
+    const CompressedKind mode = extension.choice("mode", modes);
     const Filter filter = extension.choice("filter", filters, Filter::None);
     const JsonNode strideNode = extension.at("byteStride");
     const auto stride = static_cast<std::size_t>(strideNode.wholeNumber({2, 256}));
-    const bool isIndex = mode != Mode::Attributes;
+    const bool isIndex = mode != CompressedKind::Attributes;
     if (isIndex ? stride != 2 && stride != 4 : stride % 4 != 0)
         strideNode.refuse(isIndex ? "2 or 4 for indices" : "a multiple of 4 for attributes");
     if (!takes(filter, stride) || (isIndex && filter != Filter::None))
         extension.at("filter").fail(fmt::format("is not for elements of {} bytes in this mode", stride));
     const JsonNode countNode = extension.at("count");
     const auto count = static_cast<std::size_t>(countNode.wholeNumber({1.0, 4294967295.0}));
-    if (mode == Mode::Triangles && count % 3 != 0)
+    if (mode == CompressedKind::Triangles && count % 3 != 0)
         countNode.refuse("a multiple of 3 for triangles");
     // Attributes take two bits for 16 numbers of one byte at least, triangles a byte for three indices.
     constexpr std::size_t densest = 64;
