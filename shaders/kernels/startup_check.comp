@@ -33,7 +33,7 @@ void main() {
                          (!(-zero < zero) ? isZeroNotLess : 0u);
     result.subgroup = gl_SubgroupID;
     result.lane = gl_SubgroupInvocationID;
-    result.pad0 = 0u;
+    result.subgroupSize = gl_SubgroupSize;
     result.pad1 = 0u;
     results[i] = result;
 }

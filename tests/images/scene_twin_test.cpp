@@ -377,7 +377,7 @@ TEST(Twins, AgreeOnTexturesInViews) {
 TEST(Twins, AgreeOnEachTextureAlone) {
     // Kernels leave out what a scene does not need, each in its own way.
     const Scene all = texturedScene(32, 24, 2);
-    for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot) {
+    for (std::uint32_t slot = 0; slot <= layout::slotOpacity; ++slot) {
         Scene scene = all;
         for (Material &material : scene.materials)
             for (std::uint32_t other = 0; other < layout::textureSlotCount; ++other)

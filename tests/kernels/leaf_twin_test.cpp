@@ -322,7 +322,7 @@ TEST(TextureTwin, LookUpTexture) {
         input << row << uvs.first << uvs.second;
         expected << reference::lookUpTexture(reference::SceneView<float>(packed), row, uvs);
     };
-    expectTwin(probeLookUpTexture, call, {.textures = packed.textures});
+    expectTwin(probeLookUpTexture, call, {.textures = packed.textures, .texturing = packed.texturing});
 }
 
 TEST(NormalMapTwin, MappedNormal) {
@@ -346,7 +346,7 @@ TEST(NormalMapTwin, MappedNormal) {
                  << reference::mappedNormal(reference::SceneView<float>(packed), normal,
                                             reference::sphereTangent(normal), row, {at.uv1, at.uv1});
     };
-    expectTwin(probeMappedNormal, call, {.textures = packed.textures});
+    expectTwin(probeMappedNormal, call, {.textures = packed.textures, .texturing = packed.texturing});
 }
 
 TEST(CameraTwin, PrimaryRay) {

@@ -63,6 +63,7 @@ Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputW
     constants[layout::constantSampler] = scene.samplerKind;
     constants[layout::constantExactDivision] = arithmetic == gpu::Arithmetic::Native;
     constants[layout::constantScattering] = scene.scattering;
+    constants[layout::constantTexturing] = scene.texturing;
     constants[layout::constantCamera] = scene.camera;
     constants[constantProbedFunction] = function;
     constants[constantInputWords] = static_cast<std::uint32_t>(inputWords);

@@ -25,6 +25,7 @@ struct ProbeScene {
     std::vector<layout::LookupRow> lookups{};
     std::vector<layout::TextureRow> textures{};
     std::uint32_t scattering = 0;
+    std::uint32_t texturing = 0;
     std::uint32_t camera = layout::cameraPinhole;
 };
 

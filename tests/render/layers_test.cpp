@@ -27,7 +27,7 @@ TEST(Layers, AreMeansAndNothingWhereThereIsNothing) {
     EXPECT_EQ(layers[0].name, "albedo");
     EXPECT_EQ(layers[0].channels, "RGB");
     EXPECT_EQ(rowOf(layers[0], 6), (std::vector{0.25f, 0.5f, 1.0f, 0.0f, 0.0f, 0.0f}));
-    EXPECT_EQ(layers[1].name, "depth");
+    EXPECT_EQ(layers[1].name, "Z");
     EXPECT_EQ(layers[1].channels, "");
     EXPECT_EQ(rowOf(layers[1], 2), (std::vector{7.0f, 0.0f}));
 }
