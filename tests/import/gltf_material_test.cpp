@@ -1,6 +1,7 @@
 // glTF: materials and textures.
 #include "host/image/png.h"
 #include "host/import/gltf/materials.h"
+#include "host/scene/limits.h"
 #include "tests/fixtures/gltf_fixture.h"
 
 #include <gtest/gtest.h>
@@ -150,6 +151,21 @@ TEST_F(GltfMaterial, IsThinUnlessItHasAVolumeWhichAbsorbsByBeersLaw) {
             R"({"extensions": {"KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [0, 0, 0]}}})")
             .absorption,
         glm::vec3(0.0f));
+}
+
+TEST_F(GltfMaterial, IsThinBeyondAsManyVolumesAsPathsTellApart) {
+    const char *glass = R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+        "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [1, 0.5, 0]}}})";
+    GltfMaker maker = makerOf(glass);
+    while (maker.json["materials"].size() < limits::mediumCount + 2)
+        maker.json["materials"].push_back(maker.json["materials"][0]);
+    const LoadedScene loaded = load(maker);
+    for (std::size_t i = 0; i < limits::mediumCount + 2; ++i)
+        EXPECT_EQ(loaded.scene.materials.at(i + 1).isThin, i >= limits::mediumCount) << i;
+    ASSERT_EQ(loaded.meshReports.at(0).warnings.size(), 1u);
+    EXPECT_NE(loaded.meshReports[0].warnings[0].find("10 materials are glass with a volume"),
+              std::string::npos)
+        << loaded.meshReports[0].warnings[0];
 }
 
 TEST_F(GltfMaterial, ReadsSpecularGlossiness) {

@@ -250,6 +250,22 @@ Material defaultMaterial() {
     return material;
 }
 
+/// Makes glass thin beyond as many volumes as `path` tells apart.
+void limitVolumes(std::vector<Material> &materials, const std::string &fileName,
+                  std::vector<std::string> &warnings) {
+    std::size_t count = 0;
+    for (Material &material : materials)
+        if (isGlass(material) && ++count > limits::mediumCount) {
+            material.isThin = true;
+            material.absorption = glm::vec3(0.0f);
+        }
+    if (count > limits::mediumCount)
+        warnings.push_back(
+            fmt::format("{}: {} materials are glass with a volume; those after the first {} count "
+                        "as thin glass",
+                        fileName, count, limits::mediumCount));
+}
+
 } // namespace
 
 std::vector<Material> readMaterials(const Document &document, TextureReader &textures,
@@ -258,6 +274,7 @@ std::vector<Material> readMaterials(const Document &document, TextureReader &tex
     for (const JsonNode &node : document.top().elements("materials", limits::materialCount - 2))
         materials.push_back(MaterialReader(node, textures, warnings).read());
     materials.push_back(defaultMaterial());
+    limitVolumes(materials, document.fileName(), warnings);
     return materials;
 }
 
