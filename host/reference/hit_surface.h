@@ -23,7 +23,7 @@ template <class Real>
                                                std::uint32_t materialIndex, const Vec3<Real> &position) {
     MaterialRecord<Real> material = scene.fetchMaterial(materialIndex);
     if (material.textures != 0)
-        material = texturedMaterial(scene, material, hitUvs(scene, hit, position));
+        material = texturedMaterial(scene, material, layout::texturesMaterials, hitUvs(scene, hit, position));
     if ((scene.texturing & layout::texturesColours) != 0 && hit.primitive >= scene.frame.firstTriangleId)
         material = colouredMaterial(scene, material, hit.record, hit.u, hit.v);
     return material;

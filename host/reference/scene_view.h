@@ -13,6 +13,7 @@
 #include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -104,6 +105,10 @@ template <class Real> struct SceneView {
     [[nodiscard]] Record<Real> fetch(uint index) const { return packed.name[index]; }
     HYALITE_SCENE_ARRAYS(HYALITE_FETCH)
 #undef HYALITE_FETCH
+    /// Word `index` of the textures.
+    [[nodiscard]] uint fetchTextureWord(uint index) const {
+        return std::bit_cast<std::array<uint, 4>>(packed.textures[index / 4])[index % 4];
+    }
 
     const PackedScene &packed;
     FrameRecord<Real> frame;

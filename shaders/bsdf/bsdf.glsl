@@ -41,11 +41,15 @@ bool isBlackBehind(MaterialRecord material) {
                                                             !isThinGlass(material));
 }
 
-// The Whitted integrator shows principled materials and those of glTF as diffuse, and rough metals as mirrors.
-bool isDiffuseForWhitted(MaterialRecord material) {
-    return kindOf(material) == materialDiffuse ||
-           ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled) ||
+// Whether the material mixes lobes: principled ones and those of glTF, which are never specular.
+bool isMixture(MaterialRecord material) {
+    return ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled) ||
            ((scattering & scattersAtGltf) != 0u && kindOf(material) == materialGltf);
+}
+
+// The Whitted integrator shows mixtures as diffuse, and rough metals as mirrors.
+bool isDiffuseForWhitted(MaterialRecord material) {
+    return kindOf(material) == materialDiffuse || isMixture(material);
 }
 
 bool isGlassForWhitted(MaterialRecord material) { return kindOf(material) == materialDielectric; }

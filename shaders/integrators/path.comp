@@ -191,6 +191,16 @@ bool isSpecularHere(uint slot, MaterialRecord material, uint materialIndex, bool
     return isSpecular(material);
 }
 
+// Slots of the textures that say what a path does at a hit. Those that only the BSDF needs are looked up when it is made.
+uint slotsBeforeLight(MaterialRecord material) {
+    uint slots = texturesEmission | texturesTransmission;
+    if (scattering == 0u || showsBaseColour(material))
+        slots |= texturesBaseColour;
+    if (!isMixture(material)) // so that it may be specular
+        slots |= texturesRoughness;
+    return slots;
+}
+
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
     traceNearestHit(slot);
@@ -203,7 +213,8 @@ void shadeHit(uint slot) {
     }
     uint materialIndex;
     Surface surface = hitSurface(slot, materialIndex);
-    MaterialRecord material = hitMaterial(slot, materialIndex, surface.position);
+    MaterialRecord material = fetchMaterial(materialIndex);
+    material = hitMaterial(slot, material, slotsBeforeLight(material), surface.position);
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
@@ -269,7 +280,8 @@ void aimAt(uint slot, uint emitter, LightSample light) {
 void aimFromBsdf(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
-    MaterialRecord material = hitMaterial(slot, materialIndex, path[slot].surfacePosition);
+    MaterialRecord material =
+        hitMaterial(slot, fetchMaterial(materialIndex), texturesOfLobes | texturesBaseColour, path[slot].surfacePosition);
     vec3 geometricNormal = surfaceAt(slot).geometricNormal;
     Crossing crossing = Crossing(path[slot].mediaInside, path[slot].mediaInside, 1.0, true);
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))

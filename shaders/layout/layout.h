@@ -345,13 +345,14 @@ const uint texturesTangents = texturesLevels << 3u; // of vertices
 const uint texturesPlaced = texturesLevels << 4u; // images that are turned, mirrored, clamped or not filtered
 const uint texturesChannels = texturesLevels
                               << 5u; // a channel that is not the red one, where one number is wanted
+const uint texturesTransmission = 1u << slotTransmission;
 const uint texturesClearcoatNormal = 1u << slotClearcoatNormal;
 const uint texturesAnisotropy = 1u << slotAnisotropy;
 // Slots that change the material.
 const uint texturesMaterials =
     texturesLevels - 1u - texturesNormal - texturesClearcoatNormal - texturesOpacity;
-// Of these, the slots that only glTF's materials have.
-const uint texturesOfGltf = texturesMaterials & ~15u;
+// Of these, the slots that only materials with lobes have.
+const uint texturesOfLobes = texturesMaterials & ~(texturesBaseColour | texturesEmission);
 // Slots whose levels are sRGB.
 const uint texturesSrgb =
     texturesBaseColour + texturesEmission + (1u << slotDielectricColour) + (1u << slotSheenColour);

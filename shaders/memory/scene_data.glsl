@@ -23,6 +23,19 @@ layout(set = 0, binding = bindingLightConstants, std140) uniform LightBuffer {
 
 HYALITE_SCENE_ARRAYS(SCENE_ARRAY)
 
+// One word of the textures. Where arrays are storage buffers, lavapipe compiles a load for each component of a row.
+#if MEMORY_TEXELS
+uint fetchTextureWord(uint index) {
+    TextureRow row = fetchTextureRow(index >> 2u);
+    uint low = (index & 1u) != 0u ? row.y : row.x;
+    uint high = (index & 1u) != 0u ? row.w : row.z;
+    return (index & 2u) != 0u ? high : low;
+}
+#else
+layout(set = 0, binding = bindingTextures, std430) readonly buffer TextureWordBuffer { uint textureWordArray[]; };
+uint fetchTextureWord(uint index) { return textureWordArray[index]; }
+#endif
+
 #if TRAVERSAL_SKIP_LIST
 SCENE_ARRAY(bindingNodes, 3u, skipNodes, SkipNode, fetchSkipNode)
 #else

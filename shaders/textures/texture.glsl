@@ -74,20 +74,15 @@ float fractionOf(float x) {
     return fraction >= 0.0 && fraction < 1.0 ? fraction : 0.0;
 }
 
-uint wordOf(uvec4 words, uint index) {
-    uint low = (index & 1u) != 0u ? words.y : words.x;
-    uint high = (index & 1u) != 0u ? words.w : words.z;
-    return (index & 2u) != 0u ? high : low;
-}
+// Word `index` of those that follow each other from the row on.
+uint textureWord(uint row, uint index) { return fetchTextureWord(4u * row + index); }
 
-float decodeLevel(uint tableRow, uint level) {
-    return uintBitsToFloat(wordOf(textureWords(tableRow + (level >> 2u)), level));
-}
+float decodeLevel(uint tableRow, uint level) { return uintBitsToFloat(textureWord(tableRow, level)); }
 
 vec3 decodedTexel(uvec4 words, uint format) {
     uint channel = (format >> textureChannelShift) & textureChannelMask;
     if ((texturing & texturesChannels) != 0u && channel != 0u)
-        return vec3(uintBitsToFloat(wordOf(words, channel)));
+        return vec3(uintBitsToFloat(channel == 1u ? words.y : (channel == 2u ? words.z : words.w)));
     return uintBitsToFloat(uvec3(words));
 }
 
@@ -95,7 +90,7 @@ vec3 textureTexel(uvec4 description, uint x, uint y) {
     uint index = y * (description.y & 0xFFFFu) + x;
     if ((texturing & texturesLevels) == 0u || (description.z & textureIsFloat) != 0u)
         return decodedTexel(textureWords(description.x + index), description.z);
-    uint levels = wordOf(textureWords(description.x + (index >> 2u)), index);
+    uint levels = textureWord(description.x, index);
     if ((texturing & texturesChannels) != 0u) {
         uint channel = (description.z >> textureChannelShift) & textureChannelMask;
         levels = channel != 0u ? ((levels >> (8u * channel)) & 255u) * 0x010101u : levels;
@@ -219,50 +214,53 @@ MaterialRecord anisotropicMaterial(MaterialRecord material, vec3 texel) {
 
 bool isWorn(uint textures, uint slot) { return (texturing & (1u << slot)) != 0u && hasTexture(textures, slot); }
 
-// The material with what glTF's textures alone change; `factor` is that of the texture.
+// Whether a lookup in `slot` is one in `other`, which scenes without such textures know beforehand.
+bool isSlot(uint slot, uint other) { return (texturing & (1u << other)) != 0u && slot == other; }
+
+// The material with the texture of a slot that materials with lobes have; `factor` is that of the texture.
 MaterialRecord wornMaterial(MaterialRecord material, uint slot, vec3 texel, float factor) {
-    if (slot == slotTransmission)
+    if (isSlot(slot, slotRoughness)) {
+        float roughness = texel.x * factor;
+        bool isGlossiness =
+            (scattering & scattersAtGltf) != 0u && (material.kindAndSides & materialIsSpecularGlossy) != 0u;
+        material.alpha = alphaOf(isGlossiness ? 1.0 - roughness : roughness);
+    }
+    if (isSlot(slot, slotMetallic))
+        material.metallic = texel.x * factor;
+    if (isSlot(slot, slotTransmission))
         material.transmission *= texel.x;
-    if (slot == slotClearcoat)
+    if (isSlot(slot, slotClearcoat))
         material.clearcoat *= texel.x;
-    if (slot == slotClearcoatRoughness)
+    if (isSlot(slot, slotClearcoatRoughness))
         material.clearcoatAlpha = alphaOf(texel.x * factor);
-    if (slot == slotDielectricWeight)
+    if (isSlot(slot, slotDielectricWeight))
         material.dielectricWeight *= texel.x;
-    if (slot == slotDielectricColour)
+    if (isSlot(slot, slotDielectricColour))
         material.dielectricColour *= texel;
-    if (slot == slotSheenColour)
+    if (isSlot(slot, slotSheenColour))
         material.sheenColour *= texel;
-    if (slot == slotSheenRoughness)
+    if (isSlot(slot, slotSheenRoughness))
         material.sheenAlpha = sheenAlphaOf(texel.x * factor);
-    if (slot == slotAnisotropy)
+    if (isSlot(slot, slotAnisotropy))
         return anisotropicMaterial(material, texel);
     return material;
 }
 
-// The material with its textures applied at `at`.
-MaterialRecord texturedMaterial(MaterialRecord material, SurfaceUv at) {
+// The material with its textures of `slots` applied at `at`. Those that materials with lobes have are looked up in a loop:
+// inlined for each slot, lookups would be most of the kernel.
+MaterialRecord texturedMaterial(MaterialRecord material, uint slots, SurfaceUv at) {
     uint textures = material.textures;
     if (textures == 0u)
         return material;
-    if (isWorn(textures, slotBaseColour))
+    if ((slots & texturesBaseColour) != 0u && isWorn(textures, slotBaseColour))
         material.albedo *= lookUpTexture(textureRow(textures, slotBaseColour), at);
-    if (isWorn(textures, slotEmission))
+    if ((slots & texturesEmission) != 0u && isWorn(textures, slotEmission))
         material.emission *= lookUpTexture(textureRow(textures, slotEmission), at);
-    if (isWorn(textures, slotRoughness)) {
-        float roughness = lookUpNumber(textureRow(textures, slotRoughness), at);
-        if ((scattering & scattersAtGltf) != 0u && (material.kindAndSides & materialIsSpecularGlossy) != 0u)
-            roughness = 1.0 - roughness;
-        material.alpha = alphaOf(roughness);
-    }
-    if (isWorn(textures, slotMetallic))
-        material.metallic = lookUpNumber(textureRow(textures, slotMetallic), at);
-    // The rest in a loop over the slots that the scene uses: inlined for each slot, lookups would double the kernel.
-    for (uint slots = texturing & texturesOfGltf; slots != 0u; slots &= slots - 1u) {
-        uint slot = uint(findLSB(slots));
+    for (uint left = slots & texturing & texturesOfLobes; left != 0u; left &= left - 1u) {
+        uint slot = uint(findLSB(left));
+        uint row = textureRow(textures, slot);
         if (hasTexture(textures, slot))
-            material = wornMaterial(material, slot, lookUpTexture(textureRow(textures, slot), at),
-                                    uintBitsToFloat(textureWords(textureRow(textures, slot)).w));
+            material = wornMaterial(material, slot, lookUpTexture(row, at), uintBitsToFloat(textureWords(row).w));
     }
     return material;
 }

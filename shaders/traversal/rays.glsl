@@ -108,14 +108,14 @@ SurfaceUv hitUvs(uint slot, vec3 position) {
     return SurfaceUv(uv, uv);
 }
 
-// Material of the hit at `position`, with its textures applied.
-MaterialRecord hitMaterial(uint slot, uint materialIndex, vec3 position) {
-    MaterialRecord material = fetchMaterial(materialIndex);
-    if ((texturing & texturesOfGltf) != 0u)
-        stepsTaken += textureSlotCount; // at most so many lookups in a loop
-    if ((texturing & texturesMaterials) != 0u)
-        material = texturedMaterial(material, hitUvs(slot, position));
-    if ((texturing & texturesColours) != 0u && isTriangle(path[slot].hitPrimitive))
+// The material of the hit at `position`, with its textures of `textureSlots` applied, and if the base colour is among them
+// the colour of the vertices, too.
+MaterialRecord hitMaterial(uint slot, MaterialRecord material, uint textureSlots, vec3 position) {
+    stepsTaken += uint(bitCount(textureSlots & texturing & texturesOfLobes)); // at most so many lookups in a loop
+    if ((textureSlots & texturing & texturesMaterials) != 0u)
+        material = texturedMaterial(material, textureSlots, hitUvs(slot, position));
+    if ((textureSlots & texturesBaseColour) != 0u && (texturing & texturesColours) != 0u &&
+        isTriangle(path[slot].hitPrimitive))
         material = colouredMaterial(material, path[slot].hitRecord, path[slot].hitU, path[slot].hitV);
     return material;
 }
