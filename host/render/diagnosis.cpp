@@ -89,21 +89,15 @@ std::string reasonOfBlack(const PreparedScene &prepared) {
                "--look-at";
     if (sight.backCount == sight.hitCount)
         return "all surfaces in view are seen from behind, where they are black: the camera may be inside an "
-               "object, "
-               "or faces may be wound the wrong way; move the camera, or write \"twoSided\": true";
-    if (!sources.hasLights && !sources.hasEmitters && !sources.hasEnvironment && !sources.hasBackground)
-        return "nothing lights this scene";
-    if (scene.settings.integrator == Integrator::Whitted && !sources.hasLights)
-        return "whitted lights surfaces by lights without size alone, and there is none; use --integrator "
-               "path";
+               "object, or faces may be wound the wrong way; move the camera, or write \"twoSided\": true";
     const bool isHiddenAll = std::ranges::all_of(
         scene.lights, [&](const Light &light) { return isHidden(prepared.packed, light, sight.points); });
     if (!scene.lights.empty() && isHiddenAll && !sources.hasEmitters)
         return "surfaces stand between each light and all that is in view: a light may be inside an object";
     if (sources.hasEmitters && !sources.hasEnvironment)
         return "the light of the emitters does not get to what is in view: they may face away, as an "
-               "emission shines on "
-               "the side of the normal alone, or touch another surface; turn them around, or write "
+               "emission "
+               "shines on the side of the normal alone, or touch another surface; turn them around, or write "
                "\"twoSided\": true";
     return "what is in view is black itself, or gets too little light";
 }
@@ -117,12 +111,11 @@ std::optional<std::string> diagnoseLight(const Scene &scene) {
     const bool isWhitted = scene.settings.integrator == Integrator::Whitted;
     if (!sources.hasLights && !sources.hasEmitters && !sources.hasEnvironment && !sources.hasBackground)
         return "nothing lights this scene: it has no light, no material with an emission, no environment and "
-               "a black "
-               "background; the picture will be black";
+               "a black background; the picture will be black";
     if (isWhitted && !sources.hasLights)
         return "whitted lights surfaces by lights without size (point, spot, directional) alone, and this "
-               "scene has none: "
-               "--integrator path follows the light of emitters, environments and backgrounds";
+               "scene has none: --integrator path follows the light of emitters, environments and "
+               "backgrounds";
     if (isWhitted && (sources.hasEmitters || sources.hasEnvironment))
         return fmt::format("whitted shows {}, but does not light surfaces by {}: --integrator path does",
                            sources.hasEmitters && sources.hasEnvironment ? "emitters and the environment"
@@ -147,7 +140,8 @@ std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Fil
             "{:.0f} % of the pixels are not finite numbers: the light is too bright for floats; lower the "
             "powers of lights, or move them away from surfaces",
             share * 100.0);
-    if (isBlack && showsLight(scene.loaded.scene.settings.integrator))
+    const bool isKnown = diagnoseLight(scene.loaded.scene).has_value(); // and was said before the render
+    if (isBlack && showsLight(scene.loaded.scene.settings.integrator) && !isKnown)
         return "the picture is black: " + reasonOfBlack(scene);
     return std::nullopt;
 }

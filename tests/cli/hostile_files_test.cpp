@@ -202,6 +202,44 @@ TEST_F(HostileFiles, JsonTakesMemoryInProportion) {
     expectRefused("scene.json", "{\"" + std::string(1 << 22, 'x') + "\": 1}", {"scene.json"});
 }
 
+TEST_F(HostileFiles, GltfIsRefusedWithItsPlace) {
+    const auto gltf = [](const std::string &members) {
+        return R"({"asset": {"version": "2.0"}, )" + members + "}";
+    };
+    expectRefused("scene.gltf", gltf(R"("scenes": [ { "nodes": [ 7 ] } ])"), {"/scenes/0/nodes/0"});
+    expectRefused("scene.gltf",
+                  gltf(R"("scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "children": [ 0 ] } ])"),
+                  {"/nodes/0"});
+    expectRefused("scene.gltf", gltf(R"("extensionsRequired": [ "EXT_none" ])"),
+                  {"/extensionsRequired/0", "EXT_none"});
+    const std::string scene = R"("scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "mesh": 0 } ],
+        "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ], )";
+    const std::string giant =
+        R"("accessors": [ { "componentType": 5126, "type": "VEC3", "count": 2000000000)";
+    expectRefused("scene.gltf", gltf(scene + giant + " } ]"), {"/accessors/0"});
+    expectRefused(
+        "scene.gltf",
+        gltf(scene + giant + R"(, "bufferView": 0 } ], "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+                       "buffers": [ { "byteLength": 36, "uri": "none.bin" } ])"),
+        {"/buffers/0", "none.bin"});
+    expectRefused("scene.glb", "glTF\2\0\0\0\xff\xff\xff\xff"s, {"scene.glb"});
+    expectRefused("scene.glb", "", {"scene.glb"});
+    // Nodes that double with each generation would be 2^40 instances.
+    std::string nodes = R"("scenes": [ { "nodes": [ 0 ] } ], "nodes": [ )";
+    for (int i = 1; i <= 40; ++i)
+        nodes += R"({ "children": [ )" + std::to_string(i) + ", " + std::to_string(i) + " ] }, ";
+    expectRefused("scene.gltf", gltf(nodes + "{} ]"), {"/nodes/"});
+}
+
+TEST_F(HostileFiles, GltfTakesMemoryInProportion) {
+    const std::string asset = R"({"asset": {"version": "2.0"}, )";
+    expectBounded("inspect", "scene.gltf",
+                  asset + R"("nodes": [ )" + repeated("{\"name\":\"\"},", 300'000) + "{} ] }");
+    expectBounded("inspect", "scene.gltf",
+                  asset + R"("materials": [ )" + repeated("{},", 300'000) + "{} ] }");
+    expectBounded("inspect", "scene.gltf", asset + R"("accessors": [ )" + repeated("0,", 500'000) + "0 ] }");
+}
+
 TEST_F(HostileFiles, PngTakesMemoryInProportion) {
     // 33 MB of rows: a stream that could hold them, but does not.
     const std::string cut = bilevelPng(32768, 8192, 40'000);

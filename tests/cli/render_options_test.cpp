@@ -222,6 +222,54 @@ TEST_F(RenderOptions, BackgroundIsWhatRaysSeeThatMeetNothing) {
     }
 }
 
+class RenderEnvironment : public RenderOptions {
+  protected:
+    /// Stores an environment that is different in each direction.
+    void SetUp() override {
+        RenderOptions::SetUp();
+        Image sky(8, 4);
+        for (int y = 0; y < sky.height(); ++y)
+            for (int x = 0; x < sky.width(); ++x)
+                sky.at(x, y) = {1.0f + static_cast<float>(x), 2.0f + static_cast<float>(y), 0.5f};
+        AtomicFile file(folder / "sky.pfm");
+        writeImage(file, imageFormatOf("sky.pfm"), sky, 0.0);
+        file.commit();
+    }
+    /// What is seen by a camera at the origin. `direction` is written as X,Y,Z.
+    [[nodiscard]] Image seen(const std::string &direction, const std::string &options) const {
+        return renderImage(
+            "empty.json --environment sky.pfm --integrator path --sampler centre --width 6 --height 6 "
+            "--fov 60 --spp 1 --device cpu --camera-position 0,0,0 --look-at " +
+            direction + options);
+    }
+    static void expectAlike(const Image &a, const Image &b, float factor) {
+        ASSERT_EQ(a.pixels().size(), b.pixels().size());
+        for (std::size_t i = 0; i < a.pixels().size(); ++i)
+            EXPECT_LT(glm::length(a.pixels()[i] * factor - b.pixels()[i]), 1e-4f * glm::length(b.pixels()[i]))
+                << i;
+    }
+};
+
+TEST_F(RenderEnvironment, IsThatOfTheOption) {
+    const Image ahead = seen("0,0,-1", "");
+    EXPECT_GT(ahead.at(5, 3).x, ahead.at(0, 3).x + 0.5f) << "the image runs from left to right";
+    expectAlike(ahead, seen("0,0,-1", " --environment-scale 2.5"), 2.5f);
+    expectAlike(ahead, seen("-1,0,0", " --environment-rotate 90"), 1.0f);
+    expectAlike(ahead, seen("0,0,1", " --environment-rotate 180"), 1.0f);
+}
+
+TEST_F(RenderEnvironment, ReplacesThatOfTheScene) {
+    store("own.json", R"({"environment": {"file": "sky.pfm", "scale": 7, "rotateDegrees": 33}})");
+    const std::string around = " --integrator path --width 6 --height 6 --spp 1 --device cpu";
+    EXPECT_NE(renderPfm("own.json" + around), renderPfm("own.json --environment sky.pfm" + around));
+    EXPECT_EQ(renderPfm("empty.json --environment sky.pfm" + around),
+              renderPfm("own.json --environment sky.pfm" + around));
+    expectFailure("render empty.json -o a.png --environment-scale 2", 2,
+                  {"--environment-scale", "--environment"});
+    expectFailure("render empty.json -o a.png --environment none.hdr", 3, {"none.hdr"});
+    expectFailure("render empty.json -o a.png --environment square.obj", 3, {"square.obj"});
+}
+
 TEST_F(RenderOptions, ExposureBrightensAPngAndNotAPfm) {
     EXPECT_EQ(renderPfm("spheres --exposure 3" + small), renderPfm("spheres" + small));
     const auto grey = [&](const std::string &exposure) {
