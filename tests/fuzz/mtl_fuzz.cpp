@@ -40,8 +40,8 @@ void run(std::string_view text) {
         (void)refusalOf([&] {
             TextureLibrary textures;
             std::vector<std::string> warnings;
-            for (const Material &material :
-                 loadMtl(file, {std::filesystem::canonical(file.parent_path()), textures, warnings}))
+            FileFinder files(std::filesystem::canonical(file.parent_path()));
+            for (const Material &material : loadMtl(file, {files, textures, warnings}))
                 requireSound(material);
         });
         require(peak.bytes() <= anyFileBytes + 64 * text.size(),
