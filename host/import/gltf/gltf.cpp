@@ -55,6 +55,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     loaded.file = file;
     Scene &scene = loaded.scene;
     scene.settings.integrator = Integrator::Path;
+    scene.settings.tree = TreeKind::Sah; // triangles of models differ in size, which midpoints do not see
     if (options.events.onOutline)
         options.events.onOutline({true, scene.settings});
     TextureLibrary textures;
