@@ -89,7 +89,8 @@ TEST_F(DarkPictures, TheMostLikelyReasonIsNamed) {
         R"("shapes": [ { "type": "quad", "material": "m" }, { "type": "quad", "material": "lamp",
         "transform": [ { "translate": [0, 0, 9] } ] } ])";
     expectWarning("they may face away", floor, " --integrator path");
-    const std::string inside = R"("shapes": [ { "type": "box", "material": "shell", "transform": [ { "scale": 9 } ] } ])";
+    const std::string inside =
+        R"("shapes": [ { "type": "box", "material": "shell", "transform": [ { "scale": 9 } ] } ])";
     store("scene.json", "{" + eye +
                             R"(, "materials": { "shell": { "type": "diffuse", "twoSided": false } }, )" +
                             inside + light + R"([0, 0, 6], "power": 500 } ] })");
