@@ -108,7 +108,8 @@ void shadeHit(uint slot) {
     }
     uint materialIndex;
     Surface surface = hitSurface(slot, materialIndex);
-    MaterialRecord material = hitMaterial(slot, fetchMaterial(materialIndex), texturesBaseColour | texturesEmission, surface.position);
+    MaterialRecord material =
+        hitMaterial(slot, fetchMaterial(materialIndex), texturesBaseColour | texturesEmission, surface.position);
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
     bool isClear = hasDielectric && isGlassForWhitted(material);
