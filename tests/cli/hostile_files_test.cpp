@@ -233,8 +233,9 @@ TEST_F(HostileFiles, GltfIsRefusedWithItsPlace) {
 
 TEST_F(HostileFiles, GltfTakesMemoryInProportion) {
     const std::string asset = R"({"asset": {"version": "2.0"}, )";
-    expectBounded("inspect", "scene.gltf",
-                  asset + R"("nodes": [ )" + repeated("{\"name\":\"\"},", 300'000) + "{} ] }");
+    expectBounded("inspect", "scene.gltf", asset + R"("nodes": [ )" + repeated("{},", 300'000) + "{} ] }");
+    expectRefused("scene.gltf", asset + R"("nodes": [ )" + repeated("{},", 3'000'000) + "{} ] }",
+                  {"/nodes", "256 MiB"});
     expectBounded("inspect", "scene.gltf",
                   asset + R"("materials": [ )" + repeated("{},", 300'000) + "{} ] }");
     expectBounded("inspect", "scene.gltf", asset + R"("accessors": [ )" + repeated("0,", 500'000) + "0 ] }");

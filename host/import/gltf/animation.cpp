@@ -133,31 +133,28 @@ class Curve {
     Interpolation interpolation_;
 };
 
-void move(const Curve &curve, const JsonNode &node, Path path, double seconds, Pose &pose) {
-    if (path != Path::Weights && pose.matrix)
-        node.fail("the node has a matrix; allowed: translation, rotation and scale for nodes that move");
-    const auto vector = [&] {
-        const std::vector<double> numbers = curve.at(seconds, 3, false);
-        return glm::dvec3(numbers[0], numbers[1], numbers[2]);
-    };
-    switch (path) {
-    case Path::Translation:
-        pose.translation = vector();
-        break;
-    case Path::Scale:
-        pose.scale = vector();
-        break;
-    case Path::Rotation: {
+/// Turns, shifts or scales.
+void move(const Curve &curve, const JsonNode &node, Path path, double seconds, Trs &trs) {
+    if (path == Path::Rotation) {
         const std::vector<double> q = curve.at(seconds, 4, true);
-        pose.rotation = {q[0], q[1], q[2], q[3]};
-        if (!(glm::length(pose.rotation) > 1e-3))
+        trs.rotation = {q[0], q[1], q[2], q[3]};
+        if (!(glm::length(trs.rotation) > 1e-3))
             node.fail(fmt::format("has a rotation of length 0 at {} s", seconds));
-        break;
+        return;
     }
-    case Path::Weights:
+    const std::vector<double> numbers = curve.at(seconds, 3, false);
+    (path == Path::Translation ? trs.translation : trs.scale) = {numbers[0], numbers[1], numbers[2]};
+}
+
+void move(const Curve &curve, const JsonNode &node, Path path, double seconds, Pose &pose) {
+    if (path == Path::Weights) {
         pose.weights = curve.at(seconds, curve.numbersPerKey(), false);
-        break;
+        return;
     }
+    auto *const trs = std::get_if<Trs>(&pose.place);
+    if (trs == nullptr)
+        node.fail("the node has a matrix; allowed: translation, rotation and scale for nodes that move");
+    move(curve, node, path, seconds, *trs);
 }
 
 } // namespace
@@ -167,7 +164,7 @@ void animate(Buffers &buffers, double seconds, std::vector<Pose> &poses) {
     std::set<std::pair<std::size_t, Path>> moved;
     for (const JsonNode &animation : elementsOf(document.top(), "animations")) {
         const JsonObject object(animation);
-        const std::vector<JsonNode> samplers = elementsOf(object, "samplers");
+        const Elements samplers = elementsOf(object, "samplers");
         for (const JsonNode &channelNode : elementsOf(object, "channels")) {
             const JsonObject channel(channelNode);
             const JsonObject target(channel.at("target"));

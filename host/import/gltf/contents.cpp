@@ -136,6 +136,8 @@ Contents readContents(const std::filesystem::path &path, const FileReach &reach,
     report.name = document.fileName();
     checkExtensions(document, report.warnings);
 
+    if (const std::size_t count = document.count("nodes"); count > 0)
+        allowance.take(count * NodeTree::bytesEach, document.top().at("nodes"));
     const NodeTree tree(document);
     std::vector<Pose> poses = readPoses(document);
     if (options.timeSeconds)

@@ -28,7 +28,7 @@ void addDeltas(const Attributes &target, std::string_view name, double weight, c
 
 void morph(Buffers &buffers, const JsonObject &object, const std::vector<double> &weights,
            Primitive &primitive) {
-    const std::vector<JsonNode> targets = elementsOf(object, "targets");
+    const Elements targets = elementsOf(object, "targets");
     const std::size_t vertexCount = primitive.attributes.begin()->second.count();
     for (std::size_t i = 0; i < std::min(weights.size(), targets.size()); ++i) {
         if (weights[i] == 0.0)

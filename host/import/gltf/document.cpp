@@ -135,10 +135,13 @@ std::optional<std::size_t> Document::reference(const JsonObject &object, std::st
     return node ? std::optional(reference(*node, array)) : std::nullopt;
 }
 
-std::vector<JsonNode> elementsOf(const JsonObject &object, std::string_view key) {
-    if (const std::optional<JsonNode> node = object.find(key); node && !node->value->is_array())
+Elements elementsOf(const JsonObject &object, std::string_view key) {
+    const std::optional<JsonNode> node = object.find(key);
+    if (!node)
+        return {};
+    if (!node->value->is_array())
         node->refuse("an array");
-    return object.elements(key, static_cast<std::size_t>(byteCount.high));
+    return Elements(*node);
 }
 
 std::vector<double> numbersOf(const JsonNode &node, std::size_t count, const Interval &allowed) {

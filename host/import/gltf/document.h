@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hyalite::gltf {
@@ -56,8 +57,42 @@ class Document {
     std::uint64_t sizeBytes_ = 0;
 };
 
+/// The elements of an array, each made when it is asked for: all of them, with their paths, would take many times the
+/// memory of the file.
+class Elements {
+  public:
+    class Iterator {
+      public:
+        Iterator(const Elements &elements, std::size_t index) : elements_(elements), index_(index) {}
+        JsonNode operator*() const { return elements_[index_]; }
+        Iterator &operator++() {
+            ++index_;
+            return *this;
+        }
+        bool operator!=(const Iterator &other) const { return index_ != other.index_; }
+
+      private:
+        const Elements &elements_;
+        std::size_t index_;
+    };
+
+    Elements() = default;
+    explicit Elements(JsonNode array) : array_(std::move(array)) {}
+
+    [[nodiscard]] std::size_t size() const { return array_ ? array_->value->size() : 0; }
+    [[nodiscard]] bool empty() const { return size() == 0; }
+    [[nodiscard]] JsonNode operator[](std::size_t index) const {
+        return {&(*array_->value)[index], array_->fileName, array_->path / index};
+    }
+    [[nodiscard]] Iterator begin() const { return {*this, 0}; }
+    [[nodiscard]] Iterator end() const { return {*this, size()}; }
+
+  private:
+    std::optional<JsonNode> array_;
+};
+
 /// The elements of an array in an object; none where the key is missing.
-[[nodiscard]] std::vector<JsonNode> elementsOf(const JsonObject &object, std::string_view key);
+[[nodiscard]] Elements elementsOf(const JsonObject &object, std::string_view key);
 
 /// The numbers of an array, exactly `count` of them.
 [[nodiscard]] std::vector<double> numbersOf(const JsonNode &node, std::size_t count,

@@ -28,16 +28,16 @@ std::vector<glm::dmat4x3> readInstancing(Buffers &buffers, const JsonObject &ext
     std::vector<glm::dmat4x3> maps;
     maps.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        Pose pose;
+        Trs trs;
         if (translations != nullptr)
-            pose.translation = glm::dvec3(translations->vec3(i));
+            trs.translation = glm::dvec3(translations->vec3(i));
         if (rotations != nullptr)
-            pose.rotation = glm::dvec4(rotations->vec4(i));
+            trs.rotation = glm::dvec4(rotations->vec4(i));
         if (scales != nullptr)
-            pose.scale = glm::dvec3(scales->vec3(i));
-        if (!(glm::length(pose.rotation) > 1e-3))
+            trs.scale = glm::dvec3(scales->vec3(i));
+        if (!(glm::length(trs.rotation) > 1e-3))
             rotations->node().fail(fmt::format("element {} is a rotation of length 0", i));
-        maps.push_back(pose.toParent());
+        maps.push_back(trs.toMatrix());
     }
     return maps;
 }

@@ -37,11 +37,10 @@ std::optional<Light> readLight(const Document &document, const JsonObject &node,
         return std::nullopt;
     const JsonNode index = use->at("light");
     const std::optional<JsonObject> extension = extensionOf(document.top(), "KHR_lights_punctual");
-    const std::vector<JsonNode> lights =
-        extension ? elementsOf(*extension, "lights") : std::vector<JsonNode>();
+    const Elements lights = extension ? elementsOf(*extension, "lights") : Elements();
     if (lights.empty())
         index.refuse("an index of /extensions/KHR_lights_punctual/lights, of which there are none");
-    const JsonNode &lightNode =
+    const JsonNode lightNode =
         lights[static_cast<std::size_t>(index.wholeNumber({0.0, static_cast<double>(lights.size() - 1)}))];
     const JsonObject object(lightNode);
     Light light;

@@ -25,21 +25,28 @@ glm::dmat4x3 readMatrix(const JsonNode &node) {
     return matrix;
 }
 
+Trs readTrs(const JsonObject &object) {
+    Trs trs;
+    trs.translation = object.vector("translation", limits::coordinate, trs.translation);
+    trs.scale = object.vector("scale", limits::coordinate, trs.scale);
+    if (const std::optional<JsonNode> rotation = object.find("rotation")) {
+        const std::vector<double> q = numbersOf(*rotation, 4, {-1.0, 1.0});
+        trs.rotation = {q[0], q[1], q[2], q[3]};
+        if (!(glm::length(trs.rotation) > 1e-3))
+            rotation->refuse("a unit quaternion");
+    }
+    return trs;
+}
+
 Pose readPose(const JsonObject &object) {
     Pose pose;
     if (const std::optional<JsonNode> matrix = object.find("matrix")) {
         for (const std::string_view key : {"translation", "rotation", "scale"})
             if (const std::optional<JsonNode> other = object.find(key))
                 other->fail("found beside \"matrix\"; allowed: one of the two");
-        pose.matrix = readMatrix(*matrix);
-    }
-    pose.translation = object.vector("translation", limits::coordinate, pose.translation);
-    pose.scale = object.vector("scale", limits::coordinate, pose.scale);
-    if (const std::optional<JsonNode> rotation = object.find("rotation")) {
-        const std::vector<double> q = numbersOf(*rotation, 4, {-1.0, 1.0});
-        pose.rotation = {q[0], q[1], q[2], q[3]};
-        if (!(glm::length(pose.rotation) > 1e-3))
-            rotation->refuse("a unit quaternion");
+        pose.place = readMatrix(*matrix);
+    } else {
+        pose.place = readTrs(object);
     }
     if (const std::optional<JsonNode> weights = object.find("weights"))
         pose.weights = numbersOf(*weights, weights->value->size());
@@ -57,74 +64,79 @@ glm::dmat3 rotationOf(const glm::dvec4 &quaternion) {
             2.0 * (x * z + y * w),       2.0 * (y * z - x * w),       1.0 - 2.0 * (x * x + y * y)};
 }
 
-std::vector<std::size_t> readChildren(const Document &document, const JsonObject &object,
-                                      std::string_view key) {
-    std::vector<std::size_t> children;
-    for (const JsonNode &child : elementsOf(object, key))
-        children.push_back(document.reference(child, "nodes"));
-    return children;
-}
-
 } // namespace
 
-glm::dmat4x3 Pose::toParent() const {
-    if (matrix)
-        return *matrix;
+glm::dmat4x3 Trs::toMatrix() const {
     const glm::dmat3 turned = rotationOf(rotation);
     return {turned[0] * scale.x, turned[1] * scale.y, turned[2] * scale.z, translation};
 }
 
+glm::dmat4x3 Pose::toParent() const {
+    const auto *const trs = std::get_if<Trs>(&place);
+    return trs != nullptr ? trs->toMatrix() : std::get<glm::dmat4x3>(place);
+}
+
 std::vector<Pose> readPoses(const Document &document) {
+    const Elements nodes = elementsOf(document.top(), "nodes");
     std::vector<Pose> poses;
-    for (const JsonNode &node : elementsOf(document.top(), "nodes"))
+    poses.reserve(nodes.size());
+    for (const JsonNode &node : nodes)
         poses.push_back(readPose(JsonObject(node)));
     return poses;
 }
 
 NodeTree::NodeTree(const Document &document) {
-    for (const JsonNode &node : elementsOf(document.top(), "nodes"))
-        children_.push_back(readChildren(document, JsonObject(node), "children"));
-    parents_.resize(children_.size());
-    for (std::size_t parent = 0; parent < children_.size(); ++parent)
-        for (std::size_t i = 0; i < children_[parent].size(); ++i) {
-            std::optional<std::size_t> &known = parents_[children_[parent][i]];
-            if (known)
-                JsonNode(JsonObject(document.at("nodes", parent)).at("children"))
-                    .fail(fmt::format("node {} is a child of node {}, too; allowed: one parent",
-                                      children_[parent][i], *known));
-            known = parent;
+    const Elements nodes = elementsOf(document.top(), "nodes");
+    firstChildren_.reserve(nodes.size() + 1);
+    firstChildren_.push_back(0);
+    parents_.resize(nodes.size(), noParent);
+    for (std::size_t parent = 0; parent < nodes.size(); ++parent) {
+        const JsonObject object(nodes[parent]);
+        for (const JsonNode &node : elementsOf(object, "children")) {
+            const std::size_t child = document.reference(node, "nodes");
+            Index &known = parents_[child];
+            if (known != noParent)
+                object.at("children")
+                    .fail(
+                        fmt::format("node {} is a child of node {}, too; allowed: one parent", child, known));
+            known = static_cast<Index>(parent);
+            children_.push_back(static_cast<Index>(child));
         }
-    std::vector<std::size_t> roots;
+        firstChildren_.push_back(static_cast<Index>(children_.size()));
+    }
+    std::vector<Index> roots;
     for (std::size_t i = 0; i < parents_.size(); ++i)
-        if (!parents_[i])
-            roots.push_back(i);
+        if (parents_[i] == noParent)
+            roots.push_back(static_cast<Index>(i));
     all_ = descend(roots);
-    if (all_.size() == children_.size())
+    if (all_.size() == nodes.size())
         return;
-    std::vector<bool> isReached(children_.size(), false); // a circle has no root
-    for (const std::size_t node : all_)
+    std::vector<bool> isReached(nodes.size(), false); // a circle has no root
+    for (const Index node : all_)
         isReached[node] = true;
     const auto lost = static_cast<std::size_t>(std::ranges::find(isReached, false) - isReached.begin());
-    document.at("nodes", lost).fail("the node is its own ancestor, or below one that is");
+    nodes[lost].fail("the node is its own ancestor, or below one that is");
 }
 
-std::vector<std::size_t> NodeTree::descend(const std::vector<std::size_t> &roots) const {
-    std::vector<std::size_t> order;
-    std::vector<std::size_t> waiting(roots.rbegin(), roots.rend());
+std::vector<NodeTree::Index> NodeTree::descend(const std::vector<Index> &roots) const {
+    std::vector<Index> order;
+    std::vector<Index> waiting(roots.rbegin(), roots.rend());
     while (!waiting.empty()) {
-        const std::size_t node = waiting.back();
+        const Index node = waiting.back();
         waiting.pop_back();
         order.push_back(node);
-        waiting.insert(waiting.end(), children_[node].rbegin(), children_[node].rend());
+        const std::span<const Index> children = childrenOf(node);
+        waiting.insert(waiting.end(), children.rbegin(), children.rend());
     }
     return order;
 }
 
 std::vector<glm::dmat4x3> NodeTree::toWorld(const std::vector<Pose> &poses) const {
     std::vector<glm::dmat4x3> maps(poses.size());
-    for (const std::size_t node : all_) {
+    for (const Index node : all_) {
         const glm::dmat4x3 own = poses[node].toParent();
-        maps[node] = parents_[node] ? composed(maps[*parents_[node]], own) : own;
+        const Index parent = parents_[node];
+        maps[node] = parent == noParent ? own : composed(maps[parent], own);
     }
     return maps;
 }
@@ -132,19 +144,23 @@ std::vector<glm::dmat4x3> NodeTree::toWorld(const std::vector<Pose> &poses) cons
 std::vector<std::size_t> NodeTree::nodesOfScene(const Document &document, const std::string &choice) const {
     const std::optional<std::size_t> ownChoice = document.reference(document.top(), "scene", "scenes");
     if (document.count("scenes") == 0 && choice.empty())
-        return all_;
+        return {all_.begin(), all_.end()};
     const std::size_t scene =
         choice.empty() ? ownChoice.value_or(0) : chosenElement(document, "scenes", "scene", choice);
     const JsonObject object(document.at("scenes", scene));
-    const std::vector<std::size_t> roots = readChildren(document, object, "nodes");
-    std::vector<bool> isTaken(children_.size(), false);
-    for (const std::size_t root : roots) {
-        if (parents_[root] || isTaken[root])
+    std::vector<Index> roots;
+    std::vector<bool> isTaken(parents_.size(), false);
+    for (const JsonNode &node : elementsOf(object, "nodes")) {
+        const std::size_t root = document.reference(node, "nodes");
+        const bool hasParent = parents_[root] != noParent;
+        if (hasParent || isTaken[root])
             object.at("nodes").fail(fmt::format("node {} is {}; allowed: nodes without parents, each once",
-                                                root, parents_[root] ? "a child of another" : "named twice"));
+                                                root, hasParent ? "a child of another" : "named twice"));
         isTaken[root] = true;
+        roots.push_back(static_cast<Index>(root));
     }
-    return descend(roots);
+    const std::vector<Index> nodes = descend(roots);
+    return {nodes.begin(), nodes.end()};
 }
 
 std::size_t chosenElement(const Document &document, std::string_view array, std::string_view what,

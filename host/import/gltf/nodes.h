@@ -8,18 +8,27 @@
 #include <glm/vec4.hpp>
 
 #include <cstddef>
-#include <optional>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace hyalite::gltf {
 
-/// Where a node is, relative to its parent. Animations change it.
-struct Pose {
-    std::optional<glm::dmat4x3> matrix{}; ///< in place of the three that follow
+/// A translation of a rotation of a scale.
+struct Trs {
     glm::dvec3 translation{0.0};
     glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0}; ///< a quaternion x, y, z, w of any length but 0
     glm::dvec3 scale{1.0};
+
+    [[nodiscard]] glm::dmat4x3 toMatrix() const;
+};
+
+/// Where a node is, relative to its parent. Animations change it.
+struct Pose {
+    std::variant<Trs, glm::dmat4x3> place{};
     std::vector<double> weights{}; ///< of the morph targets of its mesh; none: those of the mesh
 
     [[nodiscard]] glm::dmat4x3 toParent() const;
@@ -31,6 +40,9 @@ struct Pose {
 /// Which nodes are children of which.
 class NodeTree {
   public:
+    /// Memory of a node with its JSON, its pose and its map to the world.
+    static constexpr std::size_t bytesEach = 320;
+
     /// Throws Error{BadInput} for a node with two parents, and for one that is its own ancestor.
     explicit NodeTree(const Document &document);
 
@@ -44,11 +56,20 @@ class NodeTree {
                                                         const std::string &choice) const;
 
   private:
-    [[nodiscard]] std::vector<std::size_t> descend(const std::vector<std::size_t> &roots) const;
+    /// Nodes are counted by 32 bits: a file has at most 512 MiB, and a million of them should take little memory.
+    using Index = std::uint32_t;
+    static constexpr Index noParent = ~Index{0};
 
-    std::vector<std::vector<std::size_t>> children_;
-    std::vector<std::optional<std::size_t>> parents_;
-    std::vector<std::size_t> all_; ///< parents before their children
+    [[nodiscard]] std::span<const Index> childrenOf(std::size_t node) const {
+        return std::span(children_).subspan(firstChildren_[node],
+                                            firstChildren_[node + 1] - firstChildren_[node]);
+    }
+    [[nodiscard]] std::vector<Index> descend(const std::vector<Index> &roots) const;
+
+    std::vector<Index> firstChildren_; ///< where those of each node begin in `children_`; one more is the end
+    std::vector<Index> children_;
+    std::vector<Index> parents_;
+    std::vector<Index> all_; ///< parents before their children
 };
 
 /// The index of the element of `array` that a user means: by its member "name", or by its index in digits. Throws

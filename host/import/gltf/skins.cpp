@@ -25,7 +25,7 @@ std::vector<glm::dmat4x3> jointMaps(Buffers &buffers, std::size_t skin,
                                     const std::vector<glm::dmat4x3> &toWorld) {
     const Document &document = buffers.document();
     const JsonObject object(document.at("skins", skin));
-    const std::vector<JsonNode> joints = elementsOf(object, "joints");
+    const Elements joints = elementsOf(object, "joints");
     if (joints.empty())
         object.at("joints").refuse("an array of nodes, at least one");
     std::optional<Accessor> inverses;
