@@ -19,7 +19,49 @@ import sys
 MODELS = "/usr/share/assimp/models/glTF2/"
 WIDTH, HEIGHT = 160, 120
 
-# Name, file, "matte" or the roughness of a metal, position and target of the camera, horizontal field of view.
+
+def add_nodes(document, nodes):
+    """Adds nodes to the scene, beside those that are there."""
+    scene = document["scenes"][document.get("scene", 0)]
+    for node in nodes:
+        scene["nodes"].append(len(document["nodes"]))
+        document["nodes"].append(node)
+
+
+def add_lights(document):
+    """A point, a spot and a sun, each of its own colour. A light shines along -z of its node."""
+    tilted = [-0.5, 0, 0, 0.8660254037844386]  # 60 degrees down
+    document.setdefault("extensions", {})["KHR_lights_punctual"] = {"lights": [
+        {"type": "point", "intensity": 2, "color": [1, 0.7, 0.4]},
+        {"type": "spot", "intensity": 8, "color": [0.4, 1, 0.5], "spot": {"outerConeAngle": 0.4}},
+        {"type": "directional", "intensity": 1.5, "color": [0.5, 0.6, 1]}]}
+    document.setdefault("extensionsUsed", []).append("KHR_lights_punctual")
+    add_nodes(document, [
+        {"translation": place, "rotation": tilted, "extensions": {"KHR_lights_punctual": {"light": light}}}
+        for light, place in enumerate(([1.2, 0.9, 0.3], [0.2, 1.9, 1.2], [0, 3, 0]))])
+
+
+def add_mirrored(document):
+    """The first mesh again, under nodes that mirror, shear and turn it."""
+    first = len(document["nodes"])
+    document["nodes"] += [{"mesh": 0, "rotation": [0, 0.3826834, 0, 0.9238795]},
+                          {"children": [first], "scale": [-0.8, 0.5, 1], "translation": [0, 0.9, 0]}]
+    document["scenes"][document.get("scene", 0)]["nodes"].append(first + 1)
+
+
+def add_tiles(document):
+    """The texture tinted, turned and tiled: mirrored in one direction, repeated in the other."""
+    document["samplers"] = [{"wrapS": 33648, "wrapT": 10497}]
+    document["textures"][0]["sampler"] = 0
+    document.setdefault("extensionsUsed", []).append("KHR_texture_transform")
+    base = document["materials"][0]["pbrMetallicRoughness"]
+    base["baseColorFactor"] = [1, 0.6, 0.3, 1]
+    base["baseColorTexture"]["extensions"] = {
+        "KHR_texture_transform": {"offset": [0.2, -0.7], "rotation": 0.5, "scale": [0.6, 0.35]}}
+
+
+# Name, file, look ("matte" or the roughness of a metal), position and target of the camera, horizontal field
+# of view, and what is added to the document.
 CASES = [
     ("box", "BoxTextured-glTF-Embedded/BoxTextured.gltf", "matte", "1.3,1.1,1.6", "0,0,0", 40),
     ("box, metal 0.2", "BoxTextured-glTF-Embedded/BoxTextured.gltf", 0.2, "1.3,1.1,1.6", "0,0,0", 40),
@@ -32,6 +74,9 @@ CASES = [
     ("texture transform", "textureTransform/TextureTransformTest.gltf", "matte", "0.5,0.3,4", "0,0,0", 45),
     ("strip", "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_12.gltf", "matte", "0.3,0.2,1.3", "0,0,0",
      60),
+    ("mirrored", "BoxTextured-glTF-Embedded/BoxTextured.gltf", "matte", "1.8,1.5,2.2", "0,0.3,0", 40, add_mirrored),
+    ("lights", "BoxTextured-glTF-Embedded/BoxTextured.gltf", "matte", "1.3,1.1,1.6", "0,0,0", 40, add_lights),
+    ("tiled", "BoxTextured-glTF-Embedded/BoxTextured.gltf", "matte", "1.3,1.1,1.6", "0,0,0", 40, add_tiles),
 ]
 
 
@@ -97,12 +142,14 @@ def with_look(document, look):
 
 
 def compare(hyalite, folder, spp, case):
-    name, file, look, position, target, fov = case
+    name, file, look, position, target, fov, *additions = case
     own = os.path.join(folder, name.replace(" ", "-").replace(",", ""))
     shutil.rmtree(own, ignore_errors=True)
     shutil.copytree(os.path.dirname(MODELS + file), own)
     model = os.path.join(own, os.path.basename(file))
     document, chunks = read_gltf(model)
+    for add in additions:
+        add(document)
     write_gltf(model, with_look(document, look), chunks)
     theirs, ours, report = (os.path.join(own, part) for part in ("cycles.exr", "hyalite.pfm", "diff.json"))
     script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "cycles.py")

@@ -78,7 +78,9 @@ def main():
     model, look, sky, out, position, target, *numbers = sys.argv[sys.argv.index("--") + 1:]
     fov, width, height, spp = (int(number) for number in numbers)
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.import_scene.gltf(filepath=model)
+    bpy.ops.import_scene.gltf(filepath=model, convert_lighting_mode="COMPAT")  # watts, as ours
+    for light in bpy.data.lights:
+        light.shadow_soft_size = 0
     scene = bpy.context.scene
     set_look(look)
     set_camera(scene, point(position), point(target), fov)
