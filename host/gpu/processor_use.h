@@ -21,10 +21,9 @@ struct ProcessorUse {
 
 /// Sets environment variables that lavapipe reads when its driver is loaded (https://docs.mesa3d.org/envvars.html): the
 /// number of threads and, unless the user has set it, the vector width. 512-bit vectors take three quarters of the time
-/// in scenes without triangles, where kernels compute and rarely read, and nine tenths in other scenes as long as rays
-/// are coherent. Paths through a tree soon diverge, and then 16 lanes idle more than 8. So do the rays that glass
-/// splits off at great depth: twice the time if the glass is a mesh. Do not call this while other threads read the
-/// environment.
+/// in scenes without triangles, where kernels compute and rarely read, and 0.65 to 0.9 in other scenes, of paths, too
+/// (tests/bench/README.md). The rays that glass splits off at great depth lose: 16 lanes idle more than 8, and take
+/// twice the time if the glass is a mesh. Do not call this while other threads read the environment.
 void tellLavapipe(const ProcessorUse &use);
 
 /// Whether the device is a lavapipe on which 512-bit vectors are known to be faster. They are up to Mesa 22. Mesa 25 was
