@@ -36,9 +36,9 @@ char widthSetting[] = "LP_NATIVE_VECTOR_WIDTH=512";
 
 char *widthValue() { return std::strchr(widthSetting, '=') + 1; }
 
-bool gainFromWideVectors(const ProcessorUse &use) {
-    return !rowOf(use.integrator).splitsAtGlass ||
-           use.maxDepth <= (use.hasTriangles ? maxDepthInTree : maxDepthOfSpheres);
+bool maySplitDeeply(const ProcessorUse &use) {
+    return rowOf(use.integrator).splitsAtGlass &&
+           use.maxDepth > (use.hasTriangles ? maxDepthInTree : maxDepthOfSpheres);
 }
 
 } // namespace
@@ -46,7 +46,7 @@ bool gainFromWideVectors(const ProcessorUse &use) {
 void tellLavapipe(const ProcessorUse &use) {
     if (use.threadCount > 0)
         setenv("LP_NUM_THREADS", std::to_string(use.threadCount).c_str(), 1);
-    if (gainFromWideVectors(use) && hasWideVectors() && std::getenv(widthVariable) == nullptr)
+    if (!maySplitDeeply(use) && hasWideVectors() && std::getenv(widthVariable) == nullptr)
         putenv(widthSetting);
 }
 

@@ -44,9 +44,8 @@ def add_lights(document):
 def add_mirrored(document):
     """The first mesh again, under nodes that mirror, shear and turn it."""
     first = len(document["nodes"])
-    document["nodes"] += [{"mesh": 0, "rotation": [0, 0.3826834, 0, 0.9238795]},
-                          {"children": [first], "scale": [-0.8, 0.5, 1], "translation": [0, 0.9, 0]}]
-    document["scenes"][document.get("scene", 0)]["nodes"].append(first + 1)
+    document["nodes"].append({"mesh": 0, "rotation": [0, 0.3826834, 0, 0.9238795]})
+    add_nodes(document, [{"children": [first], "scale": [-0.8, 0.5, 1], "translation": [0, 0.9, 0]}])
 
 
 def add_tiles(document):
