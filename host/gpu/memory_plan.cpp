@@ -117,6 +117,8 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
         plan("the spheres", BufferUse::Uniform, sizeof(layout::SphereRecord) * layout::maxUnrolledSpheres);
     planned.buffers[layout::bindingLightConstants] =
         plan("the first lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxUniformLights);
+    planned.buffers[layout::bindingPairConstants] =
+        plan("the pairs of triangles", BufferUse::Uniform, sizeof(layout::TrianglePair) * layout::maxListedTriangles);
     for (const SceneArray &array : scene.arrays())
         planned.buffers[array.binding] = plan(fmt::format("the {}", array.name), use, array.bytes.size());
     if (isSkipList) {

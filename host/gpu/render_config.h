@@ -38,7 +38,7 @@ struct RenderConfig {
 
 /// Kinds of scenes for which different kernels are fast.
 enum class Workload {
-    Spheres,   ///< no triangles: kernels compute and rarely read
+    Spheres,   ///< no tree: kernels compute and rarely read
     Triangles, ///< rays go through a tree
     Shading    ///< most code is shading: paths with rough surfaces or an environment
 };

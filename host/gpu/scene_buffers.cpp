@@ -54,6 +54,7 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
     bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.loopSpheres));
     bytes[layout::bindingLightConstants] = std::as_bytes(
         std::span(scene.lights).first(std::min<std::size_t>(scene.lights.size(), layout::maxUniformLights)));
+    bytes[layout::bindingPairConstants] = std::as_bytes(std::span(scene.trianglePairs));
     for (const SceneArray &array : scene.arrays())
         bytes[array.binding] = array.bytes;
     if (isSkipList)

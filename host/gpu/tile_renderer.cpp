@@ -142,6 +142,8 @@ Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, 
     constants[layout::constantCamera] = scene.camera;
     constants[layout::constantTexturing] = scene.texturing;
     constants[layout::constantPassing] = scene.passing;
+    constants[layout::constantTrianglePairs] =
+        config.traversal == Traversal::SkipList ? static_cast<std::uint32_t>(scene.trianglePairs.size()) : 0;
     constants[layout::constantView] = rowOf(job.integrator).view;
     constants[layout::constantSampler] = job.sampler;
     constants[layout::constantStackSize] = plan.stackSize;

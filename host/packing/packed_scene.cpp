@@ -3,6 +3,7 @@
 #include "host/base/hash.h"
 #include "host/packing/emitters.h"
 #include "host/packing/environment.h"
+#include "host/packing/listed_triangles.h"
 #include "host/packing/microfacet_energy.h"
 #include "host/packing/packed_trees.h"
 #include "host/packing/pixel_filter.h"
@@ -355,6 +356,11 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
         packFilter(packed);
     if (aimsAtEmitters)
         packEmitters(scene, isLitAround, packed);
+    // Where light comes from within, paths are long and their rays go everywhere. Elsewhere the tree takes less time.
+    const bool isClosed = aimsAtEmitters && !isLitAround && scene.background == glm::vec3(0.0f);
+    if (isClosed && packed.treeSpheres == layout::treeHasTriangles && packed.instances.empty() &&
+        packed.triangles.size() <= layout::maxListedTriangles)
+        packed.trianglePairs = pairTriangles(packed.triangles);
     if (packed.hasTriangles) {
         packed.frame.boundsLower = bvh.nodes.front().box.lower;
         packed.frame.boundsUpper = bvh.nodes.front().box.upper;

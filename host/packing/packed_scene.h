@@ -33,6 +33,8 @@ struct PackedScene {
     /// The scene's own tree, then those of the prototypes. The triangle records are in the same order.
     std::vector<PackedTree> trees;
     std::vector<layout::SphereRecord> loopSpheres; ///< those outside the tree
+    /// All triangles, where kernels are to test them in turn: few in a closed room, with nothing else in the tree.
+    std::vector<layout::TrianglePair> trianglePairs;
     int treeDepth = 0;                             ///< subtrees that can wait on a traversal stack
 
     // The scene arrays, by the names that shaders/layout/buffers.h gives them.

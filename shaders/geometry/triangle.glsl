@@ -37,36 +37,68 @@ TriangleRay makeTriangleRay(vec3 origin, vec3 direction) {
     return ray;
 }
 
+// A vertex as the ray sees it, for an origin at 0.
+struct VertexImage {
+    vec2 place;
+    float along; // the ray's axis
+};
+
+VertexImage imageOfVertex(TriangleRay ray, vec3 toVertex) {
+    vec3 turned = axisToZ(toVertex, ray.axis);
+    return VertexImage(vec2(turned) - vec2(ray.shear) * turned.z, turned.z);
+}
+
+// Positive or negative: on which side of the edge from p to q the ray is. The edge from q to p has the opposite.
+float edgeFunction(VertexImage p, VertexImage q) { return q.place.x * p.place.y - q.place.y * p.place.x; }
+
+// Whether the line of the ray goes through the triangle with these edge functions.
+bool isInside(float e0, float e1, float e2) {
+    float least = lesser(lesser(e0, e1), e2);
+    float greatest = greater(greater(e0, e1), e2);
+    return lesser(greatest, -least) <= 0.0; // least >= 0 or greatest <= 0
+}
+
 TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, vec3 v2) {
     vec3 to0 = v0 - ray.origin;
     vec3 to1 = v1 - ray.origin;
     vec3 to2 = v2 - ray.origin;
-    vec3 a = axisToZ(to0, ray.axis);
-    vec3 b = axisToZ(to1, ray.axis);
-    vec3 c = axisToZ(to2, ray.axis);
-    vec2 shear = vec2(ray.shear);
-    vec2 p = vec2(a) - shear * a.z;
-    vec2 q = vec2(b) - shear * b.z;
-    vec2 r = vec2(c) - shear * c.z;
-    float e0 = r.x * q.y - r.y * q.x;
-    float e1 = p.x * r.y - p.y * r.x;
-    float e2 = q.x * p.y - q.y * p.x;
-    float least = lesser(lesser(e0, e1), e2);
-    float greatest = greater(greater(e0, e1), e2);
-    bool isInside = lesser(greatest, -least) <= 0.0; // least >= 0 or greatest <= 0
+    VertexImage p = imageOfVertex(ray, to0);
+    VertexImage q = imageOfVertex(ray, to1);
+    VertexImage r = imageOfVertex(ray, to2);
+    float e0 = edgeFunction(q, r);
+    float e1 = edgeFunction(r, p);
+    float e2 = edgeFunction(p, q);
     float determinant = e0 + e1 + e2;
     float inverse = divide(1.0, determinant);
     float u = e0 * inverse;
     float v = e1 * inverse;
     float w = e2 * inverse;
-    float depth = (u * a.z + v * b.z + w * c.z) * ray.shear.z;
+    float depth = (u * p.along + v * q.along + w * r.along) * ray.shear.z;
     vec2 interval =
         relativeBoxInterval(boxRay, lesser(lesser(to0, to1), to2), greater(greater(to0, to1), to2));
     float distance = lesser(greater(depth, interval.x), interval.y);
-    bool isHit = isInside && determinant != 0.0 && interval.x <= interval.y;
+    bool isHit = isInside(e0, e1, e2) && determinant != 0.0 && interval.x <= interval.y;
     // The determinant is twice the area of the image: of triangles seen from their front it has the sign of shear.z.
     bool isBehind = (determinant < 0.0) != (ray.shear.z < 0.0);
     return TriangleHit(isHit ? distance : 0.0, u, v, isBehind);
+}
+
+// The triangles of a pair that intersectTriangle may find hit up to `rayLength`: those whose image the line of the ray
+// goes through, unless both are behind the origin or beyond, along the axis. The interval of the axis holds those of
+// their boxes, by the same operations (relativeBoxInterval), so that no hit is lost.
+uint trianglesOnRay(TriangleRay ray, float pad, float rayLength, TrianglePair pair) {
+    VertexImage p = imageOfVertex(ray, pair.v0 - ray.origin);
+    VertexImage q = imageOfVertex(ray, pair.v1 - ray.origin);
+    VertexImage r = imageOfVertex(ray, pair.v2 - ray.origin);
+    VertexImage s = imageOfVertex(ray, pair.v3 - ray.origin);
+    float diagonal = edgeFunction(r, p);
+    uint found = isInside(edgeFunction(p, q), edgeFunction(q, r), diagonal) ? pair.first : 0u;
+    found |= isInside(edgeFunction(r, s), edgeFunction(s, p), -diagonal) ? pair.second : 0u;
+    float least = lesser(lesser(p.along, q.along), lesser(r.along, s.along));
+    float greatest = greater(greater(p.along, q.along), greater(r.along, s.along));
+    float toLower = (least - pad) * ray.shear.z;
+    float toUpper = (greatest + pad) * ray.shear.z;
+    return greater(toLower, toUpper) > 0.0 && lesser(toLower, toUpper) <= rayLength ? found : 0u;
 }
 
 // The point at barycentric weights u, v, 1-u-v.

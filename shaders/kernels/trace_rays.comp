@@ -12,6 +12,7 @@ const bool hasBounces = false;
 #include "shaders/memory/scene_data.glsl"
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/leaves.glsl"
+#include "shaders/traversal/preloaded.glsl"
 #include "shaders/memory/lanes.glsl"
 #include "shaders/integrators/path_slots.glsl"
 #include "shaders/traversal/meet_triangle.glsl"

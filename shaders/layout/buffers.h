@@ -1,4 +1,4 @@
-// The buffers of the integrators' kernels, all in set 0: three uniform buffers, then storage buffers. Those of the
+// The buffers of the integrators' kernels, all in set 0: four uniform buffers, then storage buffers. Those of the
 // scene come first. Compiled as C++ and as GLSL.
 #ifndef HYALITE_BUFFERS_H
 #define HYALITE_BUFFERS_H
@@ -12,24 +12,25 @@ namespace hyalite::layout {
 const uint bindingFrame = 0u;
 const uint bindingSphereConstants = 1u; // spheres outside the tree, maxUnrolledSpheres at most
 const uint bindingLightConstants = 2u;  // the first lights again, maxUniformLights at most
-const uint uniformBufferCount = 3u;
-const uint bindingNodes = 3u; // node pairs, or skip nodes
+const uint bindingPairConstants = 3u;   // all triangles if they are few, maxListedTriangles at most
+const uint uniformBufferCount = 4u;
+const uint bindingNodes = 4u; // node pairs, or skip nodes
 
 // Scene arrays: a row each, in the order of their bindings. The row is the only place to edit: PackedScene gets a
 // vector of the name, which is planned, counted, uploaded and bound, and both renderers read its records by the fetch
 // function.
 // clang-format off
 #define HYALITE_SCENE_ARRAYS(ARRAY) \
-    ARRAY(bindingSpheres,   4u,  spheres,   SphereRecord,   fetchSphere) \
-    ARRAY(bindingTriangles, 5u,  triangles, TriangleRecord, fetchTriangle) \
-    ARRAY(bindingNormals,   6u,  normals,   NormalRecord,   fetchNormals) \
-    ARRAY(bindingMaterials, 7u,  materials, MaterialRecord, fetchMaterial) \
-    ARRAY(bindingEmitters,  8u,  emitters,  EmitterRecord,  fetchEmitter) \
-    ARRAY(bindingLookups,   9u,  lookups,   LookupRow,      fetchLookupRow) \
-    ARRAY(bindingTextures,  10u, textures,  TextureRow,     fetchTextureRow) \
-    ARRAY(bindingInstances, 11u, instances, InstanceRecord, fetchInstance) \
-    ARRAY(bindingLights,    12u, lights,    LightRecord,    fetchLight) \
-    ARRAY(bindingLightNodes, 13u, lightNodes, LightNode,    fetchLightNode)
+    ARRAY(bindingSpheres,   5u,  spheres,   SphereRecord,   fetchSphere) \
+    ARRAY(bindingTriangles, 6u,  triangles, TriangleRecord, fetchTriangle) \
+    ARRAY(bindingNormals,   7u,  normals,   NormalRecord,   fetchNormals) \
+    ARRAY(bindingMaterials, 8u,  materials, MaterialRecord, fetchMaterial) \
+    ARRAY(bindingEmitters,  9u,  emitters,  EmitterRecord,  fetchEmitter) \
+    ARRAY(bindingLookups,   10u,  lookups,   LookupRow,      fetchLookupRow) \
+    ARRAY(bindingTextures,  11u, textures,  TextureRow,     fetchTextureRow) \
+    ARRAY(bindingInstances, 12u, instances, InstanceRecord, fetchInstance) \
+    ARRAY(bindingLights,    13u, lights,    LightRecord,    fetchLight) \
+    ARRAY(bindingLightNodes, 14u, lightNodes, LightNode,    fetchLightNode)
 // clang-format on
 
 #define HYALITE_BINDING(number, value, name, Record, fetch) const uint number = value;

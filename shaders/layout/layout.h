@@ -24,6 +24,7 @@ using uint = std::uint32_t;
 // As many are tested by every ray, from a uniform buffer; others are in the tree.
 const uint maxUnrolledSpheres = 16u;
 const uint maxUniformLights = 16u; // the first ones are in a uniform buffer, too
+const uint maxListedTriangles = 32u; // of a tree that skip lists do without: a bit each in a word
 const uint maxPathDepth = 32u;
 const uint maxTreeDepth = 64u; // and the size of a traversal stack: builders keep every tree below it
 
@@ -73,6 +74,18 @@ const uint triangleIsSheer = 4u;        // its material is not there for every r
 const uint triangleIsSphere = 8u;
 const uint triangleIsCulled = 16u;    // it is not there for rays from behind
 const uint triangleEmitterShift = 5u; // the other bits: of the light tree, the index of its emitter
+
+// Two triangles of a scene with few: v0 v1 v2, and v0 v2 v3 unless `second` is 0.
+struct TrianglePair {
+    vec3 v0;
+    uint first; // the bit of its index
+    vec3 v1;
+    uint second;
+    vec3 v2;
+    uint pad0;
+    vec3 v3;
+    uint pad1;
+};
 
 // Shading normals of the triangle with the same index. Zero vectors mean: use the geometric normal.
 struct NormalRecord {
@@ -690,7 +703,8 @@ const uint constantTreeSpheres = 23u; // what the tree holds
 const uint constantHasLightTree = 24u;
 const uint constantInfiniteEmitters = 25u; // of a scene with a light tree: emitters that are not in it
 const uint constantPassing = 26u;
-const uint constantCount = 27u;
+const uint constantTrianglePairs = 27u; // skip lists: all triangles are tested in turn, as so many pairs; 0: the tree is
+const uint constantCount = 28u;
 
 const uint treeHasTriangles = 0u;
 const uint treeHasSpheresToo = 1u;
@@ -699,6 +713,7 @@ const uint treeHasSpheresOnly = 2u;
 #ifdef __cplusplus
 static_assert(sizeof(SphereRecord) == 32 && offsetof(SphereRecord, radius) == 16);
 static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) == 44);
+static_assert(sizeof(TrianglePair) == 64 && offsetof(TrianglePair, v3) == 48);
 static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
 static_assert(sizeof(InstanceRecord) == 128 && offsetof(InstanceRecord, slack) == 96);
 static_assert(sizeof(SkipNode) == 16);

@@ -10,6 +10,9 @@ layout(set = 0, binding = bindingSphereConstants, std140) uniform SphereBuffer {
 layout(set = 0, binding = bindingLightConstants, std140) uniform LightBuffer {
     LightRecord lightConstants[maxUniformLights];
 };
+layout(set = 0, binding = bindingPairConstants, std140) uniform PairBuffer {
+    TrianglePair pairConstants[maxListedTriangles];
+};
 
 #if MEMORY_TEXELS
 #define SCENE_ARRAY(number, value, name, Record, fetch) \
@@ -37,7 +40,7 @@ uint fetchTextureWord(uint index) { return textureWordArray[index]; }
 #endif
 
 #if TRAVERSAL_SKIP_LIST
-SCENE_ARRAY(bindingNodes, 3u, skipNodes, SkipNode, fetchSkipNode)
+SCENE_ARRAY(bindingNodes, 4u, skipNodes, SkipNode, fetchSkipNode)
 #else
-SCENE_ARRAY(bindingNodes, 3u, nodes, NodePair, fetchNode)
+SCENE_ARRAY(bindingNodes, 4u, nodes, NodePair, fetchNode)
 #endif

@@ -5,6 +5,7 @@ SphereShape sphereShapes[maxUnrolledSpheres];
 uint sphereIds[maxUnrolledSpheres];
 uint transmissiveSpheres = 0u; // one bit each
 LightRecord firstLight;
+TrianglePair listedPairs[maxListedTriangles];
 
 void preload() {
     [[unroll]] for (uint i = 0u; i < sphereCount; ++i) {
@@ -13,6 +14,8 @@ void preload() {
         transmissiveSpheres |= sphereConstants[i].isTransmissive << i;
     }
     firstLight = lightConstants[0];
+    [[unroll]] for (uint i = 0u; i < trianglePairs; ++i)
+        listedPairs[i] = pairConstants[i];
 }
 
 bool isSphereTransmissive(uint index) { return (transmissiveSpheres >> index & 1u) != 0u; }

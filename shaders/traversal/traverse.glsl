@@ -1,6 +1,14 @@
 // The traversal of the tree: enterTree, stopTraversal, isTraversing, traverse.
 #if TRAVERSAL_SKIP_LIST
 #include "shaders/traversal/traverse_skip.glsl"
+#include "shaders/traversal/traverse_list.glsl"
+
+void traverse(uint stage, const bool isShadow) {
+    if (trianglePairs > 0u)
+        traverseList(stage, isShadow);
+    else
+        traverseTree(stage, isShadow);
+}
 #else
 #include "shaders/traversal/traverse_stack.glsl"
 #endif

@@ -125,7 +125,7 @@ void leaveTree(inout Cursor cursor, vec3 direction, int node) {
     cursor.instance = noInstance;
 }
 
-void traverse(uint stage, const bool isShadow) {
+void traverseTree(uint stage, const bool isShadow) {
     GridRay gridRay[RAYS];
     PlacedBoxRay placedRay[RAYS];
     InstanceRecord instance[RAYS];
