@@ -85,29 +85,46 @@ void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
                            nullptr);
 }
 
-RunTimes Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount) {
+void Kernel::record(VkCommandBuffer commands, const layout::DispatchConstants &constants,
+                    std::uint32_t workgroupCount) const {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout(), 0, 1,
+                            &descriptorSet_, 0, nullptr);
+    vkCmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+                       &constants);
+    vkCmdDispatch(commands, workgroupCount, 1, 1);
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
+                         nullptr, 0, nullptr);
+}
+
+RunTimes Kernel::submit(const layout::DispatchConstants &constants,
+                        const std::function<void(VkCommandBuffer)> &record) {
     Timestamps &timestamps = device_.timestamps();
     Stopwatch watch;
     device_.submit("kernel " + pipeline_.name() + describeTile(constants), [&](VkCommandBuffer commands) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout(), 0, 1,
-                                &descriptorSet_, 0, nullptr);
-        vkCmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
-                           &constants);
         timestamps.writeBegin(commands);
-        vkCmdDispatch(commands, workgroupCount, 1, 1);
+        record(commands);
         timestamps.writeEnd(commands);
-        VkMemoryBarrier barrier{};
-        barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-        barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
-        barrier.dstAccessMask =
-            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
-        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
-                             &barrier, 0, nullptr, 0, nullptr);
     });
     const Span host = watch.lap();
     return {host, timestamps.read(host)};
+}
+
+RunTimes Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount) {
+    return submit(constants, [&](VkCommandBuffer commands) { record(commands, constants, workgroupCount); });
+}
+
+RunTimes Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount,
+                     const Kernel &next, std::uint32_t nextWorkgroupCount) {
+    return submit(constants, [&](VkCommandBuffer commands) {
+        record(commands, constants, workgroupCount);
+        next.record(commands, constants, nextWorkgroupCount);
+    });
 }
 
 } // namespace hyalite::gpu

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 namespace hyalite::gpu {
@@ -27,9 +28,16 @@ class Kernel {
 
     /// Runs the kernel with these push constants, waits, and makes its results visible to the host.
     RunTimes run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);
+    /// Runs `next` after it in the same submission, on what it wrote.
+    RunTimes run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount, const Kernel &next,
+                 std::uint32_t nextWorkgroupCount);
 
   private:
     void makeDescriptors(std::span<const Buffer *const> buffers);
+    void record(VkCommandBuffer commands, const layout::DispatchConstants &constants,
+                std::uint32_t workgroupCount) const;
+    RunTimes submit(const layout::DispatchConstants &constants,
+                    const std::function<void(VkCommandBuffer)> &record);
 
     Device &device_;
     Pipeline pipeline_;

@@ -118,7 +118,8 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
     planned.buffers[layout::bindingLightConstants] =
         plan("the first lights", BufferUse::Uniform, sizeof(layout::LightRecord) * layout::maxUniformLights);
     planned.buffers[layout::bindingPairConstants] =
-        plan("the pairs of triangles", BufferUse::Uniform, sizeof(layout::TrianglePair) * layout::maxListedTriangles);
+        plan("the pairs of triangles", BufferUse::Uniform,
+             sizeof(layout::TrianglePair) * layout::maxListedTriangles);
     for (const SceneArray &array : scene.arrays())
         planned.buffers[array.binding] = plan(fmt::format("the {}", array.name), use, array.bytes.size());
     if (isSkipList) {
@@ -143,6 +144,10 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.stackSize = std::bit_ceil(std::max(static_cast<std::uint32_t>(job.scene.treeDepth), 8u));
     // A direct kernel drops unfinished samples and repeats them, so they would be counted and traced twice.
     planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
+    // Where every pass takes the same time, lanes whose paths have ended cost as much as others. In a tree few rays take
+    // less, and whitted's paths end together.
+    planned.takesSamplesInTurn =
+        planned.isDirect && rowOf(job.integrator).aimsAtEmitters && !job.scene.needsTree();
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
     planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     planned.trace =
@@ -151,9 +156,13 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
                            fitTile(job.crop.height(), config.tileHeight)};
     const auto planSlots = [&] {
         const std::uint64_t slots = planned.largestTile.pixelCount() * planned.samplesAbreast;
-        planned.stacks = plan(
-            "the traversal stacks", BufferUse::Storage,
-            job.scene.hasTriangles && !isSkipList ? slots * planned.stackSize * sizeof(std::uint32_t) : 0);
+        planned.stacks =
+            planned.takesSamplesInTurn
+                ? plan("the finished samples", BufferUse::Storage, slots * sizeof(layout::SampleRecord))
+                : plan("the traversal stacks", BufferUse::Storage,
+                       job.scene.hasTriangles && !isSkipList
+                           ? slots * planned.stackSize * sizeof(std::uint32_t)
+                           : 0);
         planned.waiting = planWaiting(job, isSkipList, !planned.isDirect, slots);
     };
     planSlots();

@@ -34,11 +34,12 @@ struct JobPlan {
     std::uint32_t stackSize = 0; ///< entries for each ray
     bool isDirect =
         false; ///< dispatches end with whole samples; a resumable helper kernel does samples that are too long
+    bool takesSamplesInTurn = false; ///< the direct kernel's slots do not wait for the others of their pixel
     Tile largestTile;
     std::uint64_t maxHelperPixels = 0; ///< maximum size of a tile for the helper
     BufferPlan film;
     BufferPlan progress;
-    BufferPlan stacks;
+    BufferPlan stacks; ///< of the traversal, or the finished samples of slots that take them in turn
     BufferPlan trace;
     WaitingPlan waiting;
     WaitingPlan helperWaiting; ///< 0 bytes unless isDirect

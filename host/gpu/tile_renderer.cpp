@@ -2,6 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/names.h"
+#include "shaders/embedded_kernels.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,11 @@ namespace {
 
 constexpr std::uint32_t workgroupSize = 64;
 constexpr std::uint32_t samplesInPass = 64; // per pixel and pass over the image
+
+// Samples that a slot takes in turn in a dispatch: with more, fewer lanes are idle at the end; with fewer, dispatches
+// have enough workgroups for many threads.
+constexpr std::uint32_t mostSamplesPerSlot = 32;
+constexpr std::uint32_t groupsInTurn = 64;
 
 RayCounts raysOf(const layout::DispatchProgress &counters) {
     return {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays,
@@ -53,75 +59,8 @@ std::array<const T *, layout::bindingCount> byBinding(const Scene &scene, const 
     return all;
 }
 
-} // namespace
-
-TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const RenderConfig &config,
-                           const Job &job, const ScenePlan &scenePlan, const JobPlan &plan)
-    : device_(device), buffers_(buffers), config_(config), job_(job), scenePlan_(scenePlan), plan_(plan),
-      film_(device, plan.film), progress_(device, plan.progress), stacks_(device, plan.stacks),
-      trace_(device, plan.trace),
-      sizer_(config.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount()) {
-    if (job.film.empty())
-        film_.clear();
-    else
-        film_.upload(std::as_bytes(job.film));
-    for (const layout::FilmPixel &pixel : job.film)
-        samplesInFilm_ += pixel.sampleCount;
-    const auto fewest = std::min_element(job.film.begin(), job.film.end(), [](const auto &a, const auto &b) {
-        return a.sampleCount < b.sampleCount;
-    });
-    if (fewest != job.film.end())
-        fewestInFilm_ = fewest->sampleCount;
-    dispatch_.cropX = static_cast<std::uint32_t>(job.crop.x0);
-    dispatch_.cropY = static_cast<std::uint32_t>(job.crop.y0);
-    dispatch_.filmWidth = static_cast<std::uint32_t>(job.crop.width());
-    dispatch_.filmHeight = static_cast<std::uint32_t>(job.crop.height());
-    dispatch_.sampleBegin = job.sampleBegin;
-    dispatch_.stepBudget = config.steps;
-    dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
-    // lavapipe gives each thread one range of workgroups: 16 suits every thread count that divides it.
-    dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
-    dispatch_.sampleEnd = job.sampleEnd;
-    moveTo(plan.largestTile);
-}
-
-std::uint32_t TileRenderer::slotCount(const Tile &tile) const {
-    return static_cast<std::uint32_t>(tile.pixelCount()) * plan_.samplesAbreast;
-}
-
-void TileRenderer::moveTo(const Tile &tile) {
-    dispatch_.tileX = tile.x;
-    dispatch_.tileY = tile.y;
-    dispatch_.tileWidth = tile.width;
-    dispatch_.tileHeight = tile.height;
-    const std::uint32_t slotsPerRound =
-        workgroupSize * static_cast<std::uint32_t>(config_.slotsPerInvocation) * dispatch_.interleave;
-    groupCount_ = (slotCount(tile) + slotsPerRound - 1) / slotsPerRound * dispatch_.interleave;
-}
-
-void TileRenderer::makeKernel(Pipeline pipeline) {
-    (plan_.isDirect ? direct_ : resumable_).emplace(makeProgram(std::move(pipeline), !plan_.isDirect));
-}
-
-void TileRenderer::makeKernel() { makeKernel(makePipeline(device_, config_, job_, scenePlan_, plan_)); }
-
-void TileRenderer::warmUp() { warmUp(direct_ ? direct_->kernel : resumable_->kernel); }
-
-void TileRenderer::warmUp(Kernel &kernel) {
-    const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
-    const std::uint32_t groupCount = std::exchange(groupCount_, dispatch_.interleave); // the minimum
-    (void)runOnce(kernel);
-    groupCount_ = groupCount;
-    dispatch_.sampleEnd = sampleEnd;
-}
-
-Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, const Job &job,
-                                    const ScenePlan &scenePlan, const JobPlan &plan) {
-    return makePipeline(device, config, job, scenePlan, plan, !plan.isDirect);
-}
-
-Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, const Job &job,
-                                    const ScenePlan &scenePlan, const JobPlan &plan, bool isResumable) {
+SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, const JobPlan &plan,
+                                    bool isResumable) {
     const PackedScene &scene = job.scene;
     const WaitingPlan &waiting = waitingPlan(plan, isResumable);
     SpecializationConstants constants{};
@@ -151,9 +90,97 @@ Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, 
     constants[layout::constantExactDivision] = config.arithmetic == Arithmetic::Native;
     constants[layout::constantSamplesAbreast] = plan.samplesAbreast;
     constants[layout::constantIsResumable] = isResumable;
+    constants[layout::constantSamplesInTurn] = plan.takesSamplesInTurn && !isResumable;
     constants[layout::constantIsCounting] = config.isCounting;
     constants[layout::constantShowsCost] = job.integrator == Integrator::Cost;
     constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;
+    return constants;
+}
+
+} // namespace
+
+TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const RenderConfig &config,
+                           const Job &job, const ScenePlan &scenePlan, const JobPlan &plan)
+    : device_(device), buffers_(buffers), config_(config), job_(job), scenePlan_(scenePlan), plan_(plan),
+      film_(device, plan.film), progress_(device, plan.progress), stacks_(device, plan.stacks),
+      trace_(device, plan.trace),
+      sizer_(config.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount()) {
+    if (job.film.empty())
+        film_.clear();
+    else
+        film_.upload(std::as_bytes(job.film));
+    for (const layout::FilmPixel &pixel : job.film)
+        samplesInFilm_ += pixel.sampleCount;
+    const auto fewest = std::min_element(job.film.begin(), job.film.end(), [](const auto &a, const auto &b) {
+        return a.sampleCount < b.sampleCount;
+    });
+    if (fewest != job.film.end())
+        fewestInFilm_ = fewest->sampleCount;
+    dispatch_.cropX = static_cast<std::uint32_t>(job.crop.x0);
+    dispatch_.cropY = static_cast<std::uint32_t>(job.crop.y0);
+    dispatch_.filmWidth = static_cast<std::uint32_t>(job.crop.width());
+    dispatch_.filmHeight = static_cast<std::uint32_t>(job.crop.height());
+    dispatch_.sampleBegin = job.sampleBegin;
+    dispatch_.stepBudget = config.steps;
+    dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
+    // lavapipe gives each thread one range of workgroups: 16 suits every thread count that divides it.
+    dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
+    dispatch_.sampleEnd = job.sampleEnd;
+    if (plan.takesSamplesInTurn)
+        stacks_.clear();
+    moveTo(plan.largestTile);
+}
+
+std::uint32_t TileRenderer::slotCount(const Tile &tile) const {
+    return static_cast<std::uint32_t>(tile.pixelCount()) * plan_.samplesAbreast;
+}
+
+void TileRenderer::moveTo(const Tile &tile) {
+    dispatch_.tileX = tile.x;
+    dispatch_.tileY = tile.y;
+    dispatch_.tileWidth = tile.width;
+    dispatch_.tileHeight = tile.height;
+    const std::uint32_t slotsPerGroup =
+        workgroupSize * static_cast<std::uint32_t>(config_.slotsPerInvocation);
+    groupCount_ = groupsFor(slotCount(tile), slotsPerGroup);
+    dispatch_.samplesPerSlot =
+        std::clamp(slotCount(tile) / (slotsPerGroup * groupsInTurn), 1u, mostSamplesPerSlot);
+    groupCountInTurn_ = groupsFor(slotCount(tile), slotsPerGroup * dispatch_.samplesPerSlot);
+    addingGroupCount_ = groupsFor(static_cast<std::uint32_t>(tile.pixelCount()), workgroupSize);
+}
+
+std::uint32_t TileRenderer::groupsFor(std::uint32_t count, std::uint32_t perGroup) const {
+    const std::uint32_t perRound = perGroup * dispatch_.interleave;
+    return (count + perRound - 1) / perRound * dispatch_.interleave;
+}
+
+void TileRenderer::makeKernel(Pipeline pipeline) {
+    (plan_.isDirect ? direct_ : resumable_).emplace(makeProgram(std::move(pipeline), !plan_.isDirect));
+}
+
+void TileRenderer::makeKernel() { makeKernel(makePipeline(device_, config_, job_, scenePlan_, plan_)); }
+
+void TileRenderer::warmUp() { warmUp(direct_ ? *direct_ : *resumable_); }
+
+void TileRenderer::warmUp(Program &program) {
+    const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
+    const std::uint32_t groupCount = std::exchange(groupCount_, dispatch_.interleave); // the minimum
+    const std::uint32_t groupCountInTurn = std::exchange(groupCountInTurn_, dispatch_.interleave);
+    (void)runOnce(program);
+    groupCount_ = groupCount;
+    groupCountInTurn_ = groupCountInTurn;
+    dispatch_.sampleEnd = sampleEnd;
+}
+
+Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, const Job &job,
+                                    const ScenePlan &scenePlan, const JobPlan &plan) {
+    return makePipeline(device, config, job, scenePlan, plan, !plan.isDirect);
+}
+
+Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, const Job &job,
+                                    const ScenePlan &scenePlan, const JobPlan &plan, bool isResumable) {
+    const WaitingPlan &waiting = waitingPlan(plan, isResumable);
+    const SpecializationConstants constants = constantsOf(config, job, plan, isResumable);
     std::array<BufferUse, layout::bindingCount> uses{};
     std::ranges::transform(byBinding(scenePlan.buffers, plan.film, plan.progress, waiting.paths,
                                      waiting.pending, plan.stacks, plan.trace),
@@ -170,20 +197,24 @@ TileRenderer::Program TileRenderer::makeProgram(Pipeline pipeline, bool isResuma
     Buffer pending(device_, waiting.pending);
     const auto bound = byBinding(buffers_.buffers, film_, progress_, paths, pending, stacks_, trace_);
     Kernel kernel(device_, std::move(pipeline), bound);
-    return {std::move(paths), std::move(pending), std::move(kernel)};
+    std::optional<Kernel> adding;
+    if (plan_.takesSamplesInTurn && !isResumable)
+        adding.emplace(device_, "add samples", embeddedKernel("addSamples"),
+                       constantsOf(config_, job_, plan_, isResumable), bound);
+    return {std::move(paths), std::move(pending), std::move(kernel), std::move(adding)};
 }
 
-Kernel &TileRenderer::resumableKernel(Timeline *timeline) {
+TileRenderer::Program &TileRenderer::resumableProgram(Timeline *timeline) {
     if (!resumable_) {
         Stopwatch watch;
         resumable_.emplace(makeProgram(makePipeline(device_, config_, job_, scenePlan_, plan_, true), true));
-        warmUp(resumable_->kernel);
+        warmUp(*resumable_);
         const Span span = watch.lap();
         lateBuildSeconds_ += span.seconds();
         if (timeline != nullptr)
             timeline->stages.push_back({"resumable kernel", span, device_.allocatedBytes()});
     }
-    return resumable_->kernel;
+    return *resumable_;
 }
 
 TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Timeline *timeline,
@@ -192,8 +223,8 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
     std::uint64_t samplesFinished = samplesInFilm_;
     TileTotals totals;
-    const auto dispatch = [&](Kernel &kernel, bool isResumed) {
-        const Step step = runOnce(kernel);
+    const auto dispatch = [&](Program &program, bool isResumed) {
+        const Step step = runOnce(program);
         sizer_.learnWork(step.workSeconds, step.counters.workDone);
         samplesFinished += step.counters.finishedSamples;
         totals.rays += raysOf(step.counters);
@@ -201,7 +232,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         totals.lanes += lanesOf(step.counters, device_.info().subgroupSize *
                                                    static_cast<std::uint32_t>(config_.slotsPerInvocation));
         if (timeline != nullptr)
-            timeline->dispatches.push_back(describe(kernel, step, isResumed));
+            timeline->dispatches.push_back(describe(program, step, isResumed));
         ++totals.dispatchCount;
         if (onProgress)
             onProgress(static_cast<double>(samplesFinished) / samplesWanted);
@@ -214,7 +245,8 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     const auto addSamples = [&](WorkItem &item, std::uint32_t end) {
         moveTo(item.tile);
         const std::uint64_t pixels = item.tile.pixelCount();
-        dispatch_.sampleEnd = item.begin + std::min(sizer_.samples(pixels), end - item.begin);
+        const std::uint32_t most = plan_.takesSamplesInTurn ? plan_.samplesAbreast : samplesInPass;
+        dispatch_.sampleEnd = item.begin + std::min({sizer_.samples(pixels), most, end - item.begin});
         dispatch_.isResumed = 0;
         double seconds = 0.0;
         std::uint64_t finished = 0;
@@ -222,7 +254,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         bool isUnfinished = true;
         while (isUnfinished && !totals.isStopped) {
             const bool isDirect = direct_ && !item.isLong;
-            const Step step = dispatch(isDirect ? direct_->kernel : resumableKernel(timeline), isResumed);
+            const Step step = dispatch(isDirect ? *direct_ : resumableProgram(timeline), isResumed);
             isResumed = true;
             isUnfinished = step.counters.unfinishedSlots > 0;
             seconds += step.workSeconds;
@@ -235,7 +267,10 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
                 continue;
             }
             item.isLong = isUnfinished && step.counters.finishedSamples == 0;
-            if (isUnfinished && mustHalve(item, end))
+            const bool isTooLarge = isUnfinished && mustHalve(item, end);
+            if (plan_.takesSamplesInTurn && (item.isLong || isTooLarge))
+                stacks_.clear(); // what waits behind an unfinished sample
+            if (isTooLarge)
                 return;
         }
         item.begin = dispatch_.sampleEnd;
@@ -293,13 +328,15 @@ std::size_t TileRenderer::filmPixelCount() const {
     return static_cast<std::size_t>(job_.crop.width()) * static_cast<std::size_t>(job_.crop.height());
 }
 
-TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
+TileRenderer::Step TileRenderer::runOnce(Program &program) {
     layout::DispatchProgress counters{};
     counters.traceEvents = traceEventCount_;
     dispatch_.workBudget = sizer_.work();
     progress_.upload(std::as_bytes(std::span(&counters, 1)));
     const std::clock_t begin = std::clock();
-    const RunTimes times = kernel.run(dispatch_, groupCount_);
+    const RunTimes times =
+        program.adding ? program.kernel.run(dispatch_, groupCountInTurn_, *program.adding, addingGroupCount_)
+                       : program.kernel.run(dispatch_, groupCount_);
     // A software device shares its processors with other programs. Time spent waiting for them must not make dispatches
     // smaller, which would wait more often.
     const double processorSeconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -316,9 +353,9 @@ TileRenderer::Step TileRenderer::runOnce(Kernel &kernel) {
     return {counters, times, workSeconds};
 }
 
-DispatchRecord TileRenderer::describe(const Kernel &kernel, const Step &step, bool isResumed) const {
+DispatchRecord TileRenderer::describe(const Program &program, const Step &step, bool isResumed) const {
     DispatchRecord record;
-    record.kernel = kernel.name();
+    record.kernel = program.kernel.name();
     record.tileX = job_.crop.x0 + static_cast<int>(dispatch_.tileX);
     record.tileY = job_.crop.y0 + static_cast<int>(dispatch_.tileY);
     record.tileWidth = std::min(static_cast<int>(dispatch_.tileWidth), job_.crop.x1 - record.tileX);
@@ -327,7 +364,7 @@ DispatchRecord TileRenderer::describe(const Kernel &kernel, const Step &step, bo
     record.sampleEnd = dispatch_.sampleEnd;
     record.isResumed = isResumed;
     record.rays = raysOf(step.counters);
-    record.invocations = std::uint64_t{groupCount_} * workgroupSize;
+    record.invocations = std::uint64_t{program.adding ? groupCountInTurn_ : groupCount_} * workgroupSize;
     record.times = step.times;
     return record;
 }

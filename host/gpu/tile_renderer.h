@@ -73,6 +73,7 @@ class TileRenderer {
         Buffer paths;
         Buffer pending;
         Kernel kernel;
+        std::optional<Kernel> adding; ///< of samples that the kernel has finished in turn, to the film
     };
     /// Results of one dispatch.
     struct Step {
@@ -95,15 +96,17 @@ class TileRenderer {
     /// Whether an item with samples up to `end` is too large for one dispatch.
     [[nodiscard]] bool mustHalve(const WorkItem &item, std::uint32_t end) const;
     void moveTo(const Tile &tile);
+    /// Workgroups for `count` items: a multiple of the interleave.
+    [[nodiscard]] std::uint32_t groupsFor(std::uint32_t count, std::uint32_t perGroup) const;
     [[nodiscard]] static Pipeline makePipeline(Device &device, const RenderConfig &config, const Job &job,
                                                const ScenePlan &scenePlan, const JobPlan &plan,
                                                bool isResumable);
     [[nodiscard]] Program makeProgram(Pipeline pipeline, bool isResumable);
-    Kernel &resumableKernel(Timeline *timeline);
-    Step runOnce(Kernel &kernel);
-    /// Runs `kernel` over no samples.
-    void warmUp(Kernel &kernel);
-    [[nodiscard]] DispatchRecord describe(const Kernel &kernel, const Step &step, bool isResumed) const;
+    Program &resumableProgram(Timeline *timeline);
+    Step runOnce(Program &program);
+    /// Runs `program` over no samples.
+    void warmUp(Program &program);
+    [[nodiscard]] DispatchRecord describe(const Program &program, const Step &step, bool isResumed) const;
 
     Device &device_;
     const SceneBuffers &buffers_;
@@ -113,10 +116,12 @@ class TileRenderer {
     JobPlan plan_;
     Buffer film_;
     Buffer progress_;
-    Buffer stacks_;
+    Buffer stacks_; ///< or finished samples, as the plan says
     Buffer trace_;
     layout::DispatchConstants dispatch_{};
-    std::uint32_t groupCount_ = 0;
+    std::uint32_t groupCount_ = 0;       ///< of a slot for each sample abreast
+    std::uint32_t groupCountInTurn_ = 0; ///< of slots that take samples in turn
+    std::uint32_t addingGroupCount_ = 0; ///< of a slot for each pixel
     std::uint32_t traceEventCount_ = 0;
     std::uint64_t samplesInFilm_ = 0; ///< of all pixels, before run
     std::uint32_t fewestInFilm_ = 0;  ///< minimum over pixels, before run

@@ -35,7 +35,7 @@ struct PackedScene {
     std::vector<layout::SphereRecord> loopSpheres; ///< those outside the tree
     /// All triangles, where kernels are to test them in turn: few in a closed room, with nothing else in the tree.
     std::vector<layout::TrianglePair> trianglePairs;
-    int treeDepth = 0;                             ///< subtrees that can wait on a traversal stack
+    int treeDepth = 0; ///< subtrees that can wait on a traversal stack
 
     // The scene arrays, by the names that shaders/layout/buffers.h gives them.
 #define HYALITE_MEMBER(number, value, name, Record, fetch) std::vector<layout::Record> name;
@@ -55,6 +55,9 @@ struct PackedScene {
     std::uint32_t texturing = 0; ///< bits of layout::textures...
     std::uint32_t passing = 0;   ///< bits of layout::passes...
     std::uint32_t camera = layout::cameraPinhole;
+
+    /// Whether rays of a kernel over skip lists go through a tree.
+    [[nodiscard]] bool needsTree() const { return hasTriangles && trianglePairs.empty(); }
 
     /// A view of each scene array, in the order of the bindings.
     [[nodiscard]] std::array<SceneArray, layout::sceneArrayCount> arrays() const;

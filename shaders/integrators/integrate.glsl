@@ -7,7 +7,7 @@ void beginSample(uint slot);  // stageNextSample: the primary ray
 void shadeHit(uint slot);     // stageClosest: the nearest hit is known
 void aimAtLight(uint slot);   // stageNextLight: on a surface, choose a light
 void addLight(uint slot);     // stageShadow: the shadow ray has arrived, or was stopped
-void advancePaths();          // runs samples to their end, or until the step budget is spent
+void advancePaths();          // runs samples to their end, or until the step budget is spent; in turn: one pass
 
 // The work of a pass without its traversals, in traversal steps, by the times of both on lavapipe.
 const uint workPerPass = 32u + sphereCount;
@@ -40,9 +40,19 @@ void lightSurfaces() {
     passWork += workPerPass;
 }
 
+#if LANES_SHUFFLE
+#include "shaders/integrators/samples_in_turn.glsl"
+#endif
+
 void integrate() {
     loadConstants();
     preload();
+#if LANES_SHUFFLE
+    if (takesSamplesInTurn) {
+        integrateInTurn();
+        return;
+    }
+#endif
     shareWork();
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
         placeSlot(slot);

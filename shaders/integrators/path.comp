@@ -373,10 +373,10 @@ void advancePaths() {
     do {
         do
             traceRays();
-        while (hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
+        while (!takesSamplesInTurn && hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
         lightSurfaces();
         stepsTaken += 1u + searchIterations();
-    } while (isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
+    } while (!takesSamplesInTurn && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }
 
 void main() { integrate(); }

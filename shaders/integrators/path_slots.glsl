@@ -51,17 +51,33 @@ uvec2 pixelOfSlot(uint index) {
     return divideSmall(block, blocksAcross).yx * 8u + inBlock;
 }
 
+// Finds the pixel of the slot with this index.
+void placeSlotAt(uint slot, uint index) {
+    slotIndex[slot] = index;
+    uvec2 filmPixel = uvec2(dispatch.tileX, dispatch.tileY) + pixelOfSlot(index);
+    imagePixel[slot] = filmPixel + uvec2(dispatch.cropX, dispatch.cropY);
+    filmIndex[slot] = filmPixel.y * dispatch.filmWidth + filmPixel.x;
+    isSlotUsed[slot] = index < slotCount() && filmPixel.x < dispatch.filmWidth &&
+                       filmPixel.y < dispatch.filmHeight;
+}
+
 // Finds the pixel of the slot. With several slots an invocation, the slots of 8 lanes are side by side.
 void placeSlot(uint slot) {
     uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
     uint group = part.y * dispatch.interleave + part.x;
     uint lanes = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-    slotIndex[slot] = (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u);
-    uvec2 filmPixel = uvec2(dispatch.tileX, dispatch.tileY) + pixelOfSlot(slotIndex[slot]);
-    imagePixel[slot] = filmPixel + uvec2(dispatch.cropX, dispatch.cropY);
-    filmIndex[slot] = filmPixel.y * dispatch.filmWidth + filmPixel.x;
-    isSlotUsed[slot] = slotIndex[slot] < slotCount() && filmPixel.x < dispatch.filmWidth &&
-                       filmPixel.y < dispatch.filmHeight;
+    placeSlotAt(slot, (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u));
+}
+
+// The counts of a finished sample's shadow rays, reflections and refractions, and of its bounces, in a word that is not 0.
+uint packCounts(uvec3 rays, uint bounces) {
+    return sampleIsFinished | rays.x | rays.y << bitsPerCount | rays.z << 2u * bitsPerCount |
+           bounces << 3u * bitsPerCount;
+}
+
+// The same four counts.
+uvec4 unpackCounts(uint finished) {
+    return (uvec4(finished) >> uvec4(0u, bitsPerCount, 2u * bitsPerCount, 3u * bitsPerCount)) & countMask;
 }
 
 // Leaves the slots one pass if others have spent the work budget of the dispatch.

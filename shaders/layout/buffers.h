@@ -47,6 +47,7 @@ const uint bindingProgress = sceneBufferCount + 1u;
 const uint bindingPaths = sceneBufferCount + 2u;
 const uint bindingPending = sceneBufferCount + 3u; // maxDepth rays a slot
 const uint bindingStacks = sceneBufferCount + 4u;  // stackSize references a slot
+const uint bindingSamples = bindingStacks; // skip lists, which have no stacks: the finished samples of slots
 const uint bindingTrace = sceneBufferCount + 5u;
 const uint bindingCount = sceneBufferCount + 6u;
 

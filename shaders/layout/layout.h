@@ -23,7 +23,7 @@ using uint = std::uint32_t;
 
 // As many are tested by every ray, from a uniform buffer; others are in the tree.
 const uint maxUnrolledSpheres = 16u;
-const uint maxUniformLights = 16u; // the first ones are in a uniform buffer, too
+const uint maxUniformLights = 16u;   // the first ones are in a uniform buffer, too
 const uint maxListedTriangles = 32u; // of a tree that skip lists do without: a bit each in a word
 const uint maxPathDepth = 32u;
 const uint maxTreeDepth = 64u; // and the size of a traversal stack: builders keep every tree below it
@@ -540,9 +540,9 @@ struct DispatchConstants {
     // Workgroup g works on block g % (count/interleave) * interleave + g / (count/interleave) of the tile. So a driver
     // that gives each thread one range of workgroups still spreads every part of the image over all threads.
     uint interleave;
-    uint traceCapacity; // events in the trace buffer
-    uint workBudget;    // of DispatchProgress::workDone
-    uint pad0;
+    uint traceCapacity;  // events in the trace buffer
+    uint workBudget;     // of DispatchProgress::workDone
+    uint samplesPerSlot; // in turn: the mean
 };
 
 // ---- Results
@@ -553,6 +553,16 @@ struct FilmPixel {
     vec3 sumOfSquares;
     float pad0;
 };
+
+// A sample that waits to be added to the film.
+struct SampleRecord {
+    vec3 radiance;
+    uint finished; // 0: it is not; else the counts of its rays (path_slots.glsl)
+};
+
+const uint bitsPerCount = 7u; // at most maxPathDepth of each
+const uint countMask = 127u;
+const uint sampleIsFinished = 1u << 28u;
 
 // Counters of one dispatch, summed over all slots.
 struct DispatchProgress {
@@ -703,8 +713,10 @@ const uint constantTreeSpheres = 23u; // what the tree holds
 const uint constantHasLightTree = 24u;
 const uint constantInfiniteEmitters = 25u; // of a scene with a light tree: emitters that are not in it
 const uint constantPassing = 26u;
-const uint constantTrianglePairs = 27u; // skip lists: all triangles are tested in turn, as so many pairs; 0: the tree is
-const uint constantCount = 28u;
+const uint constantTrianglePairs =
+    27u; // skip lists: all triangles are tested in turn, as so many pairs; 0: the tree is
+const uint constantSamplesInTurn = 28u; // slots go from sample to sample: samples_in_turn.glsl
+const uint constantCount = 29u;
 
 const uint treeHasTriangles = 0u;
 const uint treeHasSpheresToo = 1u;
@@ -729,6 +741,8 @@ static_assert(sizeof(LightNode) == 48 && offsetof(LightNode, reference) == 44);
 static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
 static_assert(sizeof(FrameRecord) == 192 && offsetof(FrameRecord, boundsUpper) == 96);
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
+static_assert(sizeof(SampleRecord) == 16);
+static_assert(countMask >= maxPathDepth && sampleIsFinished >= 1u << 4u * bitsPerCount);
 static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
 static_assert(sizeof(DispatchProgress) == 64);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);

@@ -4,6 +4,7 @@
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
 const uint filmPixelWords = 8u;
+const uint filmSampleCountWord = 3u;
 
 uint firstLaneAbreast() { return gl_SubgroupInvocationID & ~(samplesAbreast - 1u); }
 

@@ -33,9 +33,8 @@ void traverseList(uint stage, const bool isShadow) {
             isRunning = isRunning || candidates[slot] != 0u;
         }
         stepsTaken += 1u;
-    } while (isRunning && stepsTaken < dispatch.stepBudget);
-    // A ray whose budget is spent begins anew the next time: a triangle may be met twice.
+    } while (isRunning); // at most maxListedTriangles times, whatever the step budget
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (isMine[slot] && candidates[slot] == 0u)
+        if (isMine[slot])
             stopTraversal(slot);
 }

@@ -82,6 +82,30 @@ TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
     EXPECT_EQ(plan.helperWaiting.paths.sizeBytes, 0u);
 }
 
+TEST(MemoryPlan, PathsWithoutATreeTakeSamplesInTurn) {
+    const RenderConfig skip = completed({.tileWidth = 64, .tileHeight = 64, .traversal = Traversal::SkipList},
+                                        device(), Workload::Spheres);
+    const auto planOf = [&](const PackedScene &scene, Integrator integrator, const RenderConfig &config) {
+        Job job = jobOf(scene, 300);
+        job.integrator = integrator;
+        return planJob(job, config, device());
+    };
+    const PackedScene spheres = sceneOf(0);
+    const JobPlan plan = planOf(spheres, Integrator::Path, skip);
+    EXPECT_TRUE(plan.takesSamplesInTurn);
+    EXPECT_EQ(plan.stacks.sizeBytes, 64u * 64u * 8u * sizeof(layout::SampleRecord));
+    EXPECT_FALSE(planOf(spheres, Integrator::Whitted, skip).takesSamplesInTurn);
+    EXPECT_FALSE(planOf(sceneOf(1000), Integrator::Path, skip).takesSamplesInTurn);
+    PackedScene room = sceneOf(2);
+    EXPECT_FALSE(planOf(room, Integrator::Path, skip).takesSamplesInTurn);
+    room.trianglePairs.emplace_back();
+    EXPECT_TRUE(planOf(room, Integrator::Path, skip).takesSamplesInTurn);
+    RenderConfig counting = skip;
+    counting.isCounting = true;
+    EXPECT_FALSE(planOf(room, Integrator::Path, counting).takesSamplesInTurn)
+        << "it resumes inside of samples";
+}
+
 TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
     const PackedScene scene = sceneOf(1000);
     const RenderConfig skip =

@@ -29,7 +29,9 @@ layout(set = 0, binding = 15, std430) readonly buffer TextureRowBuffer { Texture
 layout(set = 0, binding = 16, std430) readonly buffer TextureBuffer { TextureRecord textures[]; };
 layout(set = 0, binding = 17, std430) readonly buffer InstanceBuffer { InstanceRecord instances[]; };
 layout(set = 0, binding = 18, std430) readonly buffer LightNodeBuffer { LightNode lightNodes[]; };
-layout(set = 0, binding = 19, std430) writeonly buffer WordBuffer { uint words[]; };
+layout(set = 0, binding = 19, std430) readonly buffer PairBuffer { TrianglePair pairs[]; };
+layout(set = 0, binding = 20, std430) readonly buffer SampleBuffer { SampleRecord samples[]; };
+layout(set = 0, binding = 21, std430) writeonly buffer WordBuffer { uint words[]; };
 
 uint cursor = 0u;
 
@@ -65,5 +67,7 @@ void main() {
     FIELDS_TextureRecord(GIVE, textures[1])
     FIELDS_InstanceRecord(GIVE, instances[1])
     FIELDS_LightNode(GIVE, lightNodes[1])
+    FIELDS_TrianglePair(GIVE, pairs[1])
+    FIELDS_SampleRecord(GIVE, samples[1])
     FIELDS_DispatchConstants(GIVE, dispatch)
 }

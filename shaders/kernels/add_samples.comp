@@ -1,0 +1,53 @@
+// Entry kernel: adds the finished samples of a tile to the film, in the order of their indices, up to the first that is
+// not finished (shaders/integrators/samples_in_turn.glsl). An invocation does a pixel.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#define RAYS 1
+#include "shaders/kernels/begin_kernel.glsl"
+const bool hasBounces = true;
+
+#include "shaders/math/arithmetic.glsl"
+#include "shaders/math/vector.glsl"
+#include "shaders/memory/lanes.glsl"
+#include "shaders/integrators/path_slots.glsl"
+
+layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
+layout(set = 0, binding = bindingSamples, std430) buffer SampleBuffer { SampleRecord samples[]; };
+
+void main() {
+    loadConstants();
+    uint firstPlace = (gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationIndex) * samplesAbreast;
+    placeSlotAt(0u, firstPlace);
+    FilmPixel pixel = filmPixels[isSlotUsed[0] ? filmIndex[0] : 0u];
+    uint first = dispatch.sampleBegin + pixel.sampleCount;
+    uint added = 0u;
+    uvec4 rays = uvec4(0u); // shadow, reflection, refraction, bounce
+    bool isNext = isSlotUsed[0];
+    for (uint i = 0u; i < samplesAbreast; ++i) {
+        uint place = (isNext ? firstPlace : 0u) + (first + i & samplesAbreast - 1u);
+        SampleRecord found = samples[place];
+        isNext = isNext && found.finished != 0u;
+        if (isNext) {
+            vec3 radiance = withoutSubnormals(found.radiance);
+            pixel.sum = pixel.sum + radiance;
+            pixel.sumOfSquares = pixel.sumOfSquares + withoutSubnormals(radiance * radiance);
+            added += 1u;
+            rays += unpackCounts(found.finished);
+            samples[place].finished = 0u;
+        }
+    }
+    pixel.sampleCount += added;
+    if (added != 0u)
+        filmPixels[filmIndex[0]] = pixel;
+    added = sumOfLanes(added);
+    rays = uvec4(sumOfLanes(rays.x), sumOfLanes(rays.y), sumOfLanes(rays.z), sumOfLanes(rays.w));
+    if (!subgroupElected())
+        return;
+    atomicAdd(progress.finishedSamples, added);
+    atomicAdd(progress.primaryRays, added);
+    atomicAdd(progress.shadowRays, rays.x);
+    atomicAdd(progress.reflectionRays, rays.y);
+    atomicAdd(progress.refractionRays, rays.z);
+    atomicAdd(progress.bounceRays, rays.w);
+}

@@ -1,0 +1,88 @@
+// Slots that take samples in turn (shaders/integrators/samples_in_turn.glsl) make the film and the counts of the
+// reference, whatever the dispatches.
+#include "tests/images/rendering.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace hyalite {
+namespace {
+
+using testing::differingPixels;
+
+/// A film of some samples, from one copy of it on.
+class OneCopy : public SnapshotTaker {
+  public:
+    OneCopy(const Crop &crop, int wanted) : film(crop), wanted_(wanted) {}
+    [[nodiscard]] bool isWanted() const noexcept override { return count_ <= wanted_; }
+    void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
+              const RayCounts &raysSoFar) override {
+        if (count_++ != wanted_)
+            return;
+        copyFilm(film.pixels);
+        rays = raysSoFar;
+        isTaken = true;
+    }
+
+    Film film;
+    RayCounts rays;
+    bool isTaken = false;
+
+  private:
+    int wanted_;
+    int count_ = 0;
+};
+
+class SamplesInTurn : public ::testing::TestWithParam<std::string> {
+  protected:
+    // Counts of samples and pixels that no power of two divides; of tiles, too.
+    Scene scene = testing::shippedScene(GetParam(), 37, 23, 13);
+    PackedScene packed = testing::pack(scene);
+    reference::Result whole = testing::renderOnCpu(scene, packed);
+};
+
+// From more steps than any path takes to fewer than one pass does: then slots are late, finished samples wait for
+// earlier ones, and at last the resumable kernel takes over.
+TEST_P(SamplesInTurn, MakeTheSameFilmWithAnyBudget) {
+    struct Budget {
+        std::uint32_t steps;
+        int samplesAbreast;
+        int slots;
+    };
+    for (const auto &[steps, abreast, slots] :
+         {Budget{0, 0, 1}, {600, 4, 2}, {120, 0, 2}, {120, 1, 1}, {30, 4, 1}, {5, 0, 1}}) {
+        const gpu::Result result = testing::renderOnDevice(scene, packed,
+                                                           {.tileWidth = 16,
+                                                            .tileHeight = 24,
+                                                            .steps = steps,
+                                                            .slotsPerInvocation = slots,
+                                                            .samplesAbreast = abreast,
+                                                            .traversal = gpu::Traversal::SkipList});
+        EXPECT_EQ(differingPixels(result.film, whole.film), 0u)
+            << steps << " steps, " << abreast << " abreast, " << slots << " slots";
+        EXPECT_EQ(result.rays, whole.rays) << steps << " steps, " << abreast << " abreast";
+    }
+}
+
+TEST_P(SamplesInTurn, GoOnFromAnyFilm) {
+    const Crop crop{0, 37, 0, 23};
+    const gpu::RenderConfig config{
+        .tileWidth = 16, .tileHeight = 16, .steps = 100, .traversal = gpu::Traversal::SkipList};
+    for (const int copy : {0, 3, 10}) {
+        OneCopy part(crop, copy);
+        gpu::Renderer renderer(testing::testDevice(), config);
+        (void)renderer.render(packed, scene.settings, crop, {}, nullptr, {}, {{}, &part});
+        ASSERT_TRUE(part.isTaken);
+        const gpu::Result rest = renderer.render(packed, scene.settings, crop, {}, nullptr, {}, {part.film});
+        EXPECT_EQ(differingPixels(rest.film, whole.film), 0u) << "from copy " << copy;
+        EXPECT_EQ(part.rays + rest.rays, whole.rays) << "from copy " << copy;
+    }
+}
+
+// A room of few triangles, glass, and an environment.
+INSTANTIATE_TEST_SUITE_P(Of, SamplesInTurn, ::testing::Values("cornell", "caustics", "metals"),
+                         [](const auto &row) { return row.param; });
+
+} // namespace
+} // namespace hyalite
