@@ -1,16 +1,20 @@
 #include "host/packing/listed_triangles.h"
 
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 
 namespace hyalite {
 
 namespace {
 
-bool haveEqualBits(const glm::vec3 &a, const glm::vec3 &b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+using Bits = std::array<std::uint32_t, 3>;
+
+bool haveEqualBits(const glm::vec3 &a, const glm::vec3 &b) {
+    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
 
 std::array<glm::vec3, 3> verticesOf(const layout::TriangleRecord &triangle) {
     return {triangle.v0, triangle.v1, triangle.v2};
