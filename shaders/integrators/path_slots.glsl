@@ -120,6 +120,17 @@ void storeSlot(uint slot) {
         pathRecords[slotIndex[slot]] = path[slot];
 }
 
+// Adds what slots left unfinished, and the work of the dispatch.
+void addWork(uint unfinished) {
+    unfinished = sumOfLanes(unfinished);
+    uint work = maxOfLanes(stepsTaken - stepsForfeited + passWork);
+    if (!subgroupElected())
+        return;
+    atomicAdd(progress.workDone, work);
+    if (unfinished != 0u)
+        atomicAdd(progress.unfinishedSlots, unfinished);
+}
+
 void addProgress() {
     if (isCounting) {
         atomicAdd(progress.nodesVisited, workCounts.x);
@@ -132,18 +143,14 @@ void addProgress() {
     uint unfinished = 0u;
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         unfinished += path[slot].stage != stageDone ? 1u : 0u;
-    unfinished = sumOfLanes(unfinished);
+    addWork(unfinished);
     uint overflows = sumOfLanes(stackOverflowCount);
     uint samples = sumOfLanes(finishedSampleCount);
     uvec4 rays = uvec4(sumOfLanes(finishedRayCounts.x), sumOfLanes(finishedRayCounts.y),
                        sumOfLanes(finishedRayCounts.z), sumOfLanes(finishedRayCounts.w));
     uint bounces = hasBounces ? sumOfLanes(finishedBounceCount) : 0u;
-    uint work = maxOfLanes(stepsTaken - stepsForfeited + passWork);
     if (!subgroupElected())
         return;
-    atomicAdd(progress.workDone, work);
-    if (unfinished != 0u)
-        atomicAdd(progress.unfinishedSlots, unfinished);
     if (overflows != 0u)
         atomicAdd(progress.stackOverflows, overflows);
     atomicAdd(progress.finishedSamples, samples);

@@ -79,11 +79,5 @@ void integrateInTurn() {
             isRunning = isRunning || path[slot].stage != stageDone;
         }
     } while (isRunning);
-    unfinished = sumOfLanes(unfinished);
-    uint work = maxOfLanes(stepsTaken - stepsForfeited + passWork);
-    if (!subgroupElected())
-        return;
-    atomicAdd(progress.workDone, work);
-    if (unfinished != 0u)
-        atomicAdd(progress.unfinishedSlots, unfinished);
+    addWork(unfinished);
 }
