@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+"""Compares the time until a picture has little noise with that of Cycles, Blender's path tracer.
+
+    tests/bench/cycles.py HYALITE FOLDER [--quick]
+
+Needs Debian's packages blender, python3-numpy and mesa-vulkan-drivers. FOLDER keeps what is made. --quick shows that
+the script works: its pictures are small and each is timed once.
+
+1. Both programs render two scenes from the same files: the Cornell box, and white rough metals. The script fails unless
+   the pictures have the same mean, as a whole and in 16 regions.
+2. Two renders with different seeds differ by their noise alone. Half of the squared difference is the variance of a
+   pixel. The noise is the square root of the mean variance, without the noisiest 0.1 % of the pixels, divided by the
+   mean of the picture. Samples are doubled until the noise is below 5 %. The last two counts say how many it takes.
+3. User seconds of a process with so many samples, less those of a process with one sample: the median of three turns,
+   in which the programs follow each other. Step 2 has run the same commands, so that kernels are in the driver's cache.
+"""
+import collections
+import datetime
+import json
+import math
+import os
+import resource
+import shutil
+import statistics
+import subprocess
+import sys
+
+try:
+    import numpy
+except ImportError:
+    sys.exit("cycles.py: install the package python3-numpy")
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+CORNELL = os.path.join(HERE, "..", "..", "assets", "scenes", "cornell.json")
+NOISE = 0.05  # standard deviation of a pixel, of the mean of all
+NOISIEST = 0.001  # share of the pixels that is left out
+MAX_SAMPLES = 4096
+MEANS_AGREE, REGIONS_AGREE = 0.01, 0.02  # relative
+
+Scene = collections.namedtuple("Scene", "name path unit_metres width height")
+
+
+def fail(message):
+    sys.exit("cycles.py: " + message)
+
+
+def write_sky(path):
+    """A soft lamp overhead in a dim sky."""
+    width, height = 256, 128
+    with open(path, "wb") as file:
+        file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width))
+        for y in range(height):
+            up = max(0, math.cos(math.pi * (y + 0.5) / height))
+            fraction, exponent = math.frexp(0.25 + 4 * up ** 16)
+            file.write(bytes([int(fraction * 256)] * 3 + [exponent + 128]) * width)
+
+
+def write_ball(path, columns=64, rows=32):
+    """A smooth ball of radius 1. Cycles has no spheres, so both programs get the same triangles."""
+    with open(path, "w") as file:
+        for row in range(rows + 1):
+            for column in range(columns):
+                down, around = math.pi * row / rows, 2 * math.pi * column / columns
+                point = (math.sin(down) * math.cos(around), math.cos(down), -math.sin(down) * math.sin(around))
+                file.write("v %.7g %.7g %.7g\nvn %.7g %.7g %.7g\n" % (*point, *point))
+        for row in range(rows):
+            for column in range(columns):
+                a, b = (row * columns + 1 + (column + step) % columns for step in (0, 1))
+                corners = [a, a + columns, b + columns, b]
+                if row in (0, rows - 1):  # a triangle at a pole
+                    corners.pop(3 if row == 0 else 2)
+                file.write("f " + " ".join("%d//%d" % (corner, corner) for corner in corners) + "\n")
+
+
+def write_metals(folder):
+    """Five balls of metal on a grey floor. With an index of 0 a metal reflects everything, at every angle."""
+    write_sky(os.path.join(folder, "sky.hdr"))
+    write_ball(os.path.join(folder, "ball.obj"))
+    with open(os.path.join(folder, "floor.obj"), "w") as file:
+        file.write("v -50 0 50\nv 50 0 50\nv 50 0 -50\nv -50 0 -50\nf 1 2 3 4\n")
+    metals = {"metal %g" % roughness: {"type": "conductor", "index": 0, "extinction": 1, "roughness": roughness}
+              for roughness in (0.3, 0.45, 0.6, 0.75, 0.9)}
+    balls = [{"file": "ball.obj", "translate": [2.2 * index - 4.4, 1, 0], "material": name}
+             for index, name in enumerate(metals)]
+    path = os.path.join(folder, "metals.json")
+    with open(path, "w") as file:
+        json.dump({"camera": {"position": [0, 5, 12], "direction": [0, -4.2, -12], "horizontalFov": 50},
+                   "environment": {"file": "sky.hdr"},
+                   "materials": {"floor": {"type": "diffuse", "albedo": 0.5}, **metals},
+                   "meshes": [{"file": "floor.obj", "material": "floor"}] + balls,
+                   "settings": {"integrator": "path", "maxDepth": 16, "bvh": "sah"}}, file, indent=1)
+    return path
+
+
+class Program:
+    """`files` begins the names of its files. `command` takes a scene, a picture, a count of samples and a seed."""
+
+    def __init__(self, name, files, command):
+        self.name, self.files, self.command = name, files, command
+
+    def render(self, scene, spp, seed):
+        """The picture, and the user seconds of the process."""
+        stem = "%s-%s" % (self.files, scene.name)
+        command = self.command(scene, stem + ".pfm", str(spp), str(seed))
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        with open(stem + ".log", "w") as log:
+            code = subprocess.run(command, stdout=log, stderr=log).returncode
+        seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        if code != 0:
+            fail("exit code %d of\n%s\n%s.log says why" % (code, " ".join(command), stem))
+        with open(stem + ".pfm", "rb") as file:
+            values = file.read().split(b"\n", 3)[3]
+        return numpy.frombuffer(values, "<f4").reshape(scene.height, scene.width, 3).astype(float), seconds
+
+    def noise(self, scene, spp):
+        a, b = (self.render(scene, spp, seed)[0] for seed in (1, 2))
+        variances = numpy.sort(((a - b) ** 2 / 2).mean(2).ravel())
+        kept = variances[:len(variances) - math.ceil(NOISIEST * len(variances))]
+        return math.sqrt(kept.mean()) / ((a.mean() + b.mean()) / 2)
+
+    def samples_needed(self, scene):
+        """The count at which the noise is as wanted, and the power of two above. Noise falls like a power of the
+        count between the two last, whatever its exponent."""
+        spp, noise, last = 2, self.noise(scene, 2), self.noise(scene, 1)
+        while noise > NOISE:
+            if spp >= MAX_SAMPLES:
+                fail("%s has noise of %.3f in %s at %d samples" % (self.name, noise, scene.name, spp))
+            spp, noise, last = 2 * spp, self.noise(scene, 2 * spp), noise
+        return spp * (noise / NOISE) ** (1 / math.log2(last / noise)), spp
+
+
+def regions(picture):
+    height, width, _ = picture.shape
+    return picture.reshape(4, height // 4, 4, width // 4, 3).mean((1, 3, 4))
+
+
+def match(scene, cycles, hyalite, spp):
+    theirs, ours = (program.render(scene, spp, 0)[0] for program in (cycles, hyalite))
+    share, shares = ours.mean() / theirs.mean(), regions(ours) / regions(theirs)
+    print("| %s | %.4f | %.4f to %.4f |" % (scene.name, share, shares.min(), shares.max()), flush=True)
+    if abs(share - 1) > MEANS_AGREE or abs(shares - 1).max() > REGIONS_AGREE:
+        fail("the pictures of %s do not match: means differ by %.1f %%, which may be %g %%, and those of a region by "
+             "%.1f %%, which may be %g %%" % (scene.name, 100 * abs(share - 1), 100 * MEANS_AGREE,
+                                              100 * abs(shares - 1).max(), 100 * REGIONS_AGREE))
+
+
+def race(scene, programs, turns):
+    """Prints a row a program. The others are compared with the first."""
+    needed = {program: program.samples_needed(scene) for program in programs}
+    starts, seconds = ({program: [] for program in programs} for _ in range(2))
+    for _ in range(turns):
+        for program, (samples, spp) in needed.items():
+            start, total = (program.render(scene, count, 1)[1] for count in (1, spp))
+            starts[program].append(start)
+            seconds[program].append((total - start) * samples / (spp - 1))
+    first = statistics.median(seconds[programs[0]])
+    for program in programs:
+        start, own = (statistics.median(of[program]) for of in (starts, seconds))
+        print("| %s | %s | %.0f | %.2f | %.2f | %.2f |" % (
+            scene.name, program.name, needed[program][0], start, own, first / own), flush=True)
+
+
+def print_versions(hyalite):
+    def lines_of(*command):
+        return subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+
+    with open("/proc/cpuinfo") as file:
+        models = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
+    drivers = [line.split(None, 1)[1] for line in lines_of(hyalite, "devices")
+               if line.split()[:2] == ["driver", "llvmpipe"]]
+    if not drivers:
+        fail("install the package mesa-vulkan-drivers")
+    print("| what | value |\n|---|---|")
+    print("| date | %s |" % datetime.date.today())
+    print("| machine | %s, %d threads |" % (models[0] if models else "unknown", os.cpu_count()))
+    print("| programs | %s, %s |" % (lines_of("blender", "--version")[0], lines_of(hyalite, "--version")[0]))
+    print("| driver | %s |" % drivers[0], flush=True)
+
+
+def main():
+    arguments = [argument for argument in sys.argv[1:] if argument != "--quick"]
+    if len(arguments) != 2:
+        sys.exit(__doc__)
+    is_quick = "--quick" in sys.argv
+    hyalite, folder = (os.path.abspath(argument) for argument in arguments)
+    if not os.access(hyalite, os.X_OK):
+        fail(hyalite + " is not a program")
+    if not shutil.which("blender"):
+        fail("install the package blender")
+    os.makedirs(folder, exist_ok=True)
+    os.environ["MESA_SHADER_CACHE_DIR"] = os.environ["HYALITE_CACHE"] = folder  # no kernels or tunings of other runs
+
+    def run_blender(scene, picture, spp, seed):
+        return ["blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "--python",
+                os.path.join(HERE, "cycles_scene.py"), "--", scene.path, str(scene.unit_metres), picture,
+                str(scene.width), str(scene.height), spp, seed]
+
+    def run_on(device):
+        return lambda scene, picture, spp, seed: [
+            hyalite, "render", scene.path, "-o", picture, "--device", device, "--width", str(scene.width), "--height",
+            str(scene.height), "--spp", spp, "--seed", seed, "--quiet"]
+
+    programs = [Program(name, os.path.join(folder, files), command) for name, files, command in (
+        ("Cycles", "cycles", run_blender), ("Hyalite, lavapipe", "lavapipe", run_on("llvmpipe")),
+        ("Hyalite, CPU twin", "cpu", run_on("cpu")))]
+    cornell_size, metals_size = ((96, 96), (128, 80)) if is_quick else ((256, 256), (320, 200))
+    scenes = [Scene("cornell", CORNELL, 0.001, *cornell_size), Scene("metals", write_metals(folder), 1, *metals_size)]
+    print_versions(hyalite)
+    print("\n| scene | mean, of Cycles' | of regions |\n|---|---|---|")
+    for scene in scenes:
+        match(scene, *programs[:2], 256 if is_quick else 1024)
+    print("\n| scene | program | samples to 5 % | user s with one sample | user s to 5 % | times as fast |")
+    print("|---|---|---|---|---|---|")
+    for scene in scenes:
+        race(scene, programs, 1 if is_quick else 3)
+
+
+main()
