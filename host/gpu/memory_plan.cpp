@@ -139,6 +139,7 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     const std::uint64_t filmPixels =
         static_cast<std::uint64_t>(job.crop.width()) * static_cast<std::uint64_t>(job.crop.height());
     JobPlan planned;
+    planned.exchangesByBroadcast = isSkipList && device.hasSlowShuffles.value_or(false);
     planned.samplesAbreast = fitSamplesAbreast(config.samplesAbreast, job.sampleEnd - job.sampleBegin);
     // At most one subtree waits per level. Powers of two keep the number of different kernels small.
     planned.stackSize = std::bit_ceil(std::max(static_cast<std::uint32_t>(job.scene.treeDepth), 8u));

@@ -34,6 +34,7 @@ struct JobPlan {
     std::uint32_t stackSize = 0; ///< entries for each ray
     bool isDirect =
         false; ///< dispatches end with whole samples; a resumable helper kernel does samples that are too long
+    bool exchangesByBroadcast = false; ///< lanes do, not by shuffles
     bool takesSamplesInTurn = false; ///< the direct kernel's slots do not wait for the others of their pixel
     Tile largestTile;
     std::uint64_t maxHelperPixels = 0; ///< maximum size of a tile for the helper

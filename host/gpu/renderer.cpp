@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/gpu/kernel_needs.h"
+#include "host/gpu/lane_exchange.h"
 #include "host/gpu/tile_renderer.h"
 #include "host/gpu/vk/check.h"
 #include "host/gpu/vk/device.h"
@@ -68,6 +69,8 @@ struct Renderer::State {
         : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked), preferred(choices) {
         const StartupCheck check = checkDevice(*device);
         info.consecutiveLanes = check.consecutiveLanes;
+        if (!info.hasSlowShuffles && mayGainFromBroadcasts(info))
+            info.hasSlowShuffles = areBroadcastsFaster(*device);
         arithmetic = chooseArithmetic(info, check, asked.arithmetic);
         bits = guaranteeOf(info, check);
         config = completed(asked, info);
@@ -139,6 +142,8 @@ Renderer::Renderer(const DeviceInfo &device, const RenderConfig &config, const K
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer &&) noexcept = default;
 Renderer &Renderer::operator=(Renderer &&) noexcept = default;
+
+const DeviceInfo &Renderer::device() const { return state_->info; }
 
 const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic; }
 

@@ -43,6 +43,8 @@ class Renderer {
     Renderer(Renderer &&) noexcept;
     Renderer &operator=(Renderer &&) noexcept;
 
+    /// With what was found when it was opened.
+    [[nodiscard]] const DeviceInfo &device() const;
     /// The choice of division and square root.
     [[nodiscard]] const ArithmeticChoice &arithmetic() const;
     [[nodiscard]] const BitGuarantee &bits() const;

@@ -91,6 +91,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantSamplesAbreast] = plan.samplesAbreast;
     constants[layout::constantIsResumable] = isResumable;
     constants[layout::constantSamplesInTurn] = plan.takesSamplesInTurn && !isResumable;
+    constants[layout::constantBroadcasts] = plan.exchangesByBroadcast;
     constants[layout::constantIsCounting] = config.isCounting;
     constants[layout::constantShowsCost] = job.integrator == Integrator::Cost;
     constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;

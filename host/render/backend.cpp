@@ -145,8 +145,25 @@ class DeviceBackend : public Backend {
 
   private:
     DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config, const Tuning &tuning)
-        : device_(device), renderer_(device, config, tuning.kernels),
-          bits_(guaranteeOf(renderer_.bits(), tuning)) {}
+        : device_(withTuning(device, tuning)), renderer_(device_, config, tuning.kernels),
+          bits_(guaranteeOf(renderer_.bits(), tuning)) {
+        if (device_.hasSlowShuffles != renderer_.device().hasSlowShuffles)
+            keepLaneExchange(tuning);
+    }
+
+    static gpu::DeviceInfo withTuning(gpu::DeviceInfo device, const Tuning &tuning) {
+        device.hasSlowShuffles = tuning.hasSlowShuffles;
+        return device;
+    }
+
+    /// Keeps what was measured just now, which takes a tenth of the time of a small render.
+    void keepLaneExchange(Tuning tuning) const {
+        tuning.hasSlowShuffles = renderer_.device().hasSlowShuffles;
+        try {
+            storeTuning(device_, tuning);
+        } catch (const Error &) { // the next render measures again
+        }
+    }
 
     gpu::DeviceInfo device_;
     gpu::Renderer renderer_;

@@ -51,7 +51,7 @@ KernelRates measure(const Trial &trial, const std::string &deviceName) {
         {[&trial](RenderSettings &settings) { settings.samplesPerPixel = trial.samplesPerPixel; }});
     const PreparedScene scene = prepareScene(options, Source::Dropped, true);
     gpu::tellLavapipe(processorsFor(0, scene));
-    const gpu::DeviceInfo device = gpu::chooseDevice(gpu::loadDevices().devices, deviceName);
+    const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     const RenderSettings &settings = scene.loaded.scene.settings;
 
     const gpu::Workload workload = gpu::workloadOf(scene.packed, settings.integrator);

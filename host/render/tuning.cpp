@@ -25,6 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
+constexpr const char *exchangeKey = "exchange of 16 lanes";
+constexpr const char *broadcasts = "broadcasts";
+constexpr const char *shuffles = "shuffles";
+
 std::optional<fs::path> findFile() {
     const auto valueOf = [](const char *name) {
         const char *value = std::getenv(name);
@@ -84,6 +88,8 @@ Tuning readTuning(const gpu::DeviceInfo &device) {
                 continue;
             Tuning tuning;
             tuning.verifiedDate = excerpt(entry.value("verified", std::string()));
+            if (const auto exchange = entry.find(exchangeKey); exchange != entry.end())
+                tuning.hasSlowShuffles = *exchange == broadcasts;
             tuning.date = excerpt(entry.value("date", std::string()));
             if (tuning.isMeasured())
                 for (const auto &[name, workload] : gpu::workloadNames)
@@ -120,6 +126,8 @@ void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning) {
     entry["device"] = device.name;
     if (!tuning.verifiedDate.empty())
         entry["verified"] = tuning.verifiedDate;
+    if (tuning.hasSlowShuffles)
+        entry[exchangeKey] = *tuning.hasSlowShuffles ? broadcasts : shuffles;
     if (tuning.isMeasured()) {
         entry["date"] = tuning.date;
         for (const auto &[name, workload] : gpu::workloadNames) {

@@ -1,10 +1,12 @@
-// What was learnt of a device and is kept between runs: its fastest kernels, and whether its bits were verified.
+// What was learnt of a device and is kept between runs: its fastest kernels and exchange of values, and whether its bits were
+// verified.
 #pragma once
 
 #include "host/gpu/render_config.h"
 #include "host/gpu/vk/device_list.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace hyalite {
@@ -13,6 +15,8 @@ struct Tuning {
     gpu::KernelChoices kernels{}; ///< by Workload
     std::string date;             ///< YYYY-MM-DD, in UTC; empty: not measured
     std::string verifiedDate;     ///< likewise, when all shipped films had the shipped bits; empty: not yet
+
+    std::optional<bool> hasSlowShuffles{}; ///< of vectors of 512 bits, as DeviceInfo has it
 
     [[nodiscard]] bool isMeasured() const { return !date.empty(); }
 };

@@ -61,11 +61,15 @@ void placeSlotAt(uint slot, uint index) {
                        filmPixel.y < dispatch.filmHeight;
 }
 
+// The block of slots on which the workgroup works (DispatchConstants::interleave).
+uint blockOfWorkgroup() {
+    uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
+    return part.y * dispatch.interleave + part.x;
+}
+
 // Finds the pixel of the slot. With several slots an invocation, the slots of 8 lanes are side by side.
 void placeSlot(uint slot) {
-    uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
-    uint group = part.y * dispatch.interleave + part.x;
-    uint lanes = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+    uint lanes = blockOfWorkgroup() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     placeSlotAt(slot, (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u));
 }
 

@@ -11,9 +11,7 @@ uint nextPlace[RAYS];
 uint endOfPlaces[RAYS];
 
 void beginTurns(uint slot) {
-    uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
-    uint group = part.y * dispatch.interleave + part.x;
-    uint subgroup = (group * gl_NumSubgroups + gl_SubgroupID) * RAYS + slot;
+    uint subgroup = (blockOfWorkgroup() * gl_NumSubgroups + gl_SubgroupID) * RAYS + slot;
     uint first = subgroup * gl_SubgroupSize * dispatch.samplesPerSlot;
     nextPlace[slot] = first + gl_SubgroupInvocationID;
     endOfPlaces[slot] = min(first + gl_SubgroupSize * dispatch.samplesPerSlot, slotCount());

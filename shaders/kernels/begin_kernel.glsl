@@ -3,11 +3,12 @@
 //
 //   MEMORY_TEXELS        1: the scene is read through texel buffers; 0: through storage buffers
 //   TRAVERSAL_SKIP_LIST  1: the tree is a skip list without a stack; 0: node pairs and a stack
-//   LANES_SHUFFLE        1: lanes of a subgroup exchange values by shuffles; 0: lanes are independent
+//   LANES_SHUFFLE        1: lanes of a subgroup exchange values; 0: lanes are independent
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_basic : require
 #if LANES_SHUFFLE
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #endif
 

@@ -48,9 +48,7 @@ void storeHit(uint index, HitRecord hit) {
 
 // The slot of a ray is its index; workgroups are in the same order as in path_slots.glsl.
 void beginRay(uint slot) {
-    uvec2 part = divideSmall(gl_WorkGroupID.x, divideSmall(gl_NumWorkGroups.x, dispatch.interleave).x);
-    uint group = part.y * dispatch.interleave + part.x;
-    uint lanes = group * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+    uint lanes = blockOfWorkgroup() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     slotIndex[slot] = (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u);
     isSlotUsed[slot] = slotIndex[slot] < slotCount();
     RayRecord ray = fetchRay(isSlotUsed[slot] ? slotIndex[slot] : 0u);

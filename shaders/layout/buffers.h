@@ -21,16 +21,16 @@ const uint bindingNodes = 4u; // node pairs, or skip nodes
 // function.
 // clang-format off
 #define HYALITE_SCENE_ARRAYS(ARRAY) \
-    ARRAY(bindingSpheres,   5u,  spheres,   SphereRecord,   fetchSphere) \
-    ARRAY(bindingTriangles, 6u,  triangles, TriangleRecord, fetchTriangle) \
-    ARRAY(bindingNormals,   7u,  normals,   NormalRecord,   fetchNormals) \
-    ARRAY(bindingMaterials, 8u,  materials, MaterialRecord, fetchMaterial) \
-    ARRAY(bindingEmitters,  9u,  emitters,  EmitterRecord,  fetchEmitter) \
-    ARRAY(bindingLookups,   10u,  lookups,   LookupRow,      fetchLookupRow) \
-    ARRAY(bindingTextures,  11u, textures,  TextureRow,     fetchTextureRow) \
-    ARRAY(bindingInstances, 12u, instances, InstanceRecord, fetchInstance) \
-    ARRAY(bindingLights,    13u, lights,    LightRecord,    fetchLight) \
-    ARRAY(bindingLightNodes, 14u, lightNodes, LightNode,    fetchLightNode)
+    ARRAY(bindingSpheres,    5u,  spheres,    SphereRecord,   fetchSphere) \
+    ARRAY(bindingTriangles,  6u,  triangles,  TriangleRecord, fetchTriangle) \
+    ARRAY(bindingNormals,    7u,  normals,    NormalRecord,   fetchNormals) \
+    ARRAY(bindingMaterials,  8u,  materials,  MaterialRecord, fetchMaterial) \
+    ARRAY(bindingEmitters,   9u,  emitters,   EmitterRecord,  fetchEmitter) \
+    ARRAY(bindingLookups,    10u, lookups,    LookupRow,      fetchLookupRow) \
+    ARRAY(bindingTextures,   11u, textures,   TextureRow,     fetchTextureRow) \
+    ARRAY(bindingInstances,  12u, instances,  InstanceRecord, fetchInstance) \
+    ARRAY(bindingLights,     13u, lights,     LightRecord,    fetchLight) \
+    ARRAY(bindingLightNodes, 14u, lightNodes, LightNode,      fetchLightNode)
 // clang-format on
 
 #define HYALITE_BINDING(number, value, name, Record, fetch) const uint number = value;

@@ -713,10 +713,12 @@ const uint constantTreeSpheres = 23u; // what the tree holds
 const uint constantHasLightTree = 24u;
 const uint constantInfiniteEmitters = 25u; // of a scene with a light tree: emitters that are not in it
 const uint constantPassing = 26u;
-const uint constantTrianglePairs =
-    27u; // skip lists: all triangles are tested in turn, as so many pairs; 0: the tree is
+const uint constantTrianglePairs = 27u; // skip lists: all triangles in turn, as so many pairs; 0: the tree
 const uint constantSamplesInTurn = 28u; // slots go from sample to sample: samples_in_turn.glsl
-const uint constantCount = 29u;
+const uint constantBroadcasts = 29u;    // subgroups of broadcastLanes exchange values by broadcasts
+const uint constantCount = 30u;
+
+const uint broadcastLanes = 16u;
 
 const uint treeHasTriangles = 0u;
 const uint treeHasSpheresToo = 1u;

@@ -6,18 +6,15 @@ layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWord
 const uint filmPixelWords = 8u;
 const uint filmSampleCountWord = 3u;
 
-uint firstLaneAbreast() { return gl_SubgroupInvocationID & ~(samplesAbreast - 1u); }
-
-uint laneAbreast() { return gl_SubgroupInvocationID & (samplesAbreast - 1u); }
-
 // The slots of a pixel share the loads and stores of its words, because lavapipe makes them lane by lane and word by
 // word. Unless `isUsed`, nothing is stored, and the words of another pixel are loaded.
 FilmPixel loadFilmPixel(uint index, bool isUsed) {
     uint words[filmPixelWords];
     [[unroll]] for (uint begin = 0u; begin < filmPixelWords; begin += samplesAbreast) {
-        uint mine = filmWords[(isUsed ? index : 0u) * filmPixelWords + begin + laneAbreast()];
+        uint values[maxSamplesAbreast];
+        exchangeAbreast(filmWords[(isUsed ? index : 0u) * filmPixelWords + begin + laneAbreast()], values);
         [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
-            words[begin + lane] = subgroupShuffle(mine, firstLaneAbreast() + lane);
+            words[begin + lane] = values[lane];
     }
     return FilmPixel(uintBitsToFloat(uvec3(words[0], words[1], words[2])), words[3],
                      uintBitsToFloat(uvec3(words[4], words[5], words[6])), uintBitsToFloat(words[7]));
@@ -37,17 +34,16 @@ void storeFilmPixel(uint index, bool isUsed, FilmPixel pixel) {
     }
 }
 
-// The radiance of the slot at position `lane` among the samples abreast.
-vec3 radianceOfSample(uint slot, uint lane) {
-    return subgroupShuffle(path[slot].sampleRadiance, firstLaneAbreast() + lane);
-}
-
-bool isTrueForAllAbreast(bool value) {
-    uint all = value ? 1u : 0u;
-    all &= samplesAbreast > 1u ? subgroupShuffleXor(all, 1u) : 1u;
-    all &= samplesAbreast > 2u ? subgroupShuffleXor(all, 2u) : 1u;
-    all &= samplesAbreast > 4u ? subgroupShuffleXor(all, 4u) : 1u;
-    return all != 0u;
+// The radiances of the samples abreast, in order.
+void exchangeRadiances(uint slot, out vec3 radiances[maxSamplesAbreast]) {
+    uint red[maxSamplesAbreast];
+    uint green[maxSamplesAbreast];
+    uint blue[maxSamplesAbreast];
+    exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.x), red);
+    exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.y), green);
+    exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.z), blue);
+    [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
+        radiances[lane] = uintBitsToFloat(uvec3(red[lane], green[lane], blue[lane]));
 }
 #else
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
@@ -59,9 +55,9 @@ void storeFilmPixel(uint index, bool isUsed, FilmPixel pixel) {
         filmPixels[index] = pixel;
 }
 
-vec3 radianceOfSample(uint slot, uint lane) { return path[slot].sampleRadiance; }
+const uint maxSamplesAbreast = 1u;
 
-bool isTrueForAllAbreast(bool value) { return value; }
+void exchangeRadiances(uint slot, out vec3 radiances[maxSamplesAbreast]) { radiances[0] = path[slot].sampleRadiance; }
 #endif
 
 FilmPixel film[RAYS]; // the same in all slots of a pixel
@@ -75,9 +71,11 @@ void addRoundToFilm(uint slot) {
     if (!isTrueForAllAbreast(path[slot].stage == stageSampleDone))
         return;
     uint first = path[slot].sampleIndex - sampleLane(slot);
+    vec3 radiances[maxSamplesAbreast];
+    exchangeRadiances(slot, radiances);
     // Slots without a sample add 0, which changes no bit of any sum but -0.
     [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
-        vec3 radiance = withoutSubnormals(radianceOfSample(slot, lane));
+        vec3 radiance = withoutSubnormals(radiances[lane]);
         film[slot].sum = film[slot].sum + radiance;
         film[slot].sumOfSquares = film[slot].sumOfSquares + withoutSubnormals(radiance * radiance);
     }

@@ -80,7 +80,8 @@ std::string CommandLine::load(const std::string &name) const {
 std::set<std::string> CommandLine::entries() const {
     std::set<std::string> names;
     for (const fs::directory_entry &entry : fs::directory_iterator(folder))
-        names.insert(entry.path().filename().string());
+        if (entry.path().filename() != "cache")
+            names.insert(entry.path().filename().string());
     return names;
 }
 

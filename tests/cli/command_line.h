@@ -40,7 +40,7 @@ class CommandLine : public ::testing::Test {
 
     void store(const std::string &name, const std::string &text) const;
     [[nodiscard]] std::string load(const std::string &name) const;
-    /// The names in the folder, hidden ones too.
+    /// The names in the folder, hidden ones too, but for that of the program's cache.
     [[nodiscard]] std::set<std::string> entries() const;
 
     std::filesystem::path folder;

@@ -1,4 +1,5 @@
 // devices --tune: what is measured is shown, kept and used, and a file that is damaged does no harm.
+#include "host/gpu/processor_use.h"
 #include "tests/cli/command_line.h"
 
 #include <gtest/gtest.h>
@@ -86,11 +87,34 @@ TEST_F(Tuning, ADamagedFileIsToldAndChangesNothing) {
     }
 }
 
+TEST_F(Tuning, KeepsHowLanesExchangeWhichChangesNoBit) {
+    if (!gpu::hasWideVectors())
+        GTEST_SKIP() << "the processor has no vectors of 512 bits, and so no subgroups of 16 lanes";
+    const std::string key = "exchange of 16 lanes";
+    const std::string onDevice = " --device " + softwareDevice();
+    static_cast<void>(renderPfm(small + onDevice));
+    nlohmann::json kept = nlohmann::json::parse(load("cache/tuning.json"));
+    const std::string measured = kept.at("devices").at(0).at(key);
+    EXPECT_TRUE(measured == "shuffles" || measured == "broadcasts") << measured;
+    for (const std::string &line :
+         {small, small + " --integrator path", std::string("cat --width 24 --height 16 --spp 5"),
+          std::string("many-lights --width 24 --height 16 --spp 9"), small + " --integrator ao"}) {
+        const std::string wanted = renderPfm(line + " --device cpu");
+        for (const char *exchange : {"shuffles", "broadcasts"}) {
+            kept.at("devices").at(0).at(key) = exchange;
+            store("cache/tuning.json", kept.dump());
+            EXPECT_EQ(renderPfm(line + onDevice), wanted) << line << ", " << exchange;
+            EXPECT_EQ(load("cache/tuning.json"), kept.dump()) << "nothing is measured again";
+        }
+    }
+}
+
 TEST_F(Tuning, RefusesWhatMakesNoSense) {
     expectFailure("devices --tune --json", 2, {"--tune", "--json"});
     expectFailure("devices --device 0", 2, {"--tune"});
     expectFailure("devices --tune --device nonesuch", 4, {"nonesuch"});
-    EXPECT_EQ(entries(), std::set<std::string>{}) << "nothing is kept of it";
+    EXPECT_EQ(entries(), std::set<std::string>{});
+    EXPECT_FALSE(fs::exists(folder / "cache")) << "nothing is kept of it";
 }
 
 } // namespace

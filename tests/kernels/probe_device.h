@@ -15,7 +15,7 @@
 
 namespace hyalite::testing {
 
-/// lavapipe, opened once: the same everywhere, so that tests mean the same on every machine.
+/// lavapipe, opened once, with vectors as wide as the processor's.
 [[nodiscard]] gpu::Device &probeDevice();
 
 /// What a probed function reads beside its parameters.

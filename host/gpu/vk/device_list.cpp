@@ -13,6 +13,7 @@
 #include <charconv>
 #include <optional>
 #include <regex>
+#include <utility>
 
 namespace hyalite::gpu {
 
@@ -103,6 +104,12 @@ std::vector<DeviceInfo> listDevices(const Instance &instance) {
                     "the Vulkan loader finds no device: install your GPU's driver, or the "
                     "package mesa-vulkan-drivers, whose lavapipe renders on any CPU");
     return devices;
+}
+
+LoadedDevices loadDevices() {
+    auto instance = std::make_shared<Instance>();
+    std::vector<DeviceInfo> devices = listDevices(*instance);
+    return {std::move(instance), std::move(devices)};
 }
 
 DeviceInfo chooseDevice(const std::vector<DeviceInfo> &devices, const std::string &wanted) {

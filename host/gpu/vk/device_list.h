@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,7 @@ struct DeviceInfo {
     std::uint32_t consecutiveLanes =
         1;                   ///< as the start-up check finds them (startup_check.h), once it has run
     bool canShuffle = false; ///< subgroups of compute kernels exchange and add values
+    std::optional<bool> hasSlowShuffles{}; ///< as lane_exchange.h finds; empty: not measured
     bool hasTimestamps = false;
     bool hasCalibratedTimestamps = false;
     bool isPortabilitySubset = false; ///< lacks a part of Vulkan, and says so by an extension
@@ -57,6 +60,15 @@ struct DeviceInfo {
 [[nodiscard]] std::vector<DeviceInfo> listDevices();
 /// The same, with an existing instance.
 [[nodiscard]] std::vector<DeviceInfo> listDevices(const Instance &instance);
+
+/// All devices, and an instance that keeps their drivers loaded: the loader unloads them with the last instance.
+struct LoadedDevices {
+    std::shared_ptr<Instance> instance;
+    std::vector<DeviceInfo> devices;
+};
+
+/// Lists the devices as listDevices() does.
+[[nodiscard]] LoadedDevices loadDevices();
 
 /// Chooses by "auto" (hardware before software), an index, or part of a name; case and the vector width in the name of
 /// lavapipe do not matter. Throws Error{NoDevice}, listing the devices, if none matches or the device is unusable.

@@ -134,7 +134,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     vkGetPhysicalDeviceProperties2(device, &all);
     info.subgroupSize = subgroup.subgroupSize;
     constexpr VkSubgroupFeatureFlags operations =
-        VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+        VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
     info.canShuffle = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
                       (subgroup.supportedOperations & operations) == operations;
     info.maxAllocationBytes = allocations.maxMemoryAllocationSize;
