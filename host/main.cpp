@@ -185,6 +185,7 @@ ExitCode runAndReport(std::span<char *> arguments) {
 
 int main(int argumentCount, char **arguments) {
     useOneHeap();
+    keepFreedMemory();
     openMissingStreams();
     // A file beyond the shell's limit is an error of its own, as one on a full disk is.
     std::signal(SIGXFSZ, SIG_IGN);

@@ -1,6 +1,7 @@
 #include "host/base/host_memory.h"
 
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include <malloc.h>
@@ -18,6 +19,14 @@ std::optional<std::uint64_t> availableHostBytes() {
 void useOneHeap() {
 #ifdef M_ARENA_MAX
     mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
+void keepFreedMemory() {
+#ifdef M_TRIM_THRESHOLD
+    constexpr int largestHeapPiece = 32 << 20; // that glibc allows
+    mallopt(M_MMAP_THRESHOLD, largestHeapPiece);
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 #endif
 }
 

@@ -1,6 +1,7 @@
 #include "host/gpu/vk/buffer.h"
 
 #include "host/base/error.h"
+#include "host/base/huge_pages.h"
 #include "host/gpu/vk/check.h"
 
 #include <fmt/format.h>
@@ -99,6 +100,8 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
         void *address = nullptr;
         check(vkMapMemory(device.get(), memory, 0, VK_WHOLE_SIZE, 0, &address), "vkMapMemory for " + what);
         mapped_ = static_cast<std::byte *>(address);
+        if (device.info().isSoftware()) // whose memory is the machine's
+            preferHugePages(mapped_, static_cast<std::size_t>(requirements.size));
     }
 }
 
