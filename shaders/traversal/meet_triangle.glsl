@@ -3,10 +3,21 @@
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 
-// Tests a triangle in world space and records a hit; `record` and `instance` are where it comes from. isShadow: an opaque hit ends the search and returns true, and glass only dims;
-// otherwise the nearest hit is kept.
-bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
-                  const bool isShadow) {
+// A triangle or sphere of the tree that a ray meets, unless it turns out to be sheer there.
+struct Meeting {
+    bool isMet; // false: there is none
+    TriangleHit hit;
+    uint primitiveId;
+    uint record;
+    uint instance;
+    uint flags; // of the TriangleRecord
+    uint materialIndex;
+};
+
+// Tests a triangle in world space; `record` and `instance` are where it comes from. What is behind the nearest hit so
+// far, or behind the end of a shadow ray, is not met.
+Meeting testTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
+                     const bool isShadow) {
     uint id = triangle.primitiveId;
     bool isExcluded = id == path[slot].rayExcluded;
     bool isSphere = treeSpheres == treeHasSpheresOnly ||
@@ -21,36 +32,58 @@ bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle
             intersectBoxedSphere(boxRay, path[slot].rayDirection, triangle.v0, triangle.v1.x, isExcluded);
         record = id;
     }
-    bool isHit = hit.distance > 0.0;
+    bool isMet = hit.distance > 0.0;
     if ((passing & passesCulled) != 0u)
-        isHit = isHit && !(hit.isBehind && (triangle.flags & triangleIsCulled) != 0u);
-    if ((passing & passesSheer) != 0u && (triangle.flags & triangleIsSheer) != 0u && isHit) {
-        float choice = 0.0;
-        if ((passing & passesBlended) != 0u)
-            choice = sheerChoice(imagePixel[slot], frame.seed, path[slot].sampleIndex,
-                                 2u * path[slot].rayDepth + (isShadow ? 1u : 0u), id);
-        isHit = !isPassed(triangle.materialIndex, record, hit.u, hit.v, choice);
-    }
+        isMet = isMet && !(hit.isBehind && (triangle.flags & triangleIsCulled) != 0u);
+    if (isShadow)
+        isMet = isMet && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);
+    else
+        isMet = isMet && (hit.distance < path[slot].rayLength ||
+                          (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive));
+    return Meeting(isMet, hit, id, record, instance, triangle.flags, triangle.materialIndex);
+}
+
+bool maySlipThrough(Meeting meeting) {
+    return (passing & passesSheer) != 0u && meeting.isMet && (meeting.flags & triangleIsSheer) != 0u;
+}
+
+// Whether the ray passes the sheer triangle that it meets.
+bool slipsThrough(uint slot, Meeting meeting, const bool isShadow) {
+    float choice = 0.0;
+    if ((passing & passesBlended) != 0u)
+        choice = sheerChoice(imagePixel[slot], frame.seed, path[slot].sampleIndex,
+                             2u * path[slot].rayDepth + (isShadow ? 1u : 0u), meeting.primitiveId);
+    return isPassed(meeting.materialIndex, meeting.record, meeting.hit.u, meeting.hit.v, choice);
+}
+
+// Records what is met. isShadow: an opaque hit ends the search and returns true, and glass only dims; otherwise the
+// nearest hit is kept.
+bool keepMeeting(uint slot, Meeting meeting, const bool isShadow) {
     if (isShadow) {
-        bool isBetween =
-            isHit && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);
-        bool isTransmissive = lightPassesGlass && (triangle.flags & triangleIsTransmissive) != 0u;
-        if (isBetween && isTransmissive)
+        bool isTransmissive = lightPassesGlass && (meeting.flags & triangleIsTransmissive) != 0u;
+        if (meeting.isMet && isTransmissive)
             path[slot].isLightDimmed = 1u;
-        bool isBlocked = isBetween && !isTransmissive;
+        bool isBlocked = meeting.isMet && !isTransmissive;
         if (isBlocked)
-            path[slot].hitPrimitive = id;
+            path[slot].hitPrimitive = meeting.primitiveId;
         return isBlocked;
     }
-    bool isNearer = hit.distance < path[slot].rayLength ||
-                    (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive);
-    if (isHit && isNearer) {
-        path[slot].rayLength = hit.distance;
-        path[slot].hitU = hit.u;
-        path[slot].hitV = hit.v;
-        path[slot].hitPrimitive = id;
-        path[slot].hitRecord = record;
-        path[slot].hitInstance = instance;
+    if (meeting.isMet) {
+        path[slot].rayLength = meeting.hit.distance;
+        path[slot].hitU = meeting.hit.u;
+        path[slot].hitV = meeting.hit.v;
+        path[slot].hitPrimitive = meeting.primitiveId;
+        path[slot].hitRecord = meeting.record;
+        path[slot].hitInstance = meeting.instance;
     }
     return false;
+}
+
+// All three in one.
+bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
+                  const bool isShadow) {
+    Meeting meeting = testTriangle(slot, record, instance, triangle, ray, boxRay, isShadow);
+    if (maySlipThrough(meeting) && slipsThrough(slot, meeting, isShadow))
+        meeting.isMet = false;
+    return keepMeeting(slot, meeting, isShadow);
 }

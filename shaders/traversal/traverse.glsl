@@ -4,10 +4,13 @@
 #include "shaders/traversal/traverse_list.glsl"
 
 void traverse(uint stage, const bool isShadow) {
+    Meeting waiting[RAYS]; // never used
     if (trianglePairs > 0u)
         traverseList(stage, isShadow);
+    else if ((passing & passesSheer) != 0u)
+        traverseSheerTree(stage, isShadow);
     else
-        traverseTree(stage, isShadow);
+        traverseTree(stage, isShadow, waiting);
 }
 #else
 #include "shaders/traversal/traverse_stack.glsl"

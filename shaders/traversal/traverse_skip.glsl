@@ -4,6 +4,9 @@
 // for eight. The lanes of a subgroup follow samples of the same pixels and reach their leaves together. So all path
 // slots step until each is at a leaf, and then all test triangles until each has left its leaf. Traversal can stop
 // after any step: its state is the cursor and the nearest hit.
+//
+// A lookup whether a triangle is sheer where a ray meets it takes longer than several steps, and all lanes would pay for
+// it with each triangle. So a ray that meets a sheer triangle waits until all others have come to their end or wait, too.
 
 // Distances to the planes of the grid: q * scale + lower or upper, with q in the upper half of a word. A value in the
 // lower half moves the plane up by less than a cell; it is left there only for upper planes, which it moves outward.
@@ -73,9 +76,14 @@ struct Cursor {
     bool isSearching; // for the next leaf
     uint instance;    // whose tree it is in, or noInstance
     int following;    // then the node after the instance's own
+    bool isWaiting;   // to look up whether what it meets is sheer
 };
 
-bool isBeforeLeaf(Cursor cursor) { return cursor.leaf == 0 && cursor.node < cursor.end; }
+bool canMove(Cursor cursor) { return (passing & passesSheer) == 0u || !cursor.isWaiting; }
+
+bool isBeforeLeaf(Cursor cursor) { return cursor.leaf == 0 && cursor.node < cursor.end && canMove(cursor); }
+
+bool isAtTriangle(Cursor cursor) { return cursor.leaf != 0 && canMove(cursor); }
 
 vec2 gridBoxInterval(GridRay ray, ivec3 planes) {
     vec3 toLower = ray.lower + vec3(planes << 16u) * ray.scale;
@@ -118,6 +126,17 @@ void enterInstance(inout Cursor cursor, vec3 direction, InstanceRecord instance)
     cursor.leaf = 0;
 }
 
+// Moves a cursor to the end of the list: nothing else can be met.
+void leaveAll(inout Cursor cursor, vec3 direction) {
+    cursor.leaf = 0;
+    cursor.node = cursor.end;
+    cursor.following = topEnd(direction);
+}
+
+bool isAtEndOfInstance(Cursor cursor) {
+    return hasInstances && cursor.instance != noInstance && cursor.leaf == 0 && cursor.node >= cursor.end;
+}
+
 // Moves a cursor out of the tree of an instance's mesh, to `node` of the scene's own.
 void leaveTree(inout Cursor cursor, vec3 direction, int node) {
     cursor.node = node;
@@ -125,7 +144,8 @@ void leaveTree(inout Cursor cursor, vec3 direction, int node) {
     cursor.instance = noInstance;
 }
 
-void traverseTree(uint stage, const bool isShadow) {
+// `waiting` gets the sheer triangles that rays meet. These rays have stopped on the way.
+void traverseTree(uint stage, const bool isShadow, inout Meeting waiting[RAYS]) {
     GridRay gridRay[RAYS];
     PlacedBoxRay placedRay[RAYS];
     InstanceRecord instance[RAYS];
@@ -147,6 +167,7 @@ void traverseTree(uint stage, const bool isShadow) {
         cursor[slot].end = isMine ? topEnd(direction) : 0;
         cursor[slot].leaf = isMine && isAtLeaf ? int(path[slot].cursorTriangle | leafFlag) : 0;
         cursor[slot].instance = noInstance;
+        cursor[slot].isWaiting = false;
         if (hasInstances && isMine && path[slot].cursorInstance != noInstance) {
             cursor[slot].instance = path[slot].cursorInstance;
             cursor[slot].following = int(path[slot].cursorReturn);
@@ -182,32 +203,33 @@ void traverseTree(uint stage, const bool isShadow) {
         do {
             isRunning = false;
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-                countSlot(slot, cursor[slot].leaf != 0, uvec3(0u, 0u, 1u));
-                if (cursor[slot].leaf != 0) {
+                countSlot(slot, isAtTriangle(cursor[slot]), uvec3(0u, 0u, 1u));
+                if (isAtTriangle(cursor[slot])) {
                     uint record = uint(cursor[slot].leaf) & ~leafFlag;
                     TriangleRecord triangle = fetchTriangle(record);
                     cursor[slot].leaf = (triangle.flags & triangleEndsLeaf) != 0u ? 0 : cursor[slot].leaf + 1;
                     if (hasInstances && cursor[slot].instance != noInstance)
                         triangle = placedTriangle(instance[slot], triangle);
-                    if (meetTriangle(slot, record, cursor[slot].instance, triangle, triangleRay[slot], boxRay[slot],
-                                     isShadow)) {
-                        cursor[slot].leaf = 0;
-                        cursor[slot].node = cursor[slot].end;
-                        cursor[slot].following = topEnd(path[slot].rayDirection);
+                    Meeting meeting = testTriangle(slot, record, cursor[slot].instance, triangle,
+                                                   triangleRay[slot], boxRay[slot], isShadow);
+                    if (maySlipThrough(meeting)) {
+                        waiting[slot] = meeting;
+                        cursor[slot].isWaiting = true;
+                    } else if (keepMeeting(slot, meeting, isShadow)) {
+                        leaveAll(cursor[slot], path[slot].rayDirection);
                     }
                 }
-                isRunning = isRunning || cursor[slot].leaf != 0;
+                isRunning = isRunning || isAtTriangle(cursor[slot]);
             }
             countPass();
             stepsTaken += 1u;
         } while (isRunning && stepsTaken < dispatch.stepBudget);
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-            bool hasLeft = cursor[slot].leaf == 0 && cursor[slot].node >= cursor[slot].end;
-            if (hasInstances && cursor[slot].instance != noInstance && hasLeft) {
+            if (isAtEndOfInstance(cursor[slot])) {
                 placedRay[slot] = makeTopRay(boxRay[slot]);
                 leaveTree(cursor[slot], path[slot].rayDirection, cursor[slot].following);
             }
-            isRunning = isRunning || cursor[slot].node < cursor[slot].end;
+            isRunning = isRunning || (cursor[slot].node < cursor[slot].end && canMove(cursor[slot]));
         }
         stepsTaken += 1u;
     } while (isRunning && stepsTaken < dispatch.stepBudget);
@@ -221,4 +243,23 @@ void traverseTree(uint stage, const bool isShadow) {
         path[slot].cursorInstance = cursor[slot].instance;
         path[slot].cursorReturn = uint(cursor[slot].following);
     }
+}
+
+// The traversal where triangles may be sheer.
+void traverseSheerTree(uint stage, const bool isShadow) {
+    bool isAnyLeft;
+    do {
+        Meeting waiting[RAYS];
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
+            waiting[slot].isMet = false;
+        traverseTree(stage, isShadow, waiting);
+        isAnyLeft = false;
+        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
+            if (waiting[slot].isMet && !slipsThrough(slot, waiting[slot], isShadow) &&
+                keepMeeting(slot, waiting[slot], isShadow))
+                stopTraversal(slot);
+            isAnyLeft = isAnyLeft || (path[slot].stage == stage && isTraversing(slot));
+        }
+        stepsTaken += 2u; // and a loop in the lookup
+    } while (isAnyLeft && stepsTaken < dispatch.stepBudget);
 }
