@@ -143,7 +143,8 @@ void move(const Curve &curve, const JsonNode &node, Path path, double seconds, T
         return;
     }
     const std::vector<double> numbers = curve.at(seconds, 3, false);
-    (path == Path::Translation ? trs.translation : trs.scale) = {numbers[0], numbers[1], numbers[2]};
+    (path == Path::Translation ? trs.translation : trs.scale) =
+        glm::dvec3(numbers[0], numbers[1], numbers[2]);
 }
 
 void move(const Curve &curve, const JsonNode &node, Path path, double seconds, Pose &pose) {
