@@ -5,7 +5,8 @@
 #   cmake/run.sh test                builds and runs all tests
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
 #   cmake/run.sh build               builds only
-#   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it
+#   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it,
+#                                    --driver=mesa or --driver=swiftshader also images by drivers that it fetches
 #   cmake/run.sh sanitize            builds with the address and undefined behaviour sanitizers, and runs all tests
 #   cmake/run.sh check               checks the format of all C++ by clang-format, and host/ and cmake/ by clang-tidy
 #   cmake/run.sh fuzz SECONDS        feeds each reader of files with inputs made up by libFuzzer, for so many seconds
@@ -160,7 +161,17 @@ sanitize)
 bench)
     install_missing "${needed_for_bench[@]}"
     build_all "$(tests_as_before)" -DHYALITE_BENCH=ON
-    exec "$build/bin/hyalite_bench" "${@:2}"
+    options=()
+    for option in "${@:2}"; do
+        case $option in
+        --driver=mesa | --driver=swiftshader)
+            "$root/tests/drivers/fetch.sh" "$build/drivers" "${option#*=}"
+            option=--driver=$build/drivers/${option#*=}.json
+            ;;
+        esac
+        options+=("$option")
+    done
+    exec "$build/bin/hyalite_bench" "${options[@]}"
     ;;
 fuzz)
     [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || { usage >&2; exit 2; }

@@ -6,52 +6,60 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace hyalite::bench {
 
 namespace {
 
-/// By its index: names of devices may be alike.
-std::string deviceArgument(const Context &context) { return std::to_string(context.device().index); }
+/// What of a run counts: all dispatches, or the process, whose kernels Mesa has or has not in its cache.
+enum class Counted { Dispatches, Process, ColdProcess };
 
-void measureFrame(benchmark::State &state, Rendering &rendering) {
-    race(state, [&] { return rendering.run(); }, {});
-    if (!areProcessorSecondsCounted())
-        state.counters["seconds in all"] = median(rendering.processSeconds());
+double run(Rendering &rendering, Counted counted) {
+    if (counted == Counted::ColdProcess)
+        rendering.forgetKernels();
+    const double dispatchSeconds = rendering.run();
+    return counted == Counted::Dispatches ? dispatchSeconds : rendering.processSeconds();
 }
 
-void measureFrameOnDevice(benchmark::State &state, const Context &context, const Frame &frame) {
-    Rendering onDevice(frame, deviceArgument(context));
-    Rendering onCpu(frame, "cpu");
-    onDevice.run();
-    onCpu.run();
-    if (!std::ranges::equal(onDevice.picture().pixels(), onCpu.picture().pixels()))
-        state.SkipWithError("the image differs from the reference's");
-    else
-        measureFrame(state, onDevice);
-}
-
-void measureFrameOnCpu(benchmark::State &state, const Frame &frame) {
-    Rendering onCpu(frame, "cpu");
-    measureFrame(state, onCpu);
-}
-
-enum class ShaderCache { Warm, Cold };
-
-/// The least that a render can take.
-void measureStartUp(benchmark::State &state, const Frame &frame, const std::string &deviceName,
-                    ShaderCache cache) {
-    const TemporaryFolder folder;
-    const std::vector<std::string> arguments = argumentsOf(frame, deviceName, folder.path() / "image.png");
-    const auto run = [&] {
-        const TemporaryFolder empty;
-        return cache == ShaderCache::Warm
-                   ? runHyalite(arguments)
-                   : runHyalite(arguments, {"MESA_SHADER_CACHE_DIR=" + empty.path().string()});
+void raceRenderings(benchmark::State &state, Rendering &contestant, std::span<const Rival> rivals,
+                    Counted counted) {
+    std::vector<double> processSeconds;
+    const auto runContestant = [&] {
+        const double seconds = run(contestant, counted);
+        processSeconds.push_back(contestant.processSeconds());
+        return seconds;
     };
-    run();
-    race(state, run, {});
+    race(state, runContestant, rivals);
+    if (counted == Counted::Dispatches && !areProcessorSecondsCounted())
+        state.counters["seconds in all"] = median(processSeconds);
+}
+
+void measureOnDevice(benchmark::State &state, const Context &context, const Frame &frame,
+                     const Target &target, Counted counted) {
+    Rendering onCpu(frame, cpuReference);
+    Rendering onDevice(frame, target);
+    onCpu.run();
+    onDevice.run();
+    if (!std::ranges::equal(onDevice.picture().pixels(), onCpu.picture().pixels())) {
+        state.SkipWithError("the image differs from the reference's");
+        return;
+    }
+    if (target.isOfSystem()) {
+        raceRenderings(state, onDevice, {}, counted);
+        return;
+    }
+    Rendering bySystem(frame, context.systemTarget());
+    bySystem.run(); // so that its kernels are there
+    const Rival rivals[] = {{"of the system's driver", [&] { return run(bySystem, counted); }}};
+    raceRenderings(state, onDevice, rivals, counted);
+}
+
+void measureOnCpu(benchmark::State &state, const Frame &frame, Counted counted) {
+    Rendering onCpu(frame, cpuReference);
+    raceRenderings(state, onCpu, {}, counted);
 }
 
 } // namespace
@@ -69,10 +77,12 @@ void registerFrames(Context &context) {
         frames.push_back({scene, scene, {"--spp", "8"}});
     for (const Frame &frame : frames) {
         const std::string row = fmt::format("frames/{}/", frame.name);
-        addBenchmark(row + "device", 3,
-                     [=, &context](benchmark::State &state) { measureFrameOnDevice(state, context, frame); });
-        addBenchmark(row + "CPU reference", 2,
-                     [=](benchmark::State &state) { measureFrameOnCpu(state, frame); });
+        for (const Target &target : context.targets())
+            addBenchmark(row + target.name, 3, [=, &context](benchmark::State &state) {
+                measureOnDevice(state, context, frame, target, Counted::Dispatches);
+            });
+        addBenchmark(row + cpuReference.name, 2,
+                     [=](benchmark::State &state) { measureOnCpu(state, frame, Counted::Dispatches); });
     }
 }
 
@@ -83,15 +93,17 @@ void registerStartUp(Context &context) {
                             {"still-life at 48x32 and 1 spp", "still-life", fewPixels}};
     for (const Frame &frame : frames) {
         const std::string row = fmt::format("start-up/{}/", frame.name);
-        addBenchmark(row + "device", 5, [=, &context](benchmark::State &state) {
-            measureStartUp(state, frame, deviceArgument(context), ShaderCache::Warm);
-        });
-        addBenchmark(row + "device, cold shader cache", 3, [=, &context](benchmark::State &state) {
-            measureStartUp(state, frame, deviceArgument(context), ShaderCache::Cold);
-        });
-        addBenchmark(row + "CPU reference", 5, [=](benchmark::State &state) {
-            measureStartUp(state, frame, "cpu", ShaderCache::Warm);
-        });
+        for (const Target &target : context.targets()) {
+            addBenchmark(row + target.name, 5, [=, &context](benchmark::State &state) {
+                measureOnDevice(state, context, frame, target, Counted::Process);
+            });
+            addBenchmark(row + target.name + ", cold shader cache", 3,
+                         [=, &context](benchmark::State &state) {
+                             measureOnDevice(state, context, frame, target, Counted::ColdProcess);
+                         });
+        }
+        addBenchmark(row + cpuReference.name, 5,
+                     [=](benchmark::State &state) { measureOnCpu(state, frame, Counted::Process); });
     }
 }
 

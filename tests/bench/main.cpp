@@ -1,8 +1,8 @@
-// hyalite_bench [--device=NAME] [--cpu-time] [--benchmark_filter=...] [--benchmark_out=FILE.json]...
+// hyalite_bench [--device=NAME] [--driver=FILE.json]... [--cpu-time] [--benchmark_filter=...] [--benchmark_out=FILE]...
 //
-// Verifies, measures, and prints tables in the end. --cpu-time counts processor seconds in place of time: for machines
-// that do other things meanwhile, and for devices that compute on the CPU. Exit code 1: a result was wrong or something
-// was missing.
+// Verifies, measures, and prints tables in the end. --driver names the manifest of a Vulkan driver, which gets a column of
+// its own where processes are timed. --cpu-time counts processor seconds in place of time: for machines that do other
+// things meanwhile, and for devices that compute on the CPU. Exit code 1: a result was wrong or something was missing.
 #include "tests/bench/race.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"
@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace {
 
@@ -39,6 +40,9 @@ int main(int argumentCount, char **arguments) {
     using namespace hyalite;
     try {
         const std::string deviceName = takeOption("--device=", argumentCount, arguments).value_or("auto");
+        std::vector<std::string> manifests;
+        while (const auto manifest = takeOption("--driver=", argumentCount, arguments))
+            manifests.push_back(*manifest);
         if (takeOption("--cpu-time", argumentCount, arguments))
             bench::countProcessorSeconds();
         benchmark::Initialize(&argumentCount, arguments);
@@ -47,6 +51,8 @@ int main(int argumentCount, char **arguments) {
         bench::Context context(gpu::chooseDevice(gpu::listDevices(), deviceName));
         benchmark::AddCustomContext("device", context.device().name);
         benchmark::AddCustomContext("driver", context.device().driver);
+        for (const std::string &manifest : manifests)
+            context.addTarget(bench::targetOf(manifest));
         bench::registerRays(context);
         bench::registerBruteForce(context);
         bench::registerBuilding(context);

@@ -17,28 +17,29 @@ nlohmann::json readReport(const std::filesystem::path &file) {
 
 } // namespace
 
-std::vector<std::string> argumentsOf(const Frame &frame, const std::string &deviceName,
-                                     const std::filesystem::path &image) {
-    std::vector<std::string> arguments{"render",   frame.scene, "--quiet",     "--device",
-                                       deviceName, "--output",  image.string()};
-    arguments.insert(arguments.end(), frame.options.begin(), frame.options.end());
-    return arguments;
-}
-
-Rendering::Rendering(const Frame &frame, const std::string &deviceName)
-    : arguments_(argumentsOf(frame, deviceName, image())) {
-    arguments_.insert(arguments_.end(), {"--report", report().string()});
+Rendering::Rendering(const Frame &frame, const Target &target)
+    : arguments_{"render",   frame.scene,      "--quiet",  "--device",       target.device,
+                 "--output", image().string(), "--report", report().string()},
+      environment_(target.environment) {
+    arguments_.insert(arguments_.end(), frame.options.begin(), frame.options.end());
+    environment_.push_back("MESA_SHADER_CACHE_DIR=" + kernels().string());
 }
 
 double Rendering::run() {
-    processSeconds_.push_back(runHyalite(arguments_));
+    processSeconds_ = runHyalite(arguments_, environment_);
     if (areProcessorSecondsCounted())
-        return processSeconds_.back();
+        return processSeconds_;
     return readReport(report()).at("seconds").at("render").get<double>();
 }
+
+void Rendering::forgetKernels() { std::filesystem::remove_all(kernels()); }
 
 Image Rendering::picture() const { return readImage(image()).image; }
 
 double Rendering::rayCount() const { return readReport(report()).at("rays").at("total").get<double>(); }
+
+std::string Rendering::driver() const {
+    return readReport(report()).at("device").at("driver").get<std::string>();
+}
 
 } // namespace hyalite::bench

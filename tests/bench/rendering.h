@@ -3,6 +3,7 @@
 
 #include "host/image/image.h"
 #include "tests/bench/process.h"
+#include "tests/bench/target.h"
 
 #include <filesystem>
 #include <string>
@@ -16,31 +17,34 @@ struct Frame {
     std::vector<std::string> options{};
 };
 
-/// What `hyalite` is given to render a frame.
-[[nodiscard]] std::vector<std::string> argumentsOf(const Frame &frame, const std::string &deviceName,
-                                                   const std::filesystem::path &image);
-
-/// Renders one frame on one device, to a file that is overwritten.
+/// Renders one frame on one target, to a file that is overwritten. Mesa keeps compiled kernels in a folder of this
+/// object's own, empty at first: the key of its cache leaves out the width of lavapipe's vectors, which differs among
+/// frames and drivers.
 class Rendering {
   public:
-    Rendering(const Frame &frame, const std::string &deviceName);
+    Rendering(const Frame &frame, const Target &target);
 
     /// Returns the seconds of all dispatches, or of the reference renderer; of the processor's only those of the whole
-    /// process are known. Keeps these.
+    /// process are known.
     double run();
+    /// The next run compiles kernels anew.
+    void forgetKernels();
 
-    /// Of the last run. The files themselves say which device made them.
+    // Of the last run. The files themselves say which device made them.
+    [[nodiscard]] double processSeconds() const { return processSeconds_; } ///< from start to end
     [[nodiscard]] Image picture() const;
     [[nodiscard]] double rayCount() const;
-    [[nodiscard]] const std::vector<double> &processSeconds() const { return processSeconds_; }
+    [[nodiscard]] std::string driver() const; ///< name and version, from the driver
 
   private:
     [[nodiscard]] std::filesystem::path image() const { return folder_.path() / "image.png"; }
     [[nodiscard]] std::filesystem::path report() const { return folder_.path() / "report.json"; }
+    [[nodiscard]] std::filesystem::path kernels() const { return folder_.path() / "kernels"; }
 
     TemporaryFolder folder_;
     std::vector<std::string> arguments_;
-    std::vector<double> processSeconds_;
+    std::vector<std::string> environment_;
+    double processSeconds_ = 0.0;
 };
 
 } // namespace hyalite::bench

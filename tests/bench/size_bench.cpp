@@ -130,8 +130,8 @@ void measureSize(benchmark::State &state, const Context &context, const Kind &ki
         kind.write(scene, count, folder.path());
     }
     const Frame frame{kind.name, file};
-    Rendering onDevice(frame, std::to_string(context.device().index));
-    Rendering onCpu(frame, "cpu");
+    Rendering onDevice(frame, context.systemTarget());
+    Rendering onCpu(frame, cpuReference);
     onDevice.run();
     onCpu.run();
     if (!std::ranges::equal(onDevice.picture().pixels(), onCpu.picture().pixels())) {

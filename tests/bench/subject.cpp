@@ -3,7 +3,19 @@
 #include "host/scene/framing.h"
 #include "tests/bench/meshes.h"
 
+#include <algorithm>
+
 namespace hyalite::bench {
+
+// By its index: names of devices may be alike.
+Context::Context(gpu::DeviceInfo device)
+    : device_(std::move(device)), targets_{{"device", std::to_string(device_.index)}} {}
+
+void Context::addTarget(Target target) {
+    while (std::ranges::find(targets_, target.name, &Target::name) != targets_.end())
+        target.name += ", another";
+    targets_.push_back(std::move(target));
+}
 
 Subject &Context::subject(const std::string &meshName) {
     if (subjectName_ != meshName) {

@@ -4,10 +4,12 @@
 
 #include "tests/bench/embree.h"
 #include "tests/bench/ray_sets.h"
+#include "tests/bench/target.h"
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hyalite::bench {
 
@@ -37,14 +39,20 @@ class Subject {
 /// What the benchmarks share. It has to be gone before the program ends: drivers tidy up for themselves then.
 class Context {
   public:
-    explicit Context(gpu::DeviceInfo device) : device_(std::move(device)) {}
+    explicit Context(gpu::DeviceInfo device);
 
     [[nodiscard]] const gpu::DeviceInfo &device() const { return device_; }
+    /// What processes of `hyalite` render on beside the CPU: the same device first, then those of other drivers.
+    [[nodiscard]] const std::vector<Target> &targets() const { return targets_; }
+    [[nodiscard]] const Target &systemTarget() const { return targets_.front(); }
+    /// Of another driver. If a driver calls itself the same, this one's name gets longer.
+    void addTarget(Target target);
     /// Only the last one is kept: a large mesh in all its forms takes a gigabyte.
     [[nodiscard]] Subject &subject(const std::string &meshName);
 
   private:
     gpu::DeviceInfo device_;
+    std::vector<Target> targets_;
     std::string subjectName_;
     std::unique_ptr<Subject> subject_;
 };

@@ -9,7 +9,7 @@ class Context;
 
 void registerRays(
     Context &context); ///< rays a second of each kernel, of the reference and of Embree, on the same rays
-void registerFrames(Context &context);     ///< whole images, on the device and on the CPU
+void registerFrames(Context &context);     ///< whole images, on each device and on the CPU
 void registerSizes(Context &context);      ///< time a ray by triangles, instances and lamps
 void registerNoise(Context &context);      ///< of paths at equal time, beside a path tracer on Embree
 void registerStartUp(Context &context);    ///< the smallest of images

@@ -21,11 +21,11 @@ const std::map<std::string, std::string> captions{
     {"rays", "Mray/s, and how many times as fast as Embree's calls for one ray:"},
     {"frames",
      "Seconds for a whole image, in vectors as wide as `render` has them: of all dispatches, and of the "
-     "process from start to end:"},
+     "process from start to end; and how many times as fast another driver's dispatches are:"},
     {"size", "Nanoseconds of all dispatches a ray, by how many of what a scene has:"},
     {"noise", "Seconds until pixels have a standard deviation of 5 % of the image's mean, and how many times "
               "sooner that is:"},
-    {"start-up", "Seconds from start to end of the process:"},
+    {"start-up", "Seconds from start to end of the process, and how many times as fast another driver is:"},
     {"trees", "Seconds to build a tree, and how many times as fast as Embree on as many threads:"},
     {"reading", "Seconds to read an OBJ file, and how many times as fast as tinyobjloader:"},
     {"brute force", "Mray/s, and how many times as fast as testing all triangles:"},

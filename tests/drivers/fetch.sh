@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
 # Puts Vulkan drivers that this machine lacks into a folder, unpacked from Debian's packages; nothing is installed:
 #
-#   tests/drivers/fetch.sh FOLDER
+#   tests/drivers/fetch.sh FOLDER DRIVER...
 #
-#   FOLDER/mesa.json          lavapipe of another version of Mesa than the release's own
-#   FOLDER/swiftshader.json   SwiftShader, which comes with Chromium
+#   mesa          FOLDER/mesa.json, lavapipe of another version of Mesa than the release's own
+#   swiftshader   FOLDER/swiftshader.json, SwiftShader, which comes with Chromium
 #
 # What is there already is not fetched again. A driver that cannot be had, or whose libraries are missing, is an error.
 set -euo pipefail
 
 mkdir -p "$1"
 cd "$1"
+shift
 folder=$PWD
 architecture=$(dpkg --print-architecture)
 triplet=$(dpkg-architecture -qDEB_HOST_MULTIARCH 2>/dev/null || gcc -print-multiarch)
@@ -71,5 +72,10 @@ fetch() {
     printf '{"file_format_version": "1.0.0", "ICD": {"library_path": "%s", "api_version": "1.3.0"}}\n' \
         "$folder/$name/$library" >"$name.json"
 }
-fetch mesa mesa-vulkan-drivers "$mesa_suite" "usr/lib/$triplet/libvulkan_lvp.so"
-fetch swiftshader chromium-common "$release" usr/lib/chromium/libvk_swiftshader.so
+for driver in "$@"; do
+    case $driver in
+    mesa) fetch mesa mesa-vulkan-drivers "$mesa_suite" "usr/lib/$triplet/libvulkan_lvp.so" ;;
+    swiftshader) fetch swiftshader chromium-common "$release" usr/lib/chromium/libvk_swiftshader.so ;;
+    *) echo "fetch.sh: no driver is known as $driver" >&2; exit 2 ;;
+    esac
+done

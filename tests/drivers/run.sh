@@ -8,7 +8,7 @@ set -euo pipefail
 
 build=$(cd "$1" && pwd)
 drivers=$build/drivers
-"$(dirname "${BASH_SOURCE[0]}")/fetch.sh" "$drivers"
+"$(dirname "${BASH_SOURCE[0]}")/fetch.sh" "$drivers" mesa swiftshader
 export HYALITE_CACHE=$drivers/cache
 status=0
 # One driver, with a folder of its own for compiled kernels.
