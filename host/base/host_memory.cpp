@@ -24,8 +24,8 @@ void useOneHeap() {
 
 void keepFreedMemory() {
 #ifdef M_TRIM_THRESHOLD
-    constexpr int largestHeapPiece = 32 << 20; // that glibc allows
-    mallopt(M_MMAP_THRESHOLD, largestHeapPiece);
+    constexpr int leastGivenBack = 4 << 20;
+    mallopt(M_MMAP_THRESHOLD, leastGivenBack);
     mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 #endif
 }

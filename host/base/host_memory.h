@@ -13,7 +13,7 @@ namespace hyalite {
 /// whose driver starts threads each time, would grow by 17 KB a render, to twice the memory that it needs.
 void useOneHeap();
 
-/// Makes `malloc` keep what is freed, in pieces below 32 MiB, for what is allocated next. glibc gives it back to the
+/// Makes `malloc` keep what is freed, in pieces below 4 MiB, for what is allocated next. glibc gives it back to the
 /// kernel, and has it cleared page by page when it needs it again: drivers' compilers allocate the same many times.
 void keepFreedMemory();
 

@@ -39,7 +39,7 @@ void exchangeAbreast(uint mine, out uint values[maxSamplesAbreast]) {
 
 bool isTrueForAllAbreast(bool value) {
     if (exchangesByBroadcast) {
-        uint ofPixel = (1u << samplesAbreast) - 1u;
+        const uint ofPixel = samplesAbreast == 8u ? 0xFFu : (samplesAbreast == 4u ? 0xFu : (samplesAbreast == 2u ? 3u : 1u));
         return (subgroupBallot(value).x >> firstLaneAbreast() & ofPixel) == ofPixel;
     }
     uint all = value ? 1u : 0u;

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include <malloc.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 namespace hyalite::testing {
@@ -48,6 +49,7 @@ TEST_F(ManyRenders, GrowNoMemory) {
     const char *scale = std::getenv("HYALITE_TEST_SCALE");
     const int count = 100 * std::clamp(scale != nullptr ? std::atoi(scale) : 1, 1, 1000);
     useOneHeap();
+    prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0); // pages of 2 MiB would hide what is looked for
     render(20);
     const Memory before = memoryNow();
     render(count);

@@ -82,7 +82,7 @@ TEST(NoContraction, IsOnEveryOperationThatADriverGets) {
             EXPECT_EQ(roundingsOf(words).contracted, std::vector<std::string>{}) << kernel.name;
         }
         EXPECT_EQ(roundingsOf(kernel.words).contracted, std::vector<std::string>{}) << kernel.name;
-        if (kernel.name != "echoKernel") {
+        if (kernel.name != "echoKernel" && kernel.name != "laneExchange") {
             EXPECT_GT(roundingsOf(kernel.words).count, 0u) << kernel.name;
         }
     }

@@ -1,6 +1,5 @@
 #include "tests/kernels/probe_device.h"
 
-#include "host/gpu/processor_use.h"
 #include "probeKernel.h"
 #include "tests/fixtures/test_device.h"
 
@@ -27,10 +26,7 @@ std::string describe(const std::uint32_t *words, std::size_t count) {
 } // namespace
 
 gpu::Device &probeDevice() {
-    static gpu::Device device = [] {
-        gpu::tellLavapipe({}); // vectors as wide as renders have them
-        return gpu::Device(testing::testDevice());
-    }();
+    static gpu::Device device(testing::testDevice());
     return device;
 }
 
