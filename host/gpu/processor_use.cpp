@@ -33,9 +33,14 @@ bool maySplitDeeply(const ProcessorUse &use) {
 void tellLavapipe(const ProcessorUse &use) {
     if (use.threadCount > 0)
         setenv("LP_NUM_THREADS", std::to_string(use.threadCount).c_str(), 1);
-    constexpr int isOverwriting = 0;
-    if (!maySplitDeeply(use) && hasWideVectors())
-        setenv("LP_NATIVE_VECTOR_WIDTH", "512", isOverwriting);
+    constexpr const char *width = "LP_NATIVE_VECTOR_WIDTH";
+    static const bool isUsers = std::getenv(width) != nullptr;
+    if (isUsers)
+        return;
+    if (hasWideVectors() && !use.hasStack && !maySplitDeeply(use))
+        setenv(width, "512", 1);
+    else
+        unsetenv(width);
 }
 
 } // namespace hyalite::gpu

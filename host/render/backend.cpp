@@ -206,6 +206,11 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
     return std::make_unique<DeviceBackend>(gpu::chooseDevice(loaded.devices, name), config);
 }
 
+void tellLavapipe(gpu::ProcessorUse processors, const gpu::RenderConfig &config) {
+    processors.hasStack = config.traversal == gpu::Traversal::Stack;
+    gpu::tellLavapipe(processors);
+}
+
 } // namespace
 
 void requireFilmMemory(const Crop &crop, unsigned filmCount) {
@@ -258,14 +263,14 @@ gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene) {
 
 std::unique_ptr<Backend> openBackend(const std::string &name, const gpu::ProcessorUse &processors,
                                      const gpu::RenderConfig &config) {
-    gpu::tellLavapipe(processors);
+    tellLavapipe(processors, config);
     return open(name, processors.threadCount, config);
 }
 
 std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name,
                                                           const gpu::ProcessorUse &processors,
                                                           const gpu::RenderConfig &config) {
-    gpu::tellLavapipe(processors); // here, as other threads may read the environment from now on
+    tellLavapipe(processors, config); // here, as other threads may read the environment from now on
     return std::async(std::launch::async, [=] { return open(name, processors.threadCount, config); });
 }
 

@@ -79,7 +79,7 @@ std::string profileTable(const Profile &profile) {
         text += fmt::format("{:>12}", rays.*kind.count);
     text += fmt::format("{:>12}\n", rays.total());
     if (profile.work)
-        text += fmt::format("work of a stack traversal: {} nodes, {} boxes, {} triangles, deepest stack {}\n",
+        text += fmt::format("work of primary rays with a stack: {} nodes, {} boxes, {} triangles, deepest stack {}\n",
                             profile.work->nodesVisited, profile.work->boxesTested,
                             profile.work->trianglesTested, profile.work->deepestStack);
     if (profile.kernelWork) {
