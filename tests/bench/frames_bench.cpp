@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,12 +40,8 @@ void measureOnDevice(benchmark::State &state, const Context &context, const Fram
                      const Target &target, Counted counted) {
     Rendering onCpu(frame, cpuReference);
     Rendering onDevice(frame, target);
-    onCpu.run();
-    onDevice.run();
-    if (!std::ranges::equal(onDevice.picture().pixels(), onCpu.picture().pixels())) {
-        state.SkipWithError("the image differs from the reference's");
+    if (!haveEqualPictures(onDevice, onCpu, state))
         return;
-    }
     if (target.isOfSystem()) {
         raceRenderings(state, onDevice, {}, counted);
         return;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 namespace hyalite::bench {
@@ -40,6 +41,15 @@ double Rendering::rayCount() const { return readReport(report()).at("rays").at("
 
 std::string Rendering::driver() const {
     return readReport(report()).at("device").at("driver").get<std::string>();
+}
+
+bool haveEqualPictures(Rendering &rendering, Rendering &reference, benchmark::State &state) {
+    reference.run();
+    rendering.run();
+    const bool areEqual = std::ranges::equal(rendering.picture().pixels(), reference.picture().pixels());
+    if (!areEqual)
+        state.SkipWithError("the image differs from the reference's");
+    return areEqual;
 }
 
 } // namespace hyalite::bench

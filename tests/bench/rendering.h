@@ -5,6 +5,8 @@
 #include "tests/bench/process.h"
 #include "tests/bench/target.h"
 
+#include <benchmark/benchmark.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -46,5 +48,8 @@ class Rendering {
     std::vector<std::string> environment_;
     double processSeconds_ = 0.0;
 };
+
+/// Runs both. Where their pictures differ, `state` fails.
+[[nodiscard]] bool haveEqualPictures(Rendering &rendering, Rendering &reference, benchmark::State &state);
 
 } // namespace hyalite::bench

@@ -132,12 +132,8 @@ void measureSize(benchmark::State &state, const Context &context, const Kind &ki
     const Frame frame{kind.name, file};
     Rendering onDevice(frame, context.systemTarget());
     Rendering onCpu(frame, cpuReference);
-    onDevice.run();
-    onCpu.run();
-    if (!std::ranges::equal(onDevice.picture().pixels(), onCpu.picture().pixels())) {
-        state.SkipWithError("the image differs from the reference's");
+    if (!haveEqualPictures(onDevice, onCpu, state))
         return;
-    }
     race(state, [&] { return onDevice.run(); }, {});
     state.counters["ns/ray"] = 1e9 * state.counters["seconds"].value / onDevice.rayCount();
 }
