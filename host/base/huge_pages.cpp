@@ -40,6 +40,8 @@ constexpr std::size_t largeBytes = hyalite::hugePageBytes / 2; // so that less t
 void *allocate(std::size_t sizeBytes) noexcept {
     if (sizeBytes < largeBytes)
         return std::malloc(sizeBytes > 0 ? sizeBytes : 1);
+    if (sizeBytes > static_cast<std::size_t>(PTRDIFF_MAX))
+        return nullptr; // rounded up it could begin at 0 again
     const std::size_t pages = sizeBytes / hyalite::hugePageBytes + 1;
     void *memory = nullptr;
     if (posix_memalign(&memory, hyalite::hugePageBytes, pages * hyalite::hugePageBytes) != 0)

@@ -49,8 +49,9 @@ TEST_F(ManyRenders, GrowNoMemory) {
     const char *scale = std::getenv("HYALITE_TEST_SCALE");
     const int count = 100 * std::clamp(scale != nullptr ? std::atoi(scale) : 1, 1, 1000);
     useOneHeap();
+    keepFreedMemory();
     prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0); // pages of 2 MiB would hide what is looked for
-    render(20);
+    render(100);                           // until the heap has its holes
     const Memory before = memoryNow();
     render(count);
     const Memory after = memoryNow();
