@@ -183,8 +183,8 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     addMeasurementOptions(*command, options->measurement);
     addFileOptions(*command, options->paths);
     command->add_flag("--counts", options->isCounting,
-                      "render twice more and count nodes, boxes and triangles, of a stack traversal and of "
-                      "the kernel's own traversal, and how busy the kernel's lanes are");
+                      "render twice more and count nodes, boxes and triangles, of primary rays with a stack "
+                      "and of the kernel's own traversal, and how busy the kernel's lanes are");
     addBaselineOptions(*command, *options);
     command->callback([options, &context] { context.exitCode = runProfile(*options, context.commandLine); });
 }
