@@ -47,6 +47,14 @@ TEST(HugePages, AreRequestedForLargeArraysOnly) {
     EXPECT_FALSE(areRequestedAt(small.data()));
 }
 
+TEST(HugePages, AreNoneForMoreThanThereCanBe) {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the sanitizer allocates";
+#endif
+    const volatile std::size_t most = SIZE_MAX; // whole pages around it would begin at 0 again
+    EXPECT_THROW(static_cast<void>(::operator new(most)), std::bad_alloc);
+}
+
 TEST(HugePages, AreRequestedWhereTheyLieWhollyInTheRange) {
     if (!hasHugePages())
         GTEST_SKIP() << "this kernel has none";
