@@ -21,9 +21,11 @@ set(HYALITE_KERNEL_PASSES
     --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
     --redundancy-elimination --eliminate-dead-code-aggressive --cfg-cleanup)
 
-add_executable(kernel_tool ${PROJECT_SOURCE_DIR}/cmake/kernel_tool.cpp ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp)
+add_executable(kernel_tool ${PROJECT_SOURCE_DIR}/cmake/kernel_tool.cpp ${PROJECT_SOURCE_DIR}/host/base/hash.cpp
+               ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp)
 target_include_directories(kernel_tool PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers)
+target_include_directories(kernel_tool SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
+target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers fmt::fmt ${XXHASH_LIBRARY})
 hyalite_warnings(kernel_tool)
 
 foreach(tool IN ITEMS glsl_to_cpp layout_macros)
@@ -89,7 +91,7 @@ function(hyalite_kernel_list target function)
     get_target_property(kernels ${target} HYALITE_KERNELS)
     foreach(kernel IN LISTS kernels)
         string(APPEND kernel_includes "#include \"${kernel}.h\"\n")
-        string(APPEND kernel_entries "        {\"${kernel}\", ${kernel}},\n")
+        string(APPEND kernel_entries "        {\"${kernel}\", ${kernel}, ${kernel}Hash},\n")
     endforeach()
     set(list ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/kernel_list.cpp.in ${list} @ONLY)

@@ -1,7 +1,8 @@
 // Steps of the build between glslang and the program, on files of SPIR-V (cmake/Shaders.cmake):
 //
 //   kernel_tool decorate IN.spv OUT.spv       marks every float operation NoContraction; refuses what has no fixed rounding
-//   kernel_tool embed IN.spv VARIABLE OUT.h   writes an array for C++
+//   kernel_tool embed IN.spv VARIABLE OUT.h   writes an array for C++, and its hash
+#include "host/base/hash.h"
 #include "host/gpu/spirv/decorate.h"
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -39,9 +41,12 @@ void decorate(const std::string &from, const std::string &to) {
 }
 
 void embed(const std::string &from, const std::string &variable, const std::string &to) {
-    std::string text = "#pragma once\n#include <cstdint>\n\nconst std::uint32_t " + variable + "[] = {";
+    const std::vector<std::uint32_t> words = read(from);
+    const std::string hash = hyalite::hashText(hyalite::hashBytes(std::as_bytes(std::span(words))));
+    std::string text = "#pragma once\n#include <cstdint>\n\nconst std::uint64_t " + variable + "Hash = 0x" +
+                       hash + ";\nconst std::uint32_t " + variable + "[] = {";
     std::size_t count = 0;
-    for (const std::uint32_t word : read(from)) {
+    for (const std::uint32_t word : words) {
         char number[32];
         std::snprintf(number, sizeof(number), "%s0x%08x,", count++ % 8 == 0 ? "\n    " : " ", word);
         text += number;

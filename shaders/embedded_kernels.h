@@ -10,6 +10,7 @@ namespace hyalite {
 struct EmbeddedKernel {
     std::string_view name;
     std::span<const std::uint32_t> words;
+    std::uint64_t hash; ///< hashBytes() of the words, found by the build: they are tens of megabytes
 };
 
 /// All kernels, in the order of shaders/CMakeLists.txt.

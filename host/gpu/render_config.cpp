@@ -67,7 +67,7 @@ std::span<const std::uint32_t> kernelWords(const RenderConfig &config, Integrato
 std::uint64_t hashOfKernels() {
     std::uint64_t hash = 0;
     for (const EmbeddedKernel &kernel : embeddedKernels())
-        hash = hashBytes(std::as_bytes(kernel.words), hash);
+        hash = hashBytes(std::as_bytes(std::span(&kernel.hash, 1)), hash);
     return hash;
 }
 
