@@ -19,7 +19,7 @@ set(HYALITE_KERNEL_PASSES
     --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
     --eliminate-dead-code-aggressive --eliminate-dead-branches --merge-blocks --ssa-rewrite --if-conversion
     --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
-    --redundancy-elimination --eliminate-dead-code-aggressive --cfg-cleanup)
+    --redundancy-elimination --eliminate-dead-code-aggressive --cfg-cleanup --compact-ids)
 
 add_executable(kernel_tool ${PROJECT_SOURCE_DIR}/cmake/kernel_tool.cpp ${PROJECT_SOURCE_DIR}/host/base/hash.cpp
                ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp)

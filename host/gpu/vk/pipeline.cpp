@@ -1,6 +1,7 @@
 #include "host/gpu/vk/pipeline.h"
 
 #include "host/gpu/spirv/one_armed.h"
+#include "host/gpu/spirv/renumber.h"
 #include "host/gpu/spirv/specialise.h"
 #include "host/gpu/vk/check.h"
 #include "host/gpu/vk/float_controls.h"
@@ -65,7 +66,7 @@ void Pipeline::makeLayouts(Device &device, std::span<const BufferUse> uses) {
 void Pipeline::makePipeline(Device &device, std::span<const std::uint32_t> spirv,
                             std::span<const std::uint32_t> constants) {
     const std::vector<std::uint32_t> words =
-        addFloatControls(makeSelectionsOneArmed(specialise(spirv, constants)),
+        addFloatControls(makeSelectionsOneArmed(renumber(specialise(spirv, constants))),
                          {device.info().canRoundToNearestEven, device.info().canPreserveSignedZeroInfNan});
     VkShaderModuleCreateInfo moduleInfo{};
     moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
