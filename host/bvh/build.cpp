@@ -95,9 +95,11 @@ class Builder {
         if (failure_)
             std::rethrow_exception(failure_);
         Bvh bvh;
-        bvh.nodes.reserve(nodeCountOf(root));
-        bvh.nodes.emplace_back();
-        join(root, 0, bvh);
+        bvh.depth = depthOf(root);
+        bvh.nodes.resize(nodeCountOf(root));
+#pragma omp parallel if (count > smallBranch)
+#pragma omp single
+        join(root, 0, 1, bvh.nodes);
         return bvh;
     }
 
@@ -207,23 +209,30 @@ class Builder {
                            : 1 + branch.below.size();
     }
 
-    /// Numbers the nodes of a branch depth first and appends them to `bvh`; the root goes into `slot`.
-    static void join(Branch &branch, std::size_t slot, Bvh &bvh) {
-        const auto first = static_cast<std::uint32_t>(bvh.nodes.size());
-        bvh.depth = std::max(bvh.depth, branch.deepest);
+    static int depthOf(const Branch &branch) {
+        return branch.left ? std::max(depthOf(*branch.left), depthOf(*branch.right)) : branch.deepest;
+    }
+
+    /// Numbers the nodes of a branch depth first: its root goes into `slot`, the others to `first` and beyond. Large
+    /// branches are tasks.
+    static void join(Branch &branch, std::uint32_t slot, std::uint32_t first, std::span<BvhNode> nodes) {
         if (!branch.node.isLeaf())
             branch.node.first = first;
-        bvh.nodes[slot] = branch.node;
+        nodes[slot] = branch.node;
         if (branch.left) {
-            bvh.nodes.resize(first + 2);
-            join(*branch.left, first, bvh);
-            join(*branch.right, first + 1, bvh);
+            Branch *const left = branch.left.get();
+            const auto leftCount =
+                static_cast<std::uint32_t>(nodeCountOf(*left)); // it shrinks as it is joined
+#pragma omp task default(none) firstprivate(left, first, nodes)
+            join(*left, first, first + 2, nodes);
+            join(*branch.right, first + 1, first + 1 + leftCount, nodes);
             return;
         }
+        std::uint32_t at = first;
         for (BvhNode node : branch.below) {
             if (!node.isLeaf())
                 node.first += first;
-            bvh.nodes.push_back(node);
+            nodes[at++] = node;
         }
         branch.below = {};
     }

@@ -1,6 +1,7 @@
 // The bounding volume hierarchy (BVH) over a scene's triangles, spheres and instances, and its two CPU builders.
 #pragma once
 
+#include "host/base/unset_vector.h"
 #include "host/scene/scene.h"
 
 #include <glm/common.hpp>
@@ -54,7 +55,7 @@ struct BvhNode {
 };
 
 struct Bvh {
-    std::vector<BvhNode> nodes; ///< the root first; empty without triangles. Children come after their parent
+    UnsetVector<BvhNode> nodes; ///< the root first; empty without triangles. Children come after their parent
     std::vector<std::uint32_t> order; ///< input indices of triangles, spheres and instances, leaf by leaf
     int depth = 0;                    ///< inner nodes on the longest path to a leaf: 0 for a single leaf
     std::uint32_t firstInstance = std::numeric_limits<std::uint32_t>::max(); ///< in the order: from here on

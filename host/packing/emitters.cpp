@@ -70,7 +70,7 @@ double coneShare(const layout::EmitterRecord &spot) { return 0.5 * (1.0 - double
 /// Indices of the records of emitting triangles, in the order of the input. Instances do not emit.
 std::vector<std::uint32_t> emittingTriangles(const PackedScene &packed,
                                              const std::vector<double> &exitances) {
-    const std::vector<layout::TriangleRecord> &triangles = packed.triangles;
+    const std::span<const layout::TriangleRecord> triangles = packed.triangles;
     std::vector<std::uint32_t> records;
     for (std::size_t i = 0; i < triangles.size(); ++i)
         if ((triangles[i].flags & layout::triangleIsSphere) == 0 &&

@@ -1,6 +1,7 @@
 // The scene as both renderers read it: exactly the bytes of shaders/layout/layout.h.
 #pragma once
 
+#include "host/base/unset_vector.h"
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
 #include "shaders/layout/buffers.h"
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace hyalite {
@@ -27,9 +29,18 @@ struct PackedTree {
     Box box;                       ///< around all of it
 };
 
+/// Scene arrays that are large, and filled by several threads.
+template <class Record>
+inline constexpr bool isFilledByThreads =
+    std::is_same_v<Record, layout::TriangleRecord> || std::is_same_v<Record, layout::NormalRecord> ||
+    std::is_same_v<Record, layout::TextureRow>;
+
+template <class Record>
+using RecordVector = std::conditional_t<isFilledByThreads<Record>, UnsetVector<Record>, std::vector<Record>>;
+
 struct PackedScene {
     layout::FrameRecord frame{};
-    std::vector<layout::NodePair> nodes; ///< never empty
+    UnsetVector<layout::NodePair> nodes; ///< never empty
     /// The scene's own tree, then those of the prototypes. The triangle records are in the same order.
     std::vector<PackedTree> trees;
     std::vector<layout::SphereRecord> loopSpheres; ///< those outside the tree
@@ -38,7 +49,7 @@ struct PackedScene {
     int treeDepth = 0; ///< subtrees that can wait on a traversal stack
 
     // The scene arrays, by the names that shaders/layout/buffers.h gives them.
-#define HYALITE_MEMBER(number, value, name, Record, fetch) std::vector<layout::Record> name;
+#define HYALITE_MEMBER(number, value, name, Record, fetch) RecordVector<layout::Record> name;
     HYALITE_SCENE_ARRAYS(HYALITE_MEMBER)
 #undef HYALITE_MEMBER
 

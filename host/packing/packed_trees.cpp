@@ -46,7 +46,7 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
         const std::uint32_t record = recordOf[index];
         if (record == nowhere)
             continue;
-        layout::TriangleRecord &triangle = packed.triangles[record];
+        layout::TriangleRecord triangle;
         triangle.v0 = mesh.positions[corner.positions.x];
         triangle.v1 = mesh.positions[corner.positions.y];
         triangle.v2 = mesh.positions[corner.positions.z];
@@ -59,11 +59,14 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
         triangle.flags = (isTransmissive ? layout::triangleIsTransmissive : 0u) |
                          ((passing & layout::passesSheer) != 0 ? layout::triangleIsSheer : 0u) |
                          ((passing & layout::passesCulled) != 0 ? layout::triangleIsCulled : 0u);
-        layout::NormalRecord &normals = packed.normals[record];
-        const bool hasNormals = corner.normals.x != MeshTriangle::noNormal;
-        normals.n0 = hasNormals ? mesh.normals[corner.normals.x] : glm::vec3(0.0f);
-        normals.n1 = hasNormals ? mesh.normals[corner.normals.y] : glm::vec3(0.0f);
-        normals.n2 = hasNormals ? mesh.normals[corner.normals.z] : glm::vec3(0.0f);
+        packed.triangles[record] = triangle;
+        layout::NormalRecord normals{};
+        if (corner.normals.x != MeshTriangle::noNormal) {
+            normals.n0 = mesh.normals[corner.normals.x];
+            normals.n1 = mesh.normals[corner.normals.y];
+            normals.n2 = mesh.normals[corner.normals.z];
+        }
+        packed.normals[record] = normals;
     }
 }
 
@@ -74,21 +77,28 @@ void packSpheres(std::span<const std::uint32_t> spheres, std::span<const std::ui
 #pragma omp parallel for schedule(static) if (isLong(count))
     for (std::int64_t i = 0; i < count; ++i) {
         const layout::SphereRecord &sphere = packed.spheres[spheres[static_cast<std::size_t>(i)]];
-        layout::TriangleRecord &record = packed.triangles[recordOf[static_cast<std::size_t>(i)]];
+        const std::uint32_t index = recordOf[static_cast<std::size_t>(i)];
+        layout::TriangleRecord record{};
         record.v0 = sphere.centre;
         record.v1.x = sphere.radius;
         record.primitiveId = sphere.primitiveId;
         record.materialIndex = materialIndexOf(sphere);
         record.flags =
             layout::triangleIsSphere | (sphere.isTransmissive != 0 ? layout::triangleIsTransmissive : 0u);
+        packed.triangles[index] = record;
+        packed.normals[index] = {};
     }
 }
 
 /// Marks the last triangle of each leaf.
 void endLeaves(const Bvh &bvh, std::span<const std::uint32_t> records, PackedScene &packed) {
-    for (const BvhNode &node : bvh.nodes)
+    const auto count = static_cast<std::int64_t>(bvh.nodes.size());
+#pragma omp parallel for schedule(static) if (isLong(count))
+    for (std::int64_t i = 0; i < count; ++i) {
+        const BvhNode &node = bvh.nodes[static_cast<std::size_t>(i)];
         if (node.isLeaf() && !bvh.isInstance(bvh.order[node.first]))
             packed.triangles[records[node.first + node.count - 1]].flags |= layout::triangleEndsLeaf;
+    }
 }
 
 std::uint32_t leafReference(const Bvh &bvh, std::span<const std::uint32_t> records, const BvhNode &leaf) {
@@ -115,7 +125,7 @@ void packNodes(const Bvh &bvh, std::span<const std::uint32_t> records, PackedSce
         packed.nodes.push_back(root);
         return;
     }
-    std::vector<std::uint32_t> reference(bvh.nodes.size());
+    UnsetVector<std::uint32_t> reference(bvh.nodes.size());
     auto innerCount = static_cast<std::uint32_t>(packed.nodes.size());
     for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
         reference[i] = bvh.nodes[i].isLeaf() ? leafReference(bvh, records, bvh.nodes[i]) : innerCount++;
@@ -126,7 +136,7 @@ void packNodes(const Bvh &bvh, std::span<const std::uint32_t> records, PackedSce
         const BvhNode &node = bvh.nodes[static_cast<std::size_t>(i)];
         if (node.isLeaf())
             continue;
-        layout::NodePair &pair = packed.nodes[reference[static_cast<std::size_t>(i)]];
+        layout::NodePair pair{};
         const BvhNode &left = bvh.nodes[node.first];
         const BvhNode &right = bvh.nodes[node.first + 1];
         pair.leftLower = left.box.lower;
@@ -135,10 +145,11 @@ void packNodes(const Bvh &bvh, std::span<const std::uint32_t> records, PackedSce
         pair.rightLower = right.box.lower;
         pair.rightUpper = right.box.upper;
         pair.right = reference[node.first + 1];
+        packed.nodes[reference[static_cast<std::size_t>(i)]] = pair;
     }
 }
 
-/// Makes room for a tree's triangles.
+/// Makes room for a tree's triangles, whose records are unset.
 PackedTree beginTree(const Bvh &bvh, std::size_t triangleCount, PackedScene &packed) {
     PackedTree tree;
     tree.firstPair = static_cast<std::uint32_t>(packed.nodes.size());
@@ -156,9 +167,11 @@ void packSceneTree(const Scene &scene, const Bvh &bvh, const InputOrder &order,
     packed.trees.push_back(
         beginTree(bvh, static_cast<std::size_t>(std::ranges::count_if(bvh.order, hasRecord)), packed));
     const std::vector<std::uint32_t> records = recordsOf(bvh, 0);
-    std::vector<std::uint32_t> recordOf(triangleCount(scene) + bvh.spheres.size(),
-                                        nowhere); // of each triangle and sphere
+    UnsetVector<std::uint32_t> recordOf(triangleCount(scene) +
+                                        bvh.spheres.size()); // of each triangle and sphere
     const auto total = static_cast<std::int64_t>(bvh.order.size());
+    if (packed.triangles.size() < recordOf.size()) // the tree dropped some
+        std::ranges::fill(recordOf, nowhere);
 #pragma omp parallel for schedule(static) if (isLong(total))
     for (std::int64_t i = 0; i < total; ++i)
         if (hasRecord(bvh.order[static_cast<std::size_t>(i)]))
@@ -180,7 +193,7 @@ void packPrototype(const Scene &scene, const TriangleMesh &mesh, const Bvh &bvh,
                    std::span<const std::uint32_t> packedMaterial, PackedScene &packed) {
     packed.trees.push_back(beginTree(bvh, bvh.order.size(), packed));
     const std::vector<std::uint32_t> records = recordsOf(bvh, packed.trees.back().firstRecord);
-    std::vector<std::uint32_t> recordOf(mesh.triangles.size());
+    UnsetVector<std::uint32_t> recordOf(mesh.triangles.size());
     for (std::size_t i = 0; i < records.size(); ++i)
         recordOf[bvh.order[i]] = records[i];
     packTriangles(scene, mesh, recordOf, 0, packedMaterial, packed);

@@ -77,7 +77,7 @@ PairPlan planPair(const layout::NodePair &pair, const Grid &grid) {
 
 /// Omits inner nodes that cull too little. A fraction a / A of the rays that hit a box of area A hit an inner box of
 /// area a, and only they visit its two children; without the inner box all do. That is A + 2 a steps against 2 A.
-void leaveOutNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
+void leaveOutNodes(const PackedScene &scene, std::span<PairPlan> plans) {
     for (const PackedTree &tree : scene.trees)
         plans[tree.firstPair].areaAround = static_cast<float>(tree.box.halfArea());
     for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -96,7 +96,7 @@ void leaveOutNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
 
 /// Counts list nodes, from the last pair to the first: parents come before their descendants, so the counts below a
 /// pair are known.
-void countNodes(const PackedScene &scene, std::vector<PairPlan> &plans) {
+void countNodes(const PackedScene &scene, std::span<PairPlan> plans) {
     for (std::size_t i = plans.size(); i-- > 0;) {
         const std::array<std::uint32_t, 2> references{scene.nodes[i].left, scene.nodes[i].right};
         for (std::size_t child = 0; child < 2; ++child) {
@@ -169,7 +169,7 @@ SkipList makeSkipList(const PackedScene &scene) {
     SkipList list;
     if (!scene.hasTriangles)
         return list;
-    std::vector<PairPlan> plans(scene.nodes.size());
+    UnsetVector<PairPlan> plans(scene.nodes.size());
     for (std::size_t tree = 0; tree < scene.trees.size(); ++tree) {
         list.trees.push_back({0, 0, gridOver(scene.trees[tree].box)});
         const Grid grid(list.trees.back().grid);
@@ -188,7 +188,8 @@ SkipList makeSkipList(const PackedScene &scene) {
         list.trees[tree].end = list.length;
     }
     list.nodes.resize(std::size_t{listCount} * list.length + 1);
-    std::vector<std::uint32_t> pairBegins(plans.size() * listCount);
+    list.nodes.back() = {};
+    UnsetVector<std::uint32_t> pairBegins(plans.size() * listCount);
 #pragma omp parallel for schedule(static) num_threads(listCount)
     for (std::uint32_t i = 0; i < listCount; ++i)
         writeList(scene, plans, i == 0 ? -1 : 1, i * list.length, list.trees,

@@ -23,7 +23,7 @@ struct SkipTree {
 };
 
 struct SkipList {
-    std::vector<layout::SkipNode>
+    UnsetVector<layout::SkipNode>
         nodes;                   ///< two lists of `length`, and a node for rays that have reached the end
     std::uint32_t length = 0;    ///< of one list
     std::vector<SkipTree> trees; ///< in the order of PackedScene::trees

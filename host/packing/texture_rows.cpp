@@ -16,7 +16,7 @@ namespace hyalite {
 
 namespace {
 
-using Rows = std::vector<layout::TextureRow>;
+using Rows = RecordVector<layout::TextureRow>;
 
 layout::TextureRow rowOf(float x, float y, float z, float w) {
     return {std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(y), std::bit_cast<std::uint32_t>(z),
@@ -104,7 +104,7 @@ void addTriangles(const Scene &scene, const PackedScene &packed, Rows &rows) {
     const MeshOfRecord meshOfRecord(scene, packed);
     const std::size_t first = rows.size();
     const std::size_t rowsEach = layout::rowsPerTriangle(packed.texturing);
-    rows.resize(first + rowsEach * packed.triangles.size());
+    rows.resize(first + rowsEach * packed.triangles.size(), layout::TextureRow{});
     const auto total = static_cast<std::int64_t>(packed.triangles.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t i = 0; i < total; ++i) {
@@ -242,14 +242,20 @@ class ImageStore {
     }
 
     /// Decodes with the tables of the kernels, so that a lookup has the same bits either way.
-    static void appendDecoded(const StoredImage &image, Rows &rows) {
+    void appendDecoded(const StoredImage &image, Rows &rows) const {
         const std::size_t table =
             (image.decoding & layout::textureIsSrgb) != 0 ? layout::srgbTableRow : layout::linearTableRow;
         const std::vector<std::uint32_t> words = tableAt(rows, table);
         const std::vector<std::uint32_t> alphas = tableAt(rows, layout::linearTableRow);
-        for (const std::uint32_t levels : image.texture->levels)
-            rows.push_back({words[levels & 255u], words[levels >> 8u & 255u], words[levels >> 16u & 255u],
-                            alphas[levels >> 24u]});
+        const std::size_t first = rows.size();
+        rows.resize(first + rowCount(image));
+        const auto total = static_cast<std::int64_t>(image.texture->levels.size());
+#pragma omp parallel for schedule(static)
+        for (std::int64_t i = 0; i < total; ++i) {
+            const std::uint32_t levels = image.texture->levels[static_cast<std::size_t>(i)];
+            rows[first + static_cast<std::size_t>(i)] = {words[levels & 255u], words[levels >> 8u & 255u],
+                                                         words[levels >> 16u & 255u], alphas[levels >> 24u]};
+        }
     }
 
     const Scene &scene_;

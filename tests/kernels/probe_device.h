@@ -23,7 +23,7 @@ struct ProbeScene {
     layout::FrameRecord frame{};
     std::uint32_t samplerKind = layout::samplerSobol;
     std::vector<layout::LookupRow> lookups{};
-    std::vector<layout::TextureRow> textures{};
+    std::span<const layout::TextureRow> textures{}; ///< outlives it
     std::uint32_t scattering = 0;
     std::uint32_t texturing = 0;
     std::uint32_t camera = layout::cameraPinhole;
