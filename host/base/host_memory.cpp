@@ -1,10 +1,15 @@
 #include "host/base/host_memory.h"
 
+#include "host/base/huge_pages.h"
+
+#include <cstddef>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <string>
 
 #include <malloc.h>
+#include <unistd.h>
 
 namespace hyalite {
 
@@ -27,6 +32,18 @@ void keepFreedMemory() {
     constexpr int leastGivenBack = 4 << 20;
     mallopt(M_MMAP_THRESHOLD, leastGivenBack);
     mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
+}
+
+void reserveHeap() {
+#ifdef M_TOP_PAD
+    constexpr int stepBytes = 64 << 20;
+    constexpr std::size_t beyondBeginning = 1 << 20; // more than the heap of a process begins with
+    mallopt(M_TOP_PAD, stepBytes);
+    auto *const begin = static_cast<std::byte *>(sbrk(0));
+    void *volatile piece = std::malloc(beyondBeginning); // volatile: it must not be optimised away
+    std::free(piece);
+    preferHugePages(begin, static_cast<std::size_t>(static_cast<std::byte *>(sbrk(0)) - begin));
 #endif
 }
 

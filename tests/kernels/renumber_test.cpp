@@ -48,7 +48,7 @@ TEST(Renumber, KnowsLiteralsFromIds) {
         OpReturn
     )"));
     EXPECT_EQ(errorsIn(words), "");
-    EXPECT_EQ(storesOf(words), "1");
+    EXPECT_EQ(storesOf(words), "1 ");
     EXPECT_EQ(gpu::renumber(words), words);
     for (const gpu::SpirvInstruction &instruction : gpu::instructionsOf(words))
         if (instruction.opcode() == spv::Op::OpSwitch) {
