@@ -1,6 +1,6 @@
 # From shaders/kernels/*.comp to arrays of SPIR-V in the program:
 #
-#   glslangValidator -> kernel_tool decorate -> spirv-opt -> kernel_tool embed
+#   glslangValidator -> kernel_tool decorate -> spirv-opt -> kernel_tool embed, which numbers the ids anew
 #
 # Every float operation is marked NoContraction before anything optimises. The passes of spirv-opt inline all functions,
 # keep variables in registers and drop what is dead: without them drivers take up to twice as long to build a pipeline.
@@ -19,10 +19,10 @@ set(HYALITE_KERNEL_PASSES
     --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
     --eliminate-dead-code-aggressive --eliminate-dead-branches --merge-blocks --ssa-rewrite --if-conversion
     --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
-    --redundancy-elimination --eliminate-dead-code-aggressive --cfg-cleanup --compact-ids)
+    --redundancy-elimination --eliminate-dead-code-aggressive --cfg-cleanup)
 
 add_executable(kernel_tool ${PROJECT_SOURCE_DIR}/cmake/kernel_tool.cpp ${PROJECT_SOURCE_DIR}/host/base/hash.cpp
-               ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp)
+               ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp ${PROJECT_SOURCE_DIR}/host/gpu/spirv/renumber.cpp)
 target_include_directories(kernel_tool PRIVATE ${PROJECT_SOURCE_DIR})
 target_include_directories(kernel_tool SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
 target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers fmt::fmt ${XXHASH_LIBRARY})

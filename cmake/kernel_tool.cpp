@@ -1,9 +1,10 @@
 // Steps of the build between glslang and the program, on files of SPIR-V (cmake/Shaders.cmake):
 //
 //   kernel_tool decorate IN.spv OUT.spv       marks every float operation NoContraction; refuses what has no fixed rounding
-//   kernel_tool embed IN.spv VARIABLE OUT.h   writes an array for C++, and its hash
+//   kernel_tool embed IN.spv VARIABLE OUT.h   writes an array for C++, its ids without gaps, and its hash
 #include "host/base/hash.h"
 #include "host/gpu/spirv/decorate.h"
+#include "host/gpu/spirv/renumber.h"
 
 #include <cstdint>
 #include <cstdio>
@@ -41,7 +42,7 @@ void decorate(const std::string &from, const std::string &to) {
 }
 
 void embed(const std::string &from, const std::string &variable, const std::string &to) {
-    const std::vector<std::uint32_t> words = read(from);
+    const std::vector<std::uint32_t> words = hyalite::gpu::renumber(read(from));
     const std::string hash = hyalite::hashText(hyalite::hashBytes(std::as_bytes(std::span(words))));
     std::string text = "#pragma once\n#include <cstdint>\n\nconst std::uint64_t " + variable + "Hash = 0x" +
                        hash + ";\nconst std::uint32_t " + variable + "[] = {";

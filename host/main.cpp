@@ -186,7 +186,6 @@ ExitCode runAndReport(std::span<char *> arguments) {
 int main(int argumentCount, char **arguments) {
     useOneHeap();
     keepFreedMemory();
-    reserveHeap();
     openMissingStreams();
     // A file beyond the shell's limit is an error of its own, as one on a full disk is.
     std::signal(SIGXFSZ, SIG_IGN);

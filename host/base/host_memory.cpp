@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <mutex>
 #include <string>
 
 #include <malloc.h>
@@ -37,13 +38,18 @@ void keepFreedMemory() {
 
 void reserveHeap() {
 #ifdef M_TOP_PAD
-    constexpr int stepBytes = 64 << 20;
-    constexpr std::size_t beyondBeginning = 1 << 20; // more than the heap of a process begins with
-    mallopt(M_TOP_PAD, stepBytes);
-    auto *const begin = static_cast<std::byte *>(sbrk(0));
-    void *volatile piece = std::malloc(beyondBeginning); // volatile: it must not be optimised away
-    std::free(piece);
-    preferHugePages(begin, static_cast<std::size_t>(static_cast<std::byte *>(sbrk(0)) - begin));
+    static std::once_flag isReserved;
+    std::call_once(isReserved, [] {
+        constexpr int reservedBytes = 64 << 20;
+        constexpr int stepBytes = 1 << 20;
+        constexpr std::size_t pieceBytes = 3 << 20; // from the heap, and more than it has left
+        mallopt(M_TOP_PAD, reservedBytes);
+        auto *const begin = static_cast<std::byte *>(sbrk(0));
+        void *volatile piece = std::malloc(pieceBytes); // volatile: it must not be optimised away
+        std::free(piece);
+        mallopt(M_TOP_PAD, stepBytes); // where memory is limited, later steps have to be small
+        preferHugePages(begin, static_cast<std::size_t>(static_cast<std::byte *>(sbrk(0)) - begin));
+    });
 #endif
 }
 

@@ -17,9 +17,10 @@ void useOneHeap();
 /// kernel, and has it cleared page by page when it needs it again: drivers' compilers allocate the same many times.
 void keepFreedMemory();
 
-/// Makes the heap as large as a driver's compiler needs it, without memory behind it yet, and lets the system give it
-/// huge pages. By itself it grows in small steps, and the kernel clears a page of 4 KiB at each first touch: a third of
-/// the time that a pipeline takes. Call it at the start of the program, after the others.
+/// Makes the heap 64 MiB larger, which a driver's compiler may need, without memory behind it yet, and lets the system
+/// give it huge pages. By itself the heap grows in small steps, and the kernel clears a page of 4 KiB at each first
+/// touch: a third of the time that a pipeline takes. The first call does it, if keepFreedMemory() was called before;
+/// others do nothing.
 void reserveHeap();
 
 } // namespace hyalite

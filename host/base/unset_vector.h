@@ -24,7 +24,8 @@ template <class T> struct UnsetAllocator : std::allocator<T> {
     }
 };
 
-/// `resize(n)` leaves new elements unset: read them only after they were written. `resize(n, value)` sets them.
+/// `(n)`, `resize(n)` and `emplace_back()` leave new elements unset, whatever their members begin with: read them only
+/// after they were written. `(n, value)` and `resize(n, value)` set them.
 template <class T> using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 
 } // namespace hyalite

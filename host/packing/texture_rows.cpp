@@ -249,7 +249,8 @@ class ImageStore {
         const std::vector<std::uint32_t> alphas = tableAt(rows, layout::linearTableRow);
         const std::size_t first = rows.size();
         rows.resize(first + rowCount(image));
-        const auto total = static_cast<std::int64_t>(image.texture->levels.size());
+        const auto total = static_cast<std::int64_t>(rowCount(image));
+        assert(image.texture->levels.size() == rowCount(image));
 #pragma omp parallel for schedule(static)
         for (std::int64_t i = 0; i < total; ++i) {
             const std::uint32_t levels = image.texture->levels[static_cast<std::size_t>(i)];

@@ -202,6 +202,7 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
         return std::make_unique<CpuBackend>(reference::Precision::Float32, threadCount);
     if (name == "cpu-double")
         return std::make_unique<CpuBackend>(reference::Precision::Float64, threadCount);
+    reserveHeap();                                   // for the driver's compiler
     const gpu::LoadedDevices loaded = loadDevices(); // until the chosen device has an instance of its own
     return std::make_unique<DeviceBackend>(gpu::chooseDevice(loaded.devices, name), config);
 }

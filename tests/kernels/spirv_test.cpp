@@ -1,5 +1,6 @@
 // What our kernels may consist of, so that every device computes the same bits; and the float controls that the host
 // adds to them.
+#include "host/base/hash.h"
 #include "host/gpu/render_config.h"
 #include "host/gpu/vk/float_controls.h"
 #include "shaders/layout/layout.h"
@@ -27,6 +28,11 @@ TEST(EmbeddedKernels, AreAllListed) {
     for (const char *name : {"startupCheck", "whittedStackOneSlot", "whittedStackTwoSlots",
                              "pathSkipTwoSlots", "probeKernel", "unoptimisedStack", "unoptimisedSkipList"})
         EXPECT_EQ(std::ranges::count(allKernels(), name, &EmbeddedKernel::name), 1) << name;
+}
+
+TEST(EmbeddedKernels, HaveTheirHashes) {
+    for (const EmbeddedKernel &kernel : allKernels())
+        EXPECT_EQ(kernel.hash, hashBytes(std::as_bytes(kernel.words))) << kernel.name;
 }
 
 TEST(EmbeddedKernels, UseExactOperationsOnly) {

@@ -19,6 +19,7 @@ std::string_view operandsOf(spv::Op opcode) {
     case spv::Op::OpExtension:
     case spv::Op::OpMemoryModel:
     case spv::Op::OpSource:
+    case spv::Op::OpModuleProcessed:
     case spv::Op::OpSourceExtension:
         return "l";
     case spv::Op::OpExtInstImport:
@@ -70,6 +71,7 @@ std::string_view operandsOf(spv::Op opcode) {
     case spv::Op::OpSpecConstantTrue:
     case spv::Op::OpSpecConstantFalse:
     case spv::Op::OpSpecConstantComposite:
+    case spv::Op::OpConstantNull:
     case spv::Op::OpUndef:
     case spv::Op::OpFunctionParameter:
     case spv::Op::OpFunctionEnd:
@@ -80,7 +82,12 @@ std::string_view operandsOf(spv::Op opcode) {
     case spv::Op::OpReturn:
     case spv::Op::OpReturnValue:
     case spv::Op::OpUnreachable:
+    case spv::Op::OpKill:
     case spv::Op::OpAccessChain:
+    case spv::Op::OpInBoundsAccessChain:
+    case spv::Op::OpCopyObject:
+    case spv::Op::OpVectorExtractDynamic:
+    case spv::Op::OpVectorInsertDynamic:
     case spv::Op::OpCompositeConstruct:
     case spv::Op::OpSelect:
     case spv::Op::OpVectorTimesScalar:
@@ -156,9 +163,10 @@ void renumberConstantOperation(std::span<std::uint32_t> operands, Numbers &numbe
 } // namespace
 
 std::vector<std::uint32_t> renumber(std::span<const std::uint32_t> spirv) {
+    const std::vector<SpirvInstruction> instructions = instructionsOf(spirv);
     std::vector<std::uint32_t> words(spirv.begin(), spirv.end());
     Numbers numbers(words[spirvBoundWord]);
-    for (const SpirvInstruction &instruction : instructionsOf(spirv)) {
+    for (const SpirvInstruction &instruction : instructions) {
         const auto begin = static_cast<std::size_t>(instruction.words.data() - spirv.data());
         const std::span<std::uint32_t> operands =
             std::span(words).subspan(begin + 1, instruction.words.size() - 1);
