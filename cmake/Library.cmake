@@ -10,6 +10,13 @@ function(hyalite_library target)
     endif()
 endfunction()
 
+# hyalite_read_alone(FILE...)
+#
+# Where several sources are compiled as one (CMAKE_UNITY_BUILD), these are not among them.
+function(hyalite_read_alone)
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # For targets that take no time when they run, and much when they are compiled: twice as fast by little optimisation.
 function(hyalite_compile_fast target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

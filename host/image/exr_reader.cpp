@@ -30,7 +30,7 @@ namespace hyalite {
 namespace {
 
 constexpr std::array<unsigned char, 4> magicBytes{0x76, 0x2f, 0x31, 0x01};
-constexpr std::size_t headerBytesMax = std::size_t{1} << 20;
+constexpr std::size_t exrHeaderBytesMax = std::size_t{1} << 20;
 
 std::uint32_t little32(std::span<const std::byte> bytes) {
     std::uint32_t value = 0;
@@ -46,7 +46,7 @@ std::uint32_t little32(std::span<const std::byte> bytes) {
 ///                                                                            and another \0
 class SafeHeader {
   public:
-    explicit SafeHeader(const InputFile &file) : file_(file), bytes_(file.head(headerBytesMax)) {
+    explicit SafeHeader(const InputFile &file) : file_(file), bytes_(file.head(exrHeaderBytesMax)) {
         requireKnownKind();
         constexpr std::size_t maxParts = 1000;
         std::size_t position = 8;
@@ -69,8 +69,8 @@ class SafeHeader {
   private:
     [[nodiscard]] std::byte byteAt(std::size_t position) const {
         if (position >= bytes_.size())
-            throw file_.bad(file_.sizeBytes() > headerBytesMax
-                                ? fmt::format("its OpenEXR header is longer than {} bytes", headerBytesMax)
+            throw file_.bad(file_.sizeBytes() > exrHeaderBytesMax
+                                ? fmt::format("its OpenEXR header is longer than {} bytes", exrHeaderBytesMax)
                                 : "its OpenEXR header is cut short");
         return bytes_[position];
     }

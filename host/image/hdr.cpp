@@ -124,10 +124,9 @@ class ByteStream {
     std::size_t position_ = 0;
 };
 
-constexpr std::size_t headerBytesMax = 65536;
-
 /// The next line of the header, without its line end.
 std::string nextLine(const InputFile &file, ByteStream &stream, std::size_t &headerBytes) {
+    constexpr std::size_t headerBytesMax = 65536;
     std::string line;
     for (char c = static_cast<char>(stream.next()); c != '\n'; c = static_cast<char>(stream.next())) {
         if (++headerBytes > headerBytesMax)

@@ -10,7 +10,7 @@ namespace hyalite {
 
 namespace {
 
-constexpr double all = 4294967296.0; // number of 32-bit values
+constexpr double numberCount = 4294967296.0; // number of 32-bit values
 
 /// Weights of the pixels of a row: the integral of the interpolated image over the pixel's area of the sphere, up to a
 /// factor. The image is bilinear between pixel centres, so the mean over a pixel takes 3/4 of itself and 1/8 of each
@@ -34,7 +34,7 @@ void weighRow(const Image &image, int y, std::vector<double> &weights) {
 
 /// The number of 32-bit values below the given fraction of their range.
 std::uint32_t numbersBelow(double share) {
-    return static_cast<std::uint32_t>(std::min(std::floor(share * all), all - 1.0));
+    return static_cast<std::uint32_t>(std::min(std::floor(share * numberCount), numberCount - 1.0));
 }
 
 } // namespace
@@ -82,7 +82,7 @@ bool packEnvironment(const Scene &scene, PackedScene &packed) {
         before += rowTotals[y];
         const std::uint32_t numbers =
             y + 1 == height ? numbersBelow(1.0) : numbersBelow(total > 0.0 ? before / total : 0.0);
-        const double chance = static_cast<double>(numbers - numbersBefore) / all;
+        const double chance = static_cast<double>(numbers - numbersBefore) / numberCount;
         packed.lookups.push_back({glm::vec3(static_cast<float>(chance), 0.0f, 0.0f), numbers});
         numbersBefore = numbers;
     }

@@ -11,11 +11,9 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::size_t cosineCount = layout::energyCosines;
-constexpr std::size_t roughnessCount = layout::energyRoughnesses;
 constexpr double leastRoughness = 0.07; ///< sheenAlphaOf in sheen.glsl
 constexpr int heightSteps = 64;         ///< over the cosine of the light
-constexpr int azimuthSteps = 32;        ///< over half a turn
+constexpr int sheenAzimuths = 32;       ///< over half a turn
 
 /// ln x for x > 0: the exponent, and the series of the inverse hyperbolic tangent.
 double logarithm(double x) {
@@ -60,7 +58,7 @@ double lambda(double cosine, double roughnessAlpha) {
 }
 
 /// The share of light from everywhere that comes to the viewer. The midpoint rule.
-double albedoOf(double viewCosine, double alpha, const std::array<double, azimuthSteps> &azimuthCosines) {
+double albedoOf(double viewCosine, double alpha, const std::array<double, sheenAzimuths> &azimuthCosines) {
     const double viewSine = std::sqrt(1.0 - viewCosine * viewCosine);
     const double viewLambda = lambda(viewCosine, alpha);
     double sum = 0.0;
@@ -78,19 +76,19 @@ double albedoOf(double viewCosine, double alpha, const std::array<double, azimut
         }
     }
     // The lobe times the light's cosine is D / (4 cos masked); D lacks 1 / (2 pi), and the hemisphere has 2 pi.
-    return sum / (4.0 * viewCosine) / (heightSteps * azimuthSteps);
+    return sum / (4.0 * viewCosine) / (heightSteps * sheenAzimuths);
 }
 
-/// Cosines of the midpoints of `azimuthSteps` intervals over half a turn, by halving a quarter turn.
-std::array<double, azimuthSteps> azimuths() {
-    static_assert(azimuthSteps == 32);
+/// Cosines of the midpoints of `sheenAzimuths` intervals over half a turn, by halving a quarter turn.
+std::array<double, sheenAzimuths> azimuths() {
+    static_assert(sheenAzimuths == 32);
     double c = 0.0;
     for (int i = 0; i < 5; ++i)
         c = std::sqrt(0.5 + 0.5 * c);
     const double s = std::sqrt(1.0 - c * c);
     double cosine = c;
     double sine = s;
-    std::array<double, azimuthSteps> cosines{};
+    std::array<double, sheenAzimuths> cosines{};
     for (double &entry : cosines) {
         entry = cosine;
         const double nextCosine = cosine * (c * c - s * s) - sine * (2.0 * s * c);
@@ -103,21 +101,21 @@ std::array<double, azimuthSteps> azimuths() {
 } // namespace
 
 std::vector<layout::LookupRow> makeSheenTexels() {
-    const std::array<double, azimuthSteps> azimuthCosines = azimuths();
-    std::array<std::array<float, cosineCount>, roughnessCount> albedos{};
+    const std::array<double, sheenAzimuths> azimuthCosines = azimuths();
+    std::array<std::array<float, layout::energyCosines>, layout::energyRoughnesses> albedos{};
 #pragma omp parallel for schedule(dynamic)
-    for (std::size_t j = 0; j < roughnessCount; ++j)
-        for (std::size_t i = 0; i < cosineCount; ++i) {
-            const double roughness =
-                std::fmax(static_cast<double>(j) / static_cast<double>(roughnessCount - 1), leastRoughness);
+    for (std::size_t j = 0; j < layout::energyRoughnesses; ++j)
+        for (std::size_t i = 0; i < layout::energyCosines; ++i) {
+            const double roughness = std::fmax(
+                static_cast<double>(j) / static_cast<double>(layout::energyRoughnesses - 1), leastRoughness);
             const double root =
-                std::fmax(static_cast<double>(i) / static_cast<double>(cosineCount - 1), 1e-3);
+                std::fmax(static_cast<double>(i) / static_cast<double>(layout::energyCosines - 1), 1e-3);
             albedos[j][i] = static_cast<float>(albedoOf(root * root, roughness * roughness, azimuthCosines));
         }
     std::vector<layout::LookupRow> texels;
     texels.reserve(layout::sheenTexelCount);
-    for (std::size_t j = 0; j + 1 < roughnessCount; ++j)
-        for (std::size_t i = 0; i + 1 < cosineCount; ++i)
+    for (std::size_t j = 0; j + 1 < layout::energyRoughnesses; ++j)
+        for (std::size_t i = 0; i + 1 < layout::energyCosines; ++i)
             texels.push_back({glm::vec3(albedos[j][i], albedos[j][i + 1], albedos[j + 1][i]),
                               std::bit_cast<std::uint32_t>(albedos[j + 1][i + 1])});
     return texels;

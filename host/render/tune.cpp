@@ -118,7 +118,7 @@ std::string drain(int pipe) {
 
 /// Runs `work`, writes its result or error, and exits without destructors: objects of the parent are not ours to
 /// destroy.
-[[noreturn]] void answer(int pipe, const std::function<Json()> &work) {
+[[noreturn]] void sendResult(int pipe, const std::function<Json()> &work) {
     Json said;
     try {
         said["result"] = work();
@@ -142,7 +142,7 @@ Json inOwnProcess(const std::function<Json()> &work) {
                     fmt::format("pipe for a measurement: {}", std::strerror(errno)));
     const pid_t child = fork();
     if (child == 0)
-        answer(ends[1], work);
+        sendResult(ends[1], work);
     const int forkError = errno;
     close(ends[1]);
     const std::string text = child > 0 ? drain(ends[0]) : std::string();

@@ -4,6 +4,7 @@
 #include "host/base/markup.h"
 #include "host/base/quantities.h"
 #include "host/base/version.h"
+#include "host/report/figure_text.h"
 #include "host/scene/settings_table.h"
 
 #include <fmt/format.h>
@@ -64,12 +65,6 @@ code { font: 13px/1.5 ui-monospace, monospace; }
 /// Schemes", bright).
 constexpr std::array<const char *, 7> partColours{"#4477aa", "#66ccee", "#228833", "#ccbb44",
                                                   "#ee6677", "#aa3377", "#bbbbbb"};
-
-std::string millisText(double millis) {
-    return fmt::format("{:.{}f}", millis, millis < 10.0 ? 3 : millis < 1000.0 ? 1 : 0);
-}
-
-std::string shareText(double share) { return fmt::format("{:.1f} %", share * 100.0); }
 
 std::string figure(const std::string &value, const std::string &meaning) {
     return fmt::format("<div class=\"figure\"><b>{}</b><span>{}</span></div>\n", markupText(value),

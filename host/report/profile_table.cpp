@@ -1,5 +1,7 @@
 #include "host/report/profile_table.h"
 
+#include "host/report/figure_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,16 +10,9 @@ namespace hyalite {
 
 namespace {
 
-/// Four digits at least, whatever the size: "0.012", "12.3", "1234".
-std::string millisText(double millis) {
-    return fmt::format("{:.{}f}", millis, millis < 10.0 ? 3 : millis < 1000.0 ? 1 : 0);
-}
-
 std::string speedText(double megaraysPerSecond) {
     return fmt::format("{:.{}f}", megaraysPerSecond, megaraysPerSecond < 10.0 ? 3 : 1);
 }
-
-std::string shareText(double share) { return fmt::format("{:.1f} %", share * 100.0); }
 
 std::string headline(const char *subject) {
     return fmt::format("{:<24}{:>9}{:>10}{:>9}{:>10}{:>10}{:>10}{:>10}{:>10}\n", subject, "launches",

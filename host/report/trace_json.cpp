@@ -13,7 +13,7 @@ namespace hyalite {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// A process of the trace, which has one thread.
 enum class Track { Host = 1, Device = 2 };
@@ -31,7 +31,7 @@ class TraceEvents {
     }
 
     void addSlice(Track track, const std::string &category, const std::string &name, const Span &span,
-                  const Json &args = Json::object()) {
+                  const OrderedJson &args = OrderedJson::object()) {
         add(span, event("X", track, name,
                         {{"cat", category},
                          {"ts", micros(span.beginNanos)},
@@ -39,17 +39,17 @@ class TraceEvents {
                          {"args", args}}));
     }
 
-    void addCounter(Track track, const std::string &name, std::int64_t nanos, const Json &values) {
+    void addCounter(Track track, const std::string &name, std::int64_t nanos, const OrderedJson &values) {
         add({nanos, nanos}, event("C", track, name, {{"ts", micros(nanos)}, {"args", values}}));
     }
 
     /// The events by time; enclosing ones come before those inside them.
-    [[nodiscard]] Json take() {
+    [[nodiscard]] OrderedJson take() {
         std::stable_sort(timed_.begin(), timed_.end(), [](const Timed &a, const Timed &b) {
             return std::tuple(a.span.beginNanos, -a.span.endNanos) <
                    std::tuple(b.span.beginNanos, -b.span.endNanos);
         });
-        Json all = std::move(names_);
+        OrderedJson all = std::move(names_);
         for (Timed &timed : timed_)
             all.push_back(std::move(timed.json));
         return all;
@@ -58,37 +58,38 @@ class TraceEvents {
   private:
     struct Timed {
         Span span;
-        Json json;
+        OrderedJson json;
     };
 
-    static Json event(const char *phase, Track track, const std::string &name, const Json &rest) {
-        Json json{{"name", name}, {"ph", phase}, {"pid", static_cast<int>(track)}, {"tid", 1}};
+    static OrderedJson event(const char *phase, Track track, const std::string &name,
+                             const OrderedJson &rest) {
+        OrderedJson json{{"name", name}, {"ph", phase}, {"pid", static_cast<int>(track)}, {"tid", 1}};
         json.update(rest);
         return json;
     }
 
-    void add(const Span &span, Json json) { timed_.push_back({span, std::move(json)}); }
+    void add(const Span &span, OrderedJson json) { timed_.push_back({span, std::move(json)}); }
 
     [[nodiscard]] double micros(std::int64_t nanos) const {
         return static_cast<double>(nanos - epochNanos_) / 1e3;
     }
 
     std::int64_t epochNanos_;
-    Json names_ = Json::array();
+    OrderedJson names_ = OrderedJson::array();
     std::vector<Timed> timed_;
 };
 
 /// Rates of each kind of ray during the dispatch.
-Json megaraysPerSecond(const DispatchRecord &dispatch) {
+OrderedJson megaraysPerSecond(const DispatchRecord &dispatch) {
     const double seconds = dispatch.times.best().seconds();
-    Json json;
+    OrderedJson json;
     for (const RayKind &kind : rayKinds)
         json[kind.name] =
             seconds > 0.0 ? static_cast<double>(dispatch.rays.*kind.count) / 1e6 / seconds : 0.0;
     return json;
 }
 
-Json dispatchArguments(const DispatchRecord &dispatch) {
+OrderedJson dispatchArguments(const DispatchRecord &dispatch) {
     return {{"tile", fmt::format("{}x{} at ({}, {})", dispatch.tileWidth, dispatch.tileHeight, dispatch.tileX,
                                  dispatch.tileY)},
             {"samples", fmt::format("{} to {}", dispatch.sampleBegin, dispatch.sampleEnd)},
@@ -130,7 +131,7 @@ std::int64_t beginOf(const Profile &profile) {
 
 } // namespace
 
-Json profileToTrace(const Profile &profile) {
+OrderedJson profileToTrace(const Profile &profile) {
     const std::string &clock = profile.frames.back().timeline.clock;
     TraceEvents events(beginOf(profile));
     events.nameTrack(Track::Host, "hyalite", "host");

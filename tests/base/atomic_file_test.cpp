@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A fresh folder for each test, removed after it. Every test runs with both kinds of temporary file.
-class AtomicFileTest : public testing::TestWithParam<TemporaryFile> {
+class AtomicFileTest : public ::testing::TestWithParam<TemporaryFile> {
   protected:
     void SetUp() override {
         std::string name = (fs::temp_directory_path() / "hyalite-atomic-XXXXXX").string();
@@ -47,7 +47,7 @@ class AtomicFileTest : public testing::TestWithParam<TemporaryFile> {
     fs::path folder;
 };
 
-INSTANTIATE_TEST_SUITE_P(, AtomicFileTest, testing::Values(TemporaryFile::Automatic, TemporaryFile::Named),
+INSTANTIATE_TEST_SUITE_P(, AtomicFileTest, ::testing::Values(TemporaryFile::Automatic, TemporaryFile::Named),
                          [](const auto &kind) {
                              return kind.param == TemporaryFile::Named ? "Named" : "Automatic";
                          });

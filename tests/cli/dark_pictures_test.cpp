@@ -9,7 +9,7 @@
 namespace hyalite::testing {
 namespace {
 
-const std::string small = " -o a.pfm --width 16 --height 16 --spp 1 --device cpu";
+const std::string smallDark = " -o a.pfm --width 16 --height 16 --spp 1 --device cpu";
 const std::string ball = R"({ "centre": [0, 0, 0], "radius": 1, "material": "m" })";
 const std::string eye = R"("camera": { "position": [0, 0, 5], "target": [0, 0, 0] })";
 
@@ -20,7 +20,7 @@ class DarkPictures : public CommandLine {
         store("scene.json", "{" + eye + R"(, "materials": { "m": { "type": "diffuse" },
             "lamp": { "type": "diffuse", "emission": 5 } } )" +
                                 (members.empty() ? "" : ", " + members) + "}");
-        const Outcome outcome = run("render scene.json" + small + options);
+        const Outcome outcome = run("render scene.json" + smallDark + options);
         EXPECT_EQ(outcome.exitCode, 0) << outcome;
         std::string warnings;
         for (std::size_t at = outcome.errors.find("hyalite: warning: "); at != std::string::npos;
@@ -94,7 +94,7 @@ TEST_F(DarkPictures, TheMostLikelyReasonIsNamed) {
     store("scene.json", "{" + eye +
                             R"(, "materials": { "shell": { "type": "diffuse", "twoSided": false } }, )" +
                             inside + light + R"([0, 0, 6], "power": 500 } ] })");
-    const Outcome outcome = run("render scene.json" + small);
+    const Outcome outcome = run("render scene.json" + smallDark);
     EXPECT_TRUE(contains(outcome.errors, "all surfaces in view are seen from behind")) << outcome;
 }
 
@@ -103,7 +103,7 @@ TEST_F(DarkPictures, PixelsThatAreNotFiniteAreCounted) {
         "lights": [ { "type": "point", "position": [0, 0, 3e-10], "power": 1e30 } ],
         "camera": { "position": [0, 0, 4e-10], "target": [0, 0, 0] })";
     store("bright.json", R"({"materials": { "m": { "type": "diffuse" } }, )" + bright + "}");
-    const Outcome outcome = run("render bright.json" + small);
+    const Outcome outcome = run("render bright.json" + smallDark);
     EXPECT_TRUE(contains(outcome.errors, "% of the pixels are not finite numbers")) << outcome;
 }
 

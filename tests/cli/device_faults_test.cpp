@@ -14,7 +14,7 @@
 namespace hyalite::testing {
 namespace {
 
-const std::string small = " --width 8 --height 8 --spp 1";
+const std::string smallFaulty = " --width 8 --height 8 --spp 1";
 
 std::string textOf(const std::filesystem::path &path) {
     std::ifstream stream(path);
@@ -138,14 +138,14 @@ TEST_F(DeviceFaults, TheLayerKnowsEveryCallThatCanFail) {
 }
 
 TEST_F(DeviceFaults, EachCallOfARenderIsChecked) {
-    failEachCall("render spheres --quiet -o " + (folder / "a.pfm").string() + small, "calibrated");
+    failEachCall("render spheres --quiet -o " + (folder / "a.pfm").string() + smallFaulty, "calibrated");
     for (const char *function : {"vkGetCalibratedTimestampsEXT", "vkCreateBufferView", "vkWaitForFences",
                                  "vkEnumerateInstanceExtensionProperties", "vkEnumerateInstanceVersion"})
         EXPECT_TRUE(visited.contains(function)) << function;
 }
 
 TEST_F(DeviceFaults, EachCallOfARenderThroughStagingBuffersIsChecked) {
-    failEachCall("render spheres --quiet -o " + (folder / "a.pfm").string() + small, "discrete");
+    failEachCall("render spheres --quiet -o " + (folder / "a.pfm").string() + smallFaulty, "discrete");
 }
 
 TEST_F(DeviceFaults, EachCallOfTheListOfDevicesIsChecked) { failEachCall("devices", ""); }
@@ -170,7 +170,7 @@ TEST_F(DeviceFaults, EveryCommandTellsThem) {
     };
     for (const Case &c : cases)
         for (const bool isValidated : {false, true}) {
-            const std::string line = c.line + (contains(c.line, "devices") ? "" : small);
+            const std::string line = c.line + (contains(c.line, "devices") ? "" : smallFaulty);
             const Outcome outcome =
                 runFaulty(line, fmt::format("{}:{}:{}", c.function, c.call, c.result), "", isValidated);
             SCOPED_TRACE(line);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DiffTest : public testing::Test {
+class DiffTest : public ::testing::Test {
   protected:
     void SetUp() override {
         std::string name = (fs::temp_directory_path() / "hyalite-diff-XXXXXX").string();
@@ -52,7 +52,7 @@ class DiffTest : public testing::Test {
         }
         arguments.insert(arguments.begin(), "diff");
         std::reverse(arguments.begin(), arguments.end()); // as CLI::App::parse wants them
-        testing::internal::CaptureStdout();
+        ::testing::internal::CaptureStdout();
         try {
             app.parse(arguments);
         } catch (const Error &error) {
@@ -60,7 +60,7 @@ class DiffTest : public testing::Test {
         } catch (const CLI::ParseError &) {
             context.exitCode = ExitCode::Usage;
         }
-        output = testing::internal::GetCapturedStdout();
+        output = ::testing::internal::GetCapturedStdout();
         return static_cast<int>(context.exitCode);
     }
 

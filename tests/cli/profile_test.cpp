@@ -20,10 +20,10 @@ class ProfileCommand : public CommandLine {
     }
 };
 
-const std::string small = " --width 32 --height 24 --spp 2 --repeat 2 --warmup 0";
+const std::string smallProfiled = " --width 32 --height 24 --spp 2 --repeat 2 --warmup 0";
 
 TEST_F(ProfileCommand, VerifiesThenMeasures) {
-    const Outcome outcome = run("profile spheres --device " + softwareDevice() + small);
+    const Outcome outcome = run("profile spheres --device " + softwareDevice() + smallProfiled);
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     for (const char *part : {"verified     equal to the CPU twin, bit for bit", "clock        timestamps",
                              "measured     2 frames, after 1 that is not", "\nupload ", "\npipeline ",
@@ -32,7 +32,7 @@ TEST_F(ProfileCommand, VerifiesThenMeasures) {
 }
 
 TEST_F(ProfileCommand, SaysThatNothingWasVerified) {
-    const std::string line = "profile spheres" + small + " --device ";
+    const std::string line = "profile spheres" + smallProfiled + " --device ";
     const Outcome unverified = run(line + softwareDevice() + " --no-verify");
     EXPECT_EQ(unverified.exitCode, 0) << unverified;
     EXPECT_TRUE(contains(unverified.output, "verified     not verified, as asked")) << unverified;
@@ -45,7 +45,7 @@ TEST_F(ProfileCommand, SaysThatNothingWasVerified) {
 
 TEST_F(ProfileCommand, StagesFillTheFrame) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
-        const nlohmann::json report = profile("spheres --device " + device + small);
+        const nlohmann::json report = profile("spheres --device " + device + smallProfiled);
         // Structure, not speed: what is not in any stage is bookkeeping, and bad luck of short frames on a busy machine.
         EXPECT_GT(report.at("stageShare").get<double>(), 0.5);
         EXPECT_LE(report.at("stageShare").get<double>(), 1.0 + 1e-9);
@@ -59,9 +59,9 @@ TEST_F(ProfileCommand, StagesFillTheFrame) {
 }
 
 TEST_F(ProfileCommand, WorkIsEqualOnTwoRunsAndOnTheCpu) {
-    const nlohmann::json first = profile("spheres --device " + softwareDevice() + small);
-    const nlohmann::json second = profile("spheres --device " + softwareDevice() + small);
-    const nlohmann::json onCpu = profile("spheres --device cpu" + small);
+    const nlohmann::json first = profile("spheres --device " + softwareDevice() + smallProfiled);
+    const nlohmann::json second = profile("spheres --device " + softwareDevice() + smallProfiled);
+    const nlohmann::json onCpu = profile("spheres --device cpu" + smallProfiled);
     EXPECT_EQ(first.at("work"), second.at("work"));
     EXPECT_EQ(first.at("work").at("rays"), onCpu.at("work").at("rays"));
     EXPECT_EQ(first.at("work").at("rays").at("primary"), 32 * 24 * 2);
@@ -76,7 +76,7 @@ TEST_F(ProfileCommand, CountsTheSameWorkOnDeviceAndCpu) {
     EXPECT_EQ(onDevice.at("stackTraversal"), onCpu.at("stackTraversal"));
     EXPECT_GT(onCpu.at("stackTraversal").at("nodesVisited").get<int>(), 32 * 24);
     EXPECT_GT(onCpu.at("stackTraversal").at("deepestStack").get<int>(), 1);
-    EXPECT_FALSE(profile("spheres --device cpu" + small).at("work").contains("stackTraversal"));
+    EXPECT_FALSE(profile("spheres --device cpu" + smallProfiled).at("work").contains("stackTraversal"));
 }
 
 TEST_F(ProfileCommand, CountsTheWarmUp) {
@@ -91,7 +91,7 @@ TEST_F(ProfileCommand, CountsTheWarmUp) {
 }
 
 TEST_F(ProfileCommand, WritesTheImageAndTimesThat) {
-    const nlohmann::json report = profile("spheres --device cpu -o profiled.pfm" + small);
+    const nlohmann::json report = profile("spheres --device cpu -o profiled.pfm" + smallProfiled);
     EXPECT_EQ(report.at("stages").back().at("name"), "write");
     EXPECT_EQ(load("profiled.pfm"), renderPfm("spheres --device cpu --width 32 --height 24 --spp 2"));
 }
@@ -111,7 +111,7 @@ TEST_F(ProfileCommand, WritesALineForEachDispatch) {
 TEST_F(ProfileCommand, WritesATimelineThatKeepsTheRulesOfItsFormat) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
         const Outcome outcome =
-            run("profile spheres --trace trace.json -o image.png" + small + " --device " + device);
+            run("profile spheres --trace trace.json -o image.png" + smallProfiled + " --device " + device);
         ASSERT_EQ(outcome.exitCode, 0) << outcome;
         const nlohmann::json trace = nlohmann::json::parse(load("trace.json"));
         expectTrace(trace);
@@ -128,7 +128,7 @@ TEST_F(ProfileCommand, AHeatMapIsThePictureOfTheCost) {
     store("sheet.json", wavySheetScene());
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
         const nlohmann::json report =
-            profile("sheet.json --heatmap heat.png --html page.html --device " + device + small);
+            profile("sheet.json --heatmap heat.png --html page.html --device " + device + smallProfiled);
         ASSERT_EQ(run("render sheet.json --integrator cost -o cost.png --quiet --device " + device +
                       " --width 32 --height 24 --spp 2")
                       .exitCode,
@@ -142,7 +142,7 @@ TEST_F(ProfileCommand, AHeatMapIsThePictureOfTheCost) {
         EXPECT_EQ(pixelCount, 32u * 24u);
         EXPECT_TRUE(contains(load("page.html"), "tests per sample"));
     }
-    expectFailure("profile sheet.json --heatmap heat.pfm" + small, 2, {"--heatmap", ".png"});
+    expectFailure("profile sheet.json --heatmap heat.pfm" + smallProfiled, 2, {"--heatmap", ".png"});
     expectFailure("render sheet.json --integrator cost --kernel skip-list -o a.png --quiet --device " +
                       softwareDevice(),
                   2, {"skip-list", "stack"});
@@ -156,12 +156,14 @@ TEST_F(ProfileCommand, TheCostIsEqualOnDeviceAndCpu) {
     EXPECT_EQ(onDevice, renderPfm(line + "cpu"));
     EXPECT_EQ(onDevice, renderPfm(line + softwareDevice() + " --kernel stack"));
     EXPECT_NE(onDevice, renderPfm(line + "cpu --bvh sah"));
-    EXPECT_EQ(run("compare sheet.json --integrator cost" + small.substr(0, small.find(" --repeat"))).exitCode,
-              0);
+    EXPECT_EQ(
+        run("compare sheet.json --integrator cost" + smallProfiled.substr(0, smallProfiled.find(" --repeat")))
+            .exitCode,
+        0);
 }
 
 TEST_F(ProfileCommand, ABaselineCatchesASlowerKernelAndMoreWork) {
-    const std::string line = "profile spheres --device cpu --no-verify" + small;
+    const std::string line = "profile spheres --device cpu --no-verify" + smallProfiled;
     ASSERT_EQ(run(line + " --report old.json").exitCode, 0);
     nlohmann::json old = nlohmann::json::parse(load("old.json"));
     // As if it had taken hours: whatever this machine does now is faster.
@@ -189,7 +191,7 @@ TEST_F(ProfileCommand, ABaselineCatchesASlowerKernelAndMoreWork) {
 }
 
 TEST_F(ProfileCommand, RefusesABaselineThatIsNone) {
-    const std::string line = "profile spheres --device cpu" + small;
+    const std::string line = "profile spheres --device cpu" + smallProfiled;
     ASSERT_EQ(run(line + " --report old.json").exitCode, 0);
     store("none.json", "{}");
     expectFailure(line + " --baseline none.json", 3,
@@ -202,7 +204,8 @@ TEST_F(ProfileCommand, RefusesABaselineThatIsNone) {
 }
 
 TEST_F(ProfileCommand, WritesAPageWithTheImageInIt) {
-    const Outcome outcome = run("profile spheres --html profile.html --device cpu -o image.png" + small);
+    const Outcome outcome =
+        run("profile spheres --html profile.html --device cpu -o image.png" + smallProfiled);
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     const std::string page = load("profile.html");
     EXPECT_TRUE(page.ends_with("</html>\n"));
@@ -215,7 +218,7 @@ TEST_F(ProfileCommand, RefusesWhatMakesNoSense) {
     expectFailure("profile spheres --repeat 0", 2, {"--repeat", "from 1 to 10000"});
     expectFailure("profile spheres --warmup -1", 2, {"--warmup"});
     expectFailure("profile spheres --report a.json --csv a.json", 2, {"name the same file"});
-    expectFailure("profile spheres --device nonesuch" + small, 4);
+    expectFailure("profile spheres --device nonesuch" + smallProfiled, 4);
     expectFailure("profile spheres --csv missing/a.csv", 7);
     EXPECT_TRUE(entries().empty());
 }

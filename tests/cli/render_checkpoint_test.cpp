@@ -43,13 +43,13 @@ class RenderCheckpoint : public CommandLine {
     [[nodiscard]] nlohmann::json report() const { return nlohmann::json::parse(load("report.json")); }
 };
 
-const std::string small = " --width 24 --height 16 --spp 3";
+const std::string smallResumed = " --width 24 --height 16 --spp 3";
 const std::string files = " -o a.pfm --report report.json --checkpoint c";
 /// Too short for any work, and so the render ends with the least that it can do.
 const std::string atOnce = " --time-limit 1e-6";
 
 TEST_F(RenderCheckpoint, IsOfOneRenderAtATime) {
-    const std::string line = "render spheres" + small + files + " --device cpu";
+    const std::string line = "render spheres" + smallResumed + files + " --device cpu";
     store("c.lock", "4711\n"); // left over: its process is gone
     EXPECT_EQ(run(line).exitCode, 0);
     EXPECT_FALSE(entries().contains("c.lock"));
@@ -61,7 +61,7 @@ TEST_F(RenderCheckpoint, IsOfOneRenderAtATime) {
     EXPECT_EQ(load("c"), before);
     close(descriptor);
     EXPECT_EQ(run(line + " --resume").exitCode, 0);
-    expectFailure("render spheres -o c.lock.pfm --report c.lock --checkpoint c" + small, 2,
+    expectFailure("render spheres -o c.lock.pfm --report c.lock --checkpoint c" + smallResumed, 2,
                   {"name the same file"});
 }
 
@@ -160,7 +160,7 @@ TEST_F(RenderCheckpoint, AFinishedOneMayGetMoreSamples) {
 TEST_F(RenderCheckpoint, AnotherRendersIsRefusedWithWhatDiffers) {
     store("square.obj", squareObj());
     store("square.json", squareScene());
-    const std::string line = "render square.json --device cpu" + small + files;
+    const std::string line = "render square.json --device cpu" + smallResumed + files;
     ASSERT_EQ(run(line).exitCode, 0);
     const std::string picture = load("a.pfm");
     const std::string checkpoint = load("c");
@@ -185,7 +185,7 @@ TEST_F(RenderCheckpoint, AnotherRendersIsRefusedWithWhatDiffers) {
 }
 
 TEST_F(RenderCheckpoint, ADamagedOneFallsBackToTheOlderAndSaysSo) {
-    const std::string line = "render spheres --device cpu" + small + files;
+    const std::string line = "render spheres --device cpu" + smallResumed + files;
     ASSERT_EQ(run(line + atOnce).exitCode, 0);
     ASSERT_EQ(run(line + " --resume").exitCode, 0);
     EXPECT_TRUE(entries().contains("c.1"));
@@ -206,7 +206,7 @@ TEST_F(RenderCheckpoint, ADamagedOneFallsBackToTheOlderAndSaysSo) {
 }
 
 TEST_F(RenderCheckpoint, WithoutOneItBeginsAnewAndSaysSo) {
-    const Outcome outcome = run("render spheres --device cpu --resume" + small + files);
+    const Outcome outcome = run("render spheres --device cpu --resume" + smallResumed + files);
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "no checkpoint c yet")) << outcome;
     EXPECT_EQ(report().at("resumed"), nullptr);
@@ -242,10 +242,10 @@ TEST_F(RenderCheckpoint, ADiskThatIsFullStopsNoRender) {
     Surroundings full;
     full.fileSizeLimitBytes = 8000; // room for the picture, not for the film
     const Outcome outcome =
-        runIn(full, "render spheres --device cpu --checkpoint-interval 1e-3" + small + files);
+        runIn(full, "render spheres --device cpu --checkpoint-interval 1e-3" + smallResumed + files);
     EXPECT_EQ(outcome.exitCode, 7) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "'c'")) << outcome;
-    EXPECT_EQ(load("a.pfm"), renderPfm("spheres --device cpu" + small));
+    EXPECT_EQ(load("a.pfm"), renderPfm("spheres --device cpu" + smallResumed));
     EXPECT_EQ(load("c"), "old");
     EXPECT_EQ(report().at("finished").at("isComplete"), true);
 }

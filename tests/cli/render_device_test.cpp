@@ -12,7 +12,7 @@ namespace {
 
 using RenderDevice = CommandLine;
 
-const std::string small = " --width 16 --height 12 --spp 4";
+const std::string smallOnDevice = " --width 16 --height 12 --spp 4";
 
 Surroundings withoutDriver() {
     Surroundings surroundings;
@@ -44,21 +44,22 @@ TEST_F(RenderDevice, EveryWayToNameADeviceGivesTheBytesOfTheCpu) {
                                        : std::toupper(static_cast<unsigned char>(letter)));
     const std::string whole = device.at("name");
     for (const char *scene : {"spheres", "sheet.json"}) {
-        const std::string wanted = renderPfm(scene + small + " --device cpu");
+        const std::string wanted = renderPfm(scene + smallOnDevice + " --device cpu");
         ASSERT_FALSE(wanted.empty());
         for (const std::string &name : {softwareDevice(), part, otherCase, whole})
-            EXPECT_EQ(renderPfm(scene + small + " --device '" + name + "'"), wanted) << scene << ", " << name;
+            EXPECT_EQ(renderPfm(scene + smallOnDevice + " --device '" + name + "'"), wanted)
+                << scene << ", " << name;
     }
 }
 
 TEST_F(RenderDevice, AutoIsTheDefaultAndMatchesTheCpu) {
-    const nlohmann::json report = renderReport("spheres" + small);
+    const nlohmann::json report = renderReport("spheres" + smallOnDevice);
     const std::string byDefault = load("reported.pfm");
-    EXPECT_EQ(renderPfm("spheres --device auto" + small), byDefault);
+    EXPECT_EQ(renderPfm("spheres --device auto" + smallOnDevice), byDefault);
     const nlohmann::json device = findDevice(report.at("device").at("name"));
     ASSERT_TRUE(device.is_object()) << report;
     if (device.at("canRoundToNearestEven") && device.at("canPreserveSignedZeroInfNan")) {
-        EXPECT_EQ(renderPfm("spheres --device cpu" + small), byDefault) << device;
+        EXPECT_EQ(renderPfm("spheres --device cpu" + smallOnDevice), byDefault) << device;
     }
 }
 
@@ -66,7 +67,7 @@ TEST_F(RenderDevice, AutoPrefersHardware) {
     bool hasHardware = false;
     for (const nlohmann::json &device : listDevices())
         hasHardware |= device.at("isUsable") && !contains(device.at("type"), "software");
-    const Outcome outcome = run("render spheres -o a.png" + small);
+    const Outcome outcome = run("render spheres -o a.png" + smallOnDevice);
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_EQ(contains(outcome.errors, "software"), !hasHardware) << outcome;
 }
@@ -74,7 +75,7 @@ TEST_F(RenderDevice, AutoPrefersHardware) {
 TEST_F(RenderDevice, TheDeviceIsNamedOnceOnStandardError) {
     const std::string index = softwareDevice();
     const std::string name = withoutVectorWidth(listDevices().at(std::stoul(index)).at("name"));
-    const Outcome outcome = run("render spheres -o a.png --device " + index + small);
+    const Outcome outcome = run("render spheres -o a.png --device " + index + smallOnDevice);
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_TRUE(contains(outcome.errors, name)) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "software")) << outcome;
@@ -85,7 +86,7 @@ TEST_F(RenderDevice, TheDeviceIsNamedOnceOnStandardError) {
 }
 
 TEST_F(RenderDevice, TheReferenceRendererIsNamedToo) {
-    const Outcome outcome = run("render spheres -o a.png --device cpu" + small);
+    const Outcome outcome = run("render spheres -o a.png --device cpu" + smallOnDevice);
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "cpu")) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "reference")) << outcome;
@@ -96,7 +97,7 @@ TEST_F(RenderDevice, AnUnknownDeviceIsAnsweredWithTheList) {
     for (const nlohmann::json &device : listDevices())
         names.push_back(withoutVectorWidth(device.at("name")));
     for (const char *wanted : {"nonesuch", "99", "-1", "''", "99999999999999999999"})
-        expectFailure("render spheres -o a.png --device " + std::string(wanted) + small, 4, names);
+        expectFailure("render spheres -o a.png --device " + std::string(wanted) + smallOnDevice, 4, names);
     EXPECT_EQ(entries(), std::set<std::string>{});
 }
 
@@ -113,7 +114,7 @@ TEST_F(RenderDevice, WithoutADriverItSaysWhatToInstall) {
 }
 
 TEST_F(RenderDevice, WithoutADriverTheReferenceRendererStillRenders) {
-    const Outcome outcome = runIn(withoutDriver(), "render spheres -o a.png --device cpu" + small);
+    const Outcome outcome = runIn(withoutDriver(), "render spheres -o a.png --device cpu" + smallOnDevice);
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_EQ(entries(), std::set<std::string>{"a.png"});
     // The remedy that needs no installation.
@@ -123,21 +124,23 @@ TEST_F(RenderDevice, WithoutADriverTheReferenceRendererStillRenders) {
 TEST_F(RenderDevice, TheNumberOfThreadsDoesNotChangeTheImage) {
     store("sheet.obj", wavySheetObj(12));
     store("sheet.json", wavySheetScene());
-    const std::string wanted = renderPfm("sheet.json" + small + " --device cpu");
+    const std::string wanted = renderPfm("sheet.json" + smallOnDevice + " --device cpu");
     for (const std::string &device : {std::string("cpu"), softwareDevice()})
         for (const char *threads : {"1", "2"})
-            EXPECT_EQ(renderPfm("sheet.json" + small + " --device " + device + " --threads " + threads),
-                      wanted)
+            EXPECT_EQ(
+                renderPfm("sheet.json" + smallOnDevice + " --device " + device + " --threads " + threads),
+                wanted)
                 << device << ", " << threads;
 }
 
 TEST_F(RenderDevice, TheKernelDoesNotChangeTheImage) {
     store("sheet.obj", wavySheetObj(12));
     store("sheet.json", wavySheetScene());
-    const std::string wanted = renderPfm("sheet.json" + small + " --device cpu");
+    const std::string wanted = renderPfm("sheet.json" + smallOnDevice + " --device cpu");
     for (const char *kernel : {"auto", "stack", "stack-x2", "skip-list", "skip-list-x2"})
-        EXPECT_EQ(renderPfm("sheet.json" + small + " --device " + softwareDevice() + " --kernel " + kernel),
-                  wanted)
+        EXPECT_EQ(
+            renderPfm("sheet.json" + smallOnDevice + " --device " + softwareDevice() + " --kernel " + kernel),
+            wanted)
             << kernel;
 }
 
@@ -145,12 +148,12 @@ TEST_F(RenderDevice, TheWidthOfVectorsDoesNotChangeTheImage) {
     store("sheet.obj", wavySheetObj(12));
     store("sheet.json", wavySheetScene());
     for (const std::string scene : {"spheres", "spheres --integrator path", "sheet.json", "many-lights"}) {
-        const std::string wanted = renderPfm(scene + small + " --device cpu");
+        const std::string wanted = renderPfm(scene + smallOnDevice + " --device cpu");
         for (const std::string bits : {"128", "256", "512"}) {
             Surroundings surroundings;
             surroundings.environment["LP_NATIVE_VECTOR_WIDTH"] = bits;
-            const Outcome outcome =
-                runIn(surroundings, "render " + scene + small + " -o wide.pfm --device " + softwareDevice());
+            const Outcome outcome = runIn(surroundings, "render " + scene + smallOnDevice +
+                                                            " -o wide.pfm --device " + softwareDevice());
             ASSERT_EQ(outcome.exitCode, 0) << outcome;
             EXPECT_TRUE(contains(outcome.errors, bits + " bits")) << outcome;
             EXPECT_EQ(load("wide.pfm"), wanted) << scene << ", " << bits << " bits";
@@ -165,8 +168,8 @@ TEST_F(RenderDevice, VectorsAreWideUnlessGlassSplitsRaysDeeply) {
     const auto isWide = [&](const std::string &scene) {
         Surroundings surroundings;
         surroundings.environment["LP_NATIVE_VECTOR_WIDTH"] = std::nullopt;
-        const Outcome outcome =
-            runIn(surroundings, "render " + scene + small + " -o wide.pfm --device " + softwareDevice());
+        const Outcome outcome = runIn(surroundings, "render " + scene + smallOnDevice +
+                                                        " -o wide.pfm --device " + softwareDevice());
         EXPECT_EQ(outcome.exitCode, 0) << outcome;
         return contains(outcome.errors, "512 bits");
     };
@@ -186,7 +189,7 @@ TEST_F(RenderDevice, OnlyVulkanDevicesHaveKernels) {
 }
 
 TEST_F(RenderDevice, RepeatedRendersAreEqual) {
-    const std::string line = "spheres --device " + softwareDevice() + small;
+    const std::string line = "spheres --device " + softwareDevice() + smallOnDevice;
     EXPECT_EQ(renderPfm(line), renderPfm(line));
 }
 

@@ -25,7 +25,7 @@ class RenderOptions : public CommandLine {
 };
 
 const std::string onCpu = " --device cpu";
-const std::string small = " --width 16 --height 12 --spp 1 --device cpu";
+const std::string smallWithOptions = " --width 16 --height 12 --spp 1 --device cpu";
 
 TEST_F(RenderOptions, SppIsTheNumberOfPrimaryRaysInAPixel) {
     for (const char *spp : {"1", "5", "64"}) {
@@ -42,11 +42,12 @@ TEST_F(RenderOptions, ManySamplesAreRenderedAlikeOnDeviceAndCpu) {
 }
 
 TEST_F(RenderOptions, TheSeedChangesSobolAndNotCentre) {
-    EXPECT_NE(renderPfm("spheres --sampler sobol --seed 1" + small),
-              renderPfm("spheres --sampler sobol --seed 2" + small));
-    EXPECT_EQ(renderPfm("spheres --sampler centre --seed 1" + small),
-              renderPfm("spheres --sampler centre --seed 2" + small));
-    EXPECT_EQ(renderPfm("spheres --seed 4294967295" + small), renderPfm("spheres --seed 4294967295" + small));
+    EXPECT_NE(renderPfm("spheres --sampler sobol --seed 1" + smallWithOptions),
+              renderPfm("spheres --sampler sobol --seed 2" + smallWithOptions));
+    EXPECT_EQ(renderPfm("spheres --sampler centre --seed 1" + smallWithOptions),
+              renderPfm("spheres --sampler centre --seed 2" + smallWithOptions));
+    EXPECT_EQ(renderPfm("spheres --seed 4294967295" + smallWithOptions),
+              renderPfm("spheres --seed 4294967295" + smallWithOptions));
 }
 
 TEST_F(RenderOptions, CentreRepeatsOneSample) {
@@ -120,7 +121,8 @@ TEST_F(RenderOptions, TheTreeDoesNotChangeTheImage) {
 
 TEST_F(RenderOptions, TreeLeafSizeSamplerAndSeedAreInTheReport) {
     const nlohmann::json settings =
-        renderReport("sheet.json --bvh sah --leaf-size 3 --sampler centre --seed 7 --exposure -1.5" + small)
+        renderReport("sheet.json --bvh sah --leaf-size 3 --sampler centre --seed 7 --exposure -1.5" +
+                     smallWithOptions)
             .at("settings");
     EXPECT_EQ(settings.at("bvh"), "sah");
     EXPECT_EQ(settings.at("leafSize"), 3);
@@ -271,10 +273,10 @@ TEST_F(RenderEnvironment, ReplacesThatOfTheScene) {
 }
 
 TEST_F(RenderOptions, ExposureBrightensAPngAndNotAPfm) {
-    EXPECT_EQ(renderPfm("spheres --exposure 3" + small), renderPfm("spheres" + small));
+    EXPECT_EQ(renderPfm("spheres --exposure 3" + smallWithOptions), renderPfm("spheres" + smallWithOptions));
     const auto grey = [&](const std::string &exposure) {
         const std::string line = "render empty.json -o a.png --background .125,.125,.125 --exposure ";
-        EXPECT_EQ(run(line + exposure + small).exitCode, 0);
+        EXPECT_EQ(run(line + exposure + smallWithOptions).exitCode, 0);
         return std::lround(255.0f * readImage(folder / "a.png").image.at(0, 0).x);
     };
     EXPECT_EQ(grey("0"), std::lround(255.0 * std::pow(0.125, 1.0 / 2.2)));

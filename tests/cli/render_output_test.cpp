@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 
 using RenderOutput = CommandLine;
 
-const std::string small = " --width 16 --height 12 --spp 1 --device cpu";
+const std::string smallWritten = " --width 16 --height 12 --spp 1 --device cpu";
 /// Hours of work: whoever begins with it is found out by the clock.
-const std::string endless = " --width 2048 --height 2048 --spp 65536 --device cpu";
+const std::string endlessWritten = " --width 2048 --height 2048 --spp 65536 --device cpu";
 constexpr double promptSeconds = 5.0;
 
 TEST_F(RenderOutput, APngIsEncodedForTheScreen) {
@@ -44,8 +44,8 @@ TEST_F(RenderOutput, APfmIsLinear) {
 }
 
 TEST_F(RenderOutput, ThePngIsThePfmWithGamma) {
-    ASSERT_EQ(run("render spheres -o a.png" + small).exitCode, 0);
-    const Image linear = renderImage("spheres" + small);
+    ASSERT_EQ(run("render spheres -o a.png" + smallWritten).exitCode, 0);
+    const Image linear = renderImage("spheres" + smallWritten);
     const Image display = readImage(folder / "a.png").image;
     ASSERT_EQ(linear.pixels().size(), display.pixels().size());
     for (std::size_t i = 0; i < linear.pixels().size(); ++i)
@@ -98,7 +98,7 @@ TEST_F(RenderOutput, LayersThatCannotBeAreRefused) {
 }
 
 TEST_F(RenderOutput, AnHdrIsWritten) {
-    ASSERT_EQ(run("render spheres -o a.hdr" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.hdr" + smallWritten).exitCode, 0);
     EXPECT_TRUE(contains(load("a.hdr"), "\n\n-Y 12 +X 16\n"));
 }
 
@@ -107,7 +107,7 @@ TEST_F(RenderOutput, AFullDiskLeavesTheOldFileWhateverTheFormat) {
         store(name, "old");
         Surroundings full;
         full.fileSizeLimitBytes = 256;
-        const Outcome outcome = runIn(full, "render spheres -o " + std::string(name) + small);
+        const Outcome outcome = runIn(full, "render spheres -o " + std::string(name) + smallWritten);
         EXPECT_EQ(outcome.exitCode, 7) << outcome;
         EXPECT_TRUE(contains(outcome.errors, name)) << outcome;
         EXPECT_EQ(load(name), "old");
@@ -116,8 +116,8 @@ TEST_F(RenderOutput, AFullDiskLeavesTheOldFileWhateverTheFormat) {
 }
 
 TEST_F(RenderOutput, TheExtensionMayBeInUpperCase) {
-    EXPECT_EQ(run("render spheres -o A.PNG" + small).exitCode, 0);
-    EXPECT_EQ(run("render spheres -o A.Pfm" + small).exitCode, 0);
+    EXPECT_EQ(run("render spheres -o A.PNG" + smallWritten).exitCode, 0);
+    EXPECT_EQ(run("render spheres -o A.Pfm" + smallWritten).exitCode, 0);
     EXPECT_EQ(entries(), (std::set<std::string>{"A.PNG", "A.Pfm"}));
 }
 
@@ -146,12 +146,12 @@ TEST_F(RenderOutput, ACropIsThatPartOfTheImage) {
 }
 
 TEST_F(RenderOutput, ACropOfAllIsTheImage) {
-    EXPECT_EQ(renderPfm("spheres" + small), renderPfm("spheres --crop 0,16,0,12" + small));
+    EXPECT_EQ(renderPfm("spheres" + smallWritten), renderPfm("spheres --crop 0,16,0,12" + smallWritten));
 }
 
 TEST_F(RenderOutput, ACropThatIsEmptyOrOutsideIsRefused) {
     for (const char *crop : {"0,0,0,12", "5,4,0,12", "0,17,0,12", "0,16,0,13", "-1,16,0,12", "16,17,0,12"})
-        expectFailure("render spheres -o a.png --crop " + std::string(crop) + small, 2,
+        expectFailure("render spheres -o a.png --crop " + std::string(crop) + smallWritten, 2,
                       {"--crop", crop, "16", "12"});
     EXPECT_EQ(entries(), std::set<std::string>{});
 }
@@ -200,7 +200,7 @@ TEST_F(RenderOutput, AnImageLargerThanADeviceAllowsIsRenderedInPartsOrRefusedWit
 
 TEST_F(RenderOutput, AnExistingFileIsReplacedWhole) {
     store("a.png", std::string(1'000'000, 'x'));
-    ASSERT_EQ(run("render spheres -o a.png" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.png" + smallWritten).exitCode, 0);
     EXPECT_EQ(readImage(folder / "a.png").image.width(), 16);
     EXPECT_EQ(entries(), std::set<std::string>{"a.png"});
 }
@@ -208,7 +208,7 @@ TEST_F(RenderOutput, AnExistingFileIsReplacedWhole) {
 TEST_F(RenderOutput, ALinkStaysALink) {
     store("real.png", "old");
     fs::create_symlink("real.png", folder / "link.png");
-    ASSERT_EQ(run("render spheres -o link.png" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o link.png" + smallWritten).exitCode, 0);
     EXPECT_TRUE(fs::is_symlink(folder / "link.png"));
     EXPECT_EQ(readImage(folder / "real.png").image.width(), 16);
 }
@@ -246,7 +246,7 @@ TEST_F(RenderOutput, WhatCannotBeWrittenIsRefusedBeforeRendering) {
     const std::set<std::string> before = entries();
     for (const char *output : {"missing/a.png", "folder.png", "file/a.png", "full.png", "loop.png",
                                "/proc/a.png", "folder.png/"}) {
-        const Outcome outcome = run("render spheres -o " + std::string(output) + endless);
+        const Outcome outcome = run("render spheres -o " + std::string(output) + endlessWritten);
         // A name that ends in a slash has no extension: either answer is right.
         EXPECT_TRUE(outcome.exitCode == 7 || (outcome.exitCode == 2 && std::string(output) == "folder.png/"))
             << outcome;
@@ -260,7 +260,7 @@ TEST_F(RenderOutput, WhatCannotBeWrittenIsRefusedBeforeRendering) {
 
 TEST_F(RenderOutput, AnUnknownExtensionIsRefusedBeforeRendering) {
     for (const char *output : {"a", "a.jpg", ".png", "a.png.txt", "-", "/dev/full"}) {
-        const Outcome outcome = run("render spheres -o " + std::string(output) + endless);
+        const Outcome outcome = run("render spheres -o " + std::string(output) + endlessWritten);
         EXPECT_EQ(outcome.exitCode, 2) << outcome;
         for (const char *part : {output, ".png", ".pfm"})
             EXPECT_TRUE(contains(outcome.errors, part)) << outcome;
@@ -272,7 +272,8 @@ TEST_F(RenderOutput, AnUnknownExtensionIsRefusedBeforeRendering) {
 TEST_F(RenderOutput, AReportThatCannotBeWrittenIsRefusedBeforeRendering) {
     fs::create_directory(folder / "folder.json");
     for (const char *report : {"missing/r.json", "folder.json", "/dev/full"}) {
-        const Outcome outcome = run("render spheres -o a.png --report " + std::string(report) + endless);
+        const Outcome outcome =
+            run("render spheres -o a.png --report " + std::string(report) + endlessWritten);
         EXPECT_EQ(outcome.exitCode, 7) << outcome;
         EXPECT_TRUE(contains(outcome.errors, report)) << outcome;
         EXPECT_LT(outcome.seconds, promptSeconds) << report;
@@ -281,16 +282,16 @@ TEST_F(RenderOutput, AReportThatCannotBeWrittenIsRefusedBeforeRendering) {
 }
 
 TEST_F(RenderOutput, ImageAndReportAreNotTheSameFile) {
-    expectFailure("render spheres -o a.png --report a.png" + small, 2, {"a.png"});
-    expectFailure("render spheres -o a.png --report ./a.png" + small, 2, {"a.png"});
-    expectFailure("compare spheres --diff a.png --report ./a.png" + small, 2, {"a.png"});
+    expectFailure("render spheres -o a.png --report a.png" + smallWritten, 2, {"a.png"});
+    expectFailure("render spheres -o a.png --report ./a.png" + smallWritten, 2, {"a.png"});
+    expectFailure("compare spheres --diff a.png --report ./a.png" + smallWritten, 2, {"a.png"});
     EXPECT_EQ(entries(), std::set<std::string>{});
 }
 
 TEST_F(RenderOutput, TheSceneIsNotReplacedByTheReport) {
     store("own.json", "{}");
-    expectFailure("render own.json -o a.png --report ./own.json" + small, 2, {"own.json"});
-    expectFailure("compare own.json --report own.json" + small, 2, {"own.json"});
+    expectFailure("render own.json -o a.png --report ./own.json" + smallWritten, 2, {"own.json"});
+    expectFailure("compare own.json --report own.json" + smallWritten, 2, {"own.json"});
     EXPECT_EQ(load("own.json"), "{}");
 }
 
@@ -300,7 +301,7 @@ TEST_F(RenderOutput, ARenderThatIsKilledLeavesNothingBehind) {
         Surroundings interrupted;
         interrupted.signalAfter = "device:";
         interrupted.signal = signal;
-        const Outcome outcome = runIn(interrupted, "render spheres -o a.png" + endless);
+        const Outcome outcome = runIn(interrupted, "render spheres -o a.png" + endlessWritten);
         EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome;
         EXPECT_EQ(outcome.output, "");
         EXPECT_EQ(load("a.png"), "old");
@@ -310,11 +311,11 @@ TEST_F(RenderOutput, ARenderThatIsKilledLeavesNothingBehind) {
 
 TEST_F(RenderOutput, MessagesNeverEndUpInTheImage) {
     // The lowest free descriptor is that of a closed stream: the next file that is opened gets it.
-    ASSERT_EQ(run("render spheres -o wanted.pfm" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o wanted.pfm" + smallWritten).exitCode, 0);
     for (const bool isErrors : {false, true}) {
         Surroundings closed;
         (isErrors ? closed.errors : closed.output) = Stream::Closed;
-        const Outcome outcome = runIn(closed, "render spheres -o a.pfm --report r.json" + small);
+        const Outcome outcome = runIn(closed, "render spheres -o a.pfm --report r.json" + smallWritten);
         // Either answer is right: done in silence, or refused for want of a place for the messages.
         if (outcome.exitCode == 0) {
             EXPECT_EQ(load("a.pfm"), load("wanted.pfm")) << (isErrors ? "stderr" : "stdout");
@@ -336,14 +337,14 @@ TEST_F(RenderOutput, OutputThatIsLostIsAFailure) {
 TEST_F(RenderOutput, MessagesThatAreLostStopNoRender) {
     Surroundings full;
     full.errors = Stream::FullDevice;
-    EXPECT_EQ(runIn(full, "render spheres -o a.png" + small).exitCode, 0);
+    EXPECT_EQ(runIn(full, "render spheres -o a.png" + smallWritten).exitCode, 0);
     EXPECT_EQ(runIn(full, "render nonesuch -o b.png").exitCode, 3);
     EXPECT_EQ(entries(), std::set<std::string>{"a.png"});
 }
 
 TEST_F(RenderOutput, AFileNameMayHoldAnything) {
     for (const char *output : {"'a b.png'", "'ü.png'", "'%s{}.png'", "./-x.png", "'a\"b.png'"})
-        EXPECT_EQ(run("render spheres --report r.json -o " + std::string(output) + small).exitCode, 0)
+        EXPECT_EQ(run("render spheres --report r.json -o " + std::string(output) + smallWritten).exitCode, 0)
             << output;
     EXPECT_EQ(entries(),
               (std::set<std::string>{"a b.png", "ü.png", "%s{}.png", "-x.png", "a\"b.png", "r.json"}));
@@ -352,7 +353,7 @@ TEST_F(RenderOutput, AFileNameMayHoldAnything) {
 
 TEST_F(RenderOutput, AFileNameThatIsNotUnicodeIsReportedToo) {
     const std::string name = "a\xff.png";
-    const Outcome outcome = run("render spheres --report r.json -o " + name + small);
+    const Outcome outcome = run("render spheres --report r.json -o " + name + smallWritten);
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_EQ(entries(), (std::set<std::string>{name, "r.json"}));
     EXPECT_TRUE(nlohmann::json::accept(load("r.json")));

@@ -35,7 +35,7 @@ class RenderPartial : public CommandLine {
 };
 
 /// Hours of work.
-const std::string endless = " --width 256 --height 256 --spp 65536 --partial 1e-3";
+const std::string endlessPartial = " --width 256 --height 256 --spp 65536 --partial 1e-3";
 
 TEST_F(RenderPartial, TheOutputIsWholeWheneverTheRenderIsKilled) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()})
@@ -44,7 +44,7 @@ TEST_F(RenderPartial, TheOutputIsWholeWheneverTheRenderIsKilled) {
                 store(name, "old");
                 const Outcome outcome =
                     runIn(signalledAfter(name, count, SIGKILL),
-                          "render spheres -o " + std::string(name) + " --device " + device + endless);
+                          "render spheres -o " + std::string(name) + " --device " + device + endlessPartial);
                 EXPECT_EQ(outcome.exitCode, 128 + SIGKILL) << outcome;
                 EXPECT_EQ(entries(), std::set<std::string>{name});
                 const Image image = readImage(folder / name).image;

@@ -12,7 +12,7 @@ namespace {
 
 using RenderRefusals = CommandLine;
 
-const std::string small = " --width 16 --height 12 --spp 1 --device cpu";
+const std::string smallRefused = " --width 16 --height 12 --spp 1 --device cpu";
 
 struct OutOfRange {
     const char *option;
@@ -110,7 +110,7 @@ TEST_F(RenderRefusals, AnUnknownWordIsAnsweredWithTheWordsThereAre) {
     for (const char *line : {"--sampler fine", "--bvh fast"})
         EXPECT_FALSE(contains(run(std::string("render spheres -o a.png ") + line).errors, "->")) << line;
     for (const char *line : {"--sampler 1", "--bvh 2", "--bvh 0", "--sampler SOBOL", "--sampler ''"})
-        expectFailure("render spheres -o a.png " + std::string(line) + small, 2);
+        expectFailure("render spheres -o a.png " + std::string(line) + smallRefused, 2);
 }
 
 TEST_F(RenderRefusals, AnEmptyValueIsAUsageError) {

@@ -19,9 +19,9 @@ class RenderReport : public CommandLine {
     }
 };
 
-const std::string small = " --width 16 --height 12 --spp 2";
+const std::string smallReported = " --width 16 --height 12 --spp 2";
 /// Hours of work, in which to watch the progress.
-const std::string endless = " --width 512 --height 512 --spp 65536";
+const std::string endlessReported = " --width 512 --height 512 --spp 65536";
 
 std::set<std::string> keysOf(const nlohmann::json &object) {
     std::set<std::string> keys;
@@ -32,7 +32,7 @@ std::set<std::string> keysOf(const nlohmann::json &object) {
 
 TEST_F(RenderReport, HasAllItsKeys) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
-        const nlohmann::json report = renderReport("sheet.json" + small + " --device " + device);
+        const nlohmann::json report = renderReport("sheet.json" + smallReported + " --device " + device);
         EXPECT_EQ(keysOf(report),
                   (std::set<std::string>{"program", "commandLine", "scene", "sceneHash", "output", "device",
                                          "image", "settings", "triangles", "finished", "faults", "resumed",
@@ -56,7 +56,7 @@ TEST_F(RenderReport, HasAllItsKeys) {
 }
 
 TEST_F(RenderReport, SaysWhatWasAsked) {
-    const nlohmann::json report = renderReport("sheet.json --crop 2,7,1,5" + small);
+    const nlohmann::json report = renderReport("sheet.json --crop 2,7,1,5" + smallReported);
     EXPECT_TRUE(contains(report.at("program"), "hyalite "));
     EXPECT_TRUE(contains(report.at("commandLine"), "render sheet.json --crop 2,7,1,5 --width 16")) << report;
     EXPECT_TRUE(contains(report.at("scene"), "sheet.json"));
@@ -84,7 +84,8 @@ std::string textOf(const std::string &png, const std::string &keyword) {
 TEST_F(RenderReport, APictureSaysWhatTheReportSays) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
         ASSERT_EQ(
-            run("render sheet.json -o a.png --report a.json --seed 7 --device " + device + small).exitCode,
+            run("render sheet.json -o a.png --report a.json --seed 7 --device " + device + smallReported)
+                .exitCode,
             0);
         const nlohmann::json report = nlohmann::json::parse(load("a.json"));
         const std::string png = load("a.png");
@@ -105,13 +106,14 @@ TEST_F(RenderReport, APictureSaysWhatTheReportSays) {
 }
 
 TEST_F(RenderReport, EveryCommandSaysWhereItsFilesComeFrom) {
-    const nlohmann::json wanted = renderReport("sheet.json" + small + " --device " + softwareDevice());
-    ASSERT_EQ(
-        run("compare sheet.json --diff e.png --report compare.json --device " + softwareDevice() + small)
-            .exitCode,
-        0);
+    const nlohmann::json wanted =
+        renderReport("sheet.json" + smallReported + " --device " + softwareDevice());
+    ASSERT_EQ(run("compare sheet.json --diff e.png --report compare.json --device " + softwareDevice() +
+                  smallReported)
+                  .exitCode,
+              0);
     ASSERT_EQ(run("profile sheet.json --repeat 1 --no-verify -o p.png --report profile.json --device " +
-                  softwareDevice() + small)
+                  softwareDevice() + smallReported)
                   .exitCode,
               0);
     ASSERT_EQ(run("diff p.png p.png --diff d.png --report diff.json").exitCode, 0);
@@ -150,8 +152,9 @@ TEST_F(RenderReport, NoNameSpoilsAPictureOrAReport) {
 }
 
 TEST_F(RenderReport, CommandLineCanBePastedBack) {
-    const Outcome outcome = run(
-        "render sheet.json -o 'a b.pfm' --look-at '0, 0, 0' --quiet --device cpu --report \"it's\"" + small);
+    const Outcome outcome =
+        run("render sheet.json -o 'a b.pfm' --look-at '0, 0, 0' --quiet --device cpu --report \"it's\"" +
+            smallReported);
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     const nlohmann::json report = nlohmann::json::parse(load("it's"));
     const std::vector<std::string> words = splitWords(report.at("commandLine").get<std::string>());
@@ -176,8 +179,8 @@ TEST_F(RenderReport, TheCommandLineIsQuotedAsAShellNeedsIt) {
 TEST_F(RenderReport, RayCountsAreEqualOnDeviceAndCpu) {
     const std::string software = softwareDevice();
     for (const char *scene : {"sheet.json", "spheres", "spheres-nested"}) {
-        const nlohmann::json onCpu = renderReport(scene + small + " --device cpu");
-        const nlohmann::json onDevice = renderReport(scene + small + " --device " + software);
+        const nlohmann::json onCpu = renderReport(scene + smallReported + " --device cpu");
+        const nlohmann::json onDevice = renderReport(scene + smallReported + " --device " + software);
         EXPECT_EQ(onCpu.at("rays"), onDevice.at("rays")) << scene;
         const nlohmann::json &rays = onDevice.at("rays");
         EXPECT_EQ(rays.at("primary"), 16 * 12 * 2);
@@ -190,7 +193,7 @@ TEST_F(RenderReport, RayCountsAreEqualOnDeviceAndCpu) {
 }
 
 TEST_F(RenderReport, TimesAddUp) {
-    const nlohmann::json seconds = renderReport("spheres" + small).at("seconds");
+    const nlohmann::json seconds = renderReport("spheres" + smallReported).at("seconds");
     double sum = 0.0;
     for (const auto &[key, value] : seconds.items()) {
         EXPECT_TRUE(value.is_number()) << key;
@@ -203,12 +206,12 @@ TEST_F(RenderReport, TimesAddUp) {
 
 TEST_F(RenderReport, AnExistingReportIsReplacedWhole) {
     store("report.json", std::string(100'000, 'x'));
-    EXPECT_EQ(renderReport("spheres --device cpu" + small).at("output"), "reported.pfm");
+    EXPECT_EQ(renderReport("spheres --device cpu" + smallReported).at("output"), "reported.pfm");
 }
 
 TEST_F(RenderReport, QuietPrintsErrorsOnly) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
-        const Outcome outcome = run("render spheres -o a.png --quiet --device " + device + small);
+        const Outcome outcome = run("render spheres -o a.png --quiet --device " + device + smallReported);
         EXPECT_EQ(outcome.exitCode, 0);
         EXPECT_EQ(outcome.output, "");
         EXPECT_EQ(outcome.errors, "");
@@ -227,7 +230,7 @@ TEST_F(RenderReport, QuietIsSilentOnATerminalToo) {
 
 TEST_F(RenderReport, TheClosingLineSaysSizeSamplesRaysTimeAndSpeed) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
-        const Outcome outcome = run("render spheres -o a.png --device " + device + small);
+        const Outcome outcome = run("render spheres -o a.png --device " + device + smallReported);
         ASSERT_EQ(outcome.exitCode, 0) << outcome;
         EXPECT_TRUE(std::regex_match(
             outcome.output, std::regex("a\\.png: 16x12, 2 spp, [0-9.]+ [kM]?[ ]?rays in [0-9.]+ s: [0-9.]+ "
@@ -243,12 +246,12 @@ TEST_F(RenderReport, TheClosingLineCountsFewRaysOneByOne) {
 }
 
 TEST_F(RenderReport, TheClosingLineHasTheSizeOfTheCrop) {
-    const Outcome outcome = run("render spheres -o a.png --device cpu --crop 0,5,0,3" + small);
+    const Outcome outcome = run("render spheres -o a.png --device cpu --crop 0,5,0,3" + smallReported);
     EXPECT_TRUE(contains(outcome.output, " 5x3,")) << outcome;
 }
 
 TEST_F(RenderReport, AShortRenderShowsNoProgress) {
-    const Outcome outcome = run("render spheres -o a.png --device cpu" + small);
+    const Outcome outcome = run("render spheres -o a.png --device cpu" + smallReported);
     EXPECT_FALSE(contains(outcome.errors, "progress")) << outcome;
 }
 
@@ -256,7 +259,7 @@ TEST_F(RenderReport, ProgressInALogIsLinesOfKeysAndValues) {
     Surroundings log;
     log.signalAfter = "left_s=";
     log.signal = SIGTERM;
-    const Outcome outcome = runIn(log, "render spheres -o a.png --device cpu" + endless);
+    const Outcome outcome = runIn(log, "render spheres -o a.png --device cpu" + endlessReported);
     EXPECT_TRUE(std::regex_search(
         outcome.errors,
         std::regex("(^|\n)task=render progress=[01]\\.[0-9]+ elapsed_s=[0-9.]+ left_s=[0-9.]+\n")))

@@ -54,7 +54,7 @@ const char *nameOf(int signal) {
 /// Hundreds of tiles of a software device, the first one of 32x32 pixels.
 const std::string manyTiles = " --width 2048 --height 2048 --spp 4";
 /// Hours of work.
-const std::string endless = " --width 512 --height 512 --spp 65536 --device cpu";
+const std::string endlessStopped = " --width 512 --height 512 --spp 65536 --device cpu";
 /// Too short for any work, and so the render ends with the least that it can do.
 const std::string atOnce = " --time-limit 1e-6";
 
@@ -78,7 +78,7 @@ TEST_F(RenderStop, ASignalWritesWhatTheDeviceHasFinished) {
 TEST_F(RenderStop, ASignalWritesWhatTheReferenceHasFinished) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Outcome outcome = runIn(signalled(signal), "render spheres -o a.pfm --report report.json" +
-                                                             endless + withCheckpoint);
+                                                             endlessStopped + withCheckpoint);
         EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome;
         EXPECT_LT(outcome.seconds, 20.0);
         expectPart("a.pfm", 512, nameOf(signal));
@@ -122,7 +122,7 @@ TEST_F(RenderStop, ASampleThatComesToNoEndIsAbandoned) {
 }
 
 TEST_F(RenderStop, QuietSaysOnlyWhatIsMissing) {
-    const std::string line = "render spheres -o a.png --report report.json --quiet" + endless + atOnce;
+    const std::string line = "render spheres -o a.png --report report.json --quiet" + endlessStopped + atOnce;
     const Outcome outcome = run(line);
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.output + outcome.errors, "");

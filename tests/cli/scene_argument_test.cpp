@@ -13,28 +13,28 @@ namespace fs = std::filesystem;
 
 using SceneArgument = CommandLine;
 
-const std::string small = " --width 16 --height 12 --spp 1 --device cpu";
+const std::string smallScene = " --width 16 --height 12 --spp 1 --device cpu";
 
 TEST_F(SceneArgument, IsAPathOrAName) {
-    const std::string byName = renderPfm("spheres" + small);
-    EXPECT_EQ(renderPfm("'" HYALITE_ASSET_DIR "/scenes/spheres.json'" + small), byName);
-    EXPECT_EQ(renderPfm("'" HYALITE_SOURCE_DIR "/assets/scenes/spheres.json'" + small), byName);
+    const std::string byName = renderPfm("spheres" + smallScene);
+    EXPECT_EQ(renderPfm("'" HYALITE_ASSET_DIR "/scenes/spheres.json'" + smallScene), byName);
+    EXPECT_EQ(renderPfm("'" HYALITE_SOURCE_DIR "/assets/scenes/spheres.json'" + smallScene), byName);
     fs::copy_file(HYALITE_ASSET_DIR "/scenes/spheres.json", folder / "Copy.JSON");
-    EXPECT_EQ(renderPfm("Copy.JSON" + small), byName);
-    EXPECT_EQ(renderPfm("./Copy.JSON" + small), byName);
+    EXPECT_EQ(renderPfm("Copy.JSON" + smallScene), byName);
+    EXPECT_EQ(renderPfm("./Copy.JSON" + smallScene), byName);
 }
 
 TEST_F(SceneArgument, MayStandBehindTheOptions) {
-    const std::string wanted = renderPfm("spheres" + small);
+    const std::string wanted = renderPfm("spheres" + smallScene);
     ASSERT_EQ(run("render --quiet -o a.pfm --width 16 --height 12 --spp 1 --device cpu spheres").exitCode, 0);
     EXPECT_EQ(load("a.pfm"), wanted);
-    ASSERT_EQ(run("render --crop 0,16,0,12 -o a.pfm" + small + " -- spheres").exitCode, 0);
+    ASSERT_EQ(run("render --crop 0,16,0,12 -o a.pfm" + smallScene + " -- spheres").exitCode, 0);
     EXPECT_EQ(load("a.pfm"), wanted);
 }
 
 TEST_F(SceneArgument, EveryShippedSceneRenders) {
     for (const char *scene : {"spheres", "spheres-nested", "cat"})
-        EXPECT_GT(litPixelCount(renderImage(scene + small)), 16 * 12 / 2) << scene;
+        EXPECT_GT(litPixelCount(renderImage(scene + smallScene)), 16 * 12 / 2) << scene;
 }
 
 TEST_F(SceneArgument, NamesAreResolvedInTheVariablesFolderFirst) {
@@ -43,22 +43,22 @@ TEST_F(SceneArgument, NamesAreResolvedInTheVariablesFolderFirst) {
     store("own/scenes/mine.json", R"({"background": 0.5})");
     Surroundings surroundings;
     surroundings.environment["HYALITE_ASSETS"] = (folder / "own").string();
-    ASSERT_EQ(runIn(surroundings, "render spheres -o shadowed.pfm" + small).exitCode, 0);
-    ASSERT_EQ(runIn(surroundings, "render mine -o mine.pfm" + small).exitCode, 0);
+    ASSERT_EQ(runIn(surroundings, "render spheres -o shadowed.pfm" + smallScene).exitCode, 0);
+    ASSERT_EQ(runIn(surroundings, "render mine -o mine.pfm" + smallScene).exitCode, 0);
     EXPECT_EQ(load("shadowed.pfm"), load("mine.pfm"));
     // What is not there is looked for beside the program.
-    EXPECT_EQ(runIn(surroundings, "render spheres-nested -o nested.pfm" + small).exitCode, 0);
+    EXPECT_EQ(runIn(surroundings, "render spheres-nested -o nested.pfm" + smallScene).exitCode, 0);
     surroundings.environment["HYALITE_ASSETS"] = "own";
-    EXPECT_EQ(runIn(surroundings, "render mine -o relative.pfm" + small).exitCode, 0);
+    EXPECT_EQ(runIn(surroundings, "render mine -o relative.pfm" + smallScene).exitCode, 0);
 }
 
 TEST_F(SceneArgument, NamesAreResolvedBesideTheProgram) {
-    const std::string wanted = renderPfm("spheres" + small);
+    const std::string wanted = renderPfm("spheres" + smallScene);
     Surroundings surroundings;
     for (const std::optional<std::string> &value :
          {std::optional<std::string>(), std::optional<std::string>("")}) {
         surroundings.environment["HYALITE_ASSETS"] = value;
-        const Outcome outcome = runIn(surroundings, "render spheres -o a.pfm" + small);
+        const Outcome outcome = runIn(surroundings, "render spheres -o a.pfm" + smallScene);
         EXPECT_EQ(outcome.exitCode, 0) << outcome;
         EXPECT_EQ(load("a.pfm"), wanted);
     }
@@ -122,7 +122,7 @@ TEST_F(SceneArgument, MoreSpheresThanAreTestedDirectlyAreRendered) {
     for (int i = 0; i < 65; ++i)
         text += std::string(i > 0 ? "," : "") + R"({"centre": [0, 0, 0], "radius": 1, "material": "m"})";
     store("many.json", text + "]}");
-    EXPECT_EQ(litPixelCount(renderImage("many.json" + small)), 0); // mirrors of the dark
+    EXPECT_EQ(litPixelCount(renderImage("many.json" + smallScene)), 0); // mirrors of the dark
 }
 
 TEST_F(SceneArgument, MeshesAreFoundBesideTheSceneFile) {
@@ -130,7 +130,7 @@ TEST_F(SceneArgument, MeshesAreFoundBesideTheSceneFile) {
     store("deep/sheet.json",
           wavySheetScene().replace(wavySheetScene().find("sheet.obj"), 9, "down/sheet.obj"));
     store("deep/down/sheet.obj", wavySheetObj(4));
-    EXPECT_GT(litPixelCount(renderImage("deep/sheet.json" + small)), 0);
+    EXPECT_GT(litPixelCount(renderImage("deep/sheet.json" + smallScene)), 0);
 }
 
 TEST_F(SceneArgument, AnEmptySceneIsBlack) {
@@ -185,7 +185,7 @@ TEST_F(SceneArgument, ABareMeshIsFramedAndLit) {
 
 TEST_F(SceneArgument, ABareMeshIsRenderedAlikeOnDeviceAndCpu) {
     store("house.obj", house);
-    EXPECT_EQ(renderPfm("house.obj" + small),
+    EXPECT_EQ(renderPfm("house.obj" + smallScene),
               renderPfm("house.obj --width 16 --height 12 --spp 1 --device " + softwareDevice()));
 }
 
@@ -194,7 +194,7 @@ TEST_F(SceneArgument, ABareMeshMayBeTinyOrHuge) {
         const std::string s = scale;
         store("scaled.obj",
               "v 0 0 0\nv 4" + s + " 0 0\nv 4" + s + " 3" + s + " 0\nv 0 3" + s + " 1" + s + "\nf 1 2 3 4\n");
-        const Image image = renderImage("scaled.obj" + small);
+        const Image image = renderImage("scaled.obj" + smallScene);
         ASSERT_EQ(image.width(), 16);
         EXPECT_NE(image.at(8, 6), image.at(0, 0)) << scale;
     }

@@ -10,11 +10,11 @@ namespace {
 
 using Statistical = CommandLine;
 
-const std::string small = " --width 24 --height 18 --device cpu";
+const std::string smallEstimate = " --width 24 --height 18 --device cpu";
 
 TEST_F(Statistical, RendersOfOneSceneWithTwoSeedsPass) {
-    ASSERT_EQ(run("render spheres -o a.exr --spp 16 --seed 1" + small).exitCode, 0);
-    ASSERT_EQ(run("render spheres -o b.exr --spp 64 --seed 2" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.exr --spp 16 --seed 1" + smallEstimate).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o b.exr --spp 64 --seed 2" + smallEstimate).exitCode, 0);
     const Outcome outcome = run("diff --statistical a.exr b.exr --report r.json");
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
     for (const char *part : {"tests        1299 ", " 0 untested", "largest      |z| = ", "failing      0",
@@ -35,7 +35,8 @@ TEST_F(Statistical, ALightThatIsOnePercentStrongerIsCaught) {
     ASSERT_NE(brighter, nlohmann::json::parse(wavySheetScene()));
     store("b.json", brighter.dump());
     for (const char *name : {"a", "b"})
-        ASSERT_EQ(run("render " + std::string(name) + ".json -o " + name + ".exr --spp 64" + small).exitCode,
+        ASSERT_EQ(run("render " + std::string(name) + ".json -o " + name + ".exr --spp 64" + smallEstimate)
+                      .exitCode,
                   0);
     EXPECT_EQ(run("diff --statistical a.exr a.exr").exitCode, 0);
     const Outcome outcome = run("diff --statistical a.exr b.exr");
@@ -44,20 +45,21 @@ TEST_F(Statistical, ALightThatIsOnePercentStrongerIsCaught) {
 }
 
 TEST_F(Statistical, CompareRendersWithTwoSeeds) {
-    const Outcome outcome = run("compare spheres --statistical --spp 16 --seed 5 --report r.json" + small);
+    const Outcome outcome =
+        run("compare spheres --statistical --spp 16 --seed 5 --report r.json" + smallEstimate);
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_TRUE(contains(outcome.output, "seeds        5 and 6")) << outcome;
     EXPECT_TRUE(contains(outcome.output, "no difference is significant")) << outcome;
     EXPECT_FALSE(contains(outcome.output, "|z| = 0.00")) << outcome;
     EXPECT_EQ(nlohmann::json::parse(load("r.json"))["seeds"], (nlohmann::json{5, 6}));
-    EXPECT_TRUE(
-        contains(run("compare spheres --statistical --against-seed 9 --spp 16" + small).output, "0 and 9"));
+    EXPECT_TRUE(contains(
+        run("compare spheres --statistical --against-seed 9 --spp 16" + smallEstimate).output, "0 and 9"));
 }
 
 TEST_F(Statistical, WhatCannotBeTestedIsRefused) {
-    ASSERT_EQ(run("render spheres -o a.exr --spp 4" + small).exitCode, 0);
-    ASSERT_EQ(run("render spheres -o one.exr --spp 1" + small).exitCode, 0);
-    ASSERT_EQ(run("render spheres -o a.pfm --spp 4" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.exr --spp 4" + smallEstimate).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o one.exr --spp 1" + smallEstimate).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.pfm --spp 4" + smallEstimate).exitCode, 0);
     ASSERT_EQ(run("render spheres -o b.exr --spp 4 --width 20 --height 18 --device cpu").exitCode, 0);
     expectFailure("diff --statistical a.exr a.exr", 3, {"no pixel can be tested", "16 samples"});
     expectFailure("diff --statistical a.exr one.exr", 3, {"one.exr", "variance"});
@@ -66,8 +68,8 @@ TEST_F(Statistical, WhatCannotBeTestedIsRefused) {
     expectFailure("diff --statistical a.exr a.exr --max-flip 1", 2, {"--max-flip"});
     expectFailure("diff a.exr a.exr --significance 0.1", 2, {"--statistical"});
     expectFailure("diff --statistical a.exr a.exr --significance 0", 2, {"--significance"});
-    expectFailure("compare spheres --statistical --against-seed 0" + small, 2, {"--against-seed 0"});
-    expectFailure("compare spheres --statistical --tolerance 1" + small, 2, {"--tolerance"});
+    expectFailure("compare spheres --statistical --against-seed 0" + smallEstimate, 2, {"--against-seed 0"});
+    expectFailure("compare spheres --statistical --tolerance 1" + smallEstimate, 2, {"--tolerance"});
 }
 
 } // namespace

@@ -13,15 +13,15 @@ namespace {
 
 using ToneMapping = CommandLine;
 
-const std::string small = " --width 24 --height 18 --spp 2 --device cpu --quiet";
+const std::string smallMapped = " --width 24 --height 18 --spp 2 --device cpu --quiet";
 
 TEST_F(ToneMapping, MakesThePixelsThatRenderMakes) {
-    ASSERT_EQ(run("render spheres -o a.exr" + small).exitCode, 0);
-    ASSERT_EQ(run("render spheres -o a.pfm" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.exr" + smallMapped).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.pfm" + smallMapped).exitCode, 0);
     std::set<std::vector<float>> seen;
     for (const char *options : {"", " --tone gamma", " --tone srgb", " --tone aces", " --tone agx",
                                 " --exposure 1.5", " --exposure -2 --tone agx"}) {
-        ASSERT_EQ(run("render spheres -o rendered.png" + small + options).exitCode, 0) << options;
+        ASSERT_EQ(run("render spheres -o rendered.png" + smallMapped + options).exitCode, 0) << options;
         const Image rendered = readImage(folder / "rendered.png").image;
         for (const char *input : {"a.exr", "a.pfm"}) {
             const Outcome outcome = run("tonemap " + std::string(input) + " mapped.png" + options);
@@ -36,8 +36,8 @@ TEST_F(ToneMapping, MakesThePixelsThatRenderMakes) {
 }
 
 TEST_F(ToneMapping, ReadsHdr) {
-    ASSERT_EQ(run("render spheres -o a.hdr" + small).exitCode, 0);
-    ASSERT_EQ(run("render spheres -o a.png" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.hdr" + smallMapped).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.png" + smallMapped).exitCode, 0);
     ASSERT_EQ(run("tonemap a.hdr b.png").exitCode, 0);
     const Image a = readImage(folder / "a.png").image;
     const Image b = readImage(folder / "b.png").image;
@@ -48,8 +48,8 @@ TEST_F(ToneMapping, ReadsHdr) {
 }
 
 TEST_F(ToneMapping, WhatCannotBeMappedIsRefused) {
-    ASSERT_EQ(run("render spheres -o a.pfm" + small).exitCode, 0);
-    ASSERT_EQ(run("render spheres -o a.png" + small).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.pfm" + smallMapped).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o a.png" + smallMapped).exitCode, 0);
     expectFailure("tonemap a.png b.png", 3, {"a.png", "tone-mapped already"});
     expectFailure("tonemap a.pfm b.exr", 2, {"b.exr", ".png"});
     expectFailure("tonemap a.pfm b.jpg", 2, {"b.jpg", ".png"});

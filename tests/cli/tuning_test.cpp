@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string small = "spheres --width 16 --height 12 --spp 4";
+const std::string smallTuned = "spheres --width 16 --height 12 --spp 4";
 
 class Tuning : public CommandLine {
   protected:
@@ -51,35 +51,35 @@ TEST_F(Tuning, MeasuresShowsAndKeeps) {
     ASSERT_EQ(kept.size(), 1u) << kept;
     const Outcome shown = run("devices");
     EXPECT_TRUE(contains(shown.output, "as measured on " + kept[0].at("date").get<std::string>())) << shown;
-    EXPECT_EQ(kernelOf(small), kept[0].at("spheres").get<std::string>());
+    EXPECT_EQ(kernelOf(smallTuned), kept[0].at("spheres").get<std::string>());
 
     // What it kept decides, and changes no bit.
     const std::string hash = kept[0].at("key").at("kernels");
-    const std::string wanted = renderPfm(small + " --device cpu");
+    const std::string wanted = renderPfm(smallTuned + " --device cpu");
     for (const char *kernel : {"stack", "stack-x2", "skip-list", "skip-list-x2"}) {
         tune(kernel, hash);
-        EXPECT_EQ(kernelOf(small), kernel);
+        EXPECT_EQ(kernelOf(smallTuned), kernel);
         EXPECT_EQ(load("reported.pfm"), wanted) << kernel;
     }
-    EXPECT_EQ(kernelOf(small + " --kernel skip-list"), "skip-list") << "the command line decides first";
+    EXPECT_EQ(kernelOf(smallTuned + " --kernel skip-list"), "skip-list") << "the command line decides first";
 }
 
 TEST_F(Tuning, OfOtherKernelsDoesNotHold) {
-    const std::string usual = kernelOf(small);
+    const std::string usual = kernelOf(smallTuned);
     tune("stack-x2", "0123456789abcdef");
-    EXPECT_EQ(kernelOf(small), usual);
+    EXPECT_EQ(kernelOf(smallTuned), usual);
     EXPECT_TRUE(contains(run("devices").output, "--tune")) << "nothing is measured";
 }
 
 TEST_F(Tuning, ADamagedFileIsToldAndChangesNothing) {
-    const std::string wanted = renderPfm(small);
+    const std::string wanted = renderPfm(smallTuned);
     const std::string whole = tune("stack", "0");
     fs::create_directory(folder / "cache/deep");
     for (const std::string &text :
          {std::string(), std::string("[]"), std::string("{\"devices\": 3}"),
           whole.substr(0, whole.size() / 2), std::string(100'000, '['), std::string("\0\x7f\xff", 3)}) {
         store("cache/tuning.json", text);
-        const Outcome outcome = run("render " + small + " -o a.pfm");
+        const Outcome outcome = run("render " + smallTuned + " -o a.pfm");
         EXPECT_EQ(outcome.exitCode, 0) << text.substr(0, 80) << outcome;
         EXPECT_TRUE(contains(outcome.errors, "note: ")) << text.substr(0, 80) << outcome;
         EXPECT_TRUE(contains(outcome.errors, "tuning.json")) << outcome;
@@ -92,13 +92,13 @@ TEST_F(Tuning, KeepsHowLanesExchangeWhichChangesNoBit) {
         GTEST_SKIP() << "the processor has no vectors of 512 bits, and so no subgroups of 16 lanes";
     const std::string key = "exchange of 16 lanes";
     const std::string onDevice = " --device " + softwareDevice();
-    static_cast<void>(renderPfm(small + onDevice));
+    static_cast<void>(renderPfm(smallTuned + onDevice));
     nlohmann::json kept = nlohmann::json::parse(load("cache/tuning.json"));
     const std::string measured = kept.at("devices").at(0).at(key);
     EXPECT_TRUE(measured == "shuffles" || measured == "broadcasts") << measured;
     for (const std::string &line :
-         {small, small + " --integrator path", std::string("cat --width 24 --height 16 --spp 5"),
-          std::string("many-lights --width 24 --height 16 --spp 9"), small + " --integrator ao"}) {
+         {smallTuned, smallTuned + " --integrator path", std::string("cat --width 24 --height 16 --spp 5"),
+          std::string("many-lights --width 24 --height 16 --spp 9"), smallTuned + " --integrator ao"}) {
         const std::string wanted = renderPfm(line + " --device cpu");
         for (const char *exchange : {"shuffles", "broadcasts"}) {
             kept.at("devices").at(0).at(key) = exchange;

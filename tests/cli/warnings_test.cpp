@@ -11,7 +11,7 @@ namespace {
 
 using Warnings = CommandLine;
 
-const std::string small = " --width 8 --height 8 --spp 1 --device cpu -o a.pfm";
+const std::string smallWarned = " --width 8 --height 8 --spp 1 --device cpu -o a.pfm";
 const std::string behindGlass = "through smooth glass: its shadow is dark";
 
 /// How often `render scene.json` speaks of lights behind glass; `key` is of the ball's material.
@@ -22,7 +22,7 @@ class LightsBehindGlass : public Warnings {
         store("scene.json", R"({ "materials": { "ball": { )" + key + R"( } },
   "spheres": [ { "centre": [0, 0, 0], "radius": 1, "material": "ball" } ],
   "lights": [ )" + lights + R"( ], "settings": { "integrator": "path" } })");
-        const Outcome outcome = run("render scene.json" + options + small);
+        const Outcome outcome = run("render scene.json" + options + smallWarned);
         EXPECT_EQ(outcome.exitCode, 0) << outcome;
         int count = 0;
         for (std::size_t at = outcome.errors.find(behindGlass); at != std::string::npos;
@@ -54,8 +54,8 @@ TEST_F(LightsBehindGlass, AreFoundOtherwise) {
 }
 
 TEST_F(Warnings, NameTheIntegratorOfTheCommandLine) {
-    EXPECT_FALSE(contains(run("render spheres" + small).errors, behindGlass)) << "whitted";
-    const std::string told = run("render spheres --integrator path" + small).errors;
+    EXPECT_FALSE(contains(run("render spheres" + smallWarned).errors, behindGlass)) << "whitted";
+    const std::string told = run("render spheres --integrator path" + smallWarned).errors;
     EXPECT_TRUE(contains(told, behindGlass)) << told;
     EXPECT_TRUE(contains(told, "a sphere with emission, or use --integrator whitted")) << told;
 }
@@ -65,7 +65,7 @@ TEST_F(Warnings, SpeakOfMeshesOfGlass) {
     store("tile.json", R"({ "materials": { "pane": { "type": "dielectric" } },
   "meshes": [ { "file": "tile.obj", "material": "pane" } ],
   "lights": [ )" + point + R"( ], "settings": { "integrator": "path" } })");
-    EXPECT_TRUE(contains(run("render tile.json" + small).errors, behindGlass));
+    EXPECT_TRUE(contains(run("render tile.json" + smallWarned).errors, behindGlass));
 }
 
 } // namespace

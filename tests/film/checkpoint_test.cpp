@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 
 const RenderIdentity identity{{"seed", "7"}, {"sampler", "sobol"}};
 
-struct CheckpointTest : testing::Test {
+struct CheckpointTest : ::testing::Test {
     void SetUp() override {
-        std::string name = (fs::path(testing::TempDir()) / "hyalite-checkpoint-XXXXXX").string();
+        std::string name = (fs::path(::testing::TempDir()) / "hyalite-checkpoint-XXXXXX").string();
         ASSERT_NE(mkdtemp(name.data()), nullptr);
         folder = name;
         path = folder / "c";

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_literals;
 
-class ImageFileTest : public testing::Test {
+class ImageFileTest : public ::testing::Test {
   protected:
     void SetUp() override {
         std::string name = (fs::temp_directory_path() / "hyalite-image-XXXXXX").string();

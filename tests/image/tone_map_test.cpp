@@ -56,7 +56,7 @@ TEST(ToneMap, EveryLevelComesBackFromItsCentre) {
 
 TEST(ToneMap, AgreesWithPowOnRandomFloats) {
     constexpr std::uint32_t seed = 20240601;
-    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
     std::uniform_int_distribution<std::uint32_t> bits(0, std::bit_cast<std::uint32_t>(4.0f));
     std::uniform_real_distribution<float> uniform(0.0f, 1.1f);

@@ -24,7 +24,7 @@ namespace {
 const std::filesystem::path sourceDir = HYALITE_SOURCE_DIR;
 
 /// A folder of its own, which $HYALITE_ASSETS names while the test runs.
-class Assets : public testing::Test {
+class Assets : public ::testing::Test {
   protected:
     void SetUp() override {
         if (const char *set = std::getenv("HYALITE_ASSETS"))
@@ -45,7 +45,7 @@ class Assets : public testing::Test {
     }
 
     const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / fmt::format("hyalite-assets-{}", getpid());
+        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-assets-{}", getpid());
 
   private:
     std::optional<std::string> setBefore_;

@@ -15,10 +15,10 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-class EnvironmentFile : public testing::Test {
+class EnvironmentFile : public ::testing::Test {
   protected:
     const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / fmt::format("hyalite-environment-{}", getpid());
+        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-environment-{}", getpid());
     void SetUp() override { std::filesystem::create_directories(folder); }
     void TearDown() override { std::filesystem::remove_all(folder); }
 

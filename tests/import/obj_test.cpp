@@ -27,7 +27,7 @@ namespace {
 class TemporaryPath {
   public:
     TemporaryPath()
-        : path(std::filesystem::path(testing::TempDir()) /
+        : path(std::filesystem::path(::testing::TempDir()) /
                ("hyalite_obj_test_" + std::to_string(::getpid()) + ".obj")) {}
     TemporaryPath(const TemporaryPath &) = delete;
     TemporaryPath &operator=(const TemporaryPath &) = delete;

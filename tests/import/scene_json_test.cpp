@@ -192,7 +192,7 @@ struct Refusal {
 
 void PrintTo(const Refusal &refusal, std::ostream *stream) { *stream << refusal.text; }
 
-class SceneJsonRefusal : public SceneFolder, public testing::WithParamInterface<Refusal> {};
+class SceneJsonRefusal : public SceneFolder, public ::testing::WithParamInterface<Refusal> {};
 
 TEST_P(SceneJsonRefusal, NamesPlaceAndReason) {
     const std::string message = refusal(GetParam().text);
@@ -202,7 +202,7 @@ TEST_P(SceneJsonRefusal, NamesPlaceAndReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, SceneJsonRefusal,
-    testing::Values(
+    ::testing::Values(
         // syntax: line and column
         Refusal{"", "1:1: ", "input"}, //
         Refusal{"{\n  \"spheres\": [,]\n}", "2:15: ", "unexpected ','"},

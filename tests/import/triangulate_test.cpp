@@ -148,7 +148,7 @@ TEST(Triangulate, CoversAPolygonWithAHoleOnABridge) {
 
 TEST(Triangulate, RandomPolygonsKeepTheirArea) {
     for (unsigned seed = 0; seed < 400; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        SCOPED_TRACE(::testing::Message() << "seed " << seed);
         std::mt19937 random(seed);
         const int count = 3 + static_cast<int>(random() % 60);
         expectCoversOnce(makeStar(count, random), 1e-10);
@@ -158,7 +158,7 @@ TEST(Triangulate, RandomPolygonsKeepTheirArea) {
 
 TEST(Triangulate, RandomPolygonsInTiltedPlanesKeepTheirArea) {
     for (unsigned seed = 0; seed < 200; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        SCOPED_TRACE(::testing::Message() << "seed " << seed);
         std::mt19937 random(seed);
         std::normal_distribution<double> gauss;
         const glm::dvec3 normal = glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random)));

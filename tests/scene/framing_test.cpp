@@ -183,7 +183,7 @@ TEST(Framing, SizesBeyondReasonAreRefused) {
 
 TEST(Framing, ABareObjFileIsLoadedFramedAndValid) {
     const std::filesystem::path file =
-        std::filesystem::path(testing::TempDir()) / fmt::format("hyalite-framing-{}.obj", getpid());
+        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-framing-{}.obj", getpid());
     std::ofstream(file) << "v 0 0 0\nv 10 0 0\nv 0 20 0\nf 1 2 3\n";
     const LoadedScene loaded = loadScene(file.string());
     std::filesystem::remove(file);
