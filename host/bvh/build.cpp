@@ -1,6 +1,7 @@
 #include "host/base/error.h"
 #include "host/bvh/bvh.h"
 #include "host/bvh/duplicates.h"
+#include "host/bvh/joined_triangles.h"
 #include "host/bvh/split.h"
 #include "host/bvh/tree_spheres.h"
 #include "host/scene/instances.h"
@@ -21,29 +22,7 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::uint32_t noIndex = std::numeric_limits<std::uint32_t>::max();
-
-/// The input indices at which other items than triangles begin.
-struct FirstIndices {
-    std::uint32_t sphere = noIndex;
-    std::uint32_t instance = noIndex;
-
-    [[nodiscard]] bool areOnlyTriangles() const { return sphere == noIndex && instance == noIndex; }
-};
-
-/// Drops duplicates among the triangles of the range; spheres and instances stay. Returns the number kept, at the front.
-std::size_t setDuplicatesAside(std::span<BuildTriangle> range, const FirstIndices &first,
-                               const Duplicates &duplicates) {
-    if (first.areOnlyTriangles())
-        return duplicates.setAside(range);
-    const auto others = std::stable_partition(range.begin(), range.end(), [&](const BuildTriangle &one) {
-        return one.inputIndex < std::min(first.sphere, first.instance);
-    });
-    const auto triangles = static_cast<std::size_t>(others - range.begin());
-    const std::size_t kept = duplicates.setAside(range.first(triangles));
-    std::rotate(range.begin() + static_cast<std::ptrdiff_t>(kept), others, range.end());
-    return kept + (range.size() - triangles);
-}
+constexpr std::uint32_t noInstances = std::numeric_limits<std::uint32_t>::max();
 
 /// Halving is forced once nothing else can keep the tree within the depth of the traversal stack.
 bool mustHalve(std::size_t count, int depth) {
@@ -56,14 +35,13 @@ struct Task {
     std::uint32_t node;
     std::uint32_t begin;
     std::uint32_t end;
-    int depth;               ///< inner nodes above
-    bool isDistinct = false; ///< known to have no identical triangles
+    int depth; ///< inner nodes above
 
     [[nodiscard]] std::size_t size() const { return end - begin; }
 
     [[nodiscard]] Task child(std::uint32_t childNode, std::uint32_t childBegin,
                              std::uint32_t childEnd) const {
-        return {childNode, childBegin, childEnd, depth + 1, isDistinct};
+        return {childNode, childBegin, childEnd, depth + 1};
     }
 };
 
@@ -80,11 +58,11 @@ struct Branch {
 /// does the tree; the thread count has no influence.
 class Builder {
   public:
-    /// `duplicates` may be null: then all triangles stay. `first` says which input indices are not those of triangles.
-    Builder(TreeKind kind, std::span<BuildTriangle> triangles, const FirstIndices &first, int leafSize,
-            const Duplicates *duplicates)
-        : kind_(kind), triangles_(triangles), first_(first), leafSize_(static_cast<std::size_t>(leafSize)),
-          duplicates_(duplicates) {}
+    /// Input indices from `firstInstance` on are those of instances.
+    Builder(TreeKind kind, std::span<BuildTriangle> triangles, const JoinedItems &isJoined,
+            std::uint32_t firstInstance, int leafSize)
+        : kind_(kind), triangles_(triangles), isJoined_(isJoined), firstInstance_(firstInstance),
+          leafSize_(static_cast<std::size_t>(leafSize)) {}
 
     Bvh build() {
         const auto count = static_cast<std::uint32_t>(triangles_.size());
@@ -110,13 +88,12 @@ class Builder {
         return triangles_.subspan(task.begin, task.size());
     }
 
-    /// An instance has a leaf of its own.
+    /// An instance, or a pair of triangles, has a leaf of its own.
     [[nodiscard]] std::size_t leafSizeFor(std::span<const BuildTriangle> range) const {
-        const auto isInstance = [&](const BuildTriangle &one) { return one.inputIndex >= first_.instance; };
-        return first_.instance != noIndex && range.size() <= leafSize_ &&
-                       std::ranges::any_of(range, isInstance)
-                   ? 1
-                   : leafSize_;
+        const auto isAlone = [&](const BuildTriangle &one) {
+            return one.inputIndex >= firstInstance_ || isPair(isJoined_, one);
+        };
+        return range.size() <= leafSize_ && std::ranges::any_of(range, isAlone) ? 1 : leafSize_;
     }
 
     [[nodiscard]] std::size_t split(std::span<BuildTriangle> range, const Bounds &bounds) const {
@@ -126,20 +103,12 @@ class Builder {
 
     /// Finds the task's box and reorders its triangles; returns where the right child's begin, or the task's begin for
     /// a leaf.
-    ///
-    /// Identical triangles share a centroid, so they stay together until centroids no longer split a range. Only there
-    /// are duplicates searched for; dropped triangles leave the task at its end.
-    std::uint32_t divide(Box &box, Task &task) const {
+    std::uint32_t divide(Box &box, const Task &task) const {
         const Bounds bounds(trianglesOf(task));
         box = bounds.triangles.box();
         std::size_t leftCount = 0;
         if (task.size() > 1 && !mustHalve(task.size(), task.depth))
             leftCount = split(trianglesOf(task), bounds);
-        if (leftCount == 0 && task.size() > 1 && duplicates_ != nullptr && !task.isDistinct) {
-            task.end = task.begin + static_cast<std::uint32_t>(
-                                        setDuplicatesAside(trianglesOf(task), first_, *duplicates_));
-            task.isDistinct = true;
-        }
         if (leftCount == 0 && task.size() > leafSizeFor(trianglesOf(task)))
             leftCount = splitAtMedian(trianglesOf(task), box);
         return task.begin + static_cast<std::uint32_t>(leftCount);
@@ -158,7 +127,7 @@ class Builder {
         }
     }
 
-    void growInTwo(Branch &branch, Task task) {
+    void growInTwo(Branch &branch, const Task &task) {
         branch.deepest = task.depth;
         const std::uint32_t middle = divide(branch.node.box, task);
         if (middle == task.begin) {
@@ -182,7 +151,7 @@ class Builder {
         std::vector<BvhNode> &nodes = branch.below;
         std::vector<Task> tasks{whole};
         while (!tasks.empty()) {
-            Task task = tasks.back();
+            const Task task = tasks.back();
             tasks.pop_back();
             branch.deepest = std::max(branch.deepest, task.depth);
             const auto node = [&]() -> BvhNode & {
@@ -241,47 +210,50 @@ class Builder {
 
     TreeKind kind_;
     std::span<BuildTriangle> triangles_;
-    FirstIndices first_;
+    const JoinedItems &isJoined_;
+    std::uint32_t firstInstance_;
     std::size_t leafSize_;
-    const Duplicates *duplicates_;
     std::exception_ptr failure_; ///< of any task
 };
 
-/// Fills bvh.order, and adjusts the ranges of leaves for dropped triangles.
-void orderTriangles(std::span<const BuildTriangle> triangles, Bvh &bvh) {
-    bvh.order.reserve(triangles.size());
-    for (const BuildTriangle &triangle : triangles)
-        if (triangle.inputIndex != Duplicates::dropped)
-            bvh.order.push_back(triangle.inputIndex);
-    if (bvh.order.size() == triangles.size())
-        return;
-    std::vector<std::uint32_t> positions; // positions in the order
-    positions.reserve(triangles.size());
-    std::uint32_t position = 0;
-    for (const BuildTriangle &triangle : triangles) {
-        positions.push_back(position);
-        position += triangle.inputIndex != Duplicates::dropped;
+/// Fills bvh.order, and counts in leaves both triangles of a pair.
+void orderTriangles(std::span<const BuildTriangle> items, const JoinedItems &isJoined, Bvh &bvh) {
+    bvh.order.reserve(isJoined.empty() ? items.size() : 2 * items.size());
+    std::vector<std::uint32_t> positions; // in the order
+    positions.reserve(items.size() + 1);
+    for (const BuildTriangle &item : items) {
+        positions.push_back(static_cast<std::uint32_t>(bvh.order.size()));
+        bvh.order.push_back(item.inputIndex);
+        if (isPair(isJoined, item))
+            bvh.order.push_back(item.inputIndex + 1);
     }
+    positions.push_back(static_cast<std::uint32_t>(bvh.order.size()));
+    if (isJoined.empty())
+        return;
     for (BvhNode &node : bvh.nodes)
-        if (node.isLeaf())
-            node.first = positions[node.first];
+        if (node.isLeaf()) {
+            const std::uint32_t begin = positions[node.first];
+            node.count = positions[node.first + node.count] - begin;
+            node.first = begin;
+        }
 }
 
-Bvh buildTree(TreeKind kind, std::span<BuildTriangle> triangles, const FirstIndices &first, int leafSize,
-              const Duplicates *duplicates) {
-    assert(leafSize >= 1 && (kind != TreeKind::None || first.instance == noIndex));
+/// `items` begins with triangles of `meshes`.
+Bvh buildTree(TreeKind kind, std::span<const TriangleMesh> meshes, std::vector<BuildTriangle> items,
+              std::uint32_t firstInstance, int leafSize) {
+    assert(leafSize >= 1 && (kind != TreeKind::None || firstInstance == noInstances));
     Bvh bvh;
-    if (triangles.empty())
+    if (items.empty())
         return bvh;
-    if (kind != TreeKind::None) {
-        bvh = Builder(kind, triangles, first, leafSize, duplicates).build();
-        bvh.firstInstance = first.instance;
-    } else {
-        const std::size_t keptCount =
-            duplicates != nullptr ? setDuplicatesAside(triangles, first, *duplicates) : triangles.size();
-        bvh.nodes.push_back({Bounds(triangles).triangles.box(), 0, static_cast<std::uint32_t>(keptCount)});
-    }
-    orderTriangles(triangles, bvh);
+    JoinedItems isJoined;
+    if (kind == TreeKind::Sah && leafSize > 1)
+        isJoined = joinTriangles(meshes, items);
+    if (kind == TreeKind::None)
+        bvh.nodes.push_back({Bounds(items).triangles.box(), 0, static_cast<std::uint32_t>(items.size())});
+    else
+        bvh = Builder(kind, items, isJoined, firstInstance, leafSize).build();
+    bvh.firstInstance = firstInstance;
+    orderTriangles(items, isJoined, bvh);
     return bvh;
 }
 
@@ -439,24 +411,23 @@ std::vector<BuildTriangle> buildItems(const Scene &scene) {
 }
 
 Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize) {
-    return buildTree(kind, triangles, {}, leafSize, nullptr);
+    return buildTree(kind, {}, std::move(triangles), noInstances, leafSize);
 }
 
 Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize) {
     std::vector<BuildTriangle> items = buildItems(scene);
-    const Duplicates duplicates(scene);
-    FirstIndices first;
+    dropDuplicates(scene, items);
     std::vector<std::uint32_t> spheres = spheresInTree(scene);
-    if (!spheres.empty())
-        first.sphere = static_cast<std::uint32_t>(triangleCount(scene));
-    if (!scene.instances.empty())
-        first.instance = static_cast<std::uint32_t>(triangleCount(scene) + spheres.size());
-    Bvh bvh = buildTree(kind, items, first, leafSize, &duplicates);
+    const std::size_t firstInstance = triangleCount(scene) + spheres.size();
+    Bvh bvh = buildTree(kind, scene.meshes, std::move(items),
+                        scene.instances.empty() ? noInstances : static_cast<std::uint32_t>(firstInstance),
+                        leafSize);
     bvh.spheres = std::move(spheres);
     for (const TriangleMesh &prototype : scene.prototypes) {
         std::vector<BuildTriangle> triangles;
         addTriangles(prototype, triangles);
-        bvh.prototypes.push_back(buildTree(kind, triangles, {}, leafSize, nullptr));
+        bvh.prototypes.push_back(
+            buildTree(kind, std::span(&prototype, 1), std::move(triangles), noInstances, leafSize));
     }
     return bvh;
 }

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 
 namespace hyalite {
 
+namespace {
+
 /// Triangles are identical if and only if their keys are equal, byte by byte.
-struct Duplicates::Key {
+struct Key {
     std::array<glm::vec3, 3> corners;
     std::uint32_t material;
     /// With an opacity texture, because triangles with other coordinates show through; else 0.
@@ -19,16 +22,26 @@ struct Duplicates::Key {
 
     [[nodiscard]] std::span<const std::byte> bytes() const { return std::as_bytes(std::span(this, 1)); }
 };
+static_assert(sizeof(Key) == 17 * sizeof(std::uint32_t)); // without padding
 
-Duplicates::Duplicates(const Scene &scene) : scene_(scene) {
-    std::size_t first = 0;
-    for (const TriangleMesh &mesh : scene.meshes) {
-        firstIndices_.push_back(static_cast<std::uint32_t>(first));
-        first += mesh.triangles.size();
+class Keys {
+  public:
+    explicit Keys(const Scene &scene) : scene_(scene) {
+        std::size_t first = 0;
+        for (const TriangleMesh &mesh : scene.meshes) {
+            firstIndices_.push_back(static_cast<std::uint32_t>(first));
+            first += mesh.triangles.size();
+        }
     }
-}
 
-Duplicates::Key Duplicates::keyOf(const BuildTriangle &triangle) const {
+    [[nodiscard]] Key of(const BuildTriangle &triangle) const;
+
+  private:
+    const Scene &scene_;
+    std::vector<std::uint32_t> firstIndices_; ///< of each mesh
+};
+
+Key Keys::of(const BuildTriangle &triangle) const {
     const auto next = std::upper_bound(firstIndices_.begin(), firstIndices_.end(), triangle.inputIndex);
     const auto meshIndex = static_cast<std::size_t>(next - firstIndices_.begin()) - 1;
     const TriangleMesh &mesh = scene_.meshes[meshIndex];
@@ -52,56 +65,84 @@ Duplicates::Key Duplicates::keyOf(const BuildTriangle &triangle) const {
     return key;
 }
 
-bool Duplicates::areIdentical(const BuildTriangle &a, const BuildTriangle &b) const {
-    if (a.centroid != b.centroid) // the usual case, decided without reading the mesh
-        return false;
-    const Key keyA = keyOf(a);
-    const Key keyB = keyOf(b);
-    return std::ranges::equal(keyA.bytes(), keyB.bytes());
-}
+/// Tells triangles that may have a duplicate from those that have none, by a bit for each of many values of a hash of the
+/// centroid. Which these are does not depend on the order in which threads come.
+class CentroidFilter {
+  public:
+    explicit CentroidFilter(std::size_t count)
+        : words_(std::bit_ceil(count * bitsEach / 32 + 1)), once_(words_), again_(words_) {}
 
-std::size_t Duplicates::setAside(std::span<BuildTriangle> range) const {
-    constexpr std::size_t few = 16; // so few are compared pairwise, which is faster than a table
-    const std::size_t keptCount = range.size() <= few ? setAsideFew(range) : setAsideMany(range);
-    for (BuildTriangle &triangle : range.subspan(keptCount))
-        triangle.inputIndex = dropped;
-    return keptCount;
-}
-
-std::size_t Duplicates::setAsideFew(std::span<BuildTriangle> range) const {
-    std::size_t keptCount = 0;
-    for (const BuildTriangle &triangle : range) {
-        const std::span<BuildTriangle> kept = range.first(keptCount);
-        const auto same = std::ranges::find_if(
-            kept, [&](const BuildTriangle &other) { return areIdentical(other, triangle); });
-        if (same != kept.end())
-            same->inputIndex = std::min(same->inputIndex, triangle.inputIndex);
-        else
-            range[keptCount++] = triangle;
+    void add(const glm::vec3 &centroid) {
+        const Place place = placeOf(centroid);
+        const std::uint32_t before = std::atomic_ref(once_[place.word]).fetch_or(place.bit, relaxed);
+        if ((before & place.bit) != 0)
+            std::atomic_ref(again_[place.word]).fetch_or(place.bit, relaxed);
     }
-    return keptCount;
-}
 
-/// A hash table with linear probing, at most half full, of positions in the range.
-std::size_t Duplicates::setAsideMany(std::span<BuildTriangle> range) const {
+    [[nodiscard]] bool mayHaveDuplicate(const glm::vec3 &centroid) const {
+        const Place place = placeOf(centroid);
+        return (again_[place.word] & place.bit) != 0;
+    }
+
+  private:
+    static constexpr std::size_t bitsEach = 16; // one in 16 triangles at most is looked at in vain
+    static constexpr auto relaxed = std::memory_order_relaxed;
+
+    struct Place {
+        std::size_t word;
+        std::uint32_t bit;
+    };
+
+    [[nodiscard]] Place placeOf(const glm::vec3 &centroid) const {
+        const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(centroid);
+        std::uint64_t hash = (std::uint64_t{bits[0]} << 32 | bits[1]) * 0x9E3779B97F4A7C15u;
+        hash = ((hash ^ hash >> 32) + bits[2]) * 0xBF58476D1CE4E5B9u;
+        return {static_cast<std::size_t>(hash >> 37) & (words_ - 1), 1u << (hash >> 32 & 31u)};
+    }
+
+    std::size_t words_;
+    std::vector<std::uint32_t> once_;
+    std::vector<std::uint32_t> again_;
+};
+
+} // namespace
+
+void dropDuplicates(const Scene &scene, std::vector<BuildTriangle> &items) {
+    const auto count = static_cast<std::int64_t>(triangleCount(scene));
+    CentroidFilter filter(triangleCount(scene));
+#pragma omp parallel for schedule(static) if (count > 8192)
+    for (std::int64_t i = 0; i < count; ++i)
+        filter.add(items[static_cast<std::size_t>(i)].centroid);
+    const std::span<const BuildTriangle> triangles = std::span(items).first(triangleCount(scene));
+    const auto suspectCount = std::ranges::count_if(
+        triangles, [&](const glm::vec3 &centroid) { return filter.mayHaveDuplicate(centroid); },
+        &BuildTriangle::centroid);
+    if (suspectCount == 0)
+        return;
+    // A hash table with linear probing, at most half full, of positions among the items that stay.
     constexpr std::uint32_t free = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> table(std::bit_ceil(2 * range.size()), free);
+    std::vector<std::uint32_t> table(std::bit_ceil(2 * static_cast<std::size_t>(suspectCount)), free);
     const std::size_t mask = table.size() - 1;
-    std::size_t keptCount = 0;
-    for (const BuildTriangle &triangle : range) {
-        const Key key = keyOf(triangle);
+    const Keys keys(scene);
+    /// Whether it is the first of its kind; then it stays, at `position`.
+    const auto isFirst = [&](const BuildTriangle &triangle, std::uint32_t position) {
+        const Key key = keys.of(triangle);
         std::size_t slot = hashBytes(key.bytes()) & mask;
-        while (table[slot] != free && !areIdentical(range[table[slot]], triangle))
+        while (table[slot] != free && !std::ranges::equal(keys.of(items[table[slot]]).bytes(), key.bytes()))
             slot = (slot + 1) & mask;
-        if (table[slot] != free) {
-            BuildTriangle &same = range[table[slot]];
-            same.inputIndex = std::min(same.inputIndex, triangle.inputIndex);
-            continue;
-        }
-        table[slot] = static_cast<std::uint32_t>(keptCount);
-        range[keptCount++] = triangle;
+        if (table[slot] != free)
+            return false;
+        table[slot] = position;
+        return true;
+    };
+    std::uint32_t kept = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const BuildTriangle item = items[i];
+        const bool isSuspect = i < triangles.size() && filter.mayHaveDuplicate(item.centroid);
+        if (!isSuspect || isFirst(item, kept))
+            items[kept++] = item;
     }
-    return keptCount;
+    items.resize(kept);
 }
 
 } // namespace hyalite

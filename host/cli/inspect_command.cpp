@@ -146,7 +146,8 @@ ExitCode runInspect(const InspectOptions &options) {
     printScene(prepared);
     printMeshes(prepared);
     std::vector<BuildTriangle> distinct = buildTriangles(scene);
-    const std::size_t droppedCount = distinct.size() - Duplicates(scene).setAside(distinct);
+    dropDuplicates(scene, distinct);
+    const std::size_t droppedCount = triangleCount(scene) - distinct.size();
     const std::string fault = findBvhFault(prepared.bvh, buildItems(scene), droppedCount);
     if (!prepared.bvh.nodes.empty())
         printTree(prepared, droppedCount, fault);

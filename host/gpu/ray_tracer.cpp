@@ -32,12 +32,13 @@ struct RayScene::State {
     bool isSkipList;
     std::uint32_t stackSize;
     bool hasInstances;
+    bool hasPairs;
     bool isDivisionExact;
 
     State(const DeviceInfo &info, const PackedScene &scene, bool isSkipListWanted)
         : device(info), buffers(device, scene, planScene(scene, isSkipListWanted), isSkipListWanted),
           isSkipList(isSkipListWanted), stackSize(stackSizeFor(scene)),
-          hasInstances(!scene.instances.empty()),
+          hasInstances(!scene.instances.empty()), hasPairs(isSkipListWanted && scene.hasPairs),
           isDivisionExact(
               chooseArithmetic(device.info(), checkDevice(device), Arithmetic::Automatic).isNative) {}
 };
@@ -83,6 +84,7 @@ struct RayTracer::State {
         constants[layout::constantWorkgroupSize] = workgroupSize;
         constants[layout::constantHasTriangles] = 1;
         constants[layout::constantHasInstances] = scene.hasInstances;
+        constants[layout::constantHasPairs] = scene.hasPairs;
         constants[layout::constantStackSize] = scene.stackSize;
         constants[layout::constantExactDivision] = scene.isDivisionExact;
         constants[layout::constantSamplesAbreast] = 1;

@@ -83,6 +83,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantPassing] = scene.passing;
     constants[layout::constantTrianglePairs] =
         config.traversal == Traversal::SkipList ? static_cast<std::uint32_t>(scene.trianglePairs.size()) : 0;
+    constants[layout::constantHasPairs] = config.traversal == Traversal::SkipList && scene.hasPairs;
     constants[layout::constantView] = rowOf(job.integrator).view;
     constants[layout::constantSampler] = job.sampler;
     constants[layout::constantStackSize] = plan.stackSize;

@@ -1,7 +1,7 @@
 #include "host/packing/listed_triangles.h"
 
-#include <array>
-#include <bit>
+#include "host/bvh/common_edge.h"
+
 #include <cassert>
 #include <cstdint>
 #include <optional>
@@ -10,31 +10,18 @@ namespace hyalite {
 
 namespace {
 
-using Bits = std::array<std::uint32_t, 3>;
-
-bool haveEqualBits(const glm::vec3 &a, const glm::vec3 &b) {
-    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
-}
-
-std::array<glm::vec3, 3> verticesOf(const layout::TriangleRecord &triangle) {
-    return {triangle.v0, triangle.v1, triangle.v2};
-}
+Corners cornersOf(const layout::TriangleRecord &triangle) { return {triangle.v0, triangle.v1, triangle.v2}; }
 
 /// The pair of two triangles whose common edge runs from one to the other of its vertices v0 and v2, or nothing.
 std::optional<layout::TrianglePair> joined(const layout::TriangleRecord &first,
                                            const layout::TriangleRecord &second) {
-    const std::array<glm::vec3, 3> a = verticesOf(first);
-    const std::array<glm::vec3, 3> b = verticesOf(second);
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            const glm::vec3 &begin = a[i];
-            const glm::vec3 &end = a[(i + 1) % 3];
-            const bool isOpposite = haveEqualBits(b[(j + 1) % 3], begin) && haveEqualBits(b[j], end);
-            const bool isAlike = haveEqualBits(b[j], begin) && haveEqualBits(b[(j + 1) % 3], end);
-            if (isOpposite || isAlike)
-                return layout::TrianglePair{begin, 0, a[(i + 2) % 3], 0, end, 0, b[(j + 2) % 3], 0};
-        }
-    return std::nullopt;
+    const Corners a = cornersOf(first);
+    const Corners b = cornersOf(second);
+    const std::optional<CommonEdge> edge = commonEdge(a, b);
+    if (!edge)
+        return std::nullopt;
+    const auto &[i, j, isOpposite] = *edge;
+    return layout::TrianglePair{a[i], 0, a[(i + 2) % 3], 0, a[(i + 1) % 3], 0, b[(j + 2) % 3], 0};
 }
 
 } // namespace

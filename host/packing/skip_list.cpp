@@ -1,5 +1,7 @@
 #include "host/packing/skip_list.h"
 
+#include "host/packing/leaf_pairs.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -24,9 +26,10 @@ struct GridBox {
 
 /// The data of a node pair that both lists share.
 struct PairPlan {
-    std::array<GridBox, 2> boxes; ///< of the left and the right child, if there is one
-    std::uint32_t nodeCount;      ///< list nodes of both children and their subtrees
-    float areaAround;             ///< half area of the box that a ray has hit before it comes to the children
+    std::array<GridBox, 2> boxes;       ///< of the left and the right child, if there is one
+    std::array<std::uint32_t, 2> links; ///< of children that are leaves
+    std::uint32_t nodeCount;            ///< list nodes of both children and their subtrees
+    float areaAround; ///< half area of the box that a ray has hit before it comes to the children
     std::array<bool, 2> isLeftOut;
     /// Side of the right child on the axis on which the centres are farthest apart: 1: above; -1: below; 0: neither.
     std::int8_t side;
@@ -60,12 +63,28 @@ class Grid {
 
 bool isInner(std::uint32_t reference) { return (reference & layout::leafFlag) == 0; } // and not noNode
 
-PairPlan planPair(const layout::NodePair &pair, const Grid &grid) {
+/// The link of a leaf, whose reference among the node pairs is given.
+std::uint32_t linkOf(const PackedScene &scene, std::uint32_t leaf) {
+    if (!scene.hasPairs || layout::isInstance(leaf))
+        return leaf;
+    const layout::TriangleRecord *const first = &scene.triangles[leaf & ~layout::leafFlag];
+    const bool areTwo =
+        (first[0].flags & layout::triangleEndsLeaf) == 0 && (first[1].flags & layout::triangleEndsLeaf) != 0;
+    return areTwo ? leaf | pairingOf(first[0], first[1]) : leaf;
+}
+
+PairPlan planPair(const PackedScene &scene, const layout::NodePair &pair, const Grid &grid) {
     PairPlan plan{};
-    if (pair.left != layout::noNode)
-        plan.boxes[0] = grid.enclose(pair.leftLower, pair.leftUpper);
-    if (pair.right != layout::noNode)
-        plan.boxes[1] = grid.enclose(pair.rightLower, pair.rightUpper);
+    const auto planChild = [&](std::size_t child, std::uint32_t reference, const glm::vec3 &lower,
+                               const glm::vec3 &upper) {
+        if (reference == layout::noNode)
+            return;
+        plan.boxes[child] = grid.enclose(lower, upper);
+        if (!isInner(reference))
+            plan.links[child] = linkOf(scene, reference);
+    };
+    planChild(0, pair.left, pair.leftLower, pair.leftUpper);
+    planChild(1, pair.right, pair.rightLower, pair.rightUpper);
     const glm::vec3 apart =
         (pair.rightLower / 2.0f + pair.rightUpper / 2.0f) - (pair.leftLower / 2.0f + pair.leftUpper / 2.0f);
     int axis = std::abs(apart.x) > std::abs(apart.y) ? 0 : 1;
@@ -137,7 +156,7 @@ void writeList(const PackedScene &scene, std::span<const PairPlan> plans, int ne
             node.x = planes[0];
             node.y = planes[1];
             node.z = planes[2];
-            node.link = reference;
+            node.link = plan.links[child];
             if (isInner(reference)) {
                 pairBegins[reference] = index;
                 index += plans[reference].nodeCount;
@@ -178,7 +197,8 @@ SkipList makeSkipList(const PackedScene &scene) {
             tree + 1 < scene.trees.size() ? scene.trees[tree + 1].firstPair : scene.nodes.size());
 #pragma omp parallel for schedule(static)
         for (std::int64_t i = first; i < end; ++i)
-            plans[static_cast<std::size_t>(i)] = planPair(scene.nodes[static_cast<std::size_t>(i)], grid);
+            plans[static_cast<std::size_t>(i)] =
+                planPair(scene, scene.nodes[static_cast<std::size_t>(i)], grid);
     }
     leaveOutNodes(scene, plans);
     countNodes(scene, plans);

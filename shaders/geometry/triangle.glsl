@@ -58,6 +58,23 @@ bool isInside(float e0, float e1, float e2) {
     return lesser(greatest, -least) <= 0.0; // least >= 0 or greatest <= 0
 }
 
+// What is met of a triangle by its edge functions and the places of its vertices along the ray's axis, each by the number
+// of its vertex, and its box, for an origin at 0.
+TriangleHit hitOfTriangle(TriangleRay ray, BoxRay boxRay, vec3 edges, vec3 along, vec3 lower, vec3 upper) {
+    float determinant = edges.x + edges.y + edges.z;
+    float inverse = divide(1.0, determinant);
+    float u = edges.x * inverse;
+    float v = edges.y * inverse;
+    float w = edges.z * inverse;
+    float depth = (u * along.x + v * along.y + w * along.z) * ray.shear.z;
+    vec2 interval = relativeBoxInterval(boxRay, lower, upper);
+    float distance = lesser(greater(depth, interval.x), interval.y);
+    bool isHit = isInside(edges.x, edges.y, edges.z) && determinant != 0.0 && interval.x <= interval.y;
+    // The determinant is twice the area of the image: of triangles seen from their front it has the sign of shear.z.
+    bool isBehind = (determinant < 0.0) != (ray.shear.z < 0.0);
+    return TriangleHit(isHit ? distance : 0.0, u, v, isBehind);
+}
+
 TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, vec3 v2) {
     vec3 to0 = v0 - ray.origin;
     vec3 to1 = v1 - ray.origin;
@@ -65,22 +82,59 @@ TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, 
     VertexImage p = imageOfVertex(ray, to0);
     VertexImage q = imageOfVertex(ray, to1);
     VertexImage r = imageOfVertex(ray, to2);
-    float e0 = edgeFunction(q, r);
-    float e1 = edgeFunction(r, p);
-    float e2 = edgeFunction(p, q);
-    float determinant = e0 + e1 + e2;
-    float inverse = divide(1.0, determinant);
-    float u = e0 * inverse;
-    float v = e1 * inverse;
-    float w = e2 * inverse;
-    float depth = (u * p.along + v * q.along + w * r.along) * ray.shear.z;
-    vec2 interval =
-        relativeBoxInterval(boxRay, lesser(lesser(to0, to1), to2), greater(greater(to0, to1), to2));
-    float distance = lesser(greater(depth, interval.x), interval.y);
-    bool isHit = isInside(e0, e1, e2) && determinant != 0.0 && interval.x <= interval.y;
-    // The determinant is twice the area of the image: of triangles seen from their front it has the sign of shear.z.
-    bool isBehind = (determinant < 0.0) != (ray.shear.z < 0.0);
-    return TriangleHit(isHit ? distance : 0.0, u, v, isBehind);
+    vec3 edges = vec3(edgeFunction(q, r), edgeFunction(r, p), edgeFunction(p, q));
+    return hitOfTriangle(ray, boxRay, edges, vec3(p.along, q.along, r.along), lesser(lesser(to0, to1), to2),
+                         greater(greater(to0, to1), to2));
+}
+
+// Two triangles with a common edge, by what the kernels for lavapipe know of a leaf: the edge runs from `begin` to `end`
+// in the first one, where `begin` is the vertex number `firstCorner`, and from `end` to `begin` in the second one, where
+// `end` is number `secondCorner`.
+struct JoinedTriangles {
+    vec3 begin;
+    vec3 end;
+    vec3 firstApex;
+    vec3 secondApex;
+    uint firstCorner;
+    uint secondCorner;
+};
+
+struct PairHit {
+    TriangleHit hit;
+    bool isSecond; // it is that of the second triangle
+    bool isBoth;   // the line of the ray goes through the second triangle, too
+};
+
+// Values of a triangle's corners by their numbers, from those in turn from number `corner` on.
+vec3 byCorner(vec3 inTurn, uint corner) {
+    return corner == 0u ? inTurn
+                        : (corner == 1u ? vec3(inTurn.z, inTurn.x, inTurn.y) : vec3(inTurn.y, inTurn.z, inTurn.x));
+}
+
+// Of the triangles to be taken, the first whose image the line of the ray goes through, with the bits of
+// intersectTriangle. The edge functions decide which it is, so that the rest is computed once: it takes little longer
+// than one triangle.
+PairHit intersectPair(TriangleRay ray, BoxRay boxRay, JoinedTriangles pair, bool takesFirst, bool takesSecond) {
+    vec3 toBegin = pair.begin - ray.origin;
+    vec3 toEnd = pair.end - ray.origin;
+    vec3 toFirst = pair.firstApex - ray.origin;
+    vec3 toSecond = pair.secondApex - ray.origin;
+    VertexImage p = imageOfVertex(ray, toBegin);
+    VertexImage q = imageOfVertex(ray, toEnd);
+    VertexImage r = imageOfVertex(ray, toFirst);
+    VertexImage s = imageOfVertex(ray, toSecond);
+    vec3 first = vec3(edgeFunction(q, r), edgeFunction(r, p), edgeFunction(p, q));
+    vec3 second = vec3(edgeFunction(p, s), edgeFunction(s, q), edgeFunction(q, p));
+    bool isFirst = takesFirst && isInside(first.x, first.y, first.z);
+    bool isSecond = takesSecond && isInside(second.x, second.y, second.z);
+    vec3 edges = isFirst ? first : second;
+    vec3 along = isFirst ? vec3(p.along, q.along, r.along) : vec3(q.along, p.along, s.along);
+    vec3 toApex = isFirst ? toFirst : toSecond;
+    uint corner = isFirst ? pair.firstCorner : pair.secondCorner;
+    TriangleHit hit = hitOfTriangle(ray, boxRay, byCorner(edges, corner), byCorner(along, corner),
+                                    lesser(lesser(toBegin, toEnd), toApex), greater(greater(toBegin, toEnd), toApex));
+    hit.distance = isFirst || isSecond ? hit.distance : 0.0;
+    return PairHit(hit, !isFirst, isFirst && isSecond);
 }
 
 // The triangles of a pair that intersectTriangle may find hit up to `rayLength`: those whose image the line of the ray

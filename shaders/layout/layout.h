@@ -159,7 +159,9 @@ struct NodePair {
 // siblings in the other. Boxes are rounded outward to a grid over all triangles, whose planes are signed 16-bit
 // integers: the low half of a word is the lower plane, the high half the upper one. `link` of an inner node is the
 // index to continue at; of a leaf it is leafFlag | index of its first triangle, and traversal continues with the next
-// node.
+// node. Where scenes have pairs, the link of a leaf of two triangles with a common edge, whose ids follow each other and
+// whose flags are the same, also says where the edge is: it begins at the first one's corner number `leafFirstCorner`,
+// and runs from corner to corner the other way in the second one, there from corner `leafSecondCorner` - 1.
 
 struct SkipNode {
     uint x;
@@ -167,6 +169,15 @@ struct SkipNode {
     uint z;
     uint link;
 };
+
+const uint leafRecordBits = 26u; // of the link, where scenes have pairs
+const uint leafFirstCorner = 26u;
+const uint leafSecondCorner = 28u; // 0: no pair
+
+HYALITE_INLINE uint leafRecordOf(uint link) { return link & ((1u << leafRecordBits) - 1u); }
+HYALITE_INLINE uint firstCornerOf(uint link) { return link >> leafFirstCorner & 3u; }
+HYALITE_INLINE bool isPairOfTriangles(uint link) { return (link >> leafSecondCorner & 3u) != 0u; }
+HYALITE_INLINE uint secondCornerOf(uint link) { return (link >> leafSecondCorner & 3u) - 1u; }
 
 // ---- Materials and lights
 
@@ -716,7 +727,8 @@ const uint constantPassing = 26u;
 const uint constantTrianglePairs = 27u; // skip lists: all triangles in turn, as so many pairs; 0: the tree
 const uint constantSamplesInTurn = 28u; // slots go from sample to sample: samples_in_turn.glsl
 const uint constantBroadcasts = 29u;    // subgroups of broadcastLanes exchange values by broadcasts
-const uint constantCount = 30u;
+const uint constantHasPairs = 30u;      // skip lists: leaves may be pairs of triangles
+const uint constantCount = 31u;
 
 const uint broadcastLanes = 16u;
 

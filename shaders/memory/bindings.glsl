@@ -36,6 +36,7 @@ layout(constant_id = constantPassing) const uint passing = 0u;
 layout(constant_id = constantTrianglePairs) const uint trianglePairs = 0u;
 layout(constant_id = constantSamplesInTurn) const bool takesSamplesInTurn = false;
 layout(constant_id = constantBroadcasts) const bool exchangesByBroadcast = false;
+layout(constant_id = constantHasPairs) const bool hasPairs = false;
 layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
 
 // Copies of the constants. Entry kernels begin with loadConstants(), and all other code reads the copies, because

@@ -39,6 +39,19 @@ layout(set = 0, binding = bindingTextures, std430) readonly buffer TextureWordBu
 uint fetchTextureWord(uint index) { return textureWordArray[index]; }
 #endif
 
+// A corner of a triangle with a word, as they stand in TriangleRecord: row 3 i is that of the first corner of record i.
+#if MEMORY_TEXELS
+uvec4 fetchTriangleRow(uint row) { return imageLoad(trianglesTexels, int(row)); }
+#else
+uvec4 fetchTriangleRow(uint row) {
+    TriangleRecord record = triangles[row / 3u];
+    uvec4 first = uvec4(floatBitsToUint(record.v0), record.primitiveId);
+    uvec4 second = uvec4(floatBitsToUint(record.v1), record.materialIndex);
+    uvec4 third = uvec4(floatBitsToUint(record.v2), record.flags);
+    return row % 3u == 0u ? first : (row % 3u == 1u ? second : third);
+}
+#endif
+
 #if TRAVERSAL_SKIP_LIST
 SCENE_ARRAY(bindingNodes, 4u, skipNodes, SkipNode, fetchSkipNode)
 #else

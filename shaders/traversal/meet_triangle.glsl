@@ -14,8 +14,22 @@ struct Meeting {
     uint materialIndex;
 };
 
-// Tests a triangle in world space; `record` and `instance` are where it comes from. What is behind the nearest hit so
-// far, or behind the end of a shadow ray, is not met.
+// What is met by a hit on a primitive, which is wanting where it is culled, behind the nearest hit so far, or behind the
+// end of a shadow ray; `record` and `instance` are where the primitive comes from.
+Meeting meetingOf(uint slot, TriangleHit hit, uint id, uint record, uint instance, uint flags, uint materialIndex,
+                  const bool isShadow) {
+    bool isMet = hit.distance > 0.0;
+    if ((passing & passesCulled) != 0u)
+        isMet = isMet && !(hit.isBehind && (flags & triangleIsCulled) != 0u);
+    if (isShadow)
+        isMet = isMet && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);
+    else
+        isMet = isMet && (hit.distance < path[slot].rayLength ||
+                          (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive));
+    return Meeting(isMet, hit, id, record, instance, flags, materialIndex);
+}
+
+// Tests a triangle in world space.
 Meeting testTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
                      const bool isShadow) {
     uint id = triangle.primitiveId;
@@ -32,15 +46,7 @@ Meeting testTriangle(uint slot, uint record, uint instance, TriangleRecord trian
             intersectBoxedSphere(boxRay, path[slot].rayDirection, triangle.v0, triangle.v1.x, isExcluded);
         record = id;
     }
-    bool isMet = hit.distance > 0.0;
-    if ((passing & passesCulled) != 0u)
-        isMet = isMet && !(hit.isBehind && (triangle.flags & triangleIsCulled) != 0u);
-    if (isShadow)
-        isMet = isMet && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);
-    else
-        isMet = isMet && (hit.distance < path[slot].rayLength ||
-                          (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive));
-    return Meeting(isMet, hit, id, record, instance, triangle.flags, triangle.materialIndex);
+    return meetingOf(slot, hit, id, record, instance, triangle.flags, triangle.materialIndex, isShadow);
 }
 
 bool maySlipThrough(Meeting meeting) {

@@ -72,7 +72,7 @@ void stopTraversal(uint slot) {
 struct Cursor {
     int node;         // the next one to visit
     int end;          // of its list; 0: the slot has no ray to trace
-    int leaf;         // leafFlag | the next triangle to test, or 0
+    int leaf;         // the link to the next triangles to test (SkipNode), or 0
     bool isSearching; // for the next leaf
     uint instance;    // whose tree it is in, or noInstance
     int following;    // then the node after the instance's own
@@ -144,6 +144,55 @@ void leaveTree(inout Cursor cursor, vec3 direction, int node) {
     cursor.instance = noInstance;
 }
 
+// Tests the next triangle of a leaf, and moves the cursor past it.
+Meeting testNext(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
+                 const bool isShadow) {
+    uint record = uint(cursor.leaf) & ~leafFlag;
+    TriangleRecord triangle = fetchTriangle(record);
+    cursor.leaf = (triangle.flags & triangleEndsLeaf) != 0u ? 0 : cursor.leaf + 1;
+    if (hasInstances && cursor.instance != noInstance)
+        triangle = placedTriangle(place, triangle);
+    return testTriangle(slot, record, cursor.instance, triangle, ray, boxRay, isShadow);
+}
+
+// testNext where leaves may be pairs. The corners are fetched in the order in which the pair has them. Where the line of
+// the ray goes through both triangles, the second one is tested again by itself: the cursor moves to it.
+Meeting testNextPair(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
+                     const bool isShadow) {
+    uint leaf = uint(cursor.leaf);
+    bool isPair = isPairOfTriangles(leaf);
+    uint record = leafRecordOf(leaf);
+    uint corner = firstCornerOf(leaf);
+    uint next = corner == 2u ? 0u : corner + 1u;
+    uint last = 3u - corner - next;
+    uint secondCorner = secondCornerOf(leaf);
+    uint secondApex = secondCorner == 0u ? 2u : secondCorner - 1u;
+    uvec4 begin = fetchTriangleRow(record * 3u + corner);
+    uvec4 end = fetchTriangleRow(record * 3u + next);
+    uvec4 apex = fetchTriangleRow(record * 3u + last);
+    uvec4 apexOfSecond = fetchTriangleRow(record * 3u + (isPair ? 3u + secondApex : 0u));
+    // The words of the record stand beside its corners: the id beside the first, and so on.
+    uint id = corner == 0u ? begin.w : (corner == 1u ? apex.w : end.w);
+    uint materialIndex = corner == 0u ? end.w : (corner == 1u ? begin.w : apex.w);
+    uint flags = corner == 0u ? apex.w : (corner == 1u ? end.w : begin.w);
+    JoinedTriangles pair = JoinedTriangles(uintBitsToFloat(begin.xyz), uintBitsToFloat(end.xyz),
+                                           uintBitsToFloat(apex.xyz), uintBitsToFloat(apexOfSecond.xyz), corner,
+                                           secondCorner);
+    if (hasInstances && cursor.instance != noInstance) {
+        pair.begin = placedPoint(place, pair.begin);
+        pair.end = placedPoint(place, pair.end);
+        pair.firstApex = placedPoint(place, pair.firstApex);
+        pair.secondApex = placedPoint(place, pair.secondApex);
+        id += place.firstPrimitive;
+    }
+    bool takesSecond = isPair && id + 1u != path[slot].rayExcluded;
+    PairHit found = intersectPair(ray, boxRay, pair, id != path[slot].rayExcluded, takesSecond);
+    bool endsLeaf = isPair || (flags & triangleEndsLeaf) != 0u;
+    cursor.leaf = found.isBoth ? int(leafFlag | (record + 1u)) : (endsLeaf ? 0 : cursor.leaf + 1);
+    uint further = found.isSecond ? 1u : 0u;
+    return meetingOf(slot, found.hit, id + further, record + further, cursor.instance, flags, materialIndex, isShadow);
+}
+
 // `waiting` gets the sheer triangles that rays meet. These rays have stopped on the way.
 void traverseTree(uint stage, const bool isShadow, inout Meeting waiting[RAYS]) {
     GridRay gridRay[RAYS];
@@ -203,15 +252,16 @@ void traverseTree(uint stage, const bool isShadow, inout Meeting waiting[RAYS]) 
         do {
             isRunning = false;
             [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-                countSlot(slot, isAtTriangle(cursor[slot]), uvec3(0u, 0u, 1u));
+                uint triangles = hasPairs && isPairOfTriangles(uint(cursor[slot].leaf)) ? 2u : 1u;
+                countSlot(slot, isAtTriangle(cursor[slot]), uvec3(0u, 0u, triangles));
                 if (isAtTriangle(cursor[slot])) {
-                    uint record = uint(cursor[slot].leaf) & ~leafFlag;
-                    TriangleRecord triangle = fetchTriangle(record);
-                    cursor[slot].leaf = (triangle.flags & triangleEndsLeaf) != 0u ? 0 : cursor[slot].leaf + 1;
-                    if (hasInstances && cursor[slot].instance != noInstance)
-                        triangle = placedTriangle(instance[slot], triangle);
-                    Meeting meeting = testTriangle(slot, record, cursor[slot].instance, triangle,
-                                                   triangleRay[slot], boxRay[slot], isShadow);
+                    Meeting meeting;
+                    if (hasPairs)
+                        meeting = testNextPair(slot, cursor[slot], instance[slot], triangleRay[slot], boxRay[slot],
+                                               isShadow);
+                    else
+                        meeting =
+                            testNext(slot, cursor[slot], instance[slot], triangleRay[slot], boxRay[slot], isShadow);
                     if (maySlipThrough(meeting)) {
                         waiting[slot] = meeting;
                         cursor[slot].isWaiting = true;

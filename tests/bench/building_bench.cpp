@@ -37,7 +37,7 @@ const Build builds[] = {
 };
 
 void buildOnce(const Scene &scene, const Build &build) {
-    Bvh bvh = buildBvh(build.tree, buildTriangles(scene), scene.settings.leafSize);
+    Bvh bvh = buildBvh(build.tree, scene, scene.settings.leafSize);
     if (build.isPacked) {
         SkipList packed = makeSkipList(packScene(scene, bvh));
         benchmark::DoNotOptimize(packed);
@@ -61,7 +61,7 @@ void measureBuild(benchmark::State &state, Context &context, const std::string &
     const Subject &subject = context.subject(mesh);
     const Scene &scene = subject.scene();
     if (const std::string fault = findBvhFault(
-            buildBvh(build.tree, buildTriangles(scene), scene.settings.leafSize), buildTriangles(scene));
+            buildBvh(build.tree, scene, scene.settings.leafSize), buildTriangles(scene));
         !fault.empty()) {
         state.SkipWithError(fault.c_str());
         return;

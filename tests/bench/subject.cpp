@@ -32,7 +32,7 @@ Subject::Subject(const std::string &meshName, const gpu::DeviceInfo &device)
 const PackedScene &Subject::packed() {
     if (!packed_)
         packed_ =
-            packScene(scene_, buildBvh(TreeKind::Sah, buildTriangles(scene_), scene_.settings.leafSize));
+            packScene(scene_, buildBvh(TreeKind::Sah, scene_, scene_.settings.leafSize));
     return *packed_;
 }
 

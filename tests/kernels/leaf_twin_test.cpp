@@ -171,6 +171,37 @@ TEST(TriangleTwin, IntersectTriangle) {
     EXPECT_LT(hitCount, probeInputCount / 8 * 7);
 }
 
+TEST(TriangleTwin, IntersectPair) {
+    std::size_t hitCount = 0;
+    expectTwin(probeIntersectPair, [&](Draw &draw, Words &input, Words &expected) {
+        const Triangle triangle = drawTriangle(draw);
+        const reference::JoinedTriangles<float> pair{triangle.v0,  triangle.v1,   triangle.v2,
+                                                     draw.point(), draw.index(3), draw.index(3)};
+        const vec3 origin = draw.point();
+        const vec3 target = draw.chance(2) ? drawTarget(draw, triangle)
+                                           : drawTarget(draw, {triangle.v1, triangle.v0, pair.secondApex});
+        const vec3 direction = draw.chance(8) ? draw.direction() : draw.towards(origin, target);
+        const vec3 lower =
+            glm::min(glm::min(pair.begin, pair.end), glm::min(pair.firstApex, pair.secondApex));
+        const vec3 upper =
+            glm::max(glm::max(pair.begin, pair.end), glm::max(pair.firstApex, pair.secondApex));
+        const bool takesFirst = !draw.chance(8);
+        const bool takesSecond = !draw.chance(8);
+        input << origin << direction << lower << upper << pair.begin << pair.end << pair.firstApex
+              << pair.secondApex << pair.firstCorner << pair.secondCorner << (takesFirst ? 1u : 0u)
+              << (takesSecond ? 1u : 0u);
+        const reference::PairHit<float> found = intersectPair(
+            reference::makeTriangleRay(origin, direction),
+            reference::makeBoxRay(origin, direction, lower, upper), pair, takesFirst, takesSecond);
+        hitCount += found.hit.distance > 0.0f ? 1u : 0u;
+        expected << (found.hit.distance == 0.0f ? 0.0f : found.hit.distance) << found.hit.u << found.hit.v
+                 << (found.isSecond ? 1u : 0u) + (found.isBoth ? 2u : 0u) +
+                        (found.hit.distance > 0.0f && found.hit.isBehind ? 4u : 0u);
+    });
+    EXPECT_GT(hitCount, probeInputCount / 8);
+    EXPECT_LT(hitCount, probeInputCount / 8 * 7);
+}
+
 // ---- Spheres
 
 TEST(SphereTwin, IntersectSphere) {

@@ -245,6 +245,27 @@ void main() {
         give(hit.v);
         break;
     }
+    case probeIntersectPair: {
+        vec3 origin = takeVec3();
+        vec3 direction = takeVec3();
+        BoxRay boxRay = takeBoxRay(origin, direction);
+        JoinedTriangles pair;
+        pair.begin = takeVec3();
+        pair.end = takeVec3();
+        pair.firstApex = takeVec3();
+        pair.secondApex = takeVec3();
+        pair.firstCorner = takeUint();
+        pair.secondCorner = takeUint();
+        bool takesFirst = takeUint() != 0u;
+        bool takesSecond = takeUint() != 0u;
+        PairHit found = intersectPair(makeTriangleRay(origin, direction), boxRay, pair, takesFirst, takesSecond);
+        give(found.hit.distance == 0.0 ? 0.0 : found.hit.distance);
+        give(found.hit.u);
+        give(found.hit.v);
+        give((found.isSecond ? 1u : 0u) + (found.isBoth ? 2u : 0u) +
+             (found.hit.distance > 0.0 && found.hit.isBehind ? 4u : 0u));
+        break;
+    }
     case probeTrianglePoint:
     case probeTrianglePointError: {
         vec3 v0 = takeVec3();

@@ -67,6 +67,7 @@ const uint probeVisibleNormal = 52u;
 const uint probePlacedBoxInterval = 53u;
 const uint probePlacedPoint = 54u;
 const uint probePlacedNormal = 55u;
+const uint probeIntersectPair = 56u;
 
 // Two bindings and three specialization constants beyond those of the renderer's kernels.
 const uint bindingProbeInputs = bindingCount;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -169,6 +170,61 @@ TEST(SkipList, NearerSiblingsComeFirst) {
 
 TEST(SkipList, IsEmptyWithoutTriangles) {
     EXPECT_TRUE(makeSkipList(packScene(Scene{}, Bvh{})).nodes.empty());
+}
+
+/// The triangles' corners.
+std::array<glm::vec3, 3> cornersOf(const layout::TriangleRecord &triangle) {
+    return {triangle.v0, triangle.v1, triangle.v2};
+}
+
+TEST(SkipList, KnowsTheCommonEdgesOfPairs) {
+    // Quads with every pair of corners at which the common edge may begin.
+    Scene scene;
+    scene.materials.push_back({});
+    TriangleMesh &mesh = scene.meshes.emplace_back();
+    for (std::uint32_t i = 0; i < 90; ++i) {
+        const auto x = static_cast<float>(i);
+        mesh.positions.insert(mesh.positions.end(),
+                              {{x, 0, 0}, {x + 0.5f, 0, 1}, {x + 0.5f, 1, 0}, {x, 1, 1}});
+        glm::uvec3 first(4 * i, 4 * i + 1, 4 * i + 2);
+        glm::uvec3 second(4 * i, 4 * i + 2, 4 * i + 3);
+        for (std::uint32_t turn = 0; turn < i % 3; ++turn)
+            first = {first.y, first.z, first.x};
+        for (std::uint32_t turn = 0; turn < i / 3 % 3; ++turn)
+            second = {second.y, second.z, second.x};
+        mesh.triangles.push_back({first});
+        mesh.triangles.push_back({second});
+    }
+    const PackedScene packed = packScene(scene, buildBvh(TreeKind::Sah, scene, 8));
+    ASSERT_TRUE(packed.hasPairs);
+    const SkipList list = makeSkipList(packed);
+    std::size_t pairCount = 0;
+    for (std::uint32_t index = 0; index < 2 * list.length; ++index) {
+        const std::uint32_t link = list.nodes[index].link;
+        if ((link & layout::leafFlag) == 0)
+            continue;
+        ASSERT_TRUE(layout::isPairOfTriangles(link));
+        ++pairCount;
+        const std::uint32_t record = layout::leafRecordOf(link);
+        const std::uint32_t first = layout::firstCornerOf(link);
+        const std::uint32_t second = layout::secondCornerOf(link);
+        EXPECT_EQ(packed.triangles[record + 1].primitiveId, packed.triangles[record].primitiveId + 1);
+        const std::array<glm::vec3, 3> a = cornersOf(packed.triangles[record]);
+        const std::array<glm::vec3, 3> b = cornersOf(packed.triangles[record + 1]);
+        EXPECT_EQ(a[first], b[(second + 1) % 3]);
+        EXPECT_EQ(a[(first + 1) % 3], b[second]);
+    }
+    EXPECT_EQ(pairCount, 2u * 90u);
+}
+
+TEST(SkipList, HasNoPairsWhereFewTrianglesShareAnEdge) {
+    const Scene soup = randomScene(1000, 1.0f, glm::vec3(0.0f));
+    const PackedScene packed = packScene(soup, buildBvh(TreeKind::Sah, soup, 8));
+    EXPECT_FALSE(packed.hasPairs);
+    for (const layout::SkipNode &node : makeSkipList(packed).nodes)
+        if ((node.link & layout::leafFlag) != 0) {
+            EXPECT_LT(node.link & ~layout::leafFlag, 1000u);
+        }
 }
 
 } // namespace
