@@ -121,6 +121,7 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
     app.set_help_flag("-h,--help", "print this page");
     app.formatter(std::make_shared<HelpFormatter>());
     addRenderCommand(app, context);
+    addMergeCommand(app, context);
     addCompareCommand(app, context);
     addVerifyCommand(app, context);
     addProfileCommand(app, context);
@@ -170,6 +171,7 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
 ExitCode runAndReport(std::span<char *> arguments) {
     CommandContext context;
     context.commandLine = shellLine(arguments);
+    context.words.assign(arguments.begin(), arguments.end());
     try {
         return run(arguments, context);
     } catch (...) {

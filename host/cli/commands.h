@@ -6,12 +6,14 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 namespace hyalite {
 
 /// State that commands share with main().
 struct CommandContext {
     std::string commandLine;          ///< as typed, for reports
+    std::vector<std::string> words;   ///< of the command line, the program first
     ExitCode exitCode = ExitCode::Ok; ///< what main() returns if nothing is thrown
 };
 
@@ -20,6 +22,7 @@ void addCompareCommand(CLI::App &app, CommandContext &context);
 void addDevicesCommand(CLI::App &app, CommandContext &context);
 void addDiffCommand(CLI::App &app, CommandContext &context);
 void addInspectCommand(CLI::App &app, CommandContext &context);
+void addMergeCommand(CLI::App &app, CommandContext &context);
 void addNewCommand(CLI::App &app, CommandContext &context);
 void addProfileCommand(CLI::App &app, CommandContext &context);
 void addToneMapCommand(CLI::App &app, CommandContext &context);

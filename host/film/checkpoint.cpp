@@ -19,29 +19,28 @@ namespace hyalite {
 namespace {
 
 constexpr std::string_view magic = "hyalite checkpoint\n";
-constexpr std::uint32_t currentVersion = 2;
-constexpr std::uint32_t maxIdentityBytes = 1u << 16;
+constexpr std::uint32_t currentVersion = 3;
+constexpr std::uint32_t maxTextBytes = 1u << 16; // of the identity, and of the origin
+constexpr std::uint32_t maxLayers = 64;
 
 struct Header {
     std::uint32_t version;
     std::uint32_t identityBytes;
     std::int32_t x0, x1, y0, y1;
     std::array<std::uint64_t, rayKinds.size()> rays;
+    std::uint32_t partIndex, partCount;
+    std::uint32_t samplesPerPixel;
+    std::uint32_t layerCount;
+    std::uint32_t originBytes;
+    std::uint32_t zero;
 };
-static_assert(sizeof(Header) == 64 && std::has_unique_object_representations_v<Header>);
+static_assert(sizeof(Header) == 88 && std::has_unique_object_representations_v<Header>);
 
 /// The file is complete, but this render cannot continue from it.
 class OtherRender : public Error {
   public:
     using Error::Error;
 };
-
-std::string identityText(const RenderIdentity &identity) {
-    std::string text;
-    for (const auto &[name, value] : identity)
-        text += fmt::format("{}: {}\n", name, value);
-    return text;
-}
 
 constexpr std::size_t shownBytes = 120;
 
@@ -56,22 +55,11 @@ std::string valueOf(std::string_view text, std::string_view name) {
     return "nothing";
 }
 
-/// "seed 1 there, 2 here; sampler ..."
-std::string describeDifferences(std::string_view there, const RenderIdentity &here) {
-    std::string differences;
-    for (const auto &[name, value] : here)
-        if (const std::string other = valueOf(there, name); other != excerpt(value, shownBytes))
-            differences += fmt::format("{}{}: {} there, {} here", differences.empty() ? "" : "; ", name,
-                                       other, excerpt(value, shownBytes));
-    return differences.empty() ? "it has settings that this program does not know" : differences;
-}
-
 class Reader {
   public:
     explicit Reader(const std::filesystem::path &path) : file_(path) {}
 
-    [[nodiscard]] Checkpoint read(const RenderIdentity &identity, const Crop &crop,
-                                  std::uint32_t samplesPerPixel) {
+    [[nodiscard]] CheckpointFile read() {
         const std::vector<std::byte> head = file_.head(magic.size() + sizeof(Header));
         if (head.size() < magic.size() || std::memcmp(head.data(), magic.data(), magic.size()) != 0)
             throw file_.bad(file_.sizeBytes() == 0 ? "it is empty" : "it is not a checkpoint of Hyalite");
@@ -85,18 +73,30 @@ class Reader {
                                           "program reads version {}; finish it with the version that began "
                                           "it, or remove it",
                                           file_.path().string(), header.version, currentVersion));
-        const std::uint64_t pixelCount = countPixels(header);
-        std::string identityThere(header.identityBytes, '\0');
-        offset_ = head.size();
-        readPiece(std::as_writable_bytes(std::span(identityThere)));
         // Sizes are checked against that of the file, so memory is never more than the file has.
-        Checkpoint checkpoint{Film({header.x0, header.x1, header.y0, header.y1}), {}};
+        const std::size_t pixelCount = countPixels(header);
+        CheckpointFile contents;
+        contents.path = file_.path();
+        contents.crop = {header.x0, header.x1, header.y0, header.y1};
+        contents.part = {header.partIndex, header.partCount};
+        contents.samplesPerPixel = header.samplesPerPixel;
         for (std::size_t i = 0; i < rayKinds.size(); ++i)
-            checkpoint.rays.*rayKinds[i].count = header.rays[i];
-        readPiece(std::as_writable_bytes(std::span(checkpoint.film.pixels)));
+            contents.rays.*rayKinds[i].count = header.rays[i];
+        contents.identity.resize(header.identityBytes);
+        contents.origin.resize(header.originBytes);
+        contents.pixels.resize(pixelCount);
+        contents.layers.assign(header.layerCount, std::vector<layout::FilmPixel>(pixelCount));
+        offset_ = head.size();
         std::uint64_t hash = hashBytes(head);
-        hash = hashBytes(std::as_bytes(std::span(identityThere)), hash);
-        hash = hashBytes(std::as_bytes(std::span(checkpoint.film.pixels)), hash);
+        const auto readHashed = [&](std::span<std::byte> piece) {
+            readPiece(piece);
+            hash = hashBytes(piece, hash);
+        };
+        readHashed(std::as_writable_bytes(std::span(contents.identity)));
+        readHashed(std::as_writable_bytes(std::span(contents.origin)));
+        readHashed(std::as_writable_bytes(std::span(contents.pixels)));
+        for (std::vector<layout::FilmPixel> &layer : contents.layers)
+            readHashed(std::as_writable_bytes(std::span(layer)));
         std::uint64_t expected = 0;
         readPiece(std::as_writable_bytes(std::span(&expected, 1)));
         if (hash != expected)
@@ -104,53 +104,49 @@ class Reader {
                 fmt::format("it is damaged: the hash of its {} pixels and settings is {:016x}, and it "
                             "should be {:016x}",
                             pixelCount, hash, expected));
-
-        if (identityThere != identityText(identity))
-            throw other(describeDifferences(identityThere, identity));
-        const Crop &found = checkpoint.film.crop;
-        if (found.x0 != crop.x0 || found.x1 != crop.x1 || found.y0 != crop.y0 || found.y1 != crop.y1)
-            throw other(fmt::format("crop: {},{},{},{} there, {},{},{},{} here", found.x0, found.x1, found.y0,
-                                    found.y1, crop.x0, crop.x1, crop.y0, crop.y1));
-        std::uint32_t maxSamples = 0;
-        for (const layout::FilmPixel &pixel : checkpoint.film.pixels)
-            maxSamples = std::max(maxSamples, pixel.sampleCount);
-        if (maxSamples > samplesPerPixel)
-            throw other(
-                fmt::format("samples per pixel: up to {} there, {} here", maxSamples, samplesPerPixel));
-        return checkpoint;
+        return contents;
     }
 
   private:
-    /// For the crop, if the size of the file matches it.
-    [[nodiscard]] std::uint64_t countPixels(const Header &header) const {
+    /// Of the part, if the size of the file matches it.
+    [[nodiscard]] std::size_t countPixels(const Header &header) const {
         constexpr std::int32_t maxSide = 1 << 20;
         const std::int64_t width = std::int64_t{header.x1} - header.x0;
         const std::int64_t height = std::int64_t{header.y1} - header.y0;
         if (width < 1 || height < 1 || width > maxSide || height > maxSide)
             throw file_.bad(fmt::format("it is damaged: its image would have {} x {} pixels", width, height));
-        if (header.identityBytes > maxIdentityBytes)
+        for (const std::uint32_t bytes : {header.identityBytes, header.originBytes})
+            if (bytes > maxTextBytes)
+                throw file_.bad(fmt::format("it is damaged: its settings would take {} bytes, and at most {} "
+                                            "are allowed",
+                                            bytes, maxTextBytes));
+        const Crop crop{header.x0, header.x1, header.y0, header.y1};
+        if (header.partIndex < 1 || header.partIndex > header.partCount ||
+            header.partCount > Partition::mostParts(crop) || header.layerCount > maxLayers ||
+            header.zero != 0)
+            throw file_.bad(fmt::format("it is damaged: it would be part {} of {}, with {} layers",
+                                        header.partIndex, header.partCount, header.layerCount));
+        const std::uint64_t besidePixels =
+            magic.size() + sizeof(Header) + header.identityBytes + header.originBytes + sizeof(std::uint64_t);
+        const std::uint64_t bytesEach = sizeof(layout::FilmPixel) * (1 + header.layerCount);
+        const std::uint64_t inFile =
+            file_.sizeBytes() < besidePixels ? 0 : (file_.sizeBytes() - besidePixels) / bytesEach;
+        // Before the squares are counted, which takes memory: parts are alike, but for few squares.
+        const bool isPlausible = static_cast<std::uint64_t>(width * height) / 2 / header.partCount <
+                                 inFile + 2 * std::uint64_t{Partition::mostSide} * Partition::mostSide;
+        const std::uint64_t expected =
+            isPlausible ? Partition(crop, header.partCount).pixelCountOf(header.partIndex) : 0;
+        if (inFile != expected || file_.sizeBytes() != besidePixels + inFile * bytesEach)
             throw file_.bad(
-                fmt::format("it is damaged: its settings would take {} bytes, and at most {} are allowed",
-                            header.identityBytes, maxIdentityBytes));
-        const auto pixelCount = static_cast<std::uint64_t>(width * height);
-        const std::uint64_t expectedBytes = magic.size() + sizeof(Header) + header.identityBytes +
-                                            pixelCount * sizeof(layout::FilmPixel) + sizeof(std::uint64_t);
-        if (file_.sizeBytes() != expectedBytes)
-            throw file_.bad(fmt::format("it is damaged: {} x {} pixels make {} bytes, and it has {}", width,
-                                        height, expectedBytes, file_.sizeBytes()));
-        return pixelCount;
+                fmt::format("it is damaged: part {} of {} of {} x {} pixels has another size than "
+                            "its {} bytes",
+                            header.partIndex, header.partCount, width, height, file_.sizeBytes()));
+        return inFile;
     }
 
     void readPiece(std::span<std::byte> piece) {
         file_.read(offset_, piece);
         offset_ += piece.size();
-    }
-
-    [[nodiscard]] OtherRender other(const std::string &difference) const {
-        return OtherRender(ErrorKind::BadInput,
-                           fmt::format("cannot resume from '{}': it belongs to another render: {}",
-                                       file_.path().string(), difference),
-                           Remedy::BeginAnew);
     }
 
     InputFile file_;
@@ -164,34 +160,80 @@ std::filesystem::path olderCheckpoint(const std::filesystem::path &path) {
     return followLinks(path).string() + ".1";
 }
 
-CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, RenderIdentity identity,
-                                   bool isNewestWhole)
-    : path_(followLinks(path)), identity_(std::move(identity)), isNewestWhole_(isNewestWhole) {
-    const AtomicFile newer(path_);
-    const AtomicFile older(olderCheckpoint(path_));
+std::string identityText(const RenderIdentity &identity) {
+    std::string text;
+    for (const auto &[name, value] : identity)
+        text += fmt::format("{}: {}\n", name, value);
+    return text;
 }
 
-void CheckpointWriter::write(const Film &film, const RayCounts &rays) {
-    const std::string identity = identityText(identity_);
+std::string describeDifferences(std::string_view there, std::string_view here) {
+    std::string differences;
+    for (std::string_view rest = here; !rest.empty();) {
+        const std::string_view line = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+        const std::string_view name = line.substr(0, line.find(':'));
+        const std::string value = valueOf(here, name);
+        if (const std::string other = valueOf(there, name); other != value)
+            differences +=
+                fmt::format("{}{}: {} there, {} here", differences.empty() ? "" : "; ", name, other, value);
+    }
+    return differences.empty() ? "it has settings that this program does not know" : differences;
+}
+
+void requireWritableCheckpoint(const std::filesystem::path &path) {
+    const AtomicFile newer(followLinks(path));
+    const AtomicFile older(olderCheckpoint(path));
+}
+
+CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, RenderIdentity identity,
+                                   CheckpointSubject subject, bool isNewestWhole)
+    : path_(followLinks(path)), identity_(identityText(identity)), subject_(std::move(subject)),
+      partition_(subject_.crop, subject_.part.count), isNewestWhole_(isNewestWhole) {
+    requireWritableCheckpoint(path_);
+}
+
+void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<const Film *const> layers) {
+    const Crop &crop = subject_.crop;
     Header header{currentVersion,
-                  static_cast<std::uint32_t>(identity.size()),
-                  film.crop.x0,
-                  film.crop.x1,
-                  film.crop.y0,
-                  film.crop.y1,
-                  {}};
+                  static_cast<std::uint32_t>(identity_.size()),
+                  crop.x0,
+                  crop.x1,
+                  crop.y0,
+                  crop.y1,
+                  {},
+                  subject_.part.index,
+                  subject_.part.count,
+                  subject_.samplesPerPixel,
+                  static_cast<std::uint32_t>(layers.size()),
+                  static_cast<std::uint32_t>(subject_.origin.size()),
+                  0};
     for (std::size_t i = 0; i < rayKinds.size(); ++i)
         header.rays[i] = rays.*rayKinds[i].count;
     std::string head(magic);
     head.append(reinterpret_cast<const char *>(&header), sizeof header);
-    std::uint64_t hash = hashBytes(std::as_bytes(std::span(head)));
-    hash = hashBytes(std::as_bytes(std::span(identity)), hash);
-    hash = hashBytes(std::as_bytes(std::span(film.pixels)), hash);
 
     AtomicFile file(path_);
-    file.write(head);
-    file.write(identity);
-    file.write(std::as_bytes(std::span(film.pixels)));
+    std::uint64_t hash = 0;
+    const auto writeHashed = [&](std::span<const std::byte> piece) {
+        file.write(piece);
+        hash = hashBytes(piece, hash);
+    };
+    writeHashed(std::as_bytes(std::span(head)));
+    writeHashed(std::as_bytes(std::span(identity_)));
+    writeHashed(std::as_bytes(std::span(subject_.origin)));
+    const std::span<const Crop> squares = partition_.squaresOf(subject_.part.index);
+    const auto writeFilm = [&](const Film &one) {
+        if (subject_.part.count == 1) {
+            writeHashed(std::as_bytes(std::span(one.pixels)));
+            return;
+        }
+        const std::vector<layout::FilmPixel> own = pixelsIn(one, squares);
+        writeHashed(std::as_bytes(std::span(own)));
+    };
+    writeFilm(film);
+    for (const Film *layer : layers)
+        writeFilm(*layer);
     file.write(std::as_bytes(std::span(&hash, 1)));
     // Until the new one is in place, the older generation is the only one.
     std::error_code error;
@@ -209,21 +251,56 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays) {
     isNewestWhole_ = true;
 }
 
-Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentity &identity, const Crop &crop,
-                          std::uint32_t samplesPerPixel) {
-    return Reader(path).read(identity, crop, samplesPerPixel);
+CheckpointFile readCheckpointFile(const std::filesystem::path &path) { return Reader(path).read(); }
+
+Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentity &identity,
+                          const CheckpointSubject &subject) {
+    CheckpointFile file = readCheckpointFile(path);
+    const auto other = [&](const std::string &difference) {
+        return OtherRender(ErrorKind::BadInput,
+                           fmt::format("cannot resume from '{}': it belongs to another render: {}",
+                                       path.string(), difference),
+                           Remedy::BeginAnew);
+    };
+    if (const std::string here = identityText(identity); file.identity != here)
+        throw other(describeDifferences(file.identity, here));
+    const auto textOf = [](const Crop &crop) {
+        return fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1);
+    };
+    if (textOf(file.crop) != textOf(subject.crop))
+        throw other(fmt::format("crop: {} there, {} here", textOf(file.crop), textOf(subject.crop)));
+    if (file.part != subject.part)
+        throw other(fmt::format("part: {}/{} there, {}/{} here", file.part.index, file.part.count,
+                                subject.part.index, subject.part.count));
+    std::uint32_t maxSamples = 0;
+    for (const layout::FilmPixel &pixel : file.pixels)
+        maxSamples = std::max(maxSamples, pixel.sampleCount);
+    if (maxSamples > subject.samplesPerPixel)
+        throw other(
+            fmt::format("samples per pixel: up to {} there, {} here", maxSamples, subject.samplesPerPixel));
+    Checkpoint checkpoint{Film(Crop{}), file.rays};
+    if (file.part.count == 1) {
+        checkpoint.film.crop = file.crop;
+        checkpoint.film.pixels = std::move(file.pixels);
+    } else {
+        const Partition partition(file.crop, file.part.count);
+        const std::span<const Crop> squares = partition.squaresOf(file.part.index);
+        checkpoint.film = filmOfSquares(file.crop, squares, subject.samplesPerPixel);
+        setPixelsIn(checkpoint.film, squares, file.pixels);
+    }
+    return checkpoint;
 }
 
 std::optional<ResumedCheckpoint> resumeCheckpoint(const std::filesystem::path &path,
-                                                  const RenderIdentity &identity, const Crop &crop,
-                                                  std::uint32_t samplesPerPixel) {
+                                                  const RenderIdentity &identity,
+                                                  const CheckpointSubject &subject) {
     const std::filesystem::path older = olderCheckpoint(path);
     std::error_code error; // of a path that leads nowhere: reading it says why
     const bool isOlderThere = std::filesystem::exists(older, error);
     std::string damage;
     if (std::filesystem::exists(path, error)) {
         try {
-            return ResumedCheckpoint{readCheckpoint(path, identity, crop, samplesPerPixel), path, {}};
+            return ResumedCheckpoint{readCheckpoint(path, identity, subject), path, {}};
         } catch (const OtherRender &) {
             throw;
         } catch (const Error &newest) {
@@ -237,7 +314,7 @@ std::optional<ResumedCheckpoint> resumeCheckpoint(const std::filesystem::path &p
         return std::nullopt;
     }
     try {
-        return ResumedCheckpoint{readCheckpoint(older, identity, crop, samplesPerPixel), older, damage};
+        return ResumedCheckpoint{readCheckpoint(older, identity, subject), older, damage};
     } catch (const Error &oldest) {
         throw Error(ErrorKind::BadInput, fmt::format("{}; and {}", damage, oldest.what()), oldest.remedy);
     }

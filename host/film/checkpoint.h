@@ -1,4 +1,4 @@
-// Checkpoints: the state of a render, in a file from which it can continue.
+// Checkpoints: the state of a render, in a file from which it can continue. A part of a picture is one, too.
 //
 // There are two generations: FILE, the newer one, and FILE.1. Each is written, synced to disk and then renamed into
 // place, so that at any moment at least one of them is complete. All numbers are little endian:
@@ -7,17 +7,25 @@
 //     u32 version     u32 bytes of the identity
 //     i32 x0, x1, y0, y1 of the crop
 //     u64 primary, shadow, reflection, refraction and bounce rays that were traced
+//     u32 index of the part, from 1     u32 number of parts: 1 for a whole render
+//     u32 samples wanted for each pixel     u32 number of layers
+//     u32 bytes of the origin     u32 0
 //     the identity, a line "name: value" for each of its parts
-//     the film's pixels, as layout::FilmPixel, row by row
+//     the origin: what the writer says of itself
+//     the part's pixels, as layout::FilmPixel: its squares in their order (partition.h), each row by row
+//     those of each layer
 //     u64 hash of all that
 #pragma once
 
 #include "host/film/film.h"
+#include "host/film/partition.h"
 #include "host/film/ray_counts.h"
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,37 +35,74 @@ namespace hyalite {
 /// values have no line ends, and names have no colons.
 using RenderIdentity = std::vector<std::pair<std::string, std::string>>;
 
+/// What a file holds.
+struct CheckpointFile {
+    std::filesystem::path path;
+    std::string identity; ///< a line "name: value" for each of its parts
+    std::string origin;
+    Crop crop;
+    Part part;
+    std::uint32_t samplesPerPixel = 0; ///< that are wanted
+    RayCounts rays;                    ///< traced for the pixels
+    std::vector<layout::FilmPixel> pixels;
+    std::vector<std::vector<layout::FilmPixel>> layers;
+};
+
 struct Checkpoint {
-    Film film;
+    Film film;      ///< pixels outside of the part have the samples that are wanted, and no colour
     RayCounts rays; ///< traced for the film; a device may have started samples that are not in it
+};
+
+/// What belongs to a render, beside its identity, for all generations of its checkpoint.
+struct CheckpointSubject {
+    Crop crop;
+    Part part;
+    std::uint32_t samplesPerPixel = 1;
+    std::string origin;
 };
 
 /// The older generation of a checkpoint: FILE.1.
 [[nodiscard]] std::filesystem::path olderCheckpoint(const std::filesystem::path &path);
+
+/// Throws Error{OutputNotWritten} if no checkpoint can be written there.
+void requireWritableCheckpoint(const std::filesystem::path &path);
 
 /// Writes checkpoints of one render.
 class CheckpointWriter {
   public:
     /// `isNewestWhole`: `path` is a readable checkpoint of this render, which then becomes the older generation. Throws
     /// Error{OutputNotWritten} if `path` cannot be written.
-    CheckpointWriter(const std::filesystem::path &path, RenderIdentity identity, bool isNewestWhole);
+    CheckpointWriter(const std::filesystem::path &path, RenderIdentity identity, CheckpointSubject subject,
+                     bool isNewestWhole);
 
-    /// Stores a generation on disk. Throws Error{OutputNotWritten}; then the previous generations are kept.
-    void write(const Film &film, const RayCounts &rays);
+    /// Stores a generation on disk; films have the crop of the subject. Throws Error{OutputNotWritten}; then the previous
+    /// generations are kept.
+    void write(const Film &film, const RayCounts &rays, std::span<const Film *const> layers = {});
 
     [[nodiscard]] const std::filesystem::path &path() const { return path_; }
 
   private:
     std::filesystem::path path_;
-    RenderIdentity identity_;
+    std::string identity_;
+    CheckpointSubject subject_;
+    Partition partition_;
     bool isNewestWhole_;
 };
 
 /// Reads one generation; memory is in proportion to the size of the file. Throws Error{BadInput}, naming the file, if
-/// it cannot be read, is not a checkpoint, has another version or is damaged; and, with the difference and both values,
-/// if it belongs to another render.
+/// it cannot be read, is not a checkpoint, has another version or is damaged.
+[[nodiscard]] CheckpointFile readCheckpointFile(const std::filesystem::path &path);
+
+/// The same, for a render that goes on. Throws Error{BadInput} likewise; and, with the difference and both values, if
+/// the file belongs to another render.
 [[nodiscard]] Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentity &identity,
-                                        const Crop &crop, std::uint32_t samplesPerPixel);
+                                        const CheckpointSubject &subject);
+
+/// An identity as a file has it.
+[[nodiscard]] std::string identityText(const RenderIdentity &identity);
+
+/// How two identities differ, as the lines of a file: "seed: 1 there, 2 here; sampler: ...".
+[[nodiscard]] std::string describeDifferences(std::string_view there, std::string_view here);
 
 struct ResumedCheckpoint {
     Checkpoint checkpoint;
@@ -69,7 +114,6 @@ struct ResumedCheckpoint {
 /// Error{BadInput} as readCheckpoint does, with all reasons.
 [[nodiscard]] std::optional<ResumedCheckpoint> resumeCheckpoint(const std::filesystem::path &path,
                                                                 const RenderIdentity &identity,
-                                                                const Crop &crop,
-                                                                std::uint32_t samplesPerPixel);
+                                                                const CheckpointSubject &subject);
 
 } // namespace hyalite

@@ -26,7 +26,9 @@ class SnapshotTaker {
 };
 
 struct Continuation {
-    std::optional<Film> film;           ///< of the same crop; samples are added to it. Empty: start with none
+    std::optional<Film> film; ///< of the same crop; samples are added to it. Empty: start with none
+    double shareOfOthers =
+        0.0; ///< of the film's pixels, in [0, 1): others render them, and they count as finished
     SnapshotTaker *snapshots = nullptr; ///< if not null, it outlives the render
 };
 

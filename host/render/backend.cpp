@@ -225,12 +225,13 @@ BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, c
                                  bool isQuiet, Timeline *timeline, const std::function<bool()> &shouldStop,
                                  Continuation continuation) {
     ProgressLine progress(task, isQuiet);
+    const double others = continuation.shareOfOthers;
     if (!isReference(backend.name()))
         progress.expectCompiler();
     try {
         BackendResult result = backend.render(
-            scene, [&](double share) { progress.update(share); }, timeline, shouldStop,
-            std::move(continuation));
+            scene, [&](double share) { progress.update(std::max(share - others, 0.0) / (1.0 - others)); },
+            timeline, shouldStop, std::move(continuation));
         if (result.failure && !shouldStop)
             throw Error(*result.failure);
         const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);

@@ -1,15 +1,18 @@
 #include "host/render/identity.h"
 
 #include "host/base/hash.h"
+#include "host/scene/names.h"
 #include "host/scene/settings_table.h"
 
 #include "shaders/embedded_kernels.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace hyalite {
 
-RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend) {
+RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
+                          const std::vector<Integrator> *layers) {
     RenderIdentity identity;
     const layout::FrameRecord &frame = scene.packed.frame;
     const Crop &crop = scene.crop;
@@ -20,6 +23,12 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend) {
             continue;
         const nlohmann::ordered_json value = settingToJson(setting, scene.loaded.scene.settings);
         identity.emplace_back(setting.key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    if (layers != nullptr) {
+        std::vector<std::string_view> names;
+        for (const Integrator layer : *layers)
+            names.push_back(nameOf(layer));
+        identity.emplace_back("layers", fmt::format("{}", fmt::join(names, ",")));
     }
     identity.emplace_back("scene and camera", hashText(scene.packed.contentHash()));
     identity.emplace_back("precision", backend.precision());

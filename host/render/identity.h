@@ -6,7 +6,9 @@
 
 namespace hyalite {
 
-/// It includes the crop, but neither the tree nor the samples per pixel, which may grow.
-[[nodiscard]] RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend);
+/// It includes the crop, but neither the tree nor the samples per pixel, which may grow; and `layers`, unless they are
+/// null.
+[[nodiscard]] RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
+                                        const std::vector<Integrator> *layers = nullptr);
 
 } // namespace hyalite

@@ -1,5 +1,7 @@
 #include "host/render/layers.h"
 
+#include "host/film/partition.h"
+
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
@@ -36,8 +38,8 @@ Layer layerOf(const ViewFilm &of) {
 } // namespace
 
 std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
-                                  const std::vector<Integrator> &views, bool isQuiet,
-                                  const std::function<bool()> &shouldStop) {
+                                  const std::vector<Integrator> &views, std::span<const Crop> squares,
+                                  bool isQuiet, const std::function<bool()> &shouldStop) {
     RenderSettings &settings = scene.loaded.scene.settings;
     const RenderSettings ofImage = settings;
     std::vector<ViewFilm> films;
@@ -49,8 +51,11 @@ std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
         }
         Film film(scene.crop);
         if (!shouldStop()) {
-            BackendResult result =
-                renderWithProgress(backend, scene, std::string(nameOf(view)), isQuiet, nullptr, shouldStop);
+            Continuation continuation;
+            continuation.film =
+                filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
+            BackendResult result = renderWithProgress(backend, scene, std::string(nameOf(view)), isQuiet,
+                                                      nullptr, shouldStop, std::move(continuation));
             if (result.failure)
                 throw Error(*result.failure);
             film = std::move(result.film);

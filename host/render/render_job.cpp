@@ -19,14 +19,26 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// A part is a checkpoint that is finished.
+RenderRequest withCheckpoint(RenderRequest request) {
+    if (request.part) {
+        request.checkpoint = request.output;
+        request.isResuming = true;
+    }
+    return request;
+}
+
 } // namespace
 
 RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLine)
-    : request_(request), format_(imageFormatOf(request.output)), image_(request.output) {
+    : request_(withCheckpoint(request)),
+      format_(request.part ? ImageFormat::Exr : imageFormatOf(request.output)) {
+    if (!request_.part)
+        image_.emplace(request_.output);
     if (!request_.report.empty())
         reportFile_.emplace(request_.report);
     if (!request_.checkpoint.empty()) {
-        const CheckpointWriter writability(request_.checkpoint, {}, false);
+        requireWritableCheckpoint(request_.checkpoint);
         checkpointLock_.emplace(request_.checkpoint);
     }
     report_.origin.commandLine = commandLine;
@@ -40,8 +52,27 @@ void RenderJob::prepare() {
     };
     scene_ = prepareScene(request_.scene, Source::Dropped, request_.isQuiet, beginOpening);
     report_.origin = provenanceOf(*scene_, report_.origin.commandLine);
+    const Part part = request_.part.value_or(Part{});
+    if (const std::uint32_t most = Partition::mostParts(scene_->crop); part.count > most)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--part: found {}/{}; a picture of {} x {} pixels has at most {} parts",
+                                part.index, part.count, scene_->crop.width(), scene_->crop.height(), most));
+    partition_.emplace(scene_->crop, part.count);
     report_.loadSeconds = scene_->loadSeconds;
     report_.buildSeconds = scene_->buildSeconds;
+}
+
+std::span<const Crop> RenderJob::squares() const {
+    return partition_->squaresOf(request_.part.value_or(Part{}).index);
+}
+
+std::uint64_t RenderJob::pixelCount() const {
+    return partition_->pixelCountOf(request_.part.value_or(Part{}).index);
+}
+
+double RenderJob::shareOfOthers() const {
+    const double all = static_cast<double>(scene_->crop.width()) * scene_->crop.height();
+    return 1.0 - static_cast<double>(pixelCount()) / all;
 }
 
 void RenderJob::requireRoom() const {
@@ -61,23 +92,55 @@ void RenderJob::openDevice() {
 void RenderJob::resume() {
     if (request_.checkpoint.empty())
         return;
-    const RenderIdentity identity = identityOf(*scene_, *backend_);
+    const RenderIdentity identity =
+        identityOf(*scene_, *backend_, request_.part ? &request_.layers : nullptr);
     const int samplesPerPixel = scene_->loaded.scene.settings.samplesPerPixel;
+    CheckpointSubject subject{
+        scene_->crop, request_.part.value_or(Part{}), static_cast<std::uint32_t>(samplesPerPixel), {}};
+    if (request_.part)
+        subject.origin = toText(partOrigin());
     std::optional<ResumedCheckpoint> resumed;
     if (request_.isResuming)
-        resumed = resumeCheckpoint(request_.checkpoint, identity, scene_->crop,
-                                   static_cast<std::uint32_t>(samplesPerPixel));
+        resumed = resumeCheckpoint(request_.checkpoint, identity, subject);
     // Without a resumed checkpoint, the existing file belongs to another render and may be lost with the second
     // generation.
-    checkpoint_.emplace(request_.checkpoint, identity, !resumed || resumed->damage.empty());
-    if (!resumed)
+    checkpoint_.emplace(request_.checkpoint, identity, subject, !resumed || resumed->damage.empty());
+    if (!resumed) {
+        if (request_.part)
+            filmBefore_ = filmOfSquares(scene_->crop, squares(), subject.samplesPerPixel);
         return;
+    }
     checkpointDamage_ = resumed->damage;
     raysBefore_ = resumed->checkpoint.rays;
-    report_.resumed =
-        ResumedWork{resumed->path.string(),
-                    finishedWork(resumed->checkpoint.film, samplesPerPixel).sampleCount, raysBefore_};
+    report_.resumed = ResumedWork{
+        resumed->path.string(),
+        finishedWork(resumed->checkpoint.film, squares(), samplesPerPixel).sampleCount, raysBefore_};
     filmBefore_ = std::move(resumed->checkpoint.film);
+}
+
+PartOrigin RenderJob::partOrigin() const {
+    PartOrigin origin;
+    origin.host = hostName();
+    origin.folder = std::filesystem::current_path().string();
+    origin.words = request_.words;
+    origin.wholeWidth = scene_->loaded.scene.camera.width;
+    origin.wholeHeight = scene_->loaded.scene.camera.height;
+    origin.layers = request_.layers;
+    origin.provenance = provenanceToJson(report_.origin, report_.device);
+    return origin;
+}
+
+bool RenderJob::isFinishedBefore() const {
+    return request_.part && report_.resumed &&
+           finishedWork(*filmBefore_, squares(), scene_->loaded.scene.settings.samplesPerPixel).isComplete;
+}
+
+void RenderJob::writeCheckpoint(const Film &film, const RayCounts &rays) {
+    std::vector<const Film *> layers;
+    if (request_.part)
+        for (const ViewFilm &layer : layers_)
+            layers.push_back(&layer.film);
+    checkpoint_->write(film, rays, layers);
 }
 
 bool RenderJob::shouldStop() const {
@@ -89,9 +152,8 @@ std::vector<PeriodicFile> RenderJob::periodicFiles() {
     std::vector<PeriodicFile> files;
     if (checkpoint_)
         files.push_back(
-            {request_.checkpointSeconds.value_or(10.0), [this](const Film &film, const RayCounts &rays) {
-                 checkpoint_->write(film, raysBefore_ + rays);
-             }});
+            {request_.checkpointSeconds.value_or(10.0),
+             [this](const Film &film, const RayCounts &rays) { writeCheckpoint(film, raysBefore_ + rays); }});
     if (request_.partialSeconds)
         files.push_back({*request_.partialSeconds, [this](const Film &film, const RayCounts &) {
                              AtomicFile partial(request_.output);
@@ -104,14 +166,15 @@ std::vector<PeriodicFile> RenderJob::periodicFiles() {
 void RenderJob::renderLayers() {
     snapshots_.emplace(scene_->crop, periodicFiles());
     renderStart_ = Clock::now();
-    layers_ =
-        renderViews(*backend_, *scene_, request_.layers, request_.isQuiet, [this] { return shouldStop(); });
+    layers_ = renderViews(*backend_, *scene_, request_.layers, squares(), request_.isQuiet,
+                          [this] { return shouldStop(); });
 }
 
 void RenderJob::render() {
     Continuation continuation;
     continuation.film = std::move(filmBefore_);
     continuation.snapshots = &*snapshots_;
+    continuation.shareOfOthers = shareOfOthers();
     BackendResult result = renderWithProgress(
         *backend_, *scene_, "render", request_.isQuiet, nullptr,
         [this] {
@@ -125,7 +188,7 @@ void RenderJob::render() {
 
 void RenderJob::takeResult(BackendResult result) {
     signalWhileRendering_ = signals_->first();
-    report_.finished = finishedWork(result.film, scene_->loaded.scene.settings.samplesPerPixel);
+    report_.finished = finishedWork(result.film, squares(), scene_->loaded.scene.settings.samplesPerPixel);
     if (result.failure && report_.finished.sampleCount == 0)
         throw Error(*result.failure);
     if (signalWhileRendering_ != 0 && report_.finished.sampleCount == 0)
@@ -162,13 +225,18 @@ void RenderJob::writeImage() {
     const Clock::time_point writeStart = Clock::now();
     if (checkpoint_) {
         try { // the checkpoint first: if there is no room for the picture, nothing is lost
-            checkpoint_->write(*film_, report_.rays);
+            writeCheckpoint(*film_, report_.rays);
         } catch (const Error &error) {
             checkpointFailure_.emplace(error);
         }
     }
-    writePicture(image_, *film_);
-    image_.commit();
+    if (image_) {
+        writePicture(*image_, *film_);
+        image_->commit();
+    } else if (report_.finished.isComplete && !checkpointFailure_) {
+        std::error_code ignored; // the older generation is of no use to who merges parts
+        std::filesystem::remove(olderCheckpoint(request_.checkpoint), ignored);
+    }
     report_.writeSeconds = secondsSince(writeStart);
 }
 
@@ -181,7 +249,7 @@ void RenderJob::writeReport() {
 }
 
 std::optional<std::string> RenderJob::diagnosis() const {
-    return report_.finished.isComplete ? diagnosePicture(*scene_, *film_) : std::nullopt;
+    return report_.finished.isComplete && !request_.part ? diagnosePicture(*scene_, *film_) : std::nullopt;
 }
 
 void RenderJob::throwFailure() const {

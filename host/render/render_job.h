@@ -4,10 +4,12 @@
 #include "host/base/atomic_file.h"
 #include "host/film/checkpoint.h"
 #include "host/film/checkpoint_lock.h"
+#include "host/film/partition.h"
 #include "host/image/image_file.h"
 #include "host/image/tone_map.h"
 #include "host/render/backend.h"
 #include "host/render/layers.h"
+#include "host/render/part_origin.h"
 #include "host/render/periodic_files.h"
 #include "host/render/prepare.h"
 #include "host/render/stop.h"
@@ -36,6 +38,9 @@ struct RenderRequest {
     std::string checkpoint;
     std::optional<double> checkpointSeconds; ///< interval; default: 10
     bool isResuming = false;
+    /// Only this part of the picture, into the checkpoint `output` in place of a picture; it goes on from what is there.
+    std::optional<Part> part;
+    std::vector<std::string> words;       ///< of the command line, for who has to make a part again
     std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
     bool isQuiet = false;                 ///< no progress
 };
@@ -68,6 +73,10 @@ class RenderJob {
     [[nodiscard]] const PreparedScene &scene() const { return *scene_; }
     [[nodiscard]] const Backend &device() const { return *backend_; }
     [[nodiscard]] const RenderReport &report() const { return report_; }
+    /// Pixels to be rendered: those of the part.
+    [[nodiscard]] std::uint64_t pixelCount() const;
+    /// Whether the part was finished before.
+    [[nodiscard]] bool isFinishedBefore() const;
     /// Why the newest checkpoint was not used, or empty.
     [[nodiscard]] const std::string &checkpointDamage() const { return checkpointDamage_; }
     /// Whether it ended early, only because of the time limit.
@@ -80,6 +89,10 @@ class RenderJob {
 
     [[nodiscard]] bool shouldStop() const;
     [[nodiscard]] std::vector<PeriodicFile> periodicFiles();
+    [[nodiscard]] std::span<const Crop> squares() const;
+    [[nodiscard]] double shareOfOthers() const;
+    [[nodiscard]] PartOrigin partOrigin() const;
+    void writeCheckpoint(const Film &film, const RayCounts &rays);
     void requireRoom() const;
     void takeResult(BackendResult result);
     void writePicture(AtomicFile &file, const Film &film) const;
@@ -87,12 +100,13 @@ class RenderJob {
     const RenderRequest request_;
     const Clock::time_point start_ = Clock::now();
     const ImageFormat format_;
-    AtomicFile image_;
+    std::optional<AtomicFile> image_; ///< unless the output is a part
     std::optional<AtomicFile> reportFile_;
     std::optional<PreparedScene> scene_;
     std::future<std::unique_ptr<Backend>> opening_;
     std::unique_ptr<Backend> backend_;
     std::optional<CaughtSignals> signals_; ///< until everything is written, when the most could be lost
+    std::optional<Partition> partition_;
     std::optional<CheckpointLock> checkpointLock_;
     std::optional<CheckpointWriter> checkpoint_;
     std::string checkpointDamage_;

@@ -1,5 +1,7 @@
 #include "host/report/render_report.h"
 
+#include "host/film/partition.h"
+
 #include "host/base/json_text.h"
 
 namespace hyalite {
@@ -12,13 +14,14 @@ nlohmann::ordered_json raysToJson(const RayCounts &rays) {
     return json;
 }
 
-FinishedWork finishedWork(const Film &film, int samplesPerPixel) {
+FinishedWork finishedWork(const Film &film, std::span<const Crop> squares, int samplesPerPixel) {
     FinishedWork finished;
-    for (const layout::FilmPixel &pixel : film.pixels) {
+    for (const layout::FilmPixel &pixel : pixelsIn(film, squares)) {
+        ++finished.wantedPixelCount;
         finished.pixelCount += pixel.sampleCount == static_cast<std::uint32_t>(samplesPerPixel);
         finished.sampleCount += pixel.sampleCount;
     }
-    finished.isComplete = finished.pixelCount == film.pixels.size();
+    finished.isComplete = finished.pixelCount == finished.wantedPixelCount;
     return finished;
 }
 

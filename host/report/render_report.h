@@ -10,20 +10,22 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace hyalite {
 
-/// The finished part of an image.
+/// The finished part of an image, or of a part of one.
 struct FinishedWork {
+    std::uint64_t wantedPixelCount = 0;
     std::uint64_t pixelCount = 0; ///< with all of their samples
     std::uint64_t sampleCount = 0;
     bool isComplete = false; ///< all samples of all pixels are
 };
 
-/// The finished part of `film`, of `samplesPerPixel` samples in each pixel.
-[[nodiscard]] FinishedWork finishedWork(const Film &film, int samplesPerPixel);
+/// What is finished of these squares of `film`, of `samplesPerPixel` samples in each pixel.
+[[nodiscard]] FinishedWork finishedWork(const Film &film, std::span<const Crop> squares, int samplesPerPixel);
 
 /// The checkpoint that a render continued.
 struct ResumedWork {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -20,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const RenderIdentity identity{{"seed", "7"}, {"sampler", "sobol"}};
+const CheckpointSubject subject{{2, 5, 1, 3}, {}, 100, {}};
 
 struct CheckpointTest : ::testing::Test {
     void SetUp() override {
@@ -34,7 +37,7 @@ struct CheckpointTest : ::testing::Test {
     [[nodiscard]] std::string refusal(const RenderIdentity &wanted = identity,
                                       const Crop &crop = {2, 5, 1, 3}, std::uint32_t samples = 100) const {
         try {
-            (void)resumeCheckpoint(path, wanted, crop, samples);
+            (void)resumeCheckpoint(path, wanted, {crop, {}, samples, {}});
             return {};
         } catch (const Error &error) {
             EXPECT_EQ(error.kind, ErrorKind::BadInput);
@@ -79,7 +82,7 @@ bool hasSamples(const std::optional<ResumedCheckpoint> &resumed, std::uint32_t s
 }
 
 std::optional<ResumedCheckpoint> resume(const fs::path &path) {
-    return resumeCheckpoint(path, identity, {2, 5, 1, 3}, 100);
+    return resumeCheckpoint(path, identity, subject);
 }
 
 TEST(Hash64, ChangesWithEveryBitAndLength) {
@@ -105,7 +108,7 @@ TEST(Hash64, ChangesWithEveryBitAndLength) {
 TEST_F(CheckpointTest, ComesBackAsItWasWritten) {
     EXPECT_FALSE(resume(path));
     const RayCounts rays{1, 2, 3, 1ull << 60, 5};
-    CheckpointWriter(path, identity, false).write(filmOf(4), rays);
+    CheckpointWriter(path, identity, subject, false).write(filmOf(4), rays);
     const std::optional<ResumedCheckpoint> resumed = resume(path);
     EXPECT_TRUE(hasSamples(resumed, 4));
     EXPECT_EQ(resumed->checkpoint.rays, rays);
@@ -116,7 +119,7 @@ TEST_F(CheckpointTest, ComesBackAsItWasWritten) {
 }
 
 TEST_F(CheckpointTest, TwoGenerationsAreKept) {
-    CheckpointWriter writer(path, identity, false);
+    CheckpointWriter writer(path, identity, subject, false);
     for (const std::uint32_t samples : {1u, 2u, 3u})
         writer.write(filmOf(samples), {});
     EXPECT_EQ(entries(), (std::set<std::string>{"c", "c.1"}));
@@ -129,7 +132,7 @@ TEST_F(CheckpointTest, TwoGenerationsAreKept) {
 }
 
 TEST_F(CheckpointTest, AnyDamageToTheNewerGenerationFallsBackToTheOlderOne) {
-    CheckpointWriter writer(path, identity, false);
+    CheckpointWriter writer(path, identity, subject, false);
     writer.write(filmOf(1), {});
     writer.write(filmOf(2), {});
     const std::string whole = load(path);
@@ -155,10 +158,10 @@ TEST_F(CheckpointTest, AnyDamageToTheNewerGenerationFallsBackToTheOlderOne) {
 }
 
 TEST_F(CheckpointTest, ADamagedGenerationNeverReplacesAWholeOne) {
-    CheckpointWriter(path, identity, false).write(filmOf(1), {});
+    CheckpointWriter(path, identity, subject, false).write(filmOf(1), {});
     fs::rename(path, path.string() + ".1");
     store(path, "damaged");
-    CheckpointWriter writer(path, identity, resume(path)->damage.empty());
+    CheckpointWriter writer(path, identity, subject, resume(path)->damage.empty());
     writer.write(filmOf(2), {});
     EXPECT_TRUE(hasSamples(resume(path), 2));
     fs::remove(path);
@@ -175,7 +178,7 @@ TEST_F(CheckpointTest, WhereBothAreDamagedBothReasonsAreTold) {
 }
 
 TEST_F(CheckpointTest, HugeSizesAreRefusedByTheSizeOfTheFile) {
-    CheckpointWriter(path, identity, false).write(filmOf(1), {});
+    CheckpointWriter(path, identity, subject, false).write(filmOf(1), {});
     const std::string whole = load(path);
     const auto refusalWith = [&](std::size_t offset, std::uint32_t word) {
         std::string bytes = whole;
@@ -183,15 +186,54 @@ TEST_F(CheckpointTest, HugeSizesAreRefusedByTheSizeOfTheFile) {
         store(path, bytes);
         return refusal();
     };
-    EXPECT_NE(refusalWith(0, 3).find("version 3"), std::string::npos);
+    EXPECT_NE(refusalWith(0, 2).find("version 2"), std::string::npos);
     for (const std::uint32_t word : {0u, 1u << 17, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu})
         for (const std::size_t offset : {4u, 8u, 12u, 16u, 20u})
             EXPECT_NE(refusalWith(offset, word).find("damaged"), std::string::npos) << word << ' ' << offset;
+    // The part, the samples that are wanted, layers, and bytes of the origin.
+    for (const std::uint32_t word : {2u, 1u << 17, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu})
+        for (const std::size_t offset : {64u, 68u, 72u, 76u, 80u, 84u})
+            EXPECT_NE(refusalWith(offset, word).find("damaged"), std::string::npos) << word << ' ' << offset;
+}
+
+TEST_F(CheckpointTest, APartHasItsOwnPixelsAndLayersOnly) {
+    const Crop crop{10, 60, 5, 45};
+    Film film(crop);
+    Film layer(crop);
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        film.pixels[i] = {glm::vec3(static_cast<float>(i)), 3, glm::vec3(0.5f), 0.0f};
+        layer.pixels[i] = {glm::vec3(-static_cast<float>(i)), 1, glm::vec3(0.0f), 0.0f};
+    }
+    const Partition partition(crop, 3);
+    for (std::uint32_t index = 1; index <= 3; ++index) {
+        const CheckpointSubject part{crop, {index, 3}, 4, "made here"};
+        const RayCounts rays{index, 2, 3, 4, 5};
+        fs::remove(path);
+        CheckpointWriter(path, identity, part, false).write(film, rays, std::array<const Film *, 1>{&layer});
+        const CheckpointFile file = readCheckpointFile(path);
+        EXPECT_EQ(file.part, part.part);
+        EXPECT_EQ(file.identity, "seed: 7\nsampler: sobol\n");
+        EXPECT_EQ(file.origin, "made here");
+        EXPECT_EQ(file.samplesPerPixel, 4u);
+        EXPECT_EQ(file.rays, rays);
+        EXPECT_EQ(file.pixels.size(), partition.pixelCountOf(index));
+        ASSERT_EQ(file.layers.size(), 1u);
+        EXPECT_EQ(file.layers[0][7].sum, -file.pixels[7].sum);
+        // What goes on has the pixels of others as finished.
+        const Checkpoint resumed = readCheckpoint(path, identity, part);
+        const std::vector<layout::FilmPixel> own = pixelsIn(film, partition.squaresOf(index));
+        const std::vector<layout::FilmPixel> there = pixelsIn(resumed.film, partition.squaresOf(index));
+        EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(own)), std::as_bytes(std::span(there))));
+        EXPECT_EQ(std::ranges::count(resumed.film.pixels, 4u, &layout::FilmPixel::sampleCount),
+                  std::ssize(film.pixels) - std::ssize(own));
+    }
+    EXPECT_THROW((void)readCheckpoint(path, identity, {crop, {2, 3}, 4, {}}), Error);
 }
 
 TEST_F(CheckpointTest, AnotherRendersIsRefusedWithBothValues) {
-    CheckpointWriter(path, identity, false).write(filmOf(3), {});
-    CheckpointWriter(path.string() + ".1", {{"seed", "8"}, {"sampler", "sobol"}}, false).write(filmOf(3), {});
+    CheckpointWriter(path, identity, subject, false).write(filmOf(3), {});
+    CheckpointWriter(path.string() + ".1", {{"seed", "8"}, {"sampler", "sobol"}}, subject, false)
+        .write(filmOf(3), {});
     EXPECT_NE(refusal({{"seed", "8"}, {"sampler", "sobol"}}).find("seed: 7 there, 8 here"), std::string::npos)
         << "and what fits is not looked for in the older one";
     EXPECT_NE(
@@ -204,7 +246,7 @@ TEST_F(CheckpointTest, AnotherRendersIsRefusedWithBothValues) {
 }
 
 TEST_F(CheckpointTest, WhereThereIsNoRoomThoseThatWereThereStay) {
-    CheckpointWriter writer(path, identity, false);
+    CheckpointWriter writer(path, identity, subject, false);
     writer.write(filmOf(1), {});
     writer.write(filmOf(2), {});
     rlimit before{};
@@ -225,7 +267,7 @@ TEST_F(CheckpointTest, WhereThereIsNoRoomThoseThatWereThereStay) {
 TEST_F(CheckpointTest, ALinkKeepsBothGenerationsBesideTheFileItself) {
     fs::create_directory(folder / "far");
     fs::create_symlink("far/real", path);
-    CheckpointWriter writer(path, identity, false);
+    CheckpointWriter writer(path, identity, subject, false);
     writer.write(filmOf(1), {});
     writer.write(filmOf(2), {});
     EXPECT_TRUE(fs::is_symlink(path));

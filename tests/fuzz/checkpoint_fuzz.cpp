@@ -23,7 +23,7 @@ void read(const TemporaryFolder &folder, std::string_view content) {
     std::size_t peakBytes = 0;
     const bool isRefused = refusalOf([&] {
                                const HeapPeak peak;
-                               resumed = resumeCheckpoint(file, identity, crop, samplesPerPixel);
+                               resumed = resumeCheckpoint(file, identity, {crop, {}, samplesPerPixel, {}});
                                peakBytes = peak.bytes();
                            }).has_value();
     if (isRefused)
@@ -40,7 +40,7 @@ void read(const TemporaryFolder &folder, std::string_view content) {
 
 /// With the hash that belongs to it, if it has a header.
 std::string repaired(std::string_view content) {
-    constexpr std::size_t headBytes = 19 + 64;
+    constexpr std::size_t headBytes = 19 + 88;
     std::string bytes(content);
     if (bytes.size() < headBytes + sizeof(std::uint64_t))
         return bytes;
@@ -51,6 +51,7 @@ std::string repaired(std::string_view content) {
         return bytes;
     std::uint64_t hash = hashBytes(all.first(headBytes));
     hash = hashBytes(all.subspan(headBytes, identityBytes), hash);
+    hash = hashBytes({}, hash); // no origin
     hash = hashBytes(all.subspan(headBytes + identityBytes), hash);
     std::memcpy(bytes.data() + all.size(), &hash, sizeof hash);
     return bytes;

@@ -1,0 +1,218 @@
+#include "host/base/message.h"
+#include "host/base/quantities.h"
+#include "host/cli/commands.h"
+#include "host/cli/options.h"
+#include "host/cli/render_request.h"
+#include "host/film/film_file.h"
+#include "host/render/audit.h"
+#include "host/render/identity.h"
+#include "host/render/merge.h"
+#include "host/report/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+namespace {
+
+struct MergeOptions {
+    std::vector<std::string> parts;
+    std::string output;
+    bool isPartial = false;
+    std::optional<ToneCurve> tone;
+    std::optional<double> auditPercent;
+    std::optional<std::uint32_t> auditSeed;
+    std::string device = "auto";
+    bool isQuiet = false;
+};
+
+constexpr std::size_t mostShown = 20; // of a list that may have thousands of lines
+
+/// The lines, indented; of many, the first.
+std::string listOf(const std::vector<std::string> &lines) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(lines.size(), mostShown); ++i)
+        text += fmt::format("\n  {}", lines[i]);
+    if (lines.size() > mostShown)
+        text += fmt::format("\n  ... and {} more", lines.size() - mostShown);
+    return text;
+}
+
+std::vector<std::string> commandsFor(const Merger &merger, const std::vector<std::uint32_t> &missing) {
+    std::vector<std::string> commands;
+    for (const std::uint32_t index : missing) {
+        commands.push_back(merger.commandFor(index));
+        if (commands.size() > mostShown) // more are only counted
+            break;
+    }
+    commands.resize(missing.size());
+    return commands;
+}
+
+/// Throws Error{BadInput} unless the parts make a picture, or a part of one if that is enough.
+void requireParts(const Merger &merger, const MergeOptions &options) {
+    const Merger::Faults &faults = merger.faults();
+    if (!merger.hasParts() || merger.partCount() == 0)
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("there is no part to merge:{}", listOf(faults.unusable)));
+    if (!faults.foreign.empty())
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("the parts are not of one picture:{}", listOf(faults.foreign)));
+    const std::vector<std::uint32_t> missing = merger.missing();
+    if (missing.empty())
+        return;
+    const std::string lack =
+        fmt::format("{} of {} parts are missing", missing.size(), merger.partition().partCount());
+    const std::string unusable =
+        faults.unusable.empty() ? "" : fmt::format("; of what is there:{}", listOf(faults.unusable));
+    if (options.isPartial)
+        printMessage("note: {}, and black in the picture{}\n", lack, unusable);
+    else
+        throw Error(
+            ErrorKind::BadInput,
+            fmt::format("{}{}\nthese commands make them, or go on with them:{}\n--partial makes a picture "
+                        "of what is there",
+                        lack, unusable, listOf(commandsFor(merger, missing))));
+}
+
+/// Whether all tiles that are drawn have the bits that this machine computes.
+bool passesAudit(const Merger &merger, const MergeOptions &options) {
+    RenderRequest request = readRenderRequest(merger.origin().words);
+    const auto backend = openBackend(options.device);
+    const PreparedScene scene = prepareScene(request.scene, Source::Dropped, options.isQuiet);
+    const std::string here = identityText(identityOf(scene, *backend, &merger.origin().layers));
+    if (here != merger.identity())
+        throw Error(
+            ErrorKind::BadInput,
+            fmt::format("--audit: what `{}` renders here is another picture than that of the parts: {}; "
+                        "on {} it ran in the folder {}",
+                        request.scene.scene, describeDifferences(merger.identity(), here),
+                        merger.origin().host, merger.origin().folder));
+    const std::uint64_t seed = options.auditSeed ? std::uint64_t{*options.auditSeed} : auditSeed(merger);
+    const AuditResult result =
+        audit(merger, *backend, scene, *options.auditPercent / 100.0, seed, options.isQuiet);
+    for (const AuditFinding &finding : result.findings)
+        fmt::print(
+            "part {} of {} has other pixels than this machine computes, {} of the tile at {},{}, first "
+            "{},{}: {}\n",
+            finding.part, merger.partition().partCount(), finding.differingPixels, finding.tile.x0,
+            finding.tile.y0, finding.x, finding.y, merger.describe(finding.part));
+    if (!options.isQuiet)
+        fmt::print("audit: {} of {} tiles, rendered again on {}, have other pixels\n", result.findings.size(),
+                   result.tileCount, backend->description());
+    return result.findings.empty();
+}
+
+/// The provenance of the first part, and who made how many.
+nlohmann::ordered_json provenanceOf(const Merger &merger, const std::string &commandLine) {
+    nlohmann::ordered_json provenance = merger.origin().provenance;
+    provenance["commandLine"] = commandLine;
+    provenance["parts"] = {{"count", merger.partition().partCount()}, {"merged", merger.partCount()}};
+    nlohmann::ordered_json &makers = provenance["parts"]["makers"];
+    makers = nlohmann::ordered_json::object();
+    for (const auto &[maker, count] : merger.makers())
+        makers[maker] = count;
+    return provenance;
+}
+
+void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger, const MergeOptions &options,
+                  const std::string &commandLine) {
+    const PartOrigin &origin = merger.origin();
+    const Film &film = merger.film();
+    const Image image = film.toImage();
+    Picture picture(image);
+    picture.wholeWidth = origin.wholeWidth;
+    picture.wholeHeight = origin.wholeHeight;
+    picture.crop = film.crop;
+    picture.layers = filmLayers(film);
+    std::ranges::move(viewLayers(merger.layers()), std::back_inserter(picture.layers));
+    picture.attributes = attributesOf(provenanceOf(merger, commandLine));
+    RenderSettings shown;
+    shown.integrator = origin.integrator;
+    shown.exposureStops = origin.exposureStops;
+    writeFilm(file, format, film, picture, shown, options.tone.value_or(ToneCurve::Gamma));
+    file.commit();
+}
+
+ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
+    const ImageFormat format = imageFormatOf(options.output);
+    if (options.auditSeed && !options.auditPercent)
+        throw Error(ErrorKind::Usage, "--audit-seed needs --audit PERCENT");
+    if (options.tone && format != ImageFormat::Png)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--tone is for .png files: --output is {}", options.output));
+    requireDistinctFiles({{"--output", options.output}}, options.parts);
+    AtomicFile file(options.output);
+    Merger merger;
+    {
+        ProgressLine progress("merge", options.isQuiet);
+        for (std::size_t i = 0; i < options.parts.size(); ++i) {
+            merger.add(options.parts[i]);
+            progress.update(static_cast<double>(i + 1) / static_cast<double>(options.parts.size()));
+        }
+    }
+    requireParts(merger, options);
+    const std::vector<std::string> &differences = merger.faults().differences;
+    for (const std::string &difference : differences)
+        fmt::print("{}\n", difference);
+    if (!differences.empty() || (options.auditPercent && !passesAudit(merger, options))) {
+        fmt::print("{} is not written\n", options.output);
+        return ExitCode::AnswerIsNo;
+    }
+    if (!merger.layers().empty() && format != ImageFormat::Exr)
+        printMessage("note: {} has no layers: those of the parts are for .exr files\n", options.output);
+    writePicture(file, format, merger, options, commandLine);
+    if (!options.isQuiet)
+        fmt::print("{}: {}x{}, {} spp, {} of {} parts, made by {}, {}\n", options.output,
+                   merger.film().crop.width(), merger.film().crop.height(), merger.samplesPerPixel(),
+                   merger.partCount(), merger.partition().partCount(),
+                   merger.makers().size() == 1 ? merger.makers().begin()->first
+                                               : fmt::format("{} makers", merger.makers().size()),
+                   roundedText(merger.rays().total(), "rays"));
+    return ExitCode::Ok;
+}
+
+} // namespace
+
+void addMergeCommand(CLI::App &app, CommandContext &context) {
+    CLI::App *command = app.add_subcommand("merge", "make a picture of its parts, from any machines");
+    const auto options = std::make_shared<MergeOptions>();
+    command->footer("`hyalite render --part I/N` makes parts. The picture has the bits of one render.");
+    command->add_option("PART", options->parts, "the .part files; two of one part are compared, bit for bit")
+        ->required();
+    command->add_option("-o,--output", options->output, "the picture: .png, .exr, .hdr or .pfm")
+        ->required()
+        ->type_name("FILE");
+    command->add_flag("--partial", options->isPartial, "merge what is there; missing parts are black");
+    command
+        ->add_option(
+            "--audit", CLI::callback_t([options](const CLI::results_t &words) {
+                const std::string &word = words.front();
+                const bool isMarked = !word.empty() && word.back() == '%';
+                options->auditPercent =
+                    readNumber("--audit", isMarked ? std::string_view(word).substr(0, word.size() - 1) : word,
+                               {0.0, 100.0, false});
+                return true;
+            }),
+            "render this share of all tiles again on this machine, compare them bit for bit, and name "
+            "the parts that differ; layers are not compared")
+        ->type_name("PERCENT");
+    addNumber(*command, "--audit-seed", options->auditSeed, {0.0, 4294967295.0},
+              "chooses the tiles to audit, in place of a hash of the picture");
+    command
+        ->add_option("--device", options->device,
+                     "for --audit: auto, cpu, an index or part of a name as `hyalite devices` lists them")
+        ->type_name("DEVICE")
+        ->capture_default_str();
+    addToneOption(*command, options->tone);
+    command->add_flag("--quiet", options->isQuiet, "print errors, and what differs, only");
+    command->callback([options, &context] { context.exitCode = runMerge(*options, context.commandLine); });
+}
+
+} // namespace hyalite

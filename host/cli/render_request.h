@@ -1,0 +1,19 @@
+// The command line of `hyalite render` as a request.
+#pragma once
+
+#include "host/render/render_job.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// Adds the arguments of `render`. `request` must outlive `command`.
+void addRenderOptions(CLI::App &command, RenderRequest &request);
+
+/// The request of a whole command line, the program first. Throws Error{BadInput} if it is none of `render`.
+[[nodiscard]] RenderRequest readRenderRequest(const std::vector<std::string> &words);
+
+} // namespace hyalite

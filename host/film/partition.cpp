@@ -1,0 +1,156 @@
+#include "host/film/partition.h"
+
+#include "host/scene/limits.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::uint64_t squaresWanted =
+    16; // of each part: with fewer, one costly object decides what a part costs
+
+struct Squares {
+    int side;
+    std::uint32_t columns;
+    std::uint32_t rows;
+
+    Squares(const Crop &crop, int squareSide)
+        : side(squareSide), columns(static_cast<std::uint32_t>((crop.width() + side - 1) / side)),
+          rows(static_cast<std::uint32_t>((crop.height() + side - 1) / side)) {}
+
+    [[nodiscard]] std::uint64_t count() const { return std::uint64_t{columns} * rows; }
+};
+
+/// The only part of a picture is all of it, in one piece.
+Squares divide(const Crop &crop, std::uint32_t partCount) {
+    if (partCount == 1)
+        return {crop, std::max(crop.width(), crop.height())};
+    int side = Partition::mostSide;
+    while (side > Partition::leastSide && Squares(crop, side).count() < squaresWanted * partCount)
+        side /= 2;
+    return {crop, side};
+}
+
+/// The bits of x, with a zero bit before each.
+std::uint64_t spread(std::uint32_t x) {
+    std::uint64_t bits = x;
+    bits = (bits | bits << 16) & 0x0000FFFF0000FFFFu;
+    bits = (bits | bits << 8) & 0x00FF00FF00FF00FFu;
+    bits = (bits | bits << 4) & 0x0F0F0F0F0F0F0F0Fu;
+    bits = (bits | bits << 2) & 0x3333333333333333u;
+    return (bits | bits << 1) & 0x5555555555555555u;
+}
+
+/// A sequence of numbers that is the same everywhere: SplitMix64. G. Steele, D. Lea, C. Flood, "Fast Splittable
+/// Pseudorandom Number Generators", OOPSLA 2014.
+class SplitMix {
+  public:
+    explicit SplitMix(std::uint64_t seed) : state_(seed) {}
+
+    /// In [0, bound).
+    std::uint64_t below(std::uint64_t bound) {
+        std::uint64_t z = state_ += 0x9E3779B97F4A7C15u;
+        z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
+        z = (z ^ z >> 27) * 0x94D049BB133111EBu;
+        return (z ^ z >> 31) % bound;
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+} // namespace
+
+std::uint32_t Partition::mostParts(const Crop &crop) {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        Squares(crop, leastSide).count(), static_cast<std::uint64_t>(limits::partCount.high)));
+}
+
+Partition::Partition(const Crop &crop, std::uint32_t partCount) {
+    assert(partCount >= 1 && partCount <= mostParts(crop));
+    const Squares squares = divide(crop, partCount);
+    // Along Morton's curve squares that follow one another are near. Of each run of `partCount` every part gets one, in an
+    // order that changes from run to run, so that no part has all squares of a column.
+    std::vector<std::pair<std::uint64_t, Crop>> curve;
+    curve.reserve(squares.count());
+    for (std::uint32_t row = 0; row < squares.rows; ++row)
+        for (std::uint32_t column = 0; column < squares.columns; ++column) {
+            const int x = crop.x0 + static_cast<int>(column) * squares.side;
+            const int y = crop.y0 + static_cast<int>(row) * squares.side;
+            curve.emplace_back(
+                spread(column) | spread(row) << 1,
+                Crop{x, std::min(x + squares.side, crop.x1), y, std::min(y + squares.side, crop.y1)});
+        }
+    std::ranges::sort(curve, {}, [](const auto &square) { return square.first; });
+    std::vector<std::uint32_t> order(partCount);
+    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::vector<Crop>> parts(partCount);
+    SplitMix random(partCount);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        const std::size_t at = i % partCount;
+        if (at == 0)
+            for (std::size_t j = partCount; j-- > 1;)
+                std::swap(order[j], order[random.below(j + 1)]);
+        parts[order[at]].push_back(curve[i].second);
+    }
+    begins_.push_back(0);
+    for (const std::vector<Crop> &part : parts) {
+        squares_.insert(squares_.end(), part.begin(), part.end());
+        begins_.push_back(squares_.size());
+    }
+}
+
+std::uint64_t Partition::pixelCountOf(std::uint32_t part) const {
+    std::uint64_t count = 0;
+    for (const Crop &square : squaresOf(part))
+        count += static_cast<std::uint64_t>(square.width()) * static_cast<std::uint64_t>(square.height());
+    return count;
+}
+
+namespace {
+
+/// Calls visit(row of the film in a square) for each, in order.
+template <class SomeFilm, class Visit>
+void visitRows(SomeFilm &film, std::span<const Crop> squares, const Visit &visit) {
+    const auto width = static_cast<std::size_t>(film.crop.width());
+    for (const Crop &square : squares)
+        for (int y = square.y0; y < square.y1; ++y) {
+            const std::size_t begin = static_cast<std::size_t>(y - film.crop.y0) * width +
+                                      static_cast<std::size_t>(square.x0 - film.crop.x0);
+            visit(std::span(film.pixels).subspan(begin, static_cast<std::size_t>(square.width())));
+        }
+}
+
+} // namespace
+
+std::vector<layout::FilmPixel> pixelsIn(const Film &film, std::span<const Crop> squares) {
+    std::vector<layout::FilmPixel> pixels;
+    visitRows(film, squares, [&](std::span<const layout::FilmPixel> row) {
+        pixels.insert(pixels.end(), row.begin(), row.end());
+    });
+    return pixels;
+}
+
+void setPixelsIn(Film &film, std::span<const Crop> squares, std::span<const layout::FilmPixel> pixels) {
+    visitRows(film, squares, [&](std::span<layout::FilmPixel> row) {
+        std::ranges::copy(pixels.first(row.size()), row.begin());
+        pixels = pixels.subspan(row.size());
+    });
+    assert(pixels.empty());
+}
+
+Film filmOfSquares(const Crop &crop, std::span<const Crop> squares, std::uint32_t sampleCount) {
+    Film film(crop);
+    for (layout::FilmPixel &pixel : film.pixels)
+        pixel.sampleCount = sampleCount;
+    visitRows(film, squares,
+              [](std::span<layout::FilmPixel> row) { std::ranges::fill(row, layout::FilmPixel{}); });
+    return film;
+}
+
+} // namespace hyalite

@@ -1,0 +1,56 @@
+// The partition of a picture into parts, so that each can be rendered by itself and on any machine: squares of pixels,
+// scattered so that parts have as many of them and cost alike. It depends on the crop and the number of parts alone.
+#pragma once
+
+#include "host/film/film.h"
+#include "host/image/crop.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyalite {
+
+/// Part `index` of `count`, counted from 1.
+struct Part {
+    std::uint32_t index = 1;
+    std::uint32_t count = 1;
+
+    [[nodiscard]] bool operator==(const Part &) const = default;
+};
+
+class Partition {
+  public:
+    static constexpr int leastSide = 8; // as many pixels as a workgroup has slots
+    static constexpr int mostSide = 64;
+
+    /// The most parts that a crop can be divided into, 65536 at most: each has a square, of 8x8 pixels but for those at
+    /// the edges.
+    [[nodiscard]] static std::uint32_t mostParts(const Crop &crop);
+
+    /// 1 <= partCount <= mostParts(crop). The only part of one is all of the crop, as one square.
+    Partition(const Crop &crop, std::uint32_t partCount);
+
+    [[nodiscard]] std::uint32_t partCount() const { return static_cast<std::uint32_t>(begins_.size() - 1); }
+
+    /// The squares of a part, 1 <= part <= partCount(), inside the crop; those at its right and lower edges are cut.
+    [[nodiscard]] std::span<const Crop> squaresOf(std::uint32_t part) const {
+        return std::span(squares_).subspan(begins_[part - 1], begins_[part] - begins_[part - 1]);
+    }
+    [[nodiscard]] std::uint64_t pixelCountOf(std::uint32_t part) const;
+
+  private:
+    std::vector<Crop> squares_;       // part by part
+    std::vector<std::size_t> begins_; // of each part, and the end
+};
+
+/// The film's pixels in the squares: those of each in their order, row by row.
+[[nodiscard]] std::vector<layout::FilmPixel> pixelsIn(const Film &film, std::span<const Crop> squares);
+
+/// The opposite: gives the film these pixels, as many as the squares have.
+void setPixelsIn(Film &film, std::span<const Crop> squares, std::span<const layout::FilmPixel> pixels);
+
+/// A film in which pixels outside of the squares have `sampleCount` samples already: a render leaves them alone.
+[[nodiscard]] Film filmOfSquares(const Crop &crop, std::span<const Crop> squares, std::uint32_t sampleCount);
+
+} // namespace hyalite

@@ -1,0 +1,129 @@
+#include "host/render/part_origin.h"
+
+#include "host/base/clean_text.h"
+#include "host/base/error.h"
+#include "host/base/shell.h"
+#include "host/scene/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include <unistd.h>
+
+namespace hyalite {
+
+namespace {
+
+/// The name of a file for another part: its own number, where the name has it, becomes that of the other one.
+std::string fileFor(const std::string &file, const Part &own, const Part &part) {
+    const std::filesystem::path path(file);
+    std::string stem = path.stem().string();
+    const std::string from = fmt::format("{}", own.index);
+    for (std::size_t at = stem.rfind(from); at != std::string::npos && !stem.empty();
+         at = at == 0 ? std::string::npos : stem.rfind(from, at - 1)) {
+        const auto isDigit = [&](std::size_t i) {
+            return i < stem.size() && stem[i] >= '0' && stem[i] <= '9';
+        };
+        std::size_t begin = at; // with zeros in front
+        while (begin > 0 && stem[begin - 1] == '0')
+            --begin;
+        if (isDigit(at + from.size()) || (begin > 0 && isDigit(begin - 1)))
+            continue;
+        const std::size_t width = at + from.size() - begin;
+        stem.replace(begin, width, fmt::format("{:0{}}", part.index, begin < at ? width : 1));
+        return (path.parent_path() / (stem + path.extension().string())).string();
+    }
+    return (path.parent_path() / fmt::format("{}-{}{}", stem, part.index, path.extension().string()))
+        .string();
+}
+
+/// Replaces the value of an option, which follows it or stands in its word behind an equals sign.
+template <class Replace>
+void replaceValue(std::vector<std::string> &words, std::string_view option, const Replace &replace) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] == option && i + 1 < words.size())
+            words[i + 1] = replace(words[i + 1]);
+        else if (words[i].starts_with(std::string(option) + "="))
+            words[i] = fmt::format("{}={}", option, replace(words[i].substr(option.size() + 1)));
+        else if (option.size() == 2 && words[i].starts_with(option) && words[i].size() > 2) // -oFILE
+            words[i] = fmt::format("{}{}", option, replace(words[i].substr(2)));
+    }
+}
+
+} // namespace
+
+std::string PartOrigin::maker() const {
+    const auto text = [&](const char *key) {
+        const auto device = provenance.find("device");
+        return device != provenance.end() && device->is_object() && device->contains(key) &&
+                       device->at(key).is_string()
+                   ? excerpt(device->at(key).get<std::string>(), 80)
+                   : std::string();
+    };
+    const std::string driver = text("driver");
+    return fmt::format("{} ({}{}{})", excerpt(host, 80), text("name"), driver.empty() ? "" : ", ", driver);
+}
+
+std::string PartOrigin::commandFor(const Part &own, const Part &part) const {
+    std::vector<std::string> again = words;
+    replaceValue(again, "--part",
+                 [&](const std::string &) { return fmt::format("{}/{}", part.index, part.count); });
+    for (const std::string_view option : {"-o", "--output"})
+        replaceValue(again, option, [&](const std::string &file) { return fileFor(file, own, part); });
+    std::vector<const char *> pointers;
+    for (const std::string &word : again)
+        pointers.push_back(word.c_str());
+    return shellLine(pointers);
+}
+
+std::string hostName() {
+    std::array<char, 256> name{};
+    return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown host";
+}
+
+std::string toText(const PartOrigin &origin) {
+    nlohmann::ordered_json json{{"host", origin.host},
+                                {"folder", origin.folder},
+                                {"words", origin.words},
+                                {"wholeWidth", origin.wholeWidth},
+                                {"wholeHeight", origin.wholeHeight},
+                                {"layers", nlohmann::ordered_json::array()},
+                                {"provenance", origin.provenance}};
+    for (const Integrator layer : origin.layers)
+        json["layers"].push_back(nameOf(layer));
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+PartOrigin readPartOrigin(std::string_view text) {
+    try {
+        const nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+        PartOrigin origin;
+        origin.host = json.at("host").get<std::string>();
+        origin.folder = json.at("folder").get<std::string>();
+        origin.words = json.at("words").get<std::vector<std::string>>();
+        origin.wholeWidth = json.at("wholeWidth").get<int>();
+        origin.wholeHeight = json.at("wholeHeight").get<int>();
+        origin.provenance = json.at("provenance");
+        const auto integratorOf = [](const nlohmann::ordered_json &word) {
+            const auto named = std::ranges::find(integratorNames, word.get<std::string>(),
+                                                 [](const auto &name) { return std::string(name.first); });
+            if (named == integratorNames.end())
+                throw Error(ErrorKind::BadInput, fmt::format("there is no integrator {}", word.dump()));
+            return named->second;
+        };
+        for (const nlohmann::ordered_json &word : json.at("layers"))
+            origin.layers.push_back(integratorOf(word));
+        const nlohmann::ordered_json &settings = origin.provenance.at("settings");
+        origin.integrator = integratorOf(settings.at("integrator"));
+        origin.exposureStops = settings.at("exposure").get<double>();
+        return origin;
+    } catch (const nlohmann::json::exception &error) {
+        throw Error(ErrorKind::BadInput, fmt::format("it does not say how it was made: {}", error.what()));
+    }
+}
+
+} // namespace hyalite

@@ -1,0 +1,43 @@
+// Origin of a part: who made it, and how it is made again.
+#pragma once
+
+#include "host/film/partition.h"
+#include "host/scene/scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyalite {
+
+struct PartOrigin {
+    std::string host;               ///< name of the machine
+    std::string folder;             ///< in which the command ran
+    std::vector<std::string> words; ///< of the command line, the program first
+    int wholeWidth = 0;             ///< of the picture that the crop is of, in pixels
+    int wholeHeight = 0;
+    std::vector<Integrator> layers;
+    nlohmann::ordered_json provenance; ///< of the render, with its device
+
+    // Read from the provenance.
+    Integrator integrator = Integrator::Whitted;
+    double exposureStops = 0.0;
+
+    /// "node7 (llvmpipe, Mesa 22.3.6)".
+    [[nodiscard]] std::string maker() const;
+
+    /// The command that renders `part` in place of the own one, into a file that is named alike; quoted for a shell.
+    [[nodiscard]] std::string commandFor(const Part &own, const Part &part) const;
+};
+
+[[nodiscard]] std::string hostName();
+
+/// JSON.
+[[nodiscard]] std::string toText(const PartOrigin &origin);
+
+/// The opposite of toText. Throws Error{BadInput} for other text.
+[[nodiscard]] PartOrigin readPartOrigin(std::string_view text);
+
+} // namespace hyalite
