@@ -4,6 +4,7 @@
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
 #   cmake/run.sh test                builds and runs all tests
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
+#   cmake/run.sh test-farm           one picture by several processes, as the templates of assets/farm do it
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it,
 #                                    --driver=mesa or --driver=swiftshader also images by drivers that it fetches
@@ -23,6 +24,7 @@ needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-t
         libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
         zlib1g-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
+needed_for_farm=(parallel)
 needed_for_bench=(libbenchmark-dev libembree-dev)
 needed_for_check=(clang-format-14 clang-tidy-14 libomp-14-dev)
 needed_for_fuzz=(clang-14 libclang-rt-14-dev libomp-14-dev)
@@ -139,6 +141,11 @@ test-drivers)
     install_for_tests
     build_all ON
     exec "$root/tests/drivers/run.sh" "$build"
+    ;;
+test-farm)
+    install_missing "${needed_for_farm[@]}"
+    build_all "$(tests_as_before)"
+    exec "$root/tests/farm/run.sh" "$build"
     ;;
 build)
     build_all "$(tests_as_before)"

@@ -26,10 +26,10 @@ class SnapshotTaker {
 };
 
 struct Continuation {
-    std::optional<Film> film; ///< of the same crop; samples are added to it. Empty: start with none
-    double shareOfOthers =
-        0.0; ///< of the film's pixels, in [0, 1): others render them, and they count as finished
+    std::optional<Film> film;           ///< of the same crop; samples are added to it. Empty: start with none
     SnapshotTaker *snapshots = nullptr; ///< if not null, it outlives the render
+    /// Of the film's pixels, in [0, 1): they have all samples already, as others render them.
+    double shareOfOthers = 0.0;
 };
 
 } // namespace hyalite

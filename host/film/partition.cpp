@@ -128,6 +128,11 @@ void visitRows(SomeFilm &film, std::span<const Crop> squares, const Visit &visit
 
 } // namespace
 
+void visitRowsIn(const Film &film, std::span<const Crop> squares,
+                 const std::function<void(std::span<const layout::FilmPixel>)> &visit) {
+    visitRows(film, squares, visit);
+}
+
 std::vector<layout::FilmPixel> pixelsIn(const Film &film, std::span<const Crop> squares) {
     std::vector<layout::FilmPixel> pixels;
     visitRows(film, squares, [&](std::span<const layout::FilmPixel> row) {

@@ -6,6 +6,7 @@
 #include "host/image/crop.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,10 @@ class Partition {
     std::vector<Crop> squares_;       // part by part
     std::vector<std::size_t> begins_; // of each part, and the end
 };
+
+/// Calls visit(pixels) for each row of the film in each of the squares, in their order.
+void visitRowsIn(const Film &film, std::span<const Crop> squares,
+                 const std::function<void(std::span<const layout::FilmPixel>)> &visit);
 
 /// The film's pixels in the squares: those of each in their order, row by row.
 [[nodiscard]] std::vector<layout::FilmPixel> pixelsIn(const Film &film, std::span<const Crop> squares);

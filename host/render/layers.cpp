@@ -52,8 +52,9 @@ std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
         Film film(scene.crop);
         if (!shouldStop()) {
             Continuation continuation;
-            continuation.film =
-                filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
+            if (!squares.empty())
+                continuation.film =
+                    filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
             BackendResult result = renderWithProgress(backend, scene, std::string(nameOf(view)), isQuiet,
                                                       nullptr, shouldStop, std::move(continuation));
             if (result.failure)

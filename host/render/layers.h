@@ -20,8 +20,8 @@ inline constexpr std::array<Integrator, 4> layerViews{Integrator::Albedo, Integr
                                                       Integrator::Depth, Integrator::Id};
 
 /// Renders the views of `scene`, and restores its settings. Albedo uses the samples of the image; the others use pixel
-/// centres, because a mean of depths or normals belongs to no surface. Pixels outside of the squares stay black. When
-/// `shouldStop` returns true, the rest gets no samples.
+/// centres, because a mean of depths or normals belongs to no surface. Pixels outside of the squares stay black; empty: there
+/// are none. When `shouldStop` returns true, the rest gets no samples.
 [[nodiscard]] std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
                                                 const std::vector<Integrator> &views,
                                                 std::span<const Crop> squares, bool isQuiet,

@@ -166,8 +166,9 @@ std::vector<PeriodicFile> RenderJob::periodicFiles() {
 void RenderJob::renderLayers() {
     snapshots_.emplace(scene_->crop, periodicFiles());
     renderStart_ = Clock::now();
-    layers_ = renderViews(*backend_, *scene_, request_.layers, squares(), request_.isQuiet,
-                          [this] { return shouldStop(); });
+    layers_ =
+        renderViews(*backend_, *scene_, request_.layers, request_.part ? squares() : std::span<const Crop>(),
+                    request_.isQuiet, [this] { return shouldStop(); });
 }
 
 void RenderJob::render() {

@@ -16,11 +16,13 @@ nlohmann::ordered_json raysToJson(const RayCounts &rays) {
 
 FinishedWork finishedWork(const Film &film, std::span<const Crop> squares, int samplesPerPixel) {
     FinishedWork finished;
-    for (const layout::FilmPixel &pixel : pixelsIn(film, squares)) {
-        ++finished.wantedPixelCount;
-        finished.pixelCount += pixel.sampleCount == static_cast<std::uint32_t>(samplesPerPixel);
-        finished.sampleCount += pixel.sampleCount;
-    }
+    visitRowsIn(film, squares, [&](std::span<const layout::FilmPixel> row) {
+        finished.wantedPixelCount += row.size();
+        for (const layout::FilmPixel &pixel : row) {
+            finished.pixelCount += pixel.sampleCount == static_cast<std::uint32_t>(samplesPerPixel);
+            finished.sampleCount += pixel.sampleCount;
+        }
+    });
     finished.isComplete = finished.pixelCount == finished.wantedPixelCount;
     return finished;
 }
