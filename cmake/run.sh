@@ -102,7 +102,8 @@ build_all() {
 # compiled, many as one.
 check_by_clang_tidy() {
     sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$build/compile_commands.json" |
-        grep -E "^($build/host|$build/CMakeFiles|$root/host|$root/cmake)/" | sort -u | xargs ls -S |
+        grep -F -e "$build/host/" -e "$build/CMakeFiles/" -e "$root/host/" -e "$root/cmake/" | sort -u |
+        xargs -r -d '\n' ls -S | # the longest first
         xargs -P "$(nproc)" -I UNIT clang-tidy-14 --quiet --config-file="$root/.clang-tidy" UNIT -- -std=c++20 -fopenmp \
             -DHYALITE_VERSION='"0"' -I"$root" -I"$build/kernels" -isystem /usr/include/Imath 2>&1 |
         sed '/warnings\{0,1\} generated\.$/d'

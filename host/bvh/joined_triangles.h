@@ -23,6 +23,6 @@ using JoinedItems = std::vector<bool>;
 /// `items` begins with triangles of `meshes`, by increasing index; other items may follow. Of each pair the first stays,
 /// with the box around both and the middle of it as its centroid; the second is removed.
 [[nodiscard]] JoinedItems joinTriangles(std::span<const TriangleMesh> meshes,
-                                            std::vector<BuildTriangle> &items);
+                                        std::vector<BuildTriangle> &items);
 
 } // namespace hyalite

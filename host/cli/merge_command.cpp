@@ -4,6 +4,7 @@
 #include "host/cli/options.h"
 #include "host/cli/render_request.h"
 #include "host/film/film_file.h"
+#include "host/image/png.h"
 #include "host/render/audit.h"
 #include "host/render/identity.h"
 #include "host/render/merge.h"
@@ -56,8 +57,10 @@ std::vector<std::string> commandsFor(const Merger &merger, const std::vector<std
 }
 
 /// Throws Error{BadInput} unless the parts make a picture, or a part of one if that is enough.
-void requireParts(const Merger &merger, const MergeOptions &options) {
+void requireParts(const Merger &merger, ImageFormat format, const MergeOptions &options) {
     const Merger::Faults &faults = merger.faults();
+    if (format == ImageFormat::Png && merger.hasParts())
+        requirePngSize(options.output, merger.film().crop.width(), merger.film().crop.height());
     if (!merger.hasParts() || merger.partCount() == 0)
         throw Error(ErrorKind::BadInput,
                     fmt::format("there is no part to merge:{}", listOf(faults.unusable)));
@@ -84,10 +87,22 @@ void requireParts(const Merger &merger, const MergeOptions &options) {
 /// Whether all tiles that are drawn have the bits that this machine computes.
 bool passesAudit(const Merger &merger, const MergeOptions &options) {
     RenderRequest request = readRenderRequest(merger.origin().words);
+    request.scene.load.allowedPaths.clear(); // what a file says opens no files beside the scene's
     const auto backend = openBackend(options.device);
-    const PreparedScene scene = prepareScene(request.scene, Source::Dropped, options.isQuiet);
+    if (const gpu::BitGuarantee bits = backend->bits(); bits.degree == gpu::BitDegree::None)
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("--audit: {} does not promise the bits of other devices ({}), so that it cannot "
+                        "judge them; --device cpu can",
+                        backend->description(), bits.reason));
+    PreparedScene scene = prepareScene(request.scene, Source::Dropped, options.isQuiet);
+    scene.loaded.scene.settings.samplesPerPixel = static_cast<int>(merger.samplesPerPixel());
+    requireFilmMemory(scene.crop, 3);
     const std::string here = identityText(identityOf(scene, *backend, &merger.origin().layers));
-    if (here != merger.identity())
+    const Crop &crop = merger.film().crop;
+    const bool isSameCrop = scene.crop.x0 == crop.x0 && scene.crop.x1 == crop.x1 &&
+                            scene.crop.y0 == crop.y0 && scene.crop.y1 == crop.y1;
+    if (here != merger.identity() || !isSameCrop)
         throw Error(
             ErrorKind::BadInput,
             fmt::format("--audit: what `{}` renders here is another picture than that of the parts: {}; "
@@ -157,7 +172,7 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
             progress.update(static_cast<double>(i + 1) / static_cast<double>(options.parts.size()));
         }
     }
-    requireParts(merger, options);
+    requireParts(merger, format, options);
     const std::vector<std::string> &differences = merger.faults().differences;
     for (const std::string &difference : differences)
         fmt::print("{}\n", difference);

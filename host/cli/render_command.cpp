@@ -94,9 +94,11 @@ void tellDevice(const Backend &device) {
 /// The checkpoint that the render resumes from.
 void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request) {
     const RenderReport &report = job.report();
-    if (!job.checkpointDamage().empty())
+    if (!job.checkpointDamage().empty() && report.resumed)
         printMessage("note: {}; resuming from the older {}\n", job.checkpointDamage(),
                      report.resumed->checkpoint);
+    else if (!job.checkpointDamage().empty())
+        printMessage("note: {}; starting from the beginning\n", job.checkpointDamage());
     if (request.isQuiet || !(request.isResuming || (request.part && report.resumed)))
         return;
     if (report.resumed)
@@ -257,7 +259,7 @@ RenderRequest readRenderRequest(const std::vector<std::string> &words) {
         arguments.push_back(words[i]);
     try {
         app.parse(arguments);
-    } catch (const CLI::Error &error) {
+    } catch (const std::runtime_error &error) { // CLI::Error, or Error for a value
         throw Error(ErrorKind::BadInput, fmt::format("cannot read a part's command line: {}", error.what()));
     }
     request.words = words;

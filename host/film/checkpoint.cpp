@@ -113,7 +113,8 @@ class Reader {
         constexpr std::int32_t maxSide = 1 << 20;
         const std::int64_t width = std::int64_t{header.x1} - header.x0;
         const std::int64_t height = std::int64_t{header.y1} - header.y0;
-        if (width < 1 || height < 1 || width > maxSide || height > maxSide)
+        if (header.x0 < 0 || header.y0 < 0 || width < 1 || height < 1 || header.x1 > maxSide ||
+            header.y1 > maxSide)
             throw file_.bad(fmt::format("it is damaged: its image would have {} x {} pixels", width, height));
         for (const std::uint32_t bytes : {header.identityBytes, header.originBytes})
             if (bytes > maxTextBytes)
@@ -169,7 +170,9 @@ std::string identityText(const RenderIdentity &identity) {
 
 std::string describeDifferences(std::string_view there, std::string_view here) {
     std::string differences;
-    for (std::string_view rest = here; !rest.empty();) {
+    constexpr int most = 64; // lines that are looked at: a made-up file may have thousands
+    int count = 0;
+    for (std::string_view rest = here; !rest.empty() && count < most; ++count) {
         const std::string_view line = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(line.size() + 1, rest.size()));
         const std::string_view name = line.substr(0, line.find(':'));
@@ -190,6 +193,12 @@ CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, RenderIden
                                    CheckpointSubject subject, bool isNewestWhole)
     : path_(followLinks(path)), identity_(identityText(identity)), subject_(std::move(subject)),
       partition_(subject_.crop, subject_.part.count), isNewestWhole_(isNewestWhole) {
+    if (identity_.size() > maxTextBytes || subject_.origin.size() > maxTextBytes)
+        throw Error(
+            ErrorKind::LimitExceeded,
+            fmt::format("cannot write '{}': what it says of the render takes {} bytes, and at most {} "
+                        "are allowed: the command line is too long",
+                        path_.string(), std::max(identity_.size(), subject_.origin.size()), maxTextBytes));
     requireWritableCheckpoint(path_);
 }
 
@@ -278,7 +287,7 @@ Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentit
     if (maxSamples > subject.samplesPerPixel)
         throw other(
             fmt::format("samples per pixel: up to {} there, {} here", maxSamples, subject.samplesPerPixel));
-    Checkpoint checkpoint{Film(Crop{}), file.rays};
+    Checkpoint checkpoint{Film(Crop{}), {}, file.rays};
     if (file.part.count == 1) {
         checkpoint.film.crop = file.crop;
         checkpoint.film.pixels = std::move(file.pixels);
@@ -287,6 +296,10 @@ Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentit
         const std::span<const Crop> squares = partition.squaresOf(file.part.index);
         checkpoint.film = filmOfSquares(file.crop, squares, subject.samplesPerPixel);
         setPixelsIn(checkpoint.film, squares, file.pixels);
+        for (const std::vector<layout::FilmPixel> &pixels : file.layers) {
+            checkpoint.layers.push_back(filmOfSquares(file.crop, squares, subject.samplesPerPixel));
+            setPixelsIn(checkpoint.layers.back(), squares, pixels);
+        }
     }
     return checkpoint;
 }

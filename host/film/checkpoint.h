@@ -49,8 +49,9 @@ struct CheckpointFile {
 };
 
 struct Checkpoint {
-    Film film;      ///< pixels outside of the part have the samples that are wanted, and no colour
-    RayCounts rays; ///< traced for the film; a device may have started samples that are not in it
+    Film film;                ///< pixels outside of the part have the samples that are wanted, and no colour
+    std::vector<Film> layers; ///< of a part, likewise
+    RayCounts rays;           ///< traced for the film; a device may have started samples that are not in it
 };
 
 /// What belongs to a render, beside its identity, for all generations of its checkpoint.
@@ -89,8 +90,9 @@ class CheckpointWriter {
     bool isNewestWhole_;
 };
 
-/// Reads one generation; memory is in proportion to the size of the file. Throws Error{BadInput}, naming the file, if
-/// it cannot be read, is not a checkpoint, has another version or is damaged.
+/// Reads one generation; memory is in proportion to the size of the file, but for some 100 MB at most where it claims to
+/// be of very many parts. Throws Error{BadInput}, naming the file, if it cannot be read, is not a checkpoint, has another
+/// version or is damaged.
 [[nodiscard]] CheckpointFile readCheckpointFile(const std::filesystem::path &path);
 
 /// The same, for a render that goes on. Throws Error{BadInput} likewise; and, with the difference and both values, if

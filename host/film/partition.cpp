@@ -128,6 +128,13 @@ void visitRows(SomeFilm &film, std::span<const Crop> squares, const Visit &visit
 
 } // namespace
 
+double shareOutside(const Crop &crop, std::span<const Crop> squares) {
+    double own = 0.0;
+    for (const Crop &square : squares)
+        own += static_cast<double>(square.width()) * square.height();
+    return 1.0 - own / (static_cast<double>(crop.width()) * crop.height());
+}
+
 void visitRowsIn(const Film &film, std::span<const Crop> squares,
                  const std::function<void(std::span<const layout::FilmPixel>)> &visit) {
     visitRows(film, squares, visit);

@@ -45,6 +45,9 @@ class Partition {
     std::vector<std::size_t> begins_; // of each part, and the end
 };
 
+/// The share of the crop's pixels, in [0, 1), that is in none of the squares.
+[[nodiscard]] double shareOutside(const Crop &crop, std::span<const Crop> squares);
+
 /// Calls visit(pixels) for each row of the film in each of the squares, in their order.
 void visitRowsIn(const Film &film, std::span<const Crop> squares,
                  const std::function<void(std::span<const layout::FilmPixel>)> &visit);

@@ -24,6 +24,10 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
         const nlohmann::ordered_json value = settingToJson(setting, scene.loaded.scene.settings);
         identity.emplace_back(setting.key, value.is_string() ? value.get<std::string>() : value.dump());
     }
+    const RenderSettings &settings = scene.loaded.scene.settings;
+    if (settings.integrator == Integrator::Cost) // a picture of the tree
+        identity.emplace_back("tree",
+                              fmt::format("{}, leaf size {}", nameOf(settings.tree), settings.leafSize));
     if (layers != nullptr) {
         std::vector<std::string_view> names;
         for (const Integrator layer : *layers)

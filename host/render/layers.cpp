@@ -1,6 +1,7 @@
 #include "host/render/layers.h"
 
 #include "host/film/partition.h"
+#include "host/report/render_report.h"
 
 #include "host/scene/names.h"
 
@@ -37,24 +38,38 @@ Layer layerOf(const ViewFilm &of) {
 
 } // namespace
 
+int samplesOfView(Integrator view, int samplesPerPixel) {
+    return view == Integrator::Albedo ? samplesPerPixel : 1;
+}
+
 std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
                                   const std::vector<Integrator> &views, std::span<const Crop> squares,
-                                  bool isQuiet, const std::function<bool()> &shouldStop) {
+                                  std::span<const Film> begun, bool isQuiet,
+                                  const std::function<bool()> &shouldStop) {
     RenderSettings &settings = scene.loaded.scene.settings;
     const RenderSettings ofImage = settings;
     std::vector<ViewFilm> films;
     for (const Integrator view : views) {
         settings.integrator = view;
-        if (view != Integrator::Albedo) {
-            settings.samplesPerPixel = 1;
+        settings.samplesPerPixel = samplesOfView(view, ofImage.samplesPerPixel);
+        if (view != Integrator::Albedo)
             settings.sampler = SamplerKind::Centre;
+        Continuation continuation;
+        if (!squares.empty()) {
+            continuation.film =
+                filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
+            if (films.size() < begun.size())
+                setPixelsIn(*continuation.film, squares, pixelsIn(begun[films.size()], squares));
+            continuation.shareOfOthers = shareOutside(scene.crop, squares);
         }
+        const bool isFinished =
+            continuation.film &&
+            finishedWork(*continuation.film, squares, settings.samplesPerPixel).isComplete;
         Film film(scene.crop);
-        if (!shouldStop()) {
-            Continuation continuation;
-            if (!squares.empty())
-                continuation.film =
-                    filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
+        if (isFinished || shouldStop()) {
+            if (continuation.film)
+                film = std::move(*continuation.film);
+        } else {
             BackendResult result = renderWithProgress(backend, scene, std::string(nameOf(view)), isQuiet,
                                                       nullptr, shouldStop, std::move(continuation));
             if (result.failure)

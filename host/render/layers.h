@@ -19,13 +19,17 @@ struct ViewFilm {
 inline constexpr std::array<Integrator, 4> layerViews{Integrator::Albedo, Integrator::Normal,
                                                       Integrator::Depth, Integrator::Id};
 
-/// Renders the views of `scene`, and restores its settings. Albedo uses the samples of the image; the others use pixel
-/// centres, because a mean of depths or normals belongs to no surface. Pixels outside of the squares stay black; empty: there
-/// are none. When `shouldStop` returns true, the rest gets no samples.
+/// The samples of a view for each pixel: those of the image for albedo, and pixel centres for the others, because a mean of
+/// depths or normals belongs to no surface.
+[[nodiscard]] int samplesOfView(Integrator view, int samplesPerPixel);
+
+/// Renders the views of `scene`, and restores its settings. Pixels outside of the squares stay black; empty: there are
+/// none. `begun` are films of the first views that have some samples, as of a render that was stopped. When `shouldStop`
+/// returns true, the rest gets no samples.
 [[nodiscard]] std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
                                                 const std::vector<Integrator> &views,
-                                                std::span<const Crop> squares, bool isQuiet,
-                                                const std::function<bool()> &shouldStop);
+                                                std::span<const Crop> squares, std::span<const Film> begun,
+                                                bool isQuiet, const std::function<bool()> &shouldStop);
 
 /// "albedo" RGB, "normal" XYZ of unit length, "depth" and "id" RGB, for the films that exist; all 0 where a ray leaves
 /// the scene. `films` must outlive the layers.

@@ -43,6 +43,22 @@ Place placeOf(std::span<const Crop> squares, std::size_t index) {
     return {};
 }
 
+/// Pixels of the part that lack samples of the picture or of a layer.
+std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origin) {
+    const auto samplesOfLayer = [&](std::size_t layer) {
+        return static_cast<std::uint32_t>(
+            samplesOfView(origin.layers[layer], static_cast<int>(file.samplesPerPixel)));
+    };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < file.pixels.size(); ++i) {
+        bool isFinished = file.pixels[i].sampleCount == file.samplesPerPixel;
+        for (std::size_t layer = 0; layer < file.layers.size(); ++layer)
+            isFinished = isFinished && file.layers[layer][i].sampleCount == samplesOfLayer(layer);
+        count += !isFinished;
+    }
+    return count;
+}
+
 } // namespace
 
 void Merger::add(const std::filesystem::path &path) {
@@ -51,32 +67,35 @@ void Merger::add(const std::filesystem::path &path) {
         PartOrigin origin;
         try {
             origin = readPartOrigin(file.origin);
+            if (origin.layers.size() != file.layers.size())
+                throw Error(ErrorKind::BadInput, fmt::format("it has {} layers and says that they are {}",
+                                                             file.layers.size(), origin.layers.size()));
+            if (origin.wholeWidth < file.crop.x1 || origin.wholeHeight < file.crop.y1)
+                throw Error(ErrorKind::BadInput, "its crop is larger than its picture");
         } catch (const Error &error) {
             throw Error(error.kind, fmt::format("cannot use part '{}': {}", path.string(), error.what()));
         }
         take(file, origin);
     } catch (const Error &error) {
-        if (error.kind != ErrorKind::BadInput)
-            throw;
-        faults_.unusable.emplace_back(error.what());
+        if (error.kind == ErrorKind::LimitExceeded)
+            faults_.unusable.push_back(fmt::format("'{}': {}", path.string(), error.what()));
+        else
+            faults_.unusable.emplace_back(error.what());
     }
 }
 
 void Merger::take(const CheckpointFile &file, const PartOrigin &origin) {
     const std::string path = file.path.string();
+    if (const std::size_t unfinished = unfinishedPixels(file, origin); unfinished > 0) {
+        faults_.unusable.push_back(fmt::format("'{}' is not finished: {} of its {} pixels lack samples", path,
+                                               unfinished, file.pixels.size()));
+        return;
+    }
     if (!subject_)
         begin(file, origin);
     if (const std::string difference = foreignness(file); !difference.empty()) {
         faults_.foreign.push_back(
             fmt::format("'{}' belongs to another picture than '{}': {}", path, firstPath_, difference));
-        return;
-    }
-    const auto unfinished = std::ranges::count_if(file.pixels, [&](const layout::FilmPixel &pixel) {
-        return pixel.sampleCount != file.samplesPerPixel;
-    });
-    if (unfinished > 0) {
-        faults_.unusable.push_back(fmt::format("'{}' is not finished: {} of its {} pixels lack samples", path,
-                                               unfinished, file.pixels.size()));
         return;
     }
     const Taken taken{path, origin.maker()};
@@ -93,11 +112,11 @@ void Merger::take(const CheckpointFile &file, const PartOrigin &origin) {
 }
 
 void Merger::begin(const CheckpointFile &file, const PartOrigin &origin) {
+    requireFilmMemory(file.crop, 2 + static_cast<unsigned>(file.layers.size()));
     subject_ = CheckpointSubject{file.crop, file.part, file.samplesPerPixel, {}};
     firstPath_ = file.path.string();
     identity_ = file.identity;
     origin_ = origin;
-    requireFilmMemory(file.crop, 2 + static_cast<unsigned>(file.layers.size()));
     partition_.emplace(file.crop, file.part.count);
     film_.emplace(file.crop);
     for (const Integrator layer : origin.layers)

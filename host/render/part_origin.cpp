@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -54,6 +55,19 @@ void replaceValue(std::vector<std::string> &words, std::string_view option, cons
     }
 }
 
+/// Whether a word of a command line can be shown as it is.
+bool isPlain(const std::string &word) {
+    return std::ranges::none_of(word, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; });
+}
+
+int sideOf(const nlohmann::ordered_json &value) {
+    constexpr std::int64_t most = 1 << 20;
+    if (!value.is_number_integer() || value.get<std::int64_t>() < 1 || value.get<std::int64_t>() > most)
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("its picture cannot have a side of {} pixels", value.dump()));
+    return static_cast<int>(value.get<std::int64_t>());
+}
+
 } // namespace
 
 std::string PartOrigin::maker() const {
@@ -74,6 +88,7 @@ std::string PartOrigin::commandFor(const Part &own, const Part &part) const {
                  [&](const std::string &) { return fmt::format("{}/{}", part.index, part.count); });
     for (const std::string_view option : {"-o", "--output"})
         replaceValue(again, option, [&](const std::string &file) { return fileFor(file, own, part); });
+    again.front() = "hyalite"; // wherever it was there
     std::vector<const char *> pointers;
     for (const std::string &word : again)
         pointers.push_back(word.c_str());
@@ -100,13 +115,23 @@ std::string toText(const PartOrigin &origin) {
 
 PartOrigin readPartOrigin(std::string_view text) {
     try {
-        const nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+        constexpr int deepest = 16;
+        const nlohmann::ordered_json json =
+            nlohmann::ordered_json::parse(text, [](int depth, auto, const nlohmann::ordered_json &) {
+                if (depth > deepest)
+                    throw Error(ErrorKind::BadInput,
+                                "it does not say how it was made: it is nested too deeply");
+                return true;
+            });
         PartOrigin origin;
         origin.host = json.at("host").get<std::string>();
         origin.folder = json.at("folder").get<std::string>();
         origin.words = json.at("words").get<std::vector<std::string>>();
-        origin.wholeWidth = json.at("wholeWidth").get<int>();
-        origin.wholeHeight = json.at("wholeHeight").get<int>();
+        if (origin.words.size() < 2 || origin.words[1] != "render" ||
+            !std::ranges::all_of(origin.words, isPlain))
+            throw Error(ErrorKind::BadInput, "it does not say by which render it was made");
+        origin.wholeWidth = sideOf(json.at("wholeWidth"));
+        origin.wholeHeight = sideOf(json.at("wholeHeight"));
         origin.provenance = json.at("provenance");
         const auto integratorOf = [](const nlohmann::ordered_json &word) {
             const auto named = std::ranges::find(integratorNames, word.get<std::string>(),

@@ -70,11 +70,6 @@ std::uint64_t RenderJob::pixelCount() const {
     return partition_->pixelCountOf(request_.part.value_or(Part{}).index);
 }
 
-double RenderJob::shareOfOthers() const {
-    const double all = static_cast<double>(scene_->crop.width()) * scene_->crop.height();
-    return 1.0 - static_cast<double>(pixelCount()) / all;
-}
-
 void RenderJob::requireRoom() const {
     if (format_ == ImageFormat::Png)
         requirePngSize(request_.output, scene_->crop.width(), scene_->crop.height());
@@ -101,10 +96,18 @@ void RenderJob::resume() {
         subject.origin = toText(partOrigin());
     std::optional<ResumedCheckpoint> resumed;
     if (request_.isResuming)
-        resumed = resumeCheckpoint(request_.checkpoint, identity, subject);
+        try {
+            resumed = resumeCheckpoint(request_.checkpoint, identity, subject);
+        } catch (const Error &error) {
+            // Who is told to make a part again need not remove it before; but that of another picture stays.
+            if (!request_.part || error.remedy == Remedy::BeginAnew)
+                throw;
+            checkpointDamage_ = error.what();
+        }
     // Without a resumed checkpoint, the existing file belongs to another render and may be lost with the second
     // generation.
-    checkpoint_.emplace(request_.checkpoint, identity, subject, !resumed || resumed->damage.empty());
+    checkpoint_.emplace(request_.checkpoint, identity, subject,
+                        checkpointDamage_.empty() && (!resumed || resumed->damage.empty()));
     if (!resumed) {
         if (request_.part)
             filmBefore_ = filmOfSquares(scene_->crop, squares(), subject.samplesPerPixel);
@@ -116,6 +119,7 @@ void RenderJob::resume() {
         resumed->path.string(),
         finishedWork(resumed->checkpoint.film, squares(), samplesPerPixel).sampleCount, raysBefore_};
     filmBefore_ = std::move(resumed->checkpoint.film);
+    layersBefore_ = std::move(resumed->checkpoint.layers);
 }
 
 PartOrigin RenderJob::partOrigin() const {
@@ -131,8 +135,15 @@ PartOrigin RenderJob::partOrigin() const {
 }
 
 bool RenderJob::isFinishedBefore() const {
-    return request_.part && report_.resumed &&
-           finishedWork(*filmBefore_, squares(), scene_->loaded.scene.settings.samplesPerPixel).isComplete;
+    if (!request_.part || !report_.resumed || !checkpointDamage_.empty())
+        return false;
+    const int samplesPerPixel = scene_->loaded.scene.settings.samplesPerPixel;
+    bool isFinished = finishedWork(*filmBefore_, squares(), samplesPerPixel).isComplete;
+    for (std::size_t i = 0; i < layersBefore_.size(); ++i)
+        isFinished = isFinished && finishedWork(layersBefore_[i], squares(),
+                                                samplesOfView(request_.layers[i], samplesPerPixel))
+                                       .isComplete;
+    return isFinished;
 }
 
 void RenderJob::writeCheckpoint(const Film &film, const RayCounts &rays) {
@@ -168,14 +179,14 @@ void RenderJob::renderLayers() {
     renderStart_ = Clock::now();
     layers_ =
         renderViews(*backend_, *scene_, request_.layers, request_.part ? squares() : std::span<const Crop>(),
-                    request_.isQuiet, [this] { return shouldStop(); });
+                    layersBefore_, request_.isQuiet, [this] { return shouldStop(); });
 }
 
 void RenderJob::render() {
     Continuation continuation;
     continuation.film = std::move(filmBefore_);
     continuation.snapshots = &*snapshots_;
-    continuation.shareOfOthers = shareOfOthers();
+    continuation.shareOfOthers = shareOutside(scene_->crop, squares());
     BackendResult result = renderWithProgress(
         *backend_, *scene_, "render", request_.isQuiet, nullptr,
         [this] {

@@ -90,7 +90,6 @@ class RenderJob {
     [[nodiscard]] bool shouldStop() const;
     [[nodiscard]] std::vector<PeriodicFile> periodicFiles();
     [[nodiscard]] std::span<const Crop> squares() const;
-    [[nodiscard]] double shareOfOthers() const;
     [[nodiscard]] PartOrigin partOrigin() const;
     void writeCheckpoint(const Film &film, const RayCounts &rays);
     void requireRoom() const;
@@ -112,6 +111,7 @@ class RenderJob {
     std::string checkpointDamage_;
     RayCounts raysBefore_;
     std::optional<Film> filmBefore_;
+    std::vector<Film> layersBefore_;
     std::vector<ViewFilm> layers_;
     Clock::time_point renderStart_;
     std::optional<PeriodicFiles> snapshots_; ///< writes with the members above

@@ -160,7 +160,7 @@ struct NodePair {
 // integers: the low half of a word is the lower plane, the high half the upper one. `link` of an inner node is the
 // index to continue at; of a leaf it is leafFlag | index of its first triangle, and traversal continues with the next
 // node. Where scenes have pairs, the link of a leaf of two triangles with a common edge, whose ids follow each other and
-// whose flags are the same, also says where the edge is: it begins at the first one's corner number `leafFirstCorner`,
+// which are alike but for emitters, also says where the edge is: it begins at the first one's corner number `leafFirstCorner`,
 // and runs from corner to corner the other way in the second one, there from corner `leafSecondCorner` - 1.
 
 struct SkipNode {
@@ -662,7 +662,7 @@ struct PathRecord {
     vec3 sampleRadiance;
     uint pendingCount;   // rays in the pending buffer
     uint cursorNode;     // the inner node to visit next, or noNode
-    uint cursorTriangle; // the triangle of the leaf to test next, or noNode
+    uint cursorTriangle; // the triangle of the leaf to test next, in skip lists as a link has it, or noNode
     uint stackSize;      // subtrees in the stack buffer
     uint isLightDimmed;  // 1: the shadow ray has passed glass
     uint cursorInstance; // whose tree the cursor is in, or noInstance

@@ -60,8 +60,8 @@ class OpenMpThreads {
 void measureBuild(benchmark::State &state, Context &context, const std::string &mesh, const Build &build) {
     const Subject &subject = context.subject(mesh);
     const Scene &scene = subject.scene();
-    if (const std::string fault = findBvhFault(
-            buildBvh(build.tree, scene, scene.settings.leafSize), buildTriangles(scene));
+    if (const std::string fault =
+            findBvhFault(buildBvh(build.tree, scene, scene.settings.leafSize), buildTriangles(scene));
         !fault.empty()) {
         state.SkipWithError(fault.c_str());
         return;

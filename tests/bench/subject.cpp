@@ -31,8 +31,7 @@ Subject::Subject(const std::string &meshName, const gpu::DeviceInfo &device)
 
 const PackedScene &Subject::packed() {
     if (!packed_)
-        packed_ =
-            packScene(scene_, buildBvh(TreeKind::Sah, scene_, scene_.settings.leafSize));
+        packed_ = packScene(scene_, buildBvh(TreeKind::Sah, scene_, scene_.settings.leafSize));
     return *packed_;
 }
 
