@@ -126,7 +126,7 @@ bool passesAudit(const Merger &merger, const MergeOptions &options) {
 
 /// The provenance of the first part, and who made how many.
 nlohmann::ordered_json provenanceOf(const Merger &merger, const std::string &commandLine) {
-    nlohmann::ordered_json provenance = merger.origin().provenance;
+    nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(merger.origin().provenance);
     provenance["commandLine"] = commandLine;
     provenance["parts"] = {{"count", merger.partition().partCount()}, {"merged", merger.partCount()}};
     nlohmann::ordered_json &makers = provenance["parts"]["makers"];

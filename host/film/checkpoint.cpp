@@ -189,7 +189,7 @@ void requireWritableCheckpoint(const std::filesystem::path &path) {
     const AtomicFile older(olderCheckpoint(path));
 }
 
-CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, RenderIdentity identity,
+CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, const RenderIdentity &identity,
                                    CheckpointSubject subject, bool isNewestWhole)
     : path_(followLinks(path)), identity_(identityText(identity)), subject_(std::move(subject)),
       partition_(subject_.crop, subject_.part.count), isNewestWhole_(isNewestWhole) {

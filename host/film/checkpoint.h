@@ -73,8 +73,8 @@ class CheckpointWriter {
   public:
     /// `isNewestWhole`: `path` is a readable checkpoint of this render, which then becomes the older generation. Throws
     /// Error{OutputNotWritten} if `path` cannot be written.
-    CheckpointWriter(const std::filesystem::path &path, RenderIdentity identity, CheckpointSubject subject,
-                     bool isNewestWhole);
+    CheckpointWriter(const std::filesystem::path &path, const RenderIdentity &identity,
+                     CheckpointSubject subject, bool isNewestWhole);
 
     /// Stores a generation on disk; films have the crop of the subject. Throws Error{OutputNotWritten}; then the previous
     /// generations are kept.

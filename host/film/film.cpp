@@ -30,11 +30,15 @@ std::vector<Layer> filmLayers(const Film &film) {
     return layers;
 }
 
+bool haveEqualBits(const layout::FilmPixel &a, const layout::FilmPixel &b) {
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 std::size_t differingPixelCount(const Film &a, const Film &b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        // Bits are what is compared. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
-        count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
+        count += haveEqualBits(a.pixels[i], b.pixels[i]) ? 0u : 1u;
     return count;
 }
 

@@ -56,6 +56,9 @@ struct Film {
 /// sample count. `film` must outlive them.
 [[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
 
+/// Whether two pixels are equal in every bit.
+[[nodiscard]] bool haveEqualBits(const layout::FilmPixel &a, const layout::FilmPixel &b);
+
 /// Number of pixels that differ in any bit between two films of one crop.
 [[nodiscard]] std::size_t differingPixelCount(const Film &a, const Film &b);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -40,7 +39,7 @@ std::optional<AuditFinding> compareTile(const Candidate &candidate, const Film &
     const std::vector<layout::FilmPixel> here = pixelsIn(again, std::span(&candidate.tile, 1));
     AuditFinding finding{candidate.part, candidate.tile, 0, 0, 0};
     for (std::size_t i = 0; i < there.size(); ++i) {
-        if (std::memcmp(&there[i], &here[i], sizeof there[i]) == 0)
+        if (haveEqualBits(there[i], here[i]))
             continue;
         if (finding.differingPixels++ == 0) {
             const auto width = static_cast<std::size_t>(candidate.tile.width());

@@ -120,9 +120,9 @@ class DeviceBackend : public Backend {
     }
     [[nodiscard]] gpu::BitGuarantee bits() const override { return bits_; }
     [[nodiscard]] std::string precision() const override {
-        return bits().degree == gpu::BitDegree::Promised
-                   ? Backend::precision()
-                   : fmt::format("float32 of {}, {}", device_.name, device_.driver);
+        return bits().degree == gpu::BitDegree::None
+                   ? fmt::format("float32 of {}, {}", device_.name, device_.driver)
+                   : Backend::precision();
     }
     [[nodiscard]] std::string description() const override {
         const std::string driver = driverBesideName(device_.driver, device_.name);

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <utility>
 
 namespace hyalite {
@@ -19,7 +18,7 @@ namespace {
 std::optional<std::size_t> firstDifference(std::span<const layout::FilmPixel> a,
                                            std::span<const layout::FilmPixel> b) {
     for (std::size_t i = 0; i < a.size(); ++i)
-        if (std::memcmp(&a[i], &b[i], sizeof a[i]) != 0)
+        if (!haveEqualBits(a[i], b[i]))
             return i;
     return std::nullopt;
 }

@@ -6,6 +6,7 @@
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -71,15 +72,7 @@ int sideOf(const nlohmann::ordered_json &value) {
 } // namespace
 
 std::string PartOrigin::maker() const {
-    const auto text = [&](const char *key) {
-        const auto device = provenance.find("device");
-        return device != provenance.end() && device->is_object() && device->contains(key) &&
-                       device->at(key).is_string()
-                   ? excerpt(device->at(key).get<std::string>(), 80)
-                   : std::string();
-    };
-    const std::string driver = text("driver");
-    return fmt::format("{} ({}{}{})", excerpt(host, 80), text("name"), driver.empty() ? "" : ", ", driver);
+    return fmt::format("{} ({})", excerpt(host, 80), excerpt(device, 160));
 }
 
 std::string PartOrigin::commandFor(const Part &own, const Part &part) const {
@@ -90,6 +83,7 @@ std::string PartOrigin::commandFor(const Part &own, const Part &part) const {
         replaceValue(again, option, [&](const std::string &file) { return fileFor(file, own, part); });
     again.front() = "hyalite"; // wherever it was there
     std::vector<const char *> pointers;
+    pointers.reserve(again.size());
     for (const std::string &word : again)
         pointers.push_back(word.c_str());
     return shellLine(pointers);
@@ -107,7 +101,7 @@ std::string toText(const PartOrigin &origin) {
                                 {"wholeWidth", origin.wholeWidth},
                                 {"wholeHeight", origin.wholeHeight},
                                 {"layers", nlohmann::ordered_json::array()},
-                                {"provenance", origin.provenance}};
+                                {"provenance", nlohmann::ordered_json::parse(origin.provenance)}};
     for (const Integrator layer : origin.layers)
         json["layers"].push_back(nameOf(layer));
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -132,7 +126,8 @@ PartOrigin readPartOrigin(std::string_view text) {
             throw Error(ErrorKind::BadInput, "it does not say by which render it was made");
         origin.wholeWidth = sideOf(json.at("wholeWidth"));
         origin.wholeHeight = sideOf(json.at("wholeHeight"));
-        origin.provenance = json.at("provenance");
+        const nlohmann::ordered_json &provenance = json.at("provenance");
+        origin.provenance = provenance.dump();
         const auto integratorOf = [](const nlohmann::ordered_json &word) {
             const auto named = std::ranges::find(integratorNames, word.get<std::string>(),
                                                  [](const auto &name) { return std::string(name.first); });
@@ -142,9 +137,12 @@ PartOrigin readPartOrigin(std::string_view text) {
         };
         for (const nlohmann::ordered_json &word : json.at("layers"))
             origin.layers.push_back(integratorOf(word));
-        const nlohmann::ordered_json &settings = origin.provenance.at("settings");
+        const nlohmann::ordered_json &settings = provenance.at("settings");
         origin.integrator = integratorOf(settings.at("integrator"));
         origin.exposureStops = settings.at("exposure").get<double>();
+        const nlohmann::ordered_json &device = provenance.at("device");
+        origin.device = fmt::format("{}, {}", device.at("name").get<std::string>(),
+                                    device.at("driver").get<std::string>());
         return origin;
     } catch (const nlohmann::json::exception &error) {
         throw Error(ErrorKind::BadInput, fmt::format("it does not say how it was made: {}", error.what()));

@@ -4,8 +4,6 @@
 #include "host/film/partition.h"
 #include "host/scene/scene.h"
 
-#include <nlohmann/json.hpp>
-
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,11 +17,12 @@ struct PartOrigin {
     int wholeWidth = 0;             ///< of the picture that the crop is of, in pixels
     int wholeHeight = 0;
     std::vector<Integrator> layers;
-    nlohmann::ordered_json provenance; ///< of the render, with its device
+    std::string provenance; ///< of the render, with its device, as JSON
 
     // Read from the provenance.
     Integrator integrator = Integrator::Whitted;
     double exposureStops = 0.0;
+    std::string device; ///< its name and driver: "llvmpipe, Mesa 22.3.6"
 
     /// "node7 (llvmpipe, Mesa 22.3.6)".
     [[nodiscard]] std::string maker() const;

@@ -130,7 +130,8 @@ PartOrigin RenderJob::partOrigin() const {
     origin.wholeWidth = scene_->loaded.scene.camera.width;
     origin.wholeHeight = scene_->loaded.scene.camera.height;
     origin.layers = request_.layers;
-    origin.provenance = provenanceToJson(report_.origin, report_.device);
+    origin.provenance = provenanceToJson(report_.origin, report_.device)
+                            .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     return origin;
 }
 
