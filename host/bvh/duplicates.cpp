@@ -137,10 +137,12 @@ void dropDuplicates(const Scene &scene, std::vector<BuildTriangle> &items) {
     };
     std::uint32_t kept = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        const BuildTriangle item = items[i];
-        const bool isSuspect = i < triangles.size() && filter.mayHaveDuplicate(item.centroid);
-        if (!isSuspect || isFirst(item, kept))
-            items[kept++] = item;
+        const bool isSuspect = i < triangles.size() && filter.mayHaveDuplicate(items[i].centroid);
+        if (isSuspect && !isFirst(items[i], kept))
+            continue;
+        if (kept != i) // nothing moves before the first duplicate
+            items[kept] = items[i];
+        ++kept;
     }
     items.resize(kept);
 }
