@@ -6,7 +6,7 @@ exec 9>>"$VICTIMS.lock"
 flock 9
 left=$(<"$VICTIMS")
 is_victim=0
-if [ "$1" = render ] && [ "$left" -gt 0 ] && [ $((RANDOM % 3)) -eq 0 ]; then
+if [ "$1" = render ] && [ "$left" -gt 0 ] && [ $((RANDOM % 2)) -eq 0 ]; then
     is_victim=1
     echo $((left - 1)) >"$VICTIMS"
 fi
