@@ -61,7 +61,7 @@ void requireParts(const Merger &merger, ImageFormat format, const MergeOptions &
     const Merger::Faults &faults = merger.faults();
     if (format == ImageFormat::Png && merger.hasParts())
         requirePngSize(options.output, merger.film().crop.width(), merger.film().crop.height());
-    if (!merger.hasParts() || merger.partCount() == 0)
+    if (!merger.hasParts())
         throw Error(ErrorKind::BadInput,
                     fmt::format("there is no part to merge:{}", listOf(faults.unusable)));
     if (!faults.foreign.empty())

@@ -63,16 +63,12 @@ AuditResult audit(const Merger &merged, Backend &backend, const PreparedScene &s
     chosen.resize(std::clamp<std::size_t>(static_cast<std::size_t>(wanted),
                                           std::min<std::size_t>(1, chosen.size()), chosen.size()));
     std::vector<Crop> tiles;
-    std::uint64_t pixelCount = 0;
-    for (const Candidate &candidate : chosen) {
+    tiles.reserve(chosen.size());
+    for (const Candidate &candidate : chosen)
         tiles.push_back(candidate.tile);
-        pixelCount += static_cast<std::uint64_t>(candidate.tile.width()) *
-                      static_cast<std::uint64_t>(candidate.tile.height());
-    }
     Continuation continuation;
     continuation.film = filmOfSquares(scene.crop, tiles, merged.samplesPerPixel());
-    continuation.shareOfOthers =
-        1.0 - static_cast<double>(pixelCount) / static_cast<double>(continuation.film->pixels.size());
+    continuation.shareOfOthers = shareOutside(scene.crop, tiles);
     const BackendResult again =
         renderWithProgress(backend, scene, "audit", isQuiet, nullptr, {}, std::move(continuation));
     AuditResult result{chosen.size(), {}};
