@@ -4,7 +4,8 @@
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
 #   cmake/run.sh test                builds and runs all tests
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
-#   cmake/run.sh test-farm           one picture by several processes, as the templates of assets/farm do it
+#   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all
+#                                    or those named: parallel
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it,
 #                                    --driver=mesa or --driver=swiftshader also images by drivers that it fetches
@@ -24,7 +25,7 @@ needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-t
         libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
         zlib1g-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
-needed_for_farm=(parallel)
+declare -A needed_for_farm=([parallel]="parallel")
 needed_for_bench=(libbenchmark-dev libembree-dev)
 needed_for_check=(clang-format-14 clang-tidy-14 libomp-14-dev)
 needed_for_fuzz=(clang-14 libclang-rt-14-dev libomp-14-dev)
@@ -144,9 +145,15 @@ test-drivers)
     exec "$root/tests/drivers/run.sh" "$build"
     ;;
 test-farm)
-    install_missing "${needed_for_farm[@]}"
+    shift
+    templates=("$@")
+    [ $# -gt 0 ] || templates=("${!needed_for_farm[@]}")
+    for template in "${templates[@]}"; do
+        [ -n "${needed_for_farm[$template]:-}" ] || { usage >&2; exit 2; }
+        install_missing ${needed_for_farm[$template]}
+    done
     build_all "$(tests_as_before)"
-    exec "$root/tests/farm/run.sh" "$build"
+    exec "$root/tests/farm/run.sh" "$build" "$@"
     ;;
 build)
     build_all "$(tests_as_before)"
