@@ -16,7 +16,7 @@ program=${HYALITE:-hyalite}
 folder=$output.parts
 mkdir -p "$folder"
 read -ra options <<<"${PARALLEL_OPTIONS:-}"
-seq "$parts" | parallel --quote --will-cite --jobs "${JOBS:-1}" --retries "${RETRIES:-3}" "${options[@]}" \
-    "$program" render "$@" --quiet --part "{}/$parts" -o "$folder/{}.part"
+seq "$parts" | parallel --quote --will-cite --jobs "${JOBS:-1}" --retries "${RETRIES:-3}" --workdir . \
+    "${options[@]}" "$program" render "$@" --quiet --part "{}/$parts" -o "$folder/{}.part"
 "$program" merge "$folder"/*.part -o "$output"
 rm -r "$folder"
