@@ -8,7 +8,7 @@
 # bit.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-for pair in munged:munge slurmctld:slurmctld slurmd:slurmd sbatch:slurm-client; do
+for pair in munged:munge slurmctld:slurmctld slurmd:slurmd sbatch:slurm-client pkill:procps; do
     needs "${pair%:*}" "${pair#*:}"
 done
 
@@ -58,11 +58,7 @@ SlurmdSpoolDir=$folder/spool
 SlurmctldPidFile=$folder/slurmctld.pid
 SlurmdPidFile=$folder/slurmd.pid
 MailProg=/bin/true
-MpiDefault=none
 ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
-JobAcctGatherType=jobacct_gather/none
-AccountingStorageType=accounting_storage/none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 SchedulerParameters=batch_sched_delay=0,sched_interval=1,sched_min_interval=0
