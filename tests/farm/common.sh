@@ -15,12 +15,12 @@ fail() { echo "$0: $*" >&2; exit 1; }
 # needs COMMAND PACKAGE
 needs() { command -v "$1" >/dev/null || fail "$1 is missing: install the package $2"; }
 
-# wait_until SECONDS COMMAND...
+# wait_until SECONDS COMMAND...: fails with the last lines of all *.log.
 wait_until() {
     local end=$((SECONDS + $1))
     shift
     until "$@"; do
-        [ "$SECONDS" -lt "$end" ] || fail "waited too long for: $*"
+        [ "$SECONDS" -lt "$end" ] || fail "waited too long for $*: $(tail -n 5 ./*.log)"
         sleep 0.2
     done
 }

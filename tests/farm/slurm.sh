@@ -66,6 +66,8 @@ SlurmdParameters=config_overrides
 NodeName=$(hostname -s) NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
 PartitionName=farm Nodes=ALL Default=YES State=UP
 END
+# Slurm 22.05 does without control groups of itself, and later ones where they are told to.
+[[ $(slurmd -V) == *" 22."* ]] || echo CgroupPlugin=disabled >cgroup.conf
 export SLURM_CONF=$folder/slurm.conf
 start munged.log munged --foreground --key-file="$folder/munge/key" --socket="$folder/munge/socket" \
     --pid-file="$folder/munge/pid" --seed-file="$folder/munge/seed" --log-file="$folder/munge/log" --num-threads=2
