@@ -4,8 +4,8 @@
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
 #   cmake/run.sh test                builds and runs all tests
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
-#   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all
-#                                    or those named: parallel, slurm, image
+#   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all of
+#                                    them or those named: parallel, slurm, image, kubernetes
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it,
 #                                    --driver=mesa or --driver=swiftshader also images by drivers that it fetches
@@ -26,7 +26,7 @@ needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-t
         zlib1g-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
 declare -A needed_for_farm=([parallel]="parallel" [slurm]="munge procps slurm-client slurmctld slurmd"
-                           [image]="buildah mmdebstrap")
+                           [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")
 needed_for_bench=(libbenchmark-dev libembree-dev)
 needed_for_check=(clang-format-14 clang-tidy-14 libomp-14-dev)
 needed_for_fuzz=(clang-14 libclang-rt-14-dev libomp-14-dev)
@@ -148,6 +148,7 @@ test-drivers)
 test-farm)
     shift
     templates=("$@")
+    command -v npm >/dev/null && needed_for_farm[kubernetes]=nodejs # others than Debian's have npm in it
     [ $# -gt 0 ] || templates=("${!needed_for_farm[@]}")
     for template in "${templates[@]}"; do
         [ -n "${needed_for_farm[$template]:-}" ] || { usage >&2; exit 2; }
