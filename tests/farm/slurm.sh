@@ -12,6 +12,9 @@ for pair in munged:munge slurmctld:slurmctld slurmd:slurmd sbatch:slurm-client p
     needs "${pair%:*}" "${pair#*:}"
 done
 
+# Before anything else, so that no command of Slurm ever means a cluster that this machine belongs to.
+export SLURM_CONF=$folder/slurm.conf
+
 # Nobody listens there now.
 free_port() {
     local port
@@ -22,13 +25,14 @@ free_port() {
 # Jobs end before the daemons do, as they would outlive them.
 daemons=()
 stop() {
+    [ ${#daemons[@]} -gt 0 ] || return 0
     timeout 20 scancel --full --signal=KILL --user="$(id -un)" 2>/dev/null || :
     timeout 20 scancel --user="$(id -un)" 2>/dev/null || :
     for ((i = 0; i < 50; ++i)); do
         [ -n "$(timeout 20 squeue --noheader 2>/dev/null)" ] || break
         sleep 0.2
     done
-    [ ${#daemons[@]} -eq 0 ] || kill "${daemons[@]}" 2>/dev/null || :
+    kill "${daemons[@]}" 2>/dev/null || :
     wait
 }
 
@@ -68,7 +72,6 @@ PartitionName=farm Nodes=ALL Default=YES State=UP
 END
 # Slurm 22.05 does without control groups of itself, and later ones where they are told to.
 [[ $(slurmd -V) == *" 22."* ]] || echo CgroupPlugin=disabled >cgroup.conf
-export SLURM_CONF=$folder/slurm.conf
 start munged.log munged --foreground --key-file="$folder/munge/key" --socket="$folder/munge/socket" \
     --pid-file="$folder/munge/pid" --seed-file="$folder/munge/seed" --log-file="$folder/munge/log" --num-threads=2
 wait_until 20 test -S munge/socket
