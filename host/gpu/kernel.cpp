@@ -29,14 +29,17 @@ std::vector<BufferUse> usesOf(std::span<const Buffer *const> buffers) {
 
 } // namespace
 
-Kernel::Kernel(Device &device, Pipeline pipeline, std::span<const Buffer *const> buffers)
+Kernel::Kernel(Device &device, std::shared_ptr<const Pipeline> pipeline,
+               std::span<const Buffer *const> buffers)
     : device_(device), pipeline_(std::move(pipeline)) {
     makeDescriptors(buffers);
 }
 
 Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
                std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers)
-    : Kernel(device, Pipeline(device, std::move(name), spirv, constants, usesOf(buffers)), buffers) {}
+    : Kernel(device,
+             std::make_shared<const Pipeline>(device, std::move(name), spirv, constants, usesOf(buffers)),
+             buffers) {}
 
 void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
     std::vector<VkDescriptorPoolSize> sizes;
@@ -49,20 +52,20 @@ void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
     poolInfo.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
     check(vkCreateDescriptorPool(device_.get(), &poolInfo, nullptr, &pool),
-          "vkCreateDescriptorPool for " + pipeline_.name());
+          "vkCreateDescriptorPool for " + pipeline_->name());
     descriptorPool_ = DescriptorPoolHandle(device_.get(), pool);
-    device_.debugUtils().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "descriptors of " + pipeline_.name());
+    device_.debugUtils().name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "descriptors of " + pipeline_->name());
 
-    const VkDescriptorSetLayout setLayout = pipeline_.setLayout();
+    const VkDescriptorSetLayout setLayout = pipeline_->setLayout();
     VkDescriptorSetAllocateInfo allocate{};
     allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     allocate.descriptorPool = pool;
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &setLayout;
     check(vkAllocateDescriptorSets(device_.get(), &allocate, &descriptorSet_),
-          "vkAllocateDescriptorSets for " + pipeline_.name());
+          "vkAllocateDescriptorSets for " + pipeline_->name());
     device_.debugUtils().name(VK_OBJECT_TYPE_DESCRIPTOR_SET, descriptorSet_,
-                              "buffers of " + pipeline_.name());
+                              "buffers of " + pipeline_->name());
 
     std::vector<VkDescriptorBufferInfo> infos(buffers.size());
     std::vector<VkBufferView> views(buffers.size());
@@ -87,10 +90,10 @@ void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
 
 void Kernel::record(VkCommandBuffer commands, const layout::DispatchConstants &constants,
                     std::uint32_t workgroupCount) const {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout(), 0, 1,
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_->get());
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_->layout(), 0, 1,
                             &descriptorSet_, 0, nullptr);
-    vkCmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
+    vkCmdPushConstants(commands, pipeline_->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(constants),
                        &constants);
     vkCmdDispatch(commands, workgroupCount, 1, 1);
     VkMemoryBarrier barrier{};
@@ -106,7 +109,7 @@ RunTimes Kernel::submit(const layout::DispatchConstants &constants,
                         const std::function<void(VkCommandBuffer)> &record) {
     Timestamps &timestamps = device_.timestamps();
     Stopwatch watch;
-    device_.submit("kernel " + pipeline_.name() + describeTile(constants), [&](VkCommandBuffer commands) {
+    device_.submit("kernel " + pipeline_->name() + describeTile(constants), [&](VkCommandBuffer commands) {
         timestamps.writeBegin(commands);
         record(commands);
         timestamps.writeEnd(commands);

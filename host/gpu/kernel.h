@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 
 namespace hyalite::gpu {
@@ -18,13 +19,13 @@ using SpecializationConstants = std::array<std::uint32_t, layout::constantCount>
 class Kernel {
   public:
     /// `buffers` are bindings 0, 1, ..., of the uses that the pipeline was made for. Throws as `check` does.
-    Kernel(Device &device, Pipeline pipeline, std::span<const Buffer *const> buffers);
+    Kernel(Device &device, std::shared_ptr<const Pipeline> pipeline, std::span<const Buffer *const> buffers);
 
     /// With a pipeline of its own. Throws as Pipeline does, too.
     Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
            std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers);
 
-    [[nodiscard]] const std::string &name() const { return pipeline_.name(); }
+    [[nodiscard]] const std::string &name() const { return pipeline_->name(); }
 
     /// Runs the kernel with these push constants, waits, and makes its results visible to the host.
     RunTimes run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);
@@ -40,7 +41,7 @@ class Kernel {
                     const std::function<void(VkCommandBuffer)> &record);
 
     Device &device_;
-    Pipeline pipeline_;
+    std::shared_ptr<const Pipeline> pipeline_;
     DescriptorPoolHandle descriptorPool_;
     VkDescriptorSet descriptorSet_ = VK_NULL_HANDLE; ///< freed with its pool
 };

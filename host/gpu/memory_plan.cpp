@@ -188,8 +188,8 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     return planned;
 }
 
-MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged,
-                         const DeviceInfo &device) {
+MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged, const DeviceInfo &device,
+                         std::uint64_t residentBytes) {
     std::vector<const BufferPlan *> buffers{&job.film,
                                             &job.progress,
                                             &job.stacks,
@@ -207,14 +207,15 @@ MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStag
         memory.deviceBytes += buffer->sizeBytes;
         largestBytes = std::max(largestBytes, buffer->sizeBytes);
     }
-    memory.hostBytes = scene.hostBytes + (isStaged ? largestBytes : 0);
+    memory.hostBytes = (residentBytes > 0 ? 0 : scene.hostBytes) + (isStaged ? largestBytes : 0);
     if (memory.deviceBytes > device.deviceMemoryBytes)
         throw Error(ErrorKind::LimitExceeded,
                     fmt::format("the render takes {} of the memory of {}, which has {} ({})",
                                 sizeText(memory.deviceBytes), device.name, sizeText(device.deviceMemoryBytes),
                                 listLargest(buffers)),
                     Remedy::SmallerRender);
-    const std::uint64_t neededBytes = memory.hostBytes + (device.isSoftware() ? memory.deviceBytes : 0);
+    const std::uint64_t neededBytes =
+        memory.hostBytes + (device.isSoftware() ? memory.deviceBytes - residentBytes : 0);
     const std::optional<std::uint64_t> available = availableHostBytes();
     if (available && neededBytes > *available)
         throw Error(ErrorKind::LimitExceeded,

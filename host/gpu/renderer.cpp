@@ -4,6 +4,8 @@
 #include "host/base/hash.h"
 #include "host/gpu/kernel_needs.h"
 #include "host/gpu/lane_exchange.h"
+#include "host/gpu/pipeline_cache.h"
+#include "host/gpu/scene_buffers.h"
 #include "host/gpu/tile_renderer.h"
 #include "host/gpu/vk/check.h"
 #include "host/gpu/vk/device.h"
@@ -56,6 +58,14 @@ class FilmKeeper {
 
 } // namespace
 
+/// A scene that stays on the device until another one is rendered.
+struct ResidentScene {
+    std::uint64_t serial;
+    bool isSkipList;
+    std::uint64_t sizeBytes;
+    SceneBuffers buffers;
+};
+
 struct Renderer::State {
     DeviceInfo info;
     std::optional<Device> device; ///< empty if it failed and could not be opened again
@@ -64,6 +74,8 @@ struct Renderer::State {
     RenderConfig config;
     ArithmeticChoice arithmetic;
     BitGuarantee bits;
+    PipelineCache pipelines;                 ///< of the device
+    std::optional<ResidentScene> resident{}; ///< likewise
 
     State(const DeviceInfo &deviceInfo, const RenderConfig &asked, const KernelChoices &choices)
         : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked), preferred(choices) {
@@ -117,12 +129,40 @@ struct Renderer::State {
         return used;
     }
 
-    MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job) const {
-        return gpu::requireMemory(scene, job, device->isStagingPreferred(), info);
+    [[nodiscard]] MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job) const {
+        return gpu::requireMemory(scene, job, device->isStagingPreferred(), info,
+                                  resident ? resident->sizeBytes : 0);
+    }
+
+    /// Frees the device's memory, unless the scene in it is this one.
+    void keepOnly(const PackedScene &scene, bool isSkipList) {
+        if (resident &&
+            (scene.serial == 0 || resident->serial != scene.serial || resident->isSkipList != isSkipList))
+            resident.reset();
+    }
+
+    /// The scene on the device, after keepOnly().
+    const SceneBuffers &buffersOf(const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
+        if (resident)
+            resident->buffers.setFrame(scene.frame);
+        else {
+            const std::uint64_t before = device->allocatedBytes();
+            SceneBuffers buffers(*device, scene, plan, isSkipList);
+            resident.emplace(ResidentScene{scene.serial, isSkipList, device->allocatedBytes() - before,
+                                           std::move(buffers)});
+        }
+        return resident->buffers;
+    }
+
+    /// Drops all that is on the device.
+    void forget() {
+        resident.reset();
+        pipelines.clear();
     }
 
     /// Opens the device again, with half the work per dispatch. Throws DeviceFault.
     void reopen() {
+        forget();
         device.reset();
         config.tileHeight = std::max(config.tileHeight / 2 / 8 * 8, 8);
         config.steps = std::max(config.steps / 2, std::min(config.steps, minSteps));
@@ -170,6 +210,7 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                        result);
             return result;
         } catch (const DeviceFault &fault) {
+            state_->forget();
             result.faults.emplace_back(fault.what());
             isBegun = true;
             if (retry == maxRetries) {
@@ -217,12 +258,14 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     const ScenePlan scenePlan = planScene(scene, isSkipList);
     const Job firstJob = jobOf(bands.front());
     const JobPlan firstPlan = planJob(firstJob, config, state_->info);
+    state_->keepOnly(scene, isSkipList);
     result.memory = state_->requireMemory(scenePlan, firstPlan);
     // A driver compiles a pipeline on one processor. Meanwhile the others prepare the buffers.
-    std::future<Pipeline> firstPipeline = std::async(std::launch::async, [&] {
-        return TileRenderer::makePipeline(*state_->device, config, firstJob, scenePlan, firstPlan);
+    std::future<void> firstPipeline = std::async(std::launch::async, [&] {
+        TileRenderer::makePipeline(*state_->device, state_->pipelines, config, firstJob, scenePlan,
+                                   firstPlan);
     });
-    const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
+    const SceneBuffers &buffers = state_->buffersOf(scene, scenePlan, isSkipList);
     result.timing.uploadSeconds = endStage("upload");
 
     for (const Crop &band : bands) {
@@ -235,13 +278,12 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         if (isBegun)
             job.film = bandPixels;
         const RayCounts raysBefore = result.rays;
-        TileRenderer tiles(*state_->device, buffers, config, job, scenePlan,
+        TileRenderer tiles(*state_->device, state_->pipelines, buffers, config, job, scenePlan,
                            planJob(job, config, state_->info));
         result.timing.pipelineSeconds += endStage("buffers");
         if (firstPipeline.valid())
-            tiles.makeKernel(firstPipeline.get());
-        else
-            tiles.makeKernel();
+            firstPipeline.get();
+        tiles.makeKernel();
         result.timing.pipelineSeconds += endStage("pipeline");
         tiles.warmUp();
         result.timing.pipelineSeconds += endStage("first dispatch");
@@ -298,9 +340,10 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     const bool isSkipList = config.traversal == Traversal::SkipList;
     const ScenePlan scenePlan = planScene(scene, isSkipList);
     const JobPlan jobPlan = planJob(job, config, state_->info);
+    state_->keepOnly(scene, isSkipList);
     (void)state_->requireMemory(scenePlan, jobPlan);
-    const SceneBuffers buffers(*state_->device, scene, scenePlan, isSkipList);
-    TileRenderer tiles(*state_->device, buffers, config, job, scenePlan, jobPlan);
+    const SceneBuffers &buffers = state_->buffersOf(scene, scenePlan, isSkipList);
+    TileRenderer tiles(*state_->device, state_->pipelines, buffers, config, job, scenePlan, jobPlan);
     tiles.makeKernel();
     (void)tiles.run({});
     return tiles.readTrace();

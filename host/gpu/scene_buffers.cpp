@@ -20,29 +20,28 @@ Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byt
 
 struct Tree {
     Buffer nodes;
-    layout::FrameRecord frame;
-    std::vector<layout::InstanceRecord> instances; ///< with the constants of skip lists; or none
+    layout::FrameRecord constants{};               ///< of skip lists, or none
+    std::vector<layout::InstanceRecord> instances; ///< likewise
 };
 
-/// Uploads the tree, and adds the constants of skip lists to the frame. The lists on the host, the largest part of a
-/// large scene, are freed when this returns.
+/// Uploads the tree. The lists on the host, the largest part of a large scene, are freed when this returns.
 Tree uploadTree(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
     const BufferPlan &planned = plan.buffers[layout::bindingNodes];
     if (!isSkipList)
-        return {uploaded(device, planned, std::as_bytes(std::span(scene.nodes))), scene.frame, {}};
+        return {uploaded(device, planned, std::as_bytes(std::span(scene.nodes))), {}, {}};
     const SkipList list = makeSkipList(scene);
-    layout::FrameRecord frame = scene.frame;
+    layout::FrameRecord constants{};
     if (!list.trees.empty()) {
-        frame.gridMiddle = list.trees.front().grid.middle;
-        frame.gridScale = list.trees.front().grid.scale;
-        frame.topListLength = list.trees.front().end;
+        constants.gridMiddle = list.trees.front().grid.middle;
+        constants.gridScale = list.trees.front().grid.scale;
+        constants.topListLength = list.trees.front().end;
     }
-    frame.skipListLength = list.length;
+    constants.skipListLength = list.length;
     const std::span<const std::byte> bytes = std::as_bytes(std::span(list.nodes));
     BufferPlan nodes = planned;
     nodes.sizeBytes = bytes.size();
     assert(nodes.sizeBytes <= planned.sizeBytes);
-    return {uploaded(device, nodes, bytes), frame, instancesOnGrids(scene, list)};
+    return {uploaded(device, nodes, bytes), constants, instancesOnGrids(scene, list)};
 }
 
 } // namespace
@@ -50,7 +49,6 @@ Tree uploadTree(Device &device, const PackedScene &scene, const ScenePlan &plan,
 SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
     Tree tree = uploadTree(device, scene, plan, isSkipList);
     std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
-    bytes[layout::bindingFrame] = std::as_bytes(std::span(&tree.frame, 1));
     bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.loopSpheres));
     bytes[layout::bindingLightConstants] = std::as_bytes(
         std::span(scene.lights).first(std::min<std::size_t>(scene.lights.size(), layout::maxUniformLights)));
@@ -63,6 +61,17 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
         buffers.push_back(binding == layout::bindingNodes
                               ? std::move(tree.nodes)
                               : uploaded(device, plan.buffers[binding], bytes[binding]));
+    ofTree_ = tree.constants;
+    setFrame(scene.frame);
+}
+
+void SceneBuffers::setFrame(const layout::FrameRecord &frame) {
+    layout::FrameRecord record = frame;
+    record.gridMiddle = ofTree_.gridMiddle;
+    record.gridScale = ofTree_.gridScale;
+    record.topListLength = ofTree_.topListLength;
+    record.skipListLength = ofTree_.skipListLength;
+    buffers[layout::bindingFrame].upload(std::as_bytes(std::span(&record, 1)));
 }
 
 } // namespace hyalite::gpu

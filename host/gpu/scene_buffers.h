@@ -14,7 +14,13 @@ struct SceneBuffers {
     /// made for the same choice. Throws as Buffer does.
     SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList);
 
+    /// Uploads the frame of a scene with the arrays of the one that is here: another camera, seed or maximum depth.
+    void setFrame(const layout::FrameRecord &frame);
+
     std::vector<Buffer> buffers; ///< by binding
+
+  private:
+    layout::FrameRecord ofTree_{}; ///< fields that skip lists decide
 };
 
 } // namespace hyalite::gpu

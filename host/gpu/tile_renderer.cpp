@@ -99,13 +99,30 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     return constants;
 }
 
+std::shared_ptr<const Pipeline> pipelineOf(Device &device, PipelineCache &pipelines,
+                                           const RenderConfig &config, const Job &job,
+                                           const ScenePlan &scenePlan, const JobPlan &plan,
+                                           bool isResumable) {
+    const WaitingPlan &waiting = waitingPlan(plan, isResumable);
+    std::array<BufferUse, layout::bindingCount> uses{};
+    std::ranges::transform(byBinding(scenePlan.buffers, plan.film, plan.progress, waiting.paths,
+                                     waiting.pending, plan.stacks, plan.trace),
+                           uses.begin(), [](const BufferPlan *buffer) { return buffer->use; });
+    return pipelines.get(
+        device,
+        fmt::format("{} {}{}", nameOf(job.integrator), kernelName(config),
+                    isResumable && config.traversal == Traversal::SkipList ? ", resumable" : ""),
+        kernelWords(config, job.integrator), constantsOf(config, job, plan, isResumable), uses);
+}
+
 } // namespace
 
-TileRenderer::TileRenderer(Device &device, const SceneBuffers &buffers, const RenderConfig &config,
-                           const Job &job, const ScenePlan &scenePlan, const JobPlan &plan)
-    : device_(device), buffers_(buffers), config_(config), job_(job), scenePlan_(scenePlan), plan_(plan),
-      film_(device, plan.film), progress_(device, plan.progress), stacks_(device, plan.stacks),
-      trace_(device, plan.trace),
+TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const SceneBuffers &buffers,
+                           const RenderConfig &config, const Job &job, const ScenePlan &scenePlan,
+                           const JobPlan &plan)
+    : device_(device), pipelines_(pipelines), buffers_(buffers), config_(config), job_(job),
+      scenePlan_(scenePlan), plan_(plan), film_(device, plan.film), progress_(device, plan.progress),
+      stacks_(device, plan.stacks), trace_(device, plan.trace),
       sizer_(config.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount()) {
     if (job.film.empty())
         film_.clear();
@@ -156,11 +173,9 @@ std::uint32_t TileRenderer::groupsFor(std::uint32_t count, std::uint32_t perGrou
     return (count + perRound - 1) / perRound * dispatch_.interleave;
 }
 
-void TileRenderer::makeKernel(Pipeline pipeline) {
-    (plan_.isDirect ? direct_ : resumable_).emplace(makeProgram(std::move(pipeline), !plan_.isDirect));
+void TileRenderer::makeKernel() {
+    (plan_.isDirect ? direct_ : resumable_).emplace(makeProgram(!plan_.isDirect));
 }
-
-void TileRenderer::makeKernel() { makeKernel(makePipeline(device_, config_, job_, scenePlan_, plan_)); }
 
 void TileRenderer::warmUp() { warmUp(direct_ ? *direct_ : *resumable_); }
 
@@ -174,42 +189,34 @@ void TileRenderer::warmUp(Program &program) {
     dispatch_.sampleEnd = sampleEnd;
 }
 
-Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, const Job &job,
-                                    const ScenePlan &scenePlan, const JobPlan &plan) {
-    return makePipeline(device, config, job, scenePlan, plan, !plan.isDirect);
+void TileRenderer::makePipeline(Device &device, PipelineCache &pipelines, const RenderConfig &config,
+                                const Job &job, const ScenePlan &scenePlan, const JobPlan &plan) {
+    (void)pipelineOf(device, pipelines, config, job, scenePlan, plan, !plan.isDirect);
 }
 
-Pipeline TileRenderer::makePipeline(Device &device, const RenderConfig &config, const Job &job,
-                                    const ScenePlan &scenePlan, const JobPlan &plan, bool isResumable) {
-    const WaitingPlan &waiting = waitingPlan(plan, isResumable);
-    const SpecializationConstants constants = constantsOf(config, job, plan, isResumable);
-    std::array<BufferUse, layout::bindingCount> uses{};
-    std::ranges::transform(byBinding(scenePlan.buffers, plan.film, plan.progress, waiting.paths,
-                                     waiting.pending, plan.stacks, plan.trace),
-                           uses.begin(), [](const BufferPlan *buffer) { return buffer->use; });
-    return Pipeline(device,
-                    fmt::format("{} {}{}", nameOf(job.integrator), kernelName(config),
-                                isResumable && config.traversal == Traversal::SkipList ? ", resumable" : ""),
-                    kernelWords(config, job.integrator), constants, uses);
-}
-
-TileRenderer::Program TileRenderer::makeProgram(Pipeline pipeline, bool isResumable) {
+TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     const WaitingPlan &waiting = waitingPlan(plan_, isResumable);
     Buffer paths(device_, waiting.paths);
     Buffer pending(device_, waiting.pending);
     const auto bound = byBinding(buffers_.buffers, film_, progress_, paths, pending, stacks_, trace_);
-    Kernel kernel(device_, std::move(pipeline), bound);
+    Kernel kernel(device_, pipelineOf(device_, pipelines_, config_, job_, scenePlan_, plan_, isResumable),
+                  bound);
     std::optional<Kernel> adding;
-    if (plan_.takesSamplesInTurn && !isResumable)
-        adding.emplace(device_, "add samples", embeddedKernel("addSamples"),
-                       constantsOf(config_, job_, plan_, isResumable), bound);
+    if (plan_.takesSamplesInTurn && !isResumable) {
+        std::array<BufferUse, layout::bindingCount> uses{};
+        std::ranges::transform(bound, uses.begin(), [](const Buffer *buffer) { return buffer->use(); });
+        adding.emplace(device_,
+                       pipelines_.get(device_, "add samples", embeddedKernel("addSamples"),
+                                      constantsOf(config_, job_, plan_, isResumable), uses),
+                       bound);
+    }
     return {std::move(paths), std::move(pending), std::move(kernel), std::move(adding)};
 }
 
 TileRenderer::Program &TileRenderer::resumableProgram(Timeline *timeline) {
     if (!resumable_) {
         Stopwatch watch;
-        resumable_.emplace(makeProgram(makePipeline(device_, config_, job_, scenePlan_, plan_, true), true));
+        resumable_.emplace(makeProgram(true));
         warmUp(*resumable_);
         const Span span = watch.lap();
         lateBuildSeconds_ += span.seconds();

@@ -9,6 +9,7 @@
 #include "host/gpu/job.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/memory_plan.h"
+#include "host/gpu/pipeline_cache.h"
 #include "host/gpu/render_config.h"
 #include "host/gpu/scene_buffers.h"
 #include "host/gpu/tile.h"
@@ -36,17 +37,16 @@ struct TileTotals {
 /// one.
 class TileRenderer {
   public:
-    /// The pipeline of a job's kernel. Drivers take as long to compile it as for many samples, so it can be made before
-    /// the buffers exist. `config` is complete, and the plans were made for it and the job. Throws as Pipeline does.
-    [[nodiscard]] static Pipeline makePipeline(Device &device, const RenderConfig &config, const Job &job,
-                                               const ScenePlan &scenePlan, const JobPlan &plan);
+    /// Makes the pipeline of a job's kernel, before its buffers exist: drivers take as long to compile it as for many
+    /// samples. `config` is complete, and the plans were made for it and the job. Throws as Pipeline does.
+    static void makePipeline(Device &device, PipelineCache &pipelines, const RenderConfig &config,
+                             const Job &job, const ScenePlan &scenePlan, const JobPlan &plan);
 
     /// As above. Throws as Buffer does.
-    TileRenderer(Device &device, const SceneBuffers &buffers, const RenderConfig &config, const Job &job,
-                 const ScenePlan &scenePlan, const JobPlan &plan);
+    TileRenderer(Device &device, PipelineCache &pipelines, const SceneBuffers &buffers,
+                 const RenderConfig &config, const Job &job, const ScenePlan &scenePlan, const JobPlan &plan);
 
-    /// Makes the kernel, from a pipeline of makePipeline or a new one. Throws as Kernel does.
-    void makeKernel(Pipeline pipeline);
+    /// Makes the kernel. Throws as Kernel does.
     void makeKernel();
 
     /// Runs the kernel without samples, for drivers that compile at the first dispatch.
@@ -98,10 +98,7 @@ class TileRenderer {
     void moveTo(const Tile &tile);
     /// Workgroups for `count` items: a multiple of the interleave.
     [[nodiscard]] std::uint32_t groupsFor(std::uint32_t count, std::uint32_t perGroup) const;
-    [[nodiscard]] static Pipeline makePipeline(Device &device, const RenderConfig &config, const Job &job,
-                                               const ScenePlan &scenePlan, const JobPlan &plan,
-                                               bool isResumable);
-    [[nodiscard]] Program makeProgram(Pipeline pipeline, bool isResumable);
+    [[nodiscard]] Program makeProgram(bool isResumable);
     Program &resumableProgram(Timeline *timeline);
     Step runOnce(Program &program);
     /// Runs `program` over no samples.
@@ -109,6 +106,7 @@ class TileRenderer {
     [[nodiscard]] DispatchRecord describe(const Program &program, const Step &step, bool isResumed) const;
 
     Device &device_;
+    PipelineCache &pipelines_;
     const SceneBuffers &buffers_;
     RenderConfig config_;
     Job job_;

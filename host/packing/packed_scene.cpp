@@ -15,6 +15,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -28,8 +29,8 @@ namespace hyalite {
 
 namespace {
 
-layout::FrameRecord packFrame(const Scene &scene) {
-    const Camera &camera = scene.camera;
+/// The fields of a frame that the camera decides.
+void setCamera(const Camera &camera, layout::FrameRecord &frame) {
     const glm::dvec3 forward = glm::normalize(camera.direction);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const glm::dvec3 up = glm::cross(right, forward);
@@ -40,7 +41,6 @@ layout::FrameRecord packFrame(const Scene &scene) {
         scale = camera.width / camera.viewWidth;
     else if (camera.kind == CameraKind::Panorama)
         scale = 1.0;
-    layout::FrameRecord frame{};
     frame.eye = glm::vec3(camera.position);
     frame.imageWidth = static_cast<std::uint32_t>(camera.width);
     frame.imageHeight = static_cast<std::uint32_t>(camera.height);
@@ -48,10 +48,15 @@ layout::FrameRecord packFrame(const Scene &scene) {
     frame.pixelUp = glm::vec3(up / scale);
     frame.lensScale = static_cast<float>(0.5 * camera.aperture * scale);
     frame.focusDistance = static_cast<float>(camera.focusDistance);
+    frame.imagePlane = glm::vec3(forward);
+}
+
+layout::FrameRecord packFrame(const Scene &scene) {
+    layout::FrameRecord frame{};
+    setCamera(scene.camera, frame);
     frame.radianceLimit = scene.settings.radianceLimit > 0.0
                               ? static_cast<float>(scene.settings.radianceLimit)
                               : std::numeric_limits<float>::infinity();
-    frame.imagePlane = glm::vec3(forward);
     frame.seed = scene.settings.seed;
     frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);
     frame.occlusionDistance = static_cast<float>(scene.settings.occlusionDistance);
@@ -279,7 +284,9 @@ std::uint32_t samplerOf(const RenderSettings &settings) {
 
 PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded) {
     assert(bvh.order.size() <= triangleCount(scene) + scene.instances.size());
+    static std::atomic<std::uint64_t> count = 0;
     PackedScene packed;
+    packed.serial = ++count;
     packed.frame = packFrame(scene);
     packed.camera = cameraOf(scene.camera);
     packed.hasTriangles = !bvh.order.empty();
@@ -367,6 +374,11 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     }
     packed.frame.triangleCount = static_cast<std::uint32_t>(packed.triangles.size());
     return packed;
+}
+
+void packCamera(const Scene &scene, PackedScene &packed) {
+    setCamera(scene.camera, packed.frame);
+    packed.camera = cameraOf(scene.camera);
 }
 
 } // namespace hyalite

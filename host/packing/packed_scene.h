@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -39,6 +40,9 @@ template <class Record>
 using RecordVector = std::conditional_t<isFilledByThreads<Record>, UnsetVector<Record>, std::vector<Record>>;
 
 struct PackedScene {
+    /// Given by packScene, and no other time to another scene: scenes of one serial number differ at most in `frame` and
+    /// `camera`, so that a device that holds one holds the others. 0: unknown.
+    std::uint64_t serial = 0;
     layout::FrameRecord frame{};
     UnsetVector<layout::NodePair> nodes; ///< never empty
     /// The scene's own tree, then those of the prototypes. The triangle records are in the same order.
@@ -92,5 +96,8 @@ inline constexpr std::size_t maxDecodedBytes = std::size_t{64} << 20;
 /// take at most `maxDecoded` bytes: the image is the same, and a lookup reads 4 rows in place of 16.
 [[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh,
                                     std::size_t maxDecoded = maxDecodedBytes);
+
+/// Moves the camera of a packed scene: `scene` is what it was packed from, but for its camera.
+void packCamera(const Scene &scene, PackedScene &packed);
 
 } // namespace hyalite

@@ -1,0 +1,33 @@
+#include "host/gpu/pipeline_cache.h"
+
+#include <algorithm>
+
+namespace hyalite::gpu {
+
+namespace {
+
+/// A picture with all layers needs a kernel for each, and a helper for some; a pipeline takes megabytes.
+constexpr std::size_t mostKept = 12;
+
+} // namespace
+
+std::shared_ptr<const Pipeline> PipelineCache::get(Device &device, const std::string &name,
+                                                   std::span<const std::uint32_t> spirv,
+                                                   const SpecializationConstants &constants,
+                                                   std::span<const BufferUse> bindings) {
+    const auto found = std::ranges::find_if(kept_, [&](const Kept &one) {
+        return one.spirv == spirv.data() && one.constants == constants &&
+               std::ranges::equal(one.bindings, bindings);
+    });
+    if (found != kept_.end()) {
+        kept_.splice(kept_.begin(), kept_, found);
+        return kept_.front().pipeline;
+    }
+    auto made = std::make_shared<const Pipeline>(device, name, spirv, constants, bindings);
+    kept_.push_front({spirv.data(), constants, {bindings.begin(), bindings.end()}, std::move(made)});
+    if (kept_.size() > mostKept)
+        kept_.pop_back();
+    return kept_.front().pipeline;
+}
+
+} // namespace hyalite::gpu
