@@ -8,6 +8,7 @@
 #include "host/render/audit.h"
 #include "host/render/identity.h"
 #include "host/render/merge.h"
+#include "host/render/opening.h"
 #include "host/report/progress.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ struct MergeOptions {
     std::optional<ToneCurve> tone;
     std::optional<double> auditPercent;
     std::optional<std::uint32_t> auditSeed;
-    std::string device = "auto";
+    RendererNames devices{"auto"};
     bool isQuiet = false;
 };
 
@@ -88,7 +89,10 @@ void requireParts(const Merger &merger, ImageFormat format, const MergeOptions &
 bool passesAudit(const Merger &merger, const MergeOptions &options) {
     RenderRequest request = readRenderRequest(merger.origin().words);
     request.scene.load.allowedPaths.clear(); // what a file says opens no files beside the scene's
-    const auto backend = openBackend(options.device);
+    OpenedRenderers opened = openRenderers(options.devices);
+    for (const std::string &note : opened.notes)
+        printMessage("note: {}\n", note);
+    const std::unique_ptr<Backend> backend = std::move(opened.backend);
     if (const gpu::BitGuarantee bits = backend->bits(); bits.degree == gpu::BitDegree::None)
         throw Error(
             ErrorKind::Usage,
@@ -99,10 +103,7 @@ bool passesAudit(const Merger &merger, const MergeOptions &options) {
     scene.loaded.scene.settings.samplesPerPixel = static_cast<int>(merger.samplesPerPixel());
     requireFilmMemory(scene.crop, 3);
     const std::string here = identityText(identityOf(scene, *backend, &merger.origin().layers));
-    const Crop &crop = merger.film().crop;
-    const bool isSameCrop = scene.crop.x0 == crop.x0 && scene.crop.x1 == crop.x1 &&
-                            scene.crop.y0 == crop.y0 && scene.crop.y1 == crop.y1;
-    if (here != merger.identity() || !isSameCrop)
+    if (here != merger.identity() || scene.crop != merger.film().crop)
         throw Error(
             ErrorKind::BadInput,
             fmt::format("--audit: what `{}` renders here is another picture than that of the parts: {}; "
@@ -220,10 +221,10 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
         ->type_name("PERCENT");
     addNumber(*command, "--audit-seed", options->auditSeed, {0.0, 4294967295.0},
               "chooses the tiles to audit, in place of a hash of the picture");
-    command
-        ->add_option("--device", options->device,
-                     "for --audit: auto, cpu, an index or part of a name as `hyalite devices` lists them")
+    command->add_option("--device", options->devices, "for --audit: as for `hyalite render`")
         ->type_name("DEVICE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->capture_default_str();
     addToneOption(*command, options->tone);
     command->add_flag("--quiet", options->isQuiet, "print errors, and what differs, only");

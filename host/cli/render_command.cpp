@@ -1,15 +1,15 @@
 #include "host/base/message.h"
 #include "host/base/quantities.h"
 #include "host/cli/commands.h"
-#include "host/cli/device_options.h"
-#include "host/cli/layers_option.h"
 #include "host/cli/options.h"
 #include "host/cli/render_request.h"
-#include "host/cli/scene_options.h"
 #include "host/import/assets.h"
+#include "host/render/render_job.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -18,8 +18,6 @@
 namespace hyalite {
 
 namespace {
-
-constexpr Interval anySeconds{0.0, 1e9, false};
 
 /// The finished samples of a render in percent, rounded down: an incomplete render is never at 100 %.
 double percentOf(std::uint64_t sampleCount, std::uint64_t pixelCount, const RenderReport &report) {
@@ -39,6 +37,10 @@ std::vector<NamedFile> outputsOf(const RenderRequest &request) {
             {"--checkpoint", lock}};
 }
 
+bool isOnOracle(const RenderRequest &request) {
+    return std::ranges::find(request.devices, "cpu-double") != request.devices.end();
+}
+
 /// Throws Error{Usage} for options that a part does without.
 void requirePartOptions(const RenderRequest &request) {
     if (std::filesystem::path(request.output).extension() != ".part")
@@ -53,7 +55,7 @@ void requirePartOptions(const RenderRequest &request) {
     if (request.partialSeconds || request.tone)
         throw Error(ErrorKind::Usage,
                     fmt::format("--part: {} is for pictures", request.tone ? "--tone" : "--partial"));
-    if (request.device == "cpu-double")
+    if (isOnOracle(request))
         throw Error(ErrorKind::Usage,
                     "--part: cpu-double sums in double precision, which a part does not hold; "
                     "use --device cpu or a Vulkan device");
@@ -67,11 +69,11 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
         return;
     }
     const ImageFormat format = imageFormatOf(request.output);
-    if (request.checkpoint.empty() && request.isResuming)
+    if (request.checkpoint.empty() && request.isResuming && !request.frame)
         throw Error(ErrorKind::Usage, "--resume needs --checkpoint FILE to resume from");
     if (request.checkpoint.empty() && request.checkpointSeconds)
         throw Error(ErrorKind::Usage, "--checkpoint-interval needs --checkpoint FILE to write to");
-    if (!request.checkpoint.empty() && request.device == "cpu-double")
+    if (!request.checkpoint.empty() && isOnOracle(request))
         throw Error(ErrorKind::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
                     "not hold; use --device cpu or a Vulkan device");
@@ -85,8 +87,11 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
                     fmt::format("--layers are for .exr files: --output is {}", request.output));
 }
 
-void tellDevice(const Backend &device) {
+void tellDevice(const RenderSession &session) {
+    const Backend &device = session.backend();
     printMessage("device: {}\n", device.description());
+    for (const std::string &note : session.notes())
+        printMessage("note: {}\n", note);
     if (const gpu::BitGuarantee bits = device.bits(); bits.degree == gpu::BitDegree::None)
         printMessage("note: bits may differ from the CPU twin's: {}\n", bits.reason);
 }
@@ -104,7 +109,7 @@ void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request) {
     if (report.resumed)
         printMessage("resuming from {}: {:.1f} % of the samples are finished\n", report.resumed->checkpoint,
                      percentOf(report.resumed->sampleCount, job.pixelCount(), report));
-    else
+    else if (!request.checkpoint.empty())
         printMessage("no checkpoint {} yet: starting from the beginning\n", request.checkpoint);
 }
 
@@ -129,6 +134,18 @@ void tellSpeed(const RenderReport &report, const std::optional<Part> &part) {
                megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
 }
 
+/// Who of several renderers did how much.
+void tellShares(const RenderReport &report) {
+    std::uint64_t all = 0;
+    for (const RendererShare &share : report.shares)
+        all += share.sampleCount;
+    for (const RendererShare &share : report.shares)
+        printMessage("  {:.1f} % by {}, in {} tiles\n",
+                     all > 0 ? 100.0 * static_cast<double>(share.sampleCount) / static_cast<double>(all)
+                             : 0.0,
+                     share.name, share.tileCount);
+}
+
 void tellOutcome(const RenderJob &job, const RenderRequest &request) {
     const bool isQuiet = request.isQuiet;
     const RenderReport &report = job.report();
@@ -137,23 +154,42 @@ void tellOutcome(const RenderJob &job, const RenderRequest &request) {
     if (isQuiet)
         return;
     tellSpeed(report, request.part);
+    tellShares(report);
     if (const std::optional<std::string> fault = job.diagnosis())
         printWarning("{}", *fault);
 }
 
-ExitCode runRender(const RenderRequest &request, const std::string &commandLine) {
-    requireOptionsThatGoTogether(request);
-    RenderJob job(request, commandLine);
+/// Throws Error{Usage} for options that frames do without.
+void requireSequenceOptions(const RenderRequest &request, const SequenceOptions &options) {
+    if (request.partialSeconds)
+        throw Error(ErrorKind::Usage,
+                    "--partial: found frames, whose pictures are written when they are finished");
+    if (request.scene.load.timeSeconds)
+        throw Error(ErrorKind::Usage, "--time: found frames, which have a time each; allowed: --fps");
+    if (options.framesPerSecond && options.turntable)
+        throw Error(ErrorKind::Usage, "--fps: found --turntable, whose frames have no time");
+    const ImageFormat format = imageFormatOf(request.output);
+    if (request.isResuming && format != ImageFormat::Exr && format != ImageFormat::Png)
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("--resume: .exr and .png say which frame they are; --output is {}", request.output));
+}
+
+/// One picture, or one frame of a sequence, from a session that may be prepared already.
+ExitCode renderOne(const RenderRequest &request, const std::string &commandLine, RenderSession &session) {
+    const bool isFirst = !session.isOpen();
+    RenderJob job(request, commandLine, session);
     job.prepare();
-    requireDistinctFiles(outputsOf(request), job.scene().loaded.inputFiles);
+    requireDistinctFiles(outputsOf(request), session.scene().loaded.inputFiles);
     job.openDevice();
-    if (!request.isQuiet)
-        tellDevice(job.device());
+    if (isFirst && !request.isQuiet)
+        tellDevice(session);
     job.resume();
     if (job.isFinishedBefore()) {
         if (!request.isQuiet)
-            fmt::print("{}: part {} of {} is finished\n", request.output, request.part->index,
-                       request.part->count);
+            fmt::print("{}: {} is finished\n", request.output,
+                       request.part ? fmt::format("part {} of {}", request.part->index, request.part->count)
+                                    : fmt::format("frame {}", *request.frame));
         return ExitCode::Ok;
     }
     tellWhatIsResumed(job, request);
@@ -167,112 +203,55 @@ ExitCode runRender(const RenderRequest &request, const std::string &commandLine)
     return signal != 0 ? exitCodeOf(errorKindOf(signal)) : ExitCode::Ok;
 }
 
-/// "3/16".
-Part readPart(const std::string &word) {
-    const std::size_t slash = word.find('/');
-    const auto refuse = [&] {
-        refuseValue(
-            "--part", word,
-            fmt::format("I/N: part I, from 1, of N, which are at most {:.0f}", limits::partCount.high));
-    };
-    if (slash == std::string::npos)
-        refuse();
-    const std::string_view text = word;
-    Part part;
-    try {
-        part.count = readAs<std::uint32_t>("--part", text.substr(slash + 1), limits::partCount);
-        part.index = readAs<std::uint32_t>("--part", text.substr(0, slash), limits::partCount);
-    } catch (const Error &) {
-        refuse();
-    }
-    if (part.index > part.count)
-        refuse();
-    return part;
+ExitCode runRender(const RenderRequest &request, const std::string &commandLine) {
+    requireOptionsThatGoTogether(request);
+    RenderSession session;
+    return renderOne(request, commandLine, session);
 }
 
-/// Options for long renders.
-void addLongRenderOptions(CLI::App &command, RenderRequest &request) {
-    const char *group = "Long renders";
-    addFile(command, "--checkpoint", request.checkpoint, "FILE",
-            "write the finished samples to FILE at intervals, and at the end; FILE.1 is the previous "
-            "checkpoint")
-        ->group(group);
-    addNumber(command, "--checkpoint-interval", request.checkpointSeconds, anySeconds,
-              "time between two checkpoints")
-        ->type_name("SECONDS")
-        ->default_str("10")
-        ->group(group);
-    command
-        .add_flag("--resume", request.isResuming,
-                  "continue from the checkpoint, if there is one, to the same image; --device, --threads, "
-                  "--kernel and --bvh may differ, and --spp may be larger")
-        ->group(group);
-    addNumber(command, "--partial", request.partialSeconds, anySeconds,
-              "replace the output by a partial image at this interval")
-        ->type_name("SECONDS")
-        ->group(group);
+ExitCode runSequence(const RenderRequest &request, const SequenceOptions &options,
+                     const std::string &commandLine) {
+    requireSequenceOptions(request, options);
+    Sequence sequence(request, options);
+    if (sequence.frames().empty()) {
+        fmt::print("part {} of {} has no frame\n", request.part->index, request.part->count);
+        return ExitCode::Ok;
+    }
+    requireOptionsThatGoTogether(sequence.requestOf(sequence.frames().front()));
+    RenderSession session;
+    sequence.prepare(session);
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    for (const int frame : sequence.frames()) {
+        RenderRequest ofFrame = sequence.requestOf(frame);
+        if (ofFrame.timeLimitSeconds) {
+            *ofFrame.timeLimitSeconds -= std::chrono::duration<double>(Clock::now() - begin).count();
+            if (*ofFrame.timeLimitSeconds <= 0.0) {
+                printMessage("stopped by the time limit before frame {}\n", frame);
+                break;
+            }
+        }
+        sequence.moveTo(frame, session);
+        if (const ExitCode code = renderOne(ofFrame, commandLine, session); code != ExitCode::Ok)
+            return code;
+    }
+    return ExitCode::Ok;
 }
 
 } // namespace
 
-void addRenderOptions(CLI::App &command, RenderRequest &request) {
-    addSceneOptions(command, request.scene);
-    command
-        .add_option("-o,--output", request.output,
-                    ".png: 8 bits, tone-mapped by --tone; .exr: linear float, with variance and "
-                    "sample counts; .hdr, .pfm: linear")
-        ->required()
-        ->type_name("FILE");
-    command
-        .add_option("--device", request.device,
-                    "auto: a GPU before software; cpu: the reference renderer; an index or part of a name as "
-                    "`hyalite devices` lists them")
-        ->type_name("DEVICE")
-        ->capture_default_str();
-    addToneOption(command, request.tone);
-    addLayersOption(command, request.layers);
-    addThreadsOption(command, request.threadCount);
-    addDeviceOptions(command, request.deviceOptions);
-    addFile(command, "--report", request.report, "FILE.json",
-            "write a report with settings, counts and times");
-    command
-        .add_option("--part", CLI::callback_t([&request](const CLI::results_t &words) {
-                        request.part = readPart(words.front());
-                        return true;
-                    }),
-                    "render only part I of N of the picture into --output, a .part file, from which the same "
-                    "command goes on; `hyalite merge` makes the picture of all parts")
-        ->type_name("I/N");
-    addNumber(command, "--time-limit", request.timeLimitSeconds, anySeconds,
-              "stop after this time and write the partial image; loading and building do not count")
-        ->type_name("SECONDS");
-    addLongRenderOptions(command, request);
-    command.add_flag("--quiet", request.isQuiet, "print errors only");
-}
-
-RenderRequest readRenderRequest(const std::vector<std::string> &words) {
-    RenderRequest request;
-    CLI::App app;
-    addRenderOptions(*app.add_subcommand("render"), request);
-    std::vector<std::string> arguments; // the last first, as CLI11 wants them
-    for (std::size_t i = words.size(); i-- > 1;)
-        arguments.push_back(words[i]);
-    try {
-        app.parse(arguments);
-    } catch (const std::runtime_error &error) { // CLI::Error, or Error for a value
-        throw Error(ErrorKind::BadInput, fmt::format("cannot read a part's command line: {}", error.what()));
-    }
-    request.words = words;
-    return request;
-}
-
 void addRenderCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("render", "render a scene to an image file");
     const auto request = std::make_shared<RenderRequest>();
+    const auto sequence = std::make_shared<SequenceOptions>();
     addRenderOptions(*command, *request);
-    command->callback([request, &context] {
+    addSequenceOptions(*command, *sequence);
+    command->callback([request, sequence, &context] {
         request->words = context.words;
-        context.exitCode = runRender(*request, context.commandLine);
+        if (sequence->framesPerSecond && !sequence->areGiven())
+            throw Error(ErrorKind::Usage, "--fps needs --frames FIRST..LAST");
+        context.exitCode = sequence->areGiven() ? runSequence(*request, *sequence, context.commandLine)
+                                                : runRender(*request, context.commandLine);
     });
 }
 

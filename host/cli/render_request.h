@@ -1,7 +1,7 @@
 // The command line of `hyalite render` as a request.
 #pragma once
 
-#include "host/render/render_job.h"
+#include "host/render/sequence.h"
 
 #include <CLI/CLI.hpp>
 
@@ -12,6 +12,9 @@ namespace hyalite {
 
 /// Adds the arguments of `render`. `request` must outlive `command`.
 void addRenderOptions(CLI::App &command, RenderRequest &request);
+
+/// Adds --frames and what goes with it. `options` must outlive `command`.
+void addSequenceOptions(CLI::App &command, SequenceOptions &options);
 
 /// The request of a whole command line, the program first. Throws Error{BadInput} if it is none of `render`.
 [[nodiscard]] RenderRequest readRenderRequest(const std::vector<std::string> &words);

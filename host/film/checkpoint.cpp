@@ -276,7 +276,7 @@ Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentit
     const auto textOf = [](const Crop &crop) {
         return fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1);
     };
-    if (textOf(file.crop) != textOf(subject.crop))
+    if (file.crop != subject.crop)
         throw other(fmt::format("crop: {} there, {} here", textOf(file.crop), textOf(subject.crop)));
     if (file.part != subject.part)
         throw other(fmt::format("part: {}/{} there, {}/{} here", file.part.index, file.part.count,

@@ -26,7 +26,8 @@ class SnapshotTaker {
 };
 
 struct Continuation {
-    std::optional<Film> film;           ///< of the same crop; samples are added to it. Empty: start with none
+    /// Samples are added to it. It decides which crop is rendered. Empty: start with none, of the scene's crop.
+    std::optional<Film> film;
     SnapshotTaker *snapshots = nullptr; ///< if not null, it outlives the render
     /// Of the film's pixels, in [0, 1): they have all samples already, as others render them.
     double shareOfOthers = 0.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace hyalite {
 
@@ -11,6 +12,15 @@ struct RenderTiming {
         0.0; ///< building kernels, unless during the upload, and their first runs, without work
     double renderSeconds = 0.0; ///< from the first ray to the last
     std::uint64_t dispatchCount = 0;
+};
+
+/// What one of several renderers did of a picture that they shared.
+struct RendererShare {
+    std::string name;
+    std::uint64_t tileCount = 0;
+    std::uint64_t sampleCount = 0;
+    double seconds = 0.0; ///< rendering tiles
+    std::string failure;  ///< why it was left out, or empty
 };
 
 } // namespace hyalite

@@ -12,6 +12,7 @@ struct Crop {
 
     [[nodiscard]] int width() const { return x1 - x0; }
     [[nodiscard]] int height() const { return y1 - y0; }
+    [[nodiscard]] bool operator==(const Crop &) const = default;
 };
 
 } // namespace hyalite

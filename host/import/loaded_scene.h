@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/import/mesh_file.h"
+#include "host/scene/camera_path.h"
 #include "host/scene/scene.h"
 
 #include <filesystem>
@@ -24,18 +25,27 @@ struct LoadEvents {
     OnReading onReading{}; ///< the share of all meshes that is read, each counting the same
 };
 
+/// Frames of a sequence in time: frame n is at n / framesPerSecond.
+struct SequenceTimes {
+    double framesPerSecond = 24.0;
+    int lastFrame = 0;
+};
+
 /// How a scene is loaded.
 struct LoadOptions {
     LoadEvents events{};
     std::vector<std::filesystem::path> allowedPaths{}; ///< files that a scene may name beside those near it
     // Formats that have a choice, as glTF does; others refuse them.
-    std::string camera{};                ///< name or index; empty: the first one
-    std::string gltfScene{};             ///< name or index; empty: the file's default one
-    std::optional<double> timeSeconds{}; ///< of animations; empty: the pose of rest
+    std::string camera{};                    ///< name or index; empty: the first one
+    std::string gltfScene{};                 ///< name or index; empty: the file's default one
+    std::optional<double> timeSeconds{};     ///< of animations; empty: the pose of rest
+    std::optional<SequenceTimes> sequence{}; ///< whose frames want the path of the camera
 };
 
 struct LoadedScene {
     Scene scene;
+    CameraPath cameraPath{};  ///< of its camera
+    bool movesByTime = false; ///< other frames of a sequence show other meshes or lights: load it for each
     std::filesystem::path file;
     std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
     std::vector<std::string> warnings;   ///< of what is not a mesh

@@ -33,9 +33,8 @@ glm::dvec3 readDirection(const JsonObject &object, std::string_view key, const g
     return direction;
 }
 
-Camera readCamera(const JsonObject &object) {
-    Camera camera;
-    camera.kind = object.choice("type", cameraNames, camera.kind);
+/// What moves of the camera, where it is not as in `camera`.
+void readPose(const JsonObject &object, Camera &camera) {
     camera.position = object.vector("position", limits::coordinate, camera.position);
     camera.direction = readDirection(object, "direction", camera.direction);
     camera.up = readDirection(object, "up", camera.up);
@@ -43,8 +42,6 @@ Camera readCamera(const JsonObject &object) {
         object.number("horizontalFov", limits::horizontalFovDegrees, camera.horizontalFovDegrees);
     camera.aperture = object.number("aperture", limits::aperture, camera.aperture);
     camera.viewWidth = object.number("viewWidth", limits::viewWidth, camera.viewWidth);
-    camera.width = object.integer("width", limits::imageSize, camera.width);
-    camera.height = object.integer("height", limits::imageSize, camera.height);
     if (const std::optional<JsonNode> target = object.find("target")) {
         if (object.find("direction"))
             target->fail("found beside \"direction\"; allowed: one of the two");
@@ -54,7 +51,47 @@ Camera readCamera(const JsonObject &object) {
         camera.focusDistance = std::min(glm::length(camera.direction), limits::focusDistance.high);
     }
     camera.focusDistance = object.number("focusDistance", limits::focusDistance, camera.focusDistance);
+}
+
+Camera readCamera(const JsonObject &object) {
+    Camera camera;
+    camera.kind = object.choice("type", cameraNames, camera.kind);
+    readPose(object, camera);
+    camera.width = object.integer("width", limits::imageSize, camera.width);
+    camera.height = object.integer("height", limits::imageSize, camera.height);
     return camera;
+}
+
+/// `camera` is that of the object, whose values hold where a key gives none.
+CameraPath readCameraPath(const JsonObject &object, const Camera &camera) {
+    const std::optional<JsonObject> path = object.object("path", scene_keys::cameraPath);
+    if (!path)
+        return {};
+    const KeyInterpolation interpolation =
+        path->choice("interpolation", interpolationNames, KeyInterpolation::Smooth);
+    const bool hasTarget = object.find("target").has_value();
+    std::vector<CameraKey> keys;
+    for (const JsonNode &node : path->elements("keys", limits::cameraKeyCount)) {
+        const JsonObject key(node, scene_keys::cameraKey);
+        const int frame = static_cast<int>(key.at("frame").wholeNumber(limits::frame));
+        if (!keys.empty() && frame <= keys.back().frame)
+            key.at("frame").refuse(
+                fmt::format("a frame behind {}, that of the key before", keys.back().frame));
+        Camera there = camera;
+        if (hasTarget && !key.find("direction") && key.find("position")) {
+            const glm::dvec3 target = camera.position + camera.direction;
+            there.direction = target - key.vector("position", limits::coordinate);
+            if (!object.find("focusDistance"))
+                there.focusDistance = std::min(glm::length(there.direction), limits::focusDistance.high);
+            if (!key.find("target") && !limits::directionLength.contains(glm::length(there.direction)))
+                key.at("position").fail("is the camera's target; allowed: any other point");
+        }
+        readPose(key, there);
+        keys.push_back({frame, poseOf(there)});
+    }
+    if (keys.empty())
+        path->at("keys").refuse("at least one key");
+    return pathThrough(keys, interpolation);
 }
 
 Light readLight(const JsonNode &node) {
@@ -266,8 +303,10 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &
     TextureLibrary textures;
     if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
         scene.environment = readEnvironment(*environment, reach, loaded);
-    if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera))
+    if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera)) {
         scene.camera = readCamera(*camera);
+        loaded.cameraPath = readCameraPath(*camera, scene.camera);
+    }
     for (const JsonNode &light : top.elements("lights", limits::lightCount))
         scene.lights.push_back(readLight(light));
     if (const std::optional<JsonNode> materials = top.find("materials"))

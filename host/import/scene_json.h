@@ -104,7 +104,11 @@ inline constexpr auto top =
 inline constexpr auto environment = std::to_array<std::string_view>({"file", "scale", "rotateDegrees"});
 inline constexpr auto camera =
     std::to_array<std::string_view>({"type", "position", "target", "direction", "up", "horizontalFov",
-                                     "aperture", "focusDistance", "viewWidth", "width", "height"});
+                                     "aperture", "focusDistance", "viewWidth", "width", "height", "path"});
+inline constexpr auto cameraPath = std::to_array<std::string_view>({"interpolation", "keys"});
+inline constexpr auto cameraKey =
+    std::to_array<std::string_view>({"frame", "position", "target", "direction", "up", "horizontalFov",
+                                     "aperture", "focusDistance", "viewWidth"});
 inline constexpr auto pointLight = std::to_array<std::string_view>({"type", "position", "power"});
 inline constexpr auto spotLight =
     std::to_array<std::string_view>({"type", "position", "power", "direction", "angle", "blend"});

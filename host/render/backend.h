@@ -1,17 +1,17 @@
-// Backends: the renderers that a command can name. Vulkan devices, the CPU twin, and the double twin.
+// Backends: renderers behind one interface.
 #pragma once
 
+#include "host/film/continuation.h"
 #include "host/film/ray_counts.h"
+#include "host/film/render_timing.h"
 #include "host/film/timeline.h"
 #include "host/film/work_counts.h"
-#include "host/gpu/processor_use.h"
-#include "host/gpu/renderer.h"
+#include "host/gpu/arithmetic.h"
+#include "host/gpu/memory_plan.h"
 #include "host/render/prepare.h"
 #include "host/report/provenance.h"
 
 #include <functional>
-#include <future>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +27,8 @@ struct BackendResult {
     gpu::MemoryPlan memory{}; ///< peak memory of a device, and of the host for it
     std::vector<std::string>
         faults{}; ///< failed Vulkan calls; the render continued after each, except perhaps the last
-    std::optional<Error> failure{}; ///< why the device ended the render early, or empty
+    std::optional<Error> failure{};      ///< why the device ended the render early, or empty
+    std::vector<RendererShare> shares{}; ///< of several renderers, if there are several
 };
 
 class Backend {
@@ -44,6 +45,11 @@ class Backend {
     /// Backends with the same text add samples with the same bits to a film, and can continue one another's films;
     /// empty: this one cannot.
     [[nodiscard]] virtual std::string precision() const { return "float32"; }
+    /// Whether a driver may compile for long before the first ray.
+    [[nodiscard]] virtual bool hasCompiler() const { return true; }
+    /// Renders the crop of the continuation's film, or else that of the scene. What a backend needs of a scene it may
+    /// keep for the next render of the same one.
+    ///
     /// `timeline`, if not null, records what happened when. `shouldStop` may be called by several threads at once; if
     /// it returns true, the film has the samples finished so far.
     [[nodiscard]] virtual BackendResult render(const PreparedScene &scene,
@@ -66,33 +72,5 @@ class Backend {
 
 /// Throws Error{LimitExceeded} if memory cannot hold this number of films of the crop and the images made of them.
 void requireFilmMemory(const Crop &crop, unsigned filmCount);
-
-/// Whether openBackend opens the reference renderer by this name.
-[[nodiscard]] bool isReference(const std::string &name);
-
-/// Options of a Vulkan device. None affects the image.
-struct DeviceOptions {
-    std::optional<gpu::KernelChoice> kernel;
-    double maxDispatchMillis = gpu::RenderConfig{}.dispatchSeconds * 1e3;
-};
-
-/// The render config for these options.
-[[nodiscard]] gpu::RenderConfig renderConfigFor(const DeviceOptions &options);
-
-/// The best use of the processors for a scene. `threadCount` 0: all threads.
-[[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline);
-[[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene);
-
-/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. Lavapipe follows `processors` only if
-/// this is the first device that the program opens. Throws Error{NoDevice}, and Error{Usage} if a kernel is chosen for
-/// the reference renderer.
-[[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name,
-                                                   const gpu::ProcessorUse &processors = {},
-                                                   const gpu::RenderConfig &config = {});
-
-/// The same, in a thread of its own. The kernel of a render config must outlive the opening.
-[[nodiscard]] std::future<std::unique_ptr<Backend>> beginOpeningBackend(const std::string &name,
-                                                                        const gpu::ProcessorUse &processors,
-                                                                        const gpu::RenderConfig &config = {});
 
 } // namespace hyalite

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/reference/divergence.h"
-#include "host/render/backend.h"
+#include "host/render/opening.h"
 
 #include <memory>
 #include <optional>

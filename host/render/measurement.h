@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/film/film_file.h"
-#include "host/render/backend.h"
+#include "host/render/opening.h"
 #include "host/render/prepare.h"
 #include "host/report/profile.h"
 

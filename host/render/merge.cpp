@@ -131,8 +131,7 @@ std::string Merger::foreignness(const CheckpointFile &file) const {
         return fmt::format("spp: {} there, {} here", subject_->samplesPerPixel, file.samplesPerPixel);
     if (file.layers.size() != layers_.size())
         return fmt::format("layers: {} there, {} here", layers_.size(), file.layers.size());
-    const auto sides = [](const Crop &crop) { return std::array{crop.x0, crop.x1, crop.y0, crop.y1}; };
-    return sides(file.crop) == sides(subject_->crop) ? "" : "it has another crop";
+    return file.crop == subject_->crop ? "" : "it has another crop";
 }
 
 void Merger::compare(const CheckpointFile &file, const Taken &second) {

@@ -1,5 +1,7 @@
 #include "host/render/render_job.h"
 
+#include "host/base/hash.h"
+#include "host/base/input_file.h"
 #include "host/film/film_file.h"
 #include "host/image/png.h"
 #include "host/render/diagnosis.h"
@@ -28,11 +30,20 @@ RenderRequest withCheckpoint(RenderRequest request) {
     return request;
 }
 
+/// Whether a PNG or OpenEXR file has this value of an attribute, which begins before its pixels. A program renames a
+/// finished file to its name, so that one that begins so is whole.
+bool hasAttribute(const std::filesystem::path &path, const std::string &value) {
+    constexpr std::size_t mostBytes = std::size_t{1} << 20;
+    const InputFile file(path);
+    const std::vector<std::byte> head = file.head(mostBytes);
+    return !std::ranges::search(head, std::as_bytes(std::span(value))).empty();
+}
+
 } // namespace
 
-RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLine)
+RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLine, RenderSession &session)
     : request_(withCheckpoint(request)),
-      format_(request.part ? ImageFormat::Exr : imageFormatOf(request.output)) {
+      format_(request.part ? ImageFormat::Exr : imageFormatOf(request.output)), session_(session) {
     if (!request_.part)
         image_.emplace(request_.output);
     if (!request_.report.empty())
@@ -46,20 +57,20 @@ RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLin
 }
 
 void RenderJob::prepare() {
-    const auto beginOpening = [this](const SceneOutline &outline) {
-        opening_ = beginOpeningBackend(request_.device, processorsFor(request_.threadCount, outline),
-                                       renderConfigFor(request_.deviceOptions));
-    };
-    scene_ = prepareScene(request_.scene, Source::Dropped, request_.isQuiet, beginOpening);
-    report_.origin = provenanceOf(*scene_, report_.origin.commandLine);
+    if (!session_.isPrepared())
+        session_.prepare(request_);
+    if (!session_.isOpen()) { // the first picture
+        report_.loadSeconds = session_.scene().loadSeconds;
+        report_.buildSeconds = session_.scene().buildSeconds;
+    }
+    report_.origin = provenanceOf(session_.scene(), report_.origin.commandLine);
     const Part part = request_.part.value_or(Part{});
-    if (const std::uint32_t most = Partition::mostParts(scene_->crop); part.count > most)
+    if (const std::uint32_t most = Partition::mostParts(session_.scene().crop); part.count > most)
         throw Error(ErrorKind::Usage,
                     fmt::format("--part: found {}/{}; a picture of {} x {} pixels has at most {} parts",
-                                part.index, part.count, scene_->crop.width(), scene_->crop.height(), most));
-    partition_.emplace(scene_->crop, part.count);
-    report_.loadSeconds = scene_->loadSeconds;
-    report_.buildSeconds = scene_->buildSeconds;
+                                part.index, part.count, session_.scene().crop.width(),
+                                session_.scene().crop.height(), most));
+    partition_.emplace(session_.scene().crop, part.count);
 }
 
 std::span<const Crop> RenderJob::squares() const {
@@ -72,26 +83,45 @@ std::uint64_t RenderJob::pixelCount() const {
 
 void RenderJob::requireRoom() const {
     if (format_ == ImageFormat::Png)
-        requirePngSize(request_.output, scene_->crop.width(), scene_->crop.height());
+        requirePngSize(request_.output, session_.scene().crop.width(), session_.scene().crop.height());
     const bool isCopied = !request_.checkpoint.empty() || request_.partialSeconds;
-    requireFilmMemory(scene_->crop, (isCopied ? 2 : 1) + static_cast<unsigned>(request_.layers.size()));
+    requireFilmMemory(session_.scene().crop,
+                      (isCopied ? 2 : 1) + static_cast<unsigned>(request_.layers.size()));
 }
 
 void RenderJob::openDevice() {
     requireRoom();
-    backend_ = opening_.get();
-    report_.device = backend_->identity(scene_->packed, scene_->loaded.scene.settings.integrator);
+    session_.open();
+    report_.device = session_.backend().identity(session_.scene().packed,
+                                                 session_.scene().loaded.scene.settings.integrator);
     signals_.emplace(request_.isQuiet);
 }
 
+void RenderJob::lookForFrame() {
+    const RenderSettings &settings = session_.scene().loaded.scene.settings;
+    const std::string whole =
+        fmt::format("{}samples per pixel: {}\nexposure: {}\ntone: {}\n",
+                    identityText(identityOf(session_.scene(), session_.backend(), &request_.layers)),
+                    settings.samplesPerPixel, settings.exposureStops,
+                    static_cast<int>(request_.tone.value_or(ToneCurve::Gamma)));
+    frameIdentity_ = hashText(hashBytes(std::as_bytes(std::span(whole))));
+    std::error_code error;
+    if (request_.isResuming && std::filesystem::is_regular_file(request_.output, error))
+        isFrameThere_ = hasAttribute(request_.output, frameIdentity_);
+}
+
 void RenderJob::resume() {
-    if (request_.checkpoint.empty())
+    if (request_.frame)
+        lookForFrame();
+    if (isFrameThere_ || request_.checkpoint.empty())
         return;
     const RenderIdentity identity =
-        identityOf(*scene_, *backend_, request_.part ? &request_.layers : nullptr);
-    const int samplesPerPixel = scene_->loaded.scene.settings.samplesPerPixel;
-    CheckpointSubject subject{
-        scene_->crop, request_.part.value_or(Part{}), static_cast<std::uint32_t>(samplesPerPixel), {}};
+        identityOf(session_.scene(), session_.backend(), request_.part ? &request_.layers : nullptr);
+    const int samplesPerPixel = session_.scene().loaded.scene.settings.samplesPerPixel;
+    CheckpointSubject subject{session_.scene().crop,
+                              request_.part.value_or(Part{}),
+                              static_cast<std::uint32_t>(samplesPerPixel),
+                              {}};
     if (request_.part)
         subject.origin = toText(partOrigin());
     std::optional<ResumedCheckpoint> resumed;
@@ -110,7 +140,7 @@ void RenderJob::resume() {
                         checkpointDamage_.empty() && (!resumed || resumed->damage.empty()));
     if (!resumed) {
         if (request_.part)
-            filmBefore_ = filmOfSquares(scene_->crop, squares(), subject.samplesPerPixel);
+            filmBefore_ = filmOfSquares(session_.scene().crop, squares(), subject.samplesPerPixel);
         return;
     }
     checkpointDamage_ = resumed->damage;
@@ -127,8 +157,8 @@ PartOrigin RenderJob::partOrigin() const {
     origin.host = hostName();
     origin.folder = std::filesystem::current_path().string();
     origin.words = request_.words;
-    origin.wholeWidth = scene_->loaded.scene.camera.width;
-    origin.wholeHeight = scene_->loaded.scene.camera.height;
+    origin.wholeWidth = session_.scene().loaded.scene.camera.width;
+    origin.wholeHeight = session_.scene().loaded.scene.camera.height;
     origin.layers = request_.layers;
     origin.provenance = provenanceToJson(report_.origin, report_.device)
                             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -136,9 +166,11 @@ PartOrigin RenderJob::partOrigin() const {
 }
 
 bool RenderJob::isFinishedBefore() const {
+    if (isFrameThere_)
+        return true;
     if (!request_.part || !report_.resumed || !checkpointDamage_.empty())
         return false;
-    const int samplesPerPixel = scene_->loaded.scene.settings.samplesPerPixel;
+    const int samplesPerPixel = session_.scene().loaded.scene.settings.samplesPerPixel;
     bool isFinished = finishedWork(*filmBefore_, squares(), samplesPerPixel).isComplete;
     for (std::size_t i = 0; i < layersBefore_.size(); ++i)
         isFinished = isFinished && finishedWork(layersBefore_[i], squares(),
@@ -176,20 +208,21 @@ std::vector<PeriodicFile> RenderJob::periodicFiles() {
 }
 
 void RenderJob::renderLayers() {
-    snapshots_.emplace(scene_->crop, periodicFiles());
+    snapshots_.emplace(session_.scene().crop, periodicFiles());
     renderStart_ = Clock::now();
-    layers_ =
-        renderViews(*backend_, *scene_, request_.layers, request_.part ? squares() : std::span<const Crop>(),
-                    layersBefore_, request_.isQuiet, [this] { return shouldStop(); });
+    layers_ = renderViews(session_.backend(), session_.scene(), request_.layers,
+                          request_.part ? squares() : std::span<const Crop>(), layersBefore_,
+                          request_.isQuiet, [this] { return shouldStop(); });
 }
 
 void RenderJob::render() {
     Continuation continuation;
     continuation.film = std::move(filmBefore_);
     continuation.snapshots = &*snapshots_;
-    continuation.shareOfOthers = shareOutside(scene_->crop, squares());
+    continuation.shareOfOthers = shareOutside(session_.scene().crop, squares());
     BackendResult result = renderWithProgress(
-        *backend_, *scene_, "render", request_.isQuiet, nullptr,
+        session_.backend(), session_.scene(),
+        request_.frame ? fmt::format("frame {}", *request_.frame) : "render", request_.isQuiet, nullptr,
         [this] {
             signals_->keepResults(); // whoever asks this ends soon, with what is finished
             return shouldStop();
@@ -201,7 +234,8 @@ void RenderJob::render() {
 
 void RenderJob::takeResult(BackendResult result) {
     signalWhileRendering_ = signals_->first();
-    report_.finished = finishedWork(result.film, squares(), scene_->loaded.scene.settings.samplesPerPixel);
+    report_.finished =
+        finishedWork(result.film, squares(), session_.scene().loaded.scene.settings.samplesPerPixel);
     if (result.failure && report_.finished.sampleCount == 0)
         throw Error(*result.failure);
     if (signalWhileRendering_ != 0 && report_.finished.sampleCount == 0)
@@ -213,6 +247,7 @@ void RenderJob::takeResult(BackendResult result) {
                             : signalWhileRendering_ != 0 ? signalName(signalWhileRendering_)
                                                          : "the time limit";
     report_.faults = std::move(result.faults);
+    report_.shares = std::move(result.shares);
     report_.timing = result.timing;
     report_.deviceBytes = result.memory.deviceBytes;
     report_.rays = raysBefore_ + result.rays;
@@ -224,13 +259,17 @@ void RenderJob::takeResult(BackendResult result) {
 void RenderJob::writePicture(AtomicFile &file, const Film &film) const {
     const Image image = film.toImage();
     Picture picture(image);
-    picture.wholeWidth = scene_->loaded.scene.camera.width;
-    picture.wholeHeight = scene_->loaded.scene.camera.height;
+    picture.wholeWidth = session_.scene().loaded.scene.camera.width;
+    picture.wholeHeight = session_.scene().loaded.scene.camera.height;
     picture.crop = film.crop;
     picture.layers = filmLayers(film);
     std::ranges::move(viewLayers(layers_), std::back_inserter(picture.layers));
     picture.attributes = attributesOf(provenanceToJson(report_.origin, report_.device));
-    writeFilm(file, format_, film, picture, scene_->loaded.scene.settings,
+    if (request_.frame) {
+        picture.attributes.emplace_back("frame", fmt::format("{}", *request_.frame));
+        picture.attributes.emplace_back("identity", frameIdentity_);
+    }
+    writeFilm(file, format_, film, picture, session_.scene().loaded.scene.settings,
               request_.tone.value_or(ToneCurve::Gamma));
 }
 
@@ -243,6 +282,8 @@ void RenderJob::writeImage() {
             checkpointFailure_.emplace(error);
         }
     }
+    if (request_.frame && !report_.finished.isComplete)
+        image_.reset(); // who looks at files takes it for finished
     if (image_) {
         writePicture(*image_, *film_);
         image_->commit();
@@ -262,7 +303,8 @@ void RenderJob::writeReport() {
 }
 
 std::optional<std::string> RenderJob::diagnosis() const {
-    return report_.finished.isComplete && !request_.part ? diagnosePicture(*scene_, *film_) : std::nullopt;
+    return report_.finished.isComplete && !request_.part ? diagnosePicture(session_.scene(), *film_)
+                                                         : std::nullopt;
 }
 
 void RenderJob::throwFailure() const {

@@ -6,56 +6,32 @@
 #include "host/film/checkpoint_lock.h"
 #include "host/film/partition.h"
 #include "host/image/image_file.h"
-#include "host/image/tone_map.h"
-#include "host/render/backend.h"
 #include "host/render/layers.h"
 #include "host/render/part_origin.h"
 #include "host/render/periodic_files.h"
-#include "host/render/prepare.h"
+#include "host/render/render_session.h"
 #include "host/render/stop.h"
 #include "host/report/render_report.h"
 
 #include <chrono>
-#include <future>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace hyalite {
 
-/// A request: what to render, on which device, into which files. The path of a file that is not wanted is empty.
-struct RenderRequest {
-    SceneOptions scene;
-    std::string output;
-    std::optional<ToneCurve> tone; ///< of a PNG; default: gamma
-    std::vector<Integrator> layers;
-    std::string device = "auto";
-    int threadCount = 0; ///< 0: all
-    DeviceOptions deviceOptions;
-    std::string report;
-    std::optional<double> timeLimitSeconds;
-    std::string checkpoint;
-    std::optional<double> checkpointSeconds; ///< interval; default: 10
-    bool isResuming = false;
-    /// Only this part of the picture, into the checkpoint `output` in place of a picture; it goes on from what is there.
-    std::optional<Part> part;
-    std::vector<std::string> words;       ///< of the command line, for who has to make a part again
-    std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
-    bool isQuiet = false;                 ///< no progress
-};
-
 /// Call the stages once each, in the order of their declarations.
 class RenderJob {
   public:
     /// Opens the outputs, so that one that cannot be written fails before the work begins.
-    RenderJob(const RenderRequest &request, const std::string &commandLine);
+    /// `session` must outlive it.
+    RenderJob(const RenderRequest &request, const std::string &commandLine, RenderSession &session);
 
-    /// Loads and builds the scene, and opens the device at the same time, as soon as the outline is known.
+    /// Prepares the session, unless it is prepared.
     void prepare();
     /// Waits for the device, and checks memory for the films.
     void openDevice();
-    /// Opens the checkpoint and, to resume, reads it.
+    /// Opens the checkpoint and, to resume, reads it; looks for the frame that was rendered before.
     void resume();
     /// Renders the layers.
     void renderLayers();
@@ -70,12 +46,10 @@ class RenderJob {
     /// Throws the failure of the render or of the checkpoint, if there was one.
     void throwFailure() const;
 
-    [[nodiscard]] const PreparedScene &scene() const { return *scene_; }
-    [[nodiscard]] const Backend &device() const { return *backend_; }
     [[nodiscard]] const RenderReport &report() const { return report_; }
     /// Pixels to be rendered: those of the part.
     [[nodiscard]] std::uint64_t pixelCount() const;
-    /// Whether the part was finished before.
+    /// Whether the part or the frame was finished before.
     [[nodiscard]] bool isFinishedBefore() const;
     /// Why the newest checkpoint was not used, or empty.
     [[nodiscard]] const std::string &checkpointDamage() const { return checkpointDamage_; }
@@ -91,6 +65,7 @@ class RenderJob {
     [[nodiscard]] std::vector<PeriodicFile> periodicFiles();
     [[nodiscard]] std::span<const Crop> squares() const;
     [[nodiscard]] PartOrigin partOrigin() const;
+    void lookForFrame();
     void writeCheckpoint(const Film &film, const RayCounts &rays);
     void requireRoom() const;
     void takeResult(BackendResult result);
@@ -101,14 +76,14 @@ class RenderJob {
     const ImageFormat format_;
     std::optional<AtomicFile> image_; ///< unless the output is a part
     std::optional<AtomicFile> reportFile_;
-    std::optional<PreparedScene> scene_;
-    std::future<std::unique_ptr<Backend>> opening_;
-    std::unique_ptr<Backend> backend_;
+    RenderSession &session_;
     std::optional<CaughtSignals> signals_; ///< until everything is written, when the most could be lost
     std::optional<Partition> partition_;
     std::optional<CheckpointLock> checkpointLock_;
     std::optional<CheckpointWriter> checkpoint_;
     std::string checkpointDamage_;
+    std::string frameIdentity_; ///< what decides the bytes of a frame's picture
+    bool isFrameThere_ = false;
     RayCounts raysBefore_;
     std::optional<Film> filmBefore_;
     std::vector<Film> layersBefore_;

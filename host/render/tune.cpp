@@ -3,7 +3,7 @@
 #include "host/base/error.h"
 #include "host/gpu/renderer.h"
 #include "host/image/metrics.h"
-#include "host/render/backend.h"
+#include "host/render/opening.h"
 #include "host/render/prepare.h"
 
 #include <fmt/format.h>

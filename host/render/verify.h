@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host/reference/divergence.h"
-#include "host/render/backend.h"
+#include "host/render/opening.h"
 #include "host/render/shipped_films.h"
 
 #include <glm/vec2.hpp>

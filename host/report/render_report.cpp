@@ -43,6 +43,17 @@ std::string formatReport(const RenderReport &report) {
                            {"samples", report.resumed->sampleCount},
                            {"rays", raysToJson(report.resumed->rays)}};
     json["faults"] = report.faults;
+    if (!report.shares.empty()) {
+        json["shares"] = nlohmann::ordered_json::array();
+        for (const RendererShare &share : report.shares)
+            json["shares"].push_back(
+                {{"name", share.name},
+                 {"tiles", share.tileCount},
+                 {"samples", share.sampleCount},
+                 {"seconds", share.seconds},
+                 {"failure",
+                  share.failure.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(share.failure)}});
+    }
     json["rays"] = raysToJson(report.rays);
     json["dispatches"] = report.timing.dispatchCount;
     json["deviceBytes"] = nullptr;

@@ -43,8 +43,9 @@ struct RenderReport {
         faults;            ///< failed Vulkan calls; the render continued after each, except perhaps the last
     std::string stoppedBy; ///< what ended the render early, or empty
     std::optional<ResumedWork> resumed;
-    RayCounts rays;                ///< traced for the image, before and now
-    std::uint64_t deviceBytes = 0; ///< peak memory on a device; 0: on the CPU
+    std::vector<RendererShare> shares; ///< of several renderers, if there are several
+    RayCounts rays;                    ///< traced for the image, before and now
+    std::uint64_t deviceBytes = 0;     ///< peak memory on a device; 0: on the CPU
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
     RenderTiming timing;

@@ -16,6 +16,9 @@ inline constexpr Interval aperture{0.0, 1e15};
 inline constexpr Interval focusDistance{0.0, 1e15, false};
 inline constexpr Interval viewWidth{0.0, 1e15, false};
 inline constexpr Interval imageSize{1, 32768}; ///< pixels, width and height alike
+inline constexpr Interval frame{0, 99999};     ///< of a sequence
+inline constexpr Interval framesPerSecond{1e-3, 1000.0};
+inline constexpr std::size_t cameraKeyCount = 10000;
 
 inline constexpr Interval spotAngle{0.0, 180.0, false};
 inline constexpr Interval environmentScale{0.0, 1e15};

@@ -1,6 +1,7 @@
 // The words for settings, as scene files, command lines and reports use them: the one place.
 #pragma once
 
+#include "host/scene/camera_path.h"
 #include "host/scene/scene.h"
 #include "host/scene/shapes.h"
 
@@ -28,6 +29,8 @@ inline constexpr auto integratorNames = namesOf(integratorTable, &IntegratorRow:
 inline constexpr std::array<Name<CameraKind>, 3> cameraNames{{{"perspective", CameraKind::Perspective},
                                                               {"orthographic", CameraKind::Orthographic},
                                                               {"panorama", CameraKind::Panorama}}};
+inline constexpr std::array<Name<KeyInterpolation>, 2> interpolationNames{
+    {{"smooth", KeyInterpolation::Smooth}, {"linear", KeyInterpolation::Linear}}};
 inline constexpr std::array<Name<LightKind>, 3> lightNames{
     {{"point", LightKind::Point}, {"spot", LightKind::Spot}, {"directional", LightKind::Directional}}};
 inline constexpr std::array<Name<ShapeKind>, 4> shapeNames{{{"quad", ShapeKind::Quad},

@@ -1,6 +1,7 @@
 // Scene validation: the only check of the invariants of scene.h, for scenes from files, from code and after overrides.
 #pragma once
 
+#include "host/scene/camera_path.h"
 #include "host/scene/scene.h"
 
 #include <string>
@@ -10,5 +11,8 @@ namespace hyalite {
 /// Checks the scene against limits.h: every number finite and in range, every index within its array, the view
 /// direction not parallel to up. Throws Error{BadInput} "SOURCE: sphere 3: radius: found -1; allowed: ...".
 void validateScene(const Scene &scene, const std::string &sourceName);
+
+/// Throws Error{BadInput} for the first pose in which the camera is not valid, and names its frame.
+void validateCameraPath(const CameraPath &path, const Camera &camera, const std::string &sourceName);
 
 } // namespace hyalite

@@ -52,6 +52,19 @@ TEST_F(DeviceRecovery, AFaultInAnyDispatchChangesNoBit) {
         }
 }
 
+TEST_F(DeviceRecovery, AnotherDeviceFinishesWhatOneLeaves) {
+    const std::string line = "render spheres --width 96 --height 64 --spp 8 --report " + path("r.json") +
+                             " -o " + path("a.pfm") + " --device cpu";
+    ASSERT_EQ(runHere(line, "").exitCode, 0);
+    const std::string wanted = load("a.pfm");
+    const Outcome outcome = runHere(line + " --device 0", "vkQueueSubmit:5+:VK_ERROR_DEVICE_LOST");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "note: left out llvmpipe")) << outcome;
+    EXPECT_TRUE(load("a.pfm") == wanted);
+    EXPECT_TRUE(contains(report().at("shares").at(1).at("failure"), "VK_ERROR_DEVICE_LOST")) << report();
+    EXPECT_TRUE(lastTally.alive.empty()) << ::testing::PrintToString(lastTally.alive);
+}
+
 TEST_F(DeviceRecovery, ADeviceThatFailsForGoodLeavesWhatIsFinished) {
     ASSERT_EQ(render("").exitCode, 0);
     const Image whole = readImage(folder / "a.pfm").image;

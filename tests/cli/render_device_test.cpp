@@ -52,6 +52,38 @@ TEST_F(RenderDevice, EveryWayToNameADeviceGivesTheBytesOfTheCpu) {
     }
 }
 
+TEST_F(RenderDevice, SeveralDevicesShareThePicture) {
+    const std::string shared = "spheres --width 96 --height 64 --spp 8";
+    const std::string wanted = renderPfm(shared + " --device cpu");
+    const nlohmann::json report = renderReport(shared + " --device cpu --device " + softwareDevice());
+    EXPECT_TRUE(load("reported.pfm") == wanted);
+    std::uint64_t samples = 0;
+    ASSERT_EQ(report.at("shares").size(), 2u) << report;
+    for (const nlohmann::json &share : report.at("shares")) {
+        EXPECT_GT(share.at("tiles"), 0) << share;
+        EXPECT_TRUE(share.at("failure").is_null()) << share;
+        samples += share.at("samples").get<std::uint64_t>();
+    }
+    EXPECT_EQ(samples, 96u * 64u * 8u);
+    EXPECT_TRUE(contains(report.at("device").at("name"), "cpu + ")) << report;
+}
+
+TEST_F(RenderDevice, AllLeavesTheCpuToTheSoftwareDeviceOnIt) {
+    const Outcome outcome = run("render spheres -o a.pfm --device all" + smallOnDevice);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "note: left out cpu: ")) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, " computes on the same cores\n")) << outcome;
+    EXPECT_EQ(load("a.pfm"), renderPfm("spheres --device cpu" + smallOnDevice));
+}
+
+TEST_F(RenderDevice, NamesThatDoNotGoTogetherAreRefused) {
+    const std::string line = "render spheres -o a.pfm --device " + softwareDevice();
+    expectFailure(line + " --device " + softwareDevice(), 2, {"--device: ", " is there twice"});
+    expectFailure(line + " --device cpu-double", 2, {"--device: cpu-double goes with no other"});
+    expectFailure(line + " --device all", 2, {"--device: all goes with no other"});
+    expectFailure(line + " --device nothing", 4, {"no device matches 'nothing'"});
+}
+
 TEST_F(RenderDevice, AutoIsTheDefaultAndMatchesTheCpu) {
     const nlohmann::json report = renderReport("spheres" + smallOnDevice);
     const std::string byDefault = load("reported.pfm");

@@ -152,6 +152,51 @@ TEST_F(GltfView, AnimationsMoveNodesInTime) {
     EXPECT_THROW(static_cast<void>(placeAt(animated("LINEAR", {1, 3}, {0, 0, 0}), 1.0)), Error);
 }
 
+/// A triangle, and a camera below a node that an animation moves; the camera's node is 2.
+GltfMaker withMovingCamera() {
+    GltfMaker maker = animated("LINEAR", {0, 1}, {0, 0, 5, 2, 0, 5});
+    maker.json["animations"][0]["channels"][0]["target"]["node"] = 1;
+    maker.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    maker.json["nodes"].push_back({{"children", {2}}});
+    maker.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 1, 0}}});
+    maker.json["scenes"][0]["nodes"] = {0, 1};
+    return maker;
+}
+
+TEST_F(GltfView, CamerasMoveInTheFramesOfASequence) {
+    const LoadedScene loaded = load(withMovingCamera(), {.sequence = SequenceTimes{4.0, 6}});
+    EXPECT_FALSE(loaded.movesByTime);
+    ASSERT_EQ(loaded.cameraPath.size(), 7u);
+    for (int frame = 0; frame <= 6; ++frame) {
+        const CameraPose &pose = loaded.cameraPath[static_cast<std::size_t>(frame)];
+        EXPECT_NEAR(glm::length(pose.position - glm::dvec3(std::min(0.5 * frame, 2.0), 1.0, 5.0)), 0.0, 1e-6);
+        EXPECT_EQ(pose.direction, glm::dvec3(0.0, 0.0, -1.0));
+    }
+    EXPECT_TRUE(load(withMovingCamera()).cameraPath.empty());
+    GltfMaker flat = withMovingCamera();
+    flat.json["nodes"][1]["scale"] = {1, 1, 1};
+    flat.json["animations"][0]["channels"][0]["target"]["path"] = "scale";
+    const std::size_t zero = flat.addVec3({1, 1, 1, 0, 0, 0});
+    flat.json["animations"][0]["samplers"][0]["output"] = zero;
+    try {
+        static_cast<void>(load(flat, {.sequence = SequenceTimes{4.0, 6}}));
+        FAIL();
+    } catch (const Error &error) {
+        EXPECT_NE(std::string(error.what()).find("the camera is flattened in frame 4"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST_F(GltfView, WhatElseMovesIsToBeLoadedForEachFrame) {
+    const LoadOptions options{.sequence = SequenceTimes{24.0, 1}};
+    EXPECT_FALSE(load(oneTriangle(), options).movesByTime);
+    EXPECT_TRUE(load(animated("LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0}), options).movesByTime);
+    GltfMaker carried = withMovingCamera(); // with the camera
+    carried.json["nodes"][1]["children"] = {2, 0};
+    carried.json["scenes"][0]["nodes"] = {1};
+    EXPECT_TRUE(load(carried, options).movesByTime);
+}
+
 TEST_F(GltfView, RotationsGoTheShorterWay) {
     GltfMaker maker = oneTriangle();
     const std::size_t input = maker.addScalars({0, 1});

@@ -249,6 +249,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{R"({"camera": {"direction": [0, 0, 0]}})", " /camera/direction: ", "length"},
         Refusal{R"({"camera": {"up": [0, 0, 1e-300]}})", " /camera/up: ", "length"},
         Refusal{R"({"camera": {"target": [0, 0, 55]}})", " /camera/target: ", "own position"},
+        Refusal{R"({"camera": {"path": {}}})", " /camera/path", "missing"},
+        Refusal{R"({"camera": {"path": {"keys": []}}})", " /camera/path/keys: ", "at least one key"},
+        Refusal{R"({"camera": {"path": {"keys": [{"frame": 1.5}]}}})",
+                " /camera/path/keys/0/frame: ", "whole"},
+        Refusal{R"({"camera": {"path": {"keys": [{"frame": 4}, {"frame": 4}]}}})",
+                " /camera/path/keys/1/frame: ", "a frame behind 4"},
+        Refusal{
+            R"({"camera": {"target": [0, 0, 0], "path": {"keys": [{"frame": 0, "position": [0, 0, 0]}]}}})",
+            " /camera/path/keys/0/position: ", "the camera's target"},
         Refusal{R"({"camera": {"target": [0, 0, 0], "direction": [0, 0, -1]}})",
                 " /camera/target: ", "one of the two"},
         Refusal{R"({"background": [0, 0, -1]})", " /background/2: ", "found -1"},
@@ -329,6 +338,24 @@ TEST_F(SceneJson, ALongListOfMaterialsIsCutInTheMessage) {
     const std::string message = refusal(scene.dump());
     EXPECT_LT(message.size(), 500u);
     EXPECT_TRUE(message.ends_with(", ...")) << message;
+}
+
+// A camera with a target looks at it from each key, unless the key says otherwise.
+TEST_F(SceneJson, TheKeysOfACameraKeepItsTarget) {
+    const CameraPath path =
+        loadSceneFile(write("scene.json", R"({"camera": {"target": [0, 0, 5], "path": {"keys": [
+            {"frame": 0}, {"frame": 1, "position": [4, 0, 5]},
+            {"frame": 2, "position": [4, 0, 5], "direction": [0, 1, 0], "horizontalFov": 30},
+            {"frame": 3, "target": [1, 1, 1]}]}}})"))
+            .cameraPath;
+    ASSERT_EQ(path.size(), 4u);
+    EXPECT_EQ(path[0].direction, glm::dvec3(0.0, 0.0, -50.0));
+    EXPECT_EQ(path[1].direction, glm::dvec3(-4.0, 0.0, 0.0));
+    EXPECT_EQ(path[1].focusDistance, 4.0);
+    EXPECT_EQ(path[1].horizontalFovDegrees, 60.0);
+    EXPECT_EQ(path[2].direction, glm::dvec3(0.0, 1.0, 0.0));
+    EXPECT_EQ(path[2].horizontalFovDegrees, 30.0);
+    EXPECT_EQ(path[3].direction, glm::dvec3(1.0, 1.0, -54.0));
 }
 
 TEST_F(SceneJson, ALongValueIsCutInTheMessage) {

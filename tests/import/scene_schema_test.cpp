@@ -34,6 +34,8 @@ std::vector<GrammarObject> grammar() {
     return {
         {Pointer(), all(scene_keys::top), Pointer()},
         {defs / "camera", all(scene_keys::camera), Pointer("/camera")},
+        {defs / "cameraPath", all(scene_keys::cameraPath), Pointer("/camera/path")},
+        {defs / "cameraKey", all(scene_keys::cameraKey), Pointer("/camera/path/keys/0")},
         {defs / "environment", all(scene_keys::environment), Pointer("/environment")},
         {defs / "point light", all(scene_keys::pointLight), Pointer("/lights/0")},
         {defs / "spot light", all(scene_keys::spotLight), Pointer("/lights/1")},
@@ -78,9 +80,9 @@ TEST_F(SceneSchema, EveryKeyOfTheSchemaIsAcceptedAndRead) {
     for (const GrammarObject &object : grammar())
         for (const auto &[key, property] : document.at(object.definition).at("properties").items()) {
             json scene = completeScene();
-            if (key == "direction" && object.place == Pointer("/camera")) {
-                scene["camera"].erase("target");
-                scene["camera"]["direction"] = {0, 0, 1};
+            if (key == "direction" && scene.at(object.place).contains("target")) {
+                scene[object.place].erase("target");
+                scene[object.place]["direction"] = {0, 0, 1};
                 EXPECT_EQ(refusal(scene.dump()), "");
             }
             if (key == "materialOverrides") {
@@ -118,6 +120,7 @@ TEST_F(SceneSchema, SchemaAndLoaderListTheSameNames) {
     const json document = schema();
     const std::pair<const char *, const char *> choices[] = {
         {"/$defs/camera/properties/type", "/camera/type"},
+        {"/$defs/cameraPath/properties/interpolation", "/camera/path/interpolation"},
         {"/$defs/conductor/properties/metal", "/materials/brass/metal"},
         {"/$defs/shape/properties/type", "/shapes/0/type"},
     };
@@ -145,6 +148,11 @@ TEST_F(SceneSchema, SchemaAndLoaderHaveTheSameLimits) {
         {"/camera/properties/aperture", limits::aperture},
         {"/camera/properties/focusDistance", limits::focusDistance},
         {"/camera/properties/viewWidth", limits::viewWidth},
+        {"/cameraKey/properties/frame", limits::frame},
+        {"/cameraKey/properties/horizontalFov", limits::horizontalFovDegrees},
+        {"/cameraKey/properties/aperture", limits::aperture},
+        {"/cameraKey/properties/focusDistance", limits::focusDistance},
+        {"/cameraKey/properties/viewWidth", limits::viewWidth},
         {"/environment/properties/scale", limits::environmentScale},
         {"/environment/properties/rotateDegrees", limits::rotateDegrees},
         {"/spot light/properties/angle", limits::spotAngle},
@@ -176,6 +184,7 @@ TEST_F(SceneSchema, SchemaAndLoaderHaveTheSameLimits) {
             << place;
     }
     const json properties = schema().at("properties");
+    EXPECT_EQ(defs.at("cameraPath").at("properties").at("keys").at("maxItems"), limits::cameraKeyCount);
     EXPECT_EQ(properties.at("lights").at("maxItems"), limits::lightCount);
     EXPECT_EQ(properties.at("spheres").at("maxItems"), limits::sphereCount);
     EXPECT_EQ(properties.at("meshes").at("maxItems"), limits::meshCount);
@@ -199,7 +208,7 @@ TEST_F(SceneSchema, TheDefaultsOfTheSchemaAreThoseOfTheScene) {
     };
     json file = {{"camera", defaultsOf("camera")}, {"settings", defaultsOf("settings")}};
     file["background"] = document.at("properties").at("background").at("default");
-    EXPECT_EQ(file["camera"].size(), scene_keys::camera.size() - 1); // all but target
+    EXPECT_EQ(file["camera"].size(), scene_keys::camera.size() - 2); // all but target
     EXPECT_EQ(file["settings"].size(), scene_keys::settings.size());
     for (const char *kind : {"diffuse", "dielectric", "conductor"}) {
         file["materials"][kind] = defaultsOf(kind);

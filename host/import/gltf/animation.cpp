@@ -185,4 +185,14 @@ void animate(Buffers &buffers, double seconds, std::vector<Pose> &poses) {
     }
 }
 
+std::vector<bool> animatedNodes(const Document &document) {
+    std::vector<bool> moved(elementsOf(document.top(), "nodes").size());
+    for (const JsonNode &animation : elementsOf(document.top(), "animations"))
+        for (const JsonNode &channel : elementsOf(JsonObject(animation), "channels"))
+            if (const std::optional<std::size_t> node =
+                    document.reference(JsonObject(JsonObject(channel).at("target")), "node", "nodes"))
+                moved[*node] = true;
+    return moved;
+}
+
 } // namespace hyalite::gltf

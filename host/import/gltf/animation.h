@@ -13,4 +13,7 @@ namespace hyalite::gltf {
 /// counts.
 void animate(Buffers &buffers, double seconds, std::vector<Pose> &poses);
 
+/// The nodes that an animation of the file moves, or whose meshes one deforms.
+[[nodiscard]] std::vector<bool> animatedNodes(const Document &document);
+
 } // namespace hyalite::gltf

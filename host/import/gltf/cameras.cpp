@@ -1,5 +1,6 @@
 #include "host/import/gltf/cameras.h"
 
+#include "host/import/gltf/animation.h"
 #include "host/scene/framing.h"
 #include "host/scene/limits.h"
 
@@ -13,13 +14,18 @@
 namespace hyalite::gltf {
 namespace {
 
+/// A camera, or a pose of one, at the origin of its node, along -z.
+template <class Aimed> void aim(const glm::dmat4x3 &toWorld, Aimed &aimed) {
+    aimed.position = toWorld[3];
+    aimed.direction = -glm::normalize(toWorld[2]);
+    aimed.up = glm::normalize(toWorld[1]);
+}
+
 PlacedCamera placed(const JsonNode &node, const glm::dmat4x3 &toWorld) {
     const JsonObject object(node);
     PlacedCamera found;
     Camera &camera = found.camera;
-    camera.position = toWorld[3];
-    camera.direction = -glm::normalize(toWorld[2]);
-    camera.up = glm::normalize(toWorld[1]);
+    aim(toWorld, camera);
     const std::string type = object.text("type");
     if (type == "perspective") {
         const JsonObject perspective(object.at("perspective"));
@@ -55,8 +61,11 @@ std::optional<PlacedCamera> readCamera(const Document &document, const std::vect
         const glm::dmat4x3 &map = toWorld[index];
         if (!camera || !(glm::length(map[2]) > 0.0 && glm::length(map[1]) > 0.0))
             continue;
-        if (choice.empty() || isCalled(choice, document, *camera, node))
-            return placed(document.at("cameras", *camera), map);
+        if (choice.empty() || isCalled(choice, document, *camera, node)) {
+            PlacedCamera found = placed(document.at("cameras", *camera), map);
+            found.node = index;
+            return found;
+        }
         const std::string own = nameOf(JsonObject(document.at("cameras", *camera)));
         const std::string name = own.empty() ? nameOf(node) : own;
         names.push_back(name.empty() ? fmt::format("{}", *camera) : name);
@@ -67,6 +76,24 @@ std::optional<PlacedCamera> readCamera(const Document &document, const std::vect
     throw Error(ErrorKind::Usage,
                 fmt::format("{}: its scene has no camera \"{}\"; it has {}", document.fileName(), choice,
                             names.empty() ? "none" : quotedList(views)));
+}
+
+CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const PlacedCamera &camera,
+                          const SequenceTimes &sequence) {
+    const Document &document = buffers.document();
+    const std::vector<Pose> rest = readPoses(document);
+    CameraPath path;
+    for (int frame = 0; frame <= sequence.lastFrame; ++frame) {
+        std::vector<Pose> poses = rest;
+        animate(buffers, frame / sequence.framesPerSecond, poses);
+        const glm::dmat4x3 map = tree.toWorld(poses)[camera.node];
+        if (!(glm::length(map[2]) > 0.0 && glm::length(map[1]) > 0.0))
+            document.at("nodes", camera.node).fail(fmt::format("the camera is flattened in frame {}", frame));
+        CameraPose pose = poseOf(camera.camera);
+        aim(map, pose);
+        path.push_back(pose);
+    }
+    return path;
 }
 
 } // namespace hyalite::gltf

@@ -1,7 +1,11 @@
 // Cameras of a glTF file (glTF 2.0, section 3.10).
 #pragma once
 
+#include "host/import/gltf/buffers.h"
 #include "host/import/gltf/document.h"
+#include "host/import/gltf/nodes.h"
+#include "host/import/loaded_scene.h"
+#include "host/scene/camera_path.h"
 #include "host/scene/scene.h"
 
 #include <glm/mat4x3.hpp>
@@ -17,6 +21,7 @@ struct PlacedCamera {
     Camera camera;
     std::optional<double>
         verticalFovDegrees{}; ///< of a perspective one: the image's shape gives the horizontal one
+    std::size_t node = 0;     ///< that has it
 };
 
 /// The camera that a user means by its name, the name of its node, or its index in /cameras; with an empty choice the
@@ -26,5 +31,9 @@ struct PlacedCamera {
                                                      const std::vector<std::size_t> &nodes,
                                                      const std::vector<glm::dmat4x3> &toWorld,
                                                      const std::string &choice);
+
+/// The path of the camera as the animations move it and the nodes above it, up to the sequence's last frame.
+[[nodiscard]] CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const PlacedCamera &camera,
+                                        const SequenceTimes &sequence);
 
 } // namespace hyalite::gltf

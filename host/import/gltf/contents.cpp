@@ -122,6 +122,16 @@ void readMeshes(Buffers &buffers, const std::vector<MeshUse> &uses, const OnRead
     addWarnings(reader.findings(), buffers.document().fileName(), file.report);
 }
 
+/// Whether one of the nodes that move has a mesh or a light. Joints of a skin may be any node: a mesh with a skin moves.
+bool moveMoreThanCameras(const Document &document, const std::vector<std::size_t> &nodes,
+                         const std::vector<bool> &moving) {
+    return std::ranges::any_of(nodes, [&](std::size_t index) {
+        const JsonObject node(document.at("nodes", index));
+        return node.find("skin") ||
+               (moving[index] && (node.find("mesh") || extensionOf(node, "KHR_lights_punctual")));
+    });
+}
+
 } // namespace
 
 Contents readContents(const std::filesystem::path &path, const FileReach &reach, TextureLibrary &textures,
@@ -156,6 +166,13 @@ Contents readContents(const std::filesystem::path &path, const FileReach &reach,
     }
     readMeshes(buffers, uses.uses(), options.onReading, contents.file);
     contents.camera = readCamera(document, nodes, toWorld, options.camera);
+    if (options.sequence) {
+        const std::vector<bool> animated = animatedNodes(document);
+        const bool isAnimated = std::ranges::find(animated, true) != animated.end();
+        if (contents.camera && isAnimated)
+            contents.cameraPath = readCameraPath(buffers, tree, *contents.camera, *options.sequence);
+        contents.movesByTime = isAnimated && moveMoreThanCameras(document, nodes, tree.below(animated));
+    }
     report.files = buffers.files();
     report.files.insert(report.files.begin(), path);
     return contents;

@@ -3,6 +3,7 @@
 
 #include "host/import/file_reach.h"
 #include "host/import/gltf/cameras.h"
+#include "host/import/loaded_scene.h"
 #include "host/import/mesh_file.h"
 #include "host/import/texture_library.h"
 #include "host/scene/scene.h"
@@ -19,6 +20,7 @@ struct ContentOptions {
     std::string scene{};  ///< name or index; empty: the file's default one
     std::string camera{}; ///< likewise; empty: the first one
     std::optional<double> timeSeconds{};
+    std::optional<SequenceTimes> sequence{};
     const OnReading &onReading;
 };
 
@@ -26,6 +28,8 @@ struct Contents {
     MeshFile file; ///< names its buffers, too, in its report
     std::vector<Light> lights;
     std::optional<PlacedCamera> camera;
+    CameraPath cameraPath{};  ///< of a sequence
+    bool movesByTime = false; ///< meshes or lights do
 };
 
 [[nodiscard]] Contents readContents(const std::filesystem::path &path, const FileReach &reach,

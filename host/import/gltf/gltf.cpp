@@ -63,6 +63,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
                                                  {.scene = options.gltfScene,
                                                   .camera = options.camera,
                                                   .timeSeconds = options.timeSeconds,
+                                                  .sequence = options.sequence,
                                                   .onReading = options.events.onReading});
     // The neutral material comes first, for triangles without a material.
     scene.materials = {neutralMaterial(false)};
@@ -71,6 +72,8 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     scene.lights = std::move(contents.lights);
     addMeshes(std::move(contents.file.meshes), scene);
     setCamera(contents.camera, loaded);
+    loaded.cameraPath = std::move(contents.cameraPath);
+    loaded.movesByTime = contents.movesByTime;
     if (scene.lights.empty())
         scene.environment.radiance = neutralEnvironment();
     loaded.meshReports.push_back(std::move(contents.file.report));

@@ -141,6 +141,13 @@ std::vector<glm::dmat4x3> NodeTree::toWorld(const std::vector<Pose> &poses) cons
     return maps;
 }
 
+std::vector<bool> NodeTree::below(std::vector<bool> marked) const {
+    for (const Index node : all_)
+        if (parents_[node] != noParent && marked[parents_[node]])
+            marked[node] = true;
+    return marked;
+}
+
 std::vector<std::size_t> NodeTree::nodesOfScene(const Document &document, const std::string &choice) const {
     const std::optional<std::size_t> ownChoice = document.reference(document.top(), "scene", "scenes");
     if (document.count("scenes") == 0 && choice.empty())

@@ -49,6 +49,9 @@ class NodeTree {
     /// Of all nodes, from their own space to the world.
     [[nodiscard]] std::vector<glm::dmat4x3> toWorld(const std::vector<Pose> &poses) const;
 
+    /// The marked nodes and all below them.
+    [[nodiscard]] std::vector<bool> below(std::vector<bool> marked) const;
+
     /// The nodes of a scene, parents before their children. `choice` is the name or the index of a scene; empty: the
     /// file's default one, or the first; all nodes where the file has no scenes. Throws Error{Usage} for a choice that
     /// is none.

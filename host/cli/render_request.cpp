@@ -1,0 +1,162 @@
+#include "host/cli/render_request.h"
+
+#include "host/cli/device_options.h"
+#include "host/cli/layers_option.h"
+#include "host/cli/options.h"
+#include "host/cli/scene_options.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string_view>
+
+namespace hyalite {
+
+namespace {
+
+constexpr Interval anySeconds{0.0, 1e9, false};
+
+/// "3/16".
+Part readPart(const std::string &word) {
+    const std::size_t slash = word.find('/');
+    const auto refuse = [&] {
+        refuseValue(
+            "--part", word,
+            fmt::format("I/N: part I, from 1, of N, which are at most {:.0f}", limits::partCount.high));
+    };
+    if (slash == std::string::npos)
+        refuse();
+    const std::string_view text = word;
+    Part part;
+    try {
+        part.count = readAs<std::uint32_t>("--part", text.substr(slash + 1), limits::partCount);
+        part.index = readAs<std::uint32_t>("--part", text.substr(0, slash), limits::partCount);
+    } catch (const Error &) {
+        refuse();
+    }
+    if (part.index > part.count)
+        refuse();
+    return part;
+}
+
+/// "0..239", or "7".
+FrameRange readFrames(const std::string &word) {
+    const std::size_t dots = word.find("..");
+    FrameRange range;
+    try {
+        range.first = readAs<int>("--frames", std::string_view(word).substr(0, dots), limits::frame);
+        range.last = dots == std::string::npos
+                         ? range.first
+                         : readAs<int>("--frames", std::string_view(word).substr(dots + 2), limits::frame);
+    } catch (const Error &) {
+        range.last = -1;
+    }
+    if (range.last < range.first)
+        refuseValue("--frames", word,
+                    fmt::format("FIRST..LAST, of frames from 0 to {:.0f}; or one frame", limits::frame.high));
+    return range;
+}
+
+/// Options for long renders.
+void addLongRenderOptions(CLI::App &command, RenderRequest &request) {
+    const char *group = "Long renders";
+    addFile(command, "--checkpoint", request.checkpoint, "FILE",
+            "write the finished samples to FILE at intervals, and at the end; FILE.1 is the previous "
+            "checkpoint")
+        ->group(group);
+    addNumber(command, "--checkpoint-interval", request.checkpointSeconds, anySeconds,
+              "time between two checkpoints")
+        ->type_name("SECONDS")
+        ->default_str("10")
+        ->group(group);
+    command
+        .add_flag("--resume", request.isResuming,
+                  "continue from the checkpoint, if there is one, to the same image; --device, --threads, "
+                  "--kernel and --bvh may differ, and --spp may be larger")
+        ->group(group);
+    addNumber(command, "--partial", request.partialSeconds, anySeconds,
+              "replace the output by a partial image at this interval")
+        ->type_name("SECONDS")
+        ->group(group);
+}
+
+} // namespace
+
+void addRenderOptions(CLI::App &command, RenderRequest &request) {
+    addSceneOptions(command, request.scene);
+    command
+        .add_option("-o,--output", request.output,
+                    ".png: 8 bits, tone-mapped by --tone; .exr: linear float, with variance and "
+                    "sample counts; .hdr, .pfm: linear")
+        ->required()
+        ->type_name("FILE");
+    command
+        .add_option("--device", request.devices,
+                    "auto: a GPU before software; cpu: the reference renderer; an index or part of a name as "
+                    "`hyalite devices` lists them. May be repeated, for devices that share the picture; all: "
+                    "every device, and cpu unless a software device computes on it")
+        ->type_name("DEVICE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->capture_default_str();
+    addToneOption(command, request.tone);
+    addLayersOption(command, request.layers);
+    addThreadsOption(command, request.threadCount);
+    addDeviceOptions(command, request.deviceOptions);
+    addFile(command, "--report", request.report, "FILE.json",
+            "write a report with settings, counts and times");
+    command
+        .add_option("--part", CLI::callback_t([&request](const CLI::results_t &words) {
+                        request.part = readPart(words.front());
+                        return true;
+                    }),
+                    "render only part I of N of the picture into --output, a .part file, from which the same "
+                    "command goes on; `hyalite merge` makes the picture of all parts")
+        ->type_name("I/N");
+    addNumber(command, "--time-limit", request.timeLimitSeconds, anySeconds,
+              "stop after this time and write the partial image; loading and building do not count")
+        ->type_name("SECONDS");
+    addLongRenderOptions(command, request);
+    command.add_flag("--quiet", request.isQuiet, "print errors only");
+}
+
+RenderRequest readRenderRequest(const std::vector<std::string> &words) {
+    RenderRequest request;
+    CLI::App app;
+    addRenderOptions(*app.add_subcommand("render"), request);
+    std::vector<std::string> arguments; // the last first, as CLI11 wants them
+    for (std::size_t i = words.size(); i-- > 1;)
+        arguments.push_back(words[i]);
+    try {
+        app.parse(arguments);
+    } catch (const std::runtime_error &error) { // CLI::Error, or Error for a value
+        throw Error(ErrorKind::BadInput, fmt::format("cannot read a part's command line: {}", error.what()));
+    }
+    request.words = words;
+    return request;
+}
+
+void addSequenceOptions(CLI::App &command, SequenceOptions &options) {
+    const char *group = "Sequences";
+    command
+        .add_option(
+            "--frames", CLI::callback_t([&options](const CLI::results_t &words) {
+                options.frames = readFrames(words.front());
+                return true;
+            }),
+            "render these frames by the scene's moving camera, or its animations, from one loaded "
+            "scene; --output has # for their numbers: frame.####.exr. With --part, every N-th of them; "
+            "with --resume, those that are missing")
+        ->type_name("FIRST..LAST")
+        ->group(group);
+    addNumber(command, "--turntable", options.turntable, {1, limits::frame.high},
+              "frames of a full turn around what the camera looks at, in place of the scene's path")
+        ->type_name("COUNT")
+        ->group(group);
+    addNumber(command, "--fps", options.framesPerSecond, limits::framesPerSecond,
+              "glTF: frames in a second of its animations")
+        ->default_str("24")
+        ->group(group);
+}
+
+} // namespace hyalite

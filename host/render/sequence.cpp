@@ -1,0 +1,128 @@
+#include "host/render/sequence.h"
+
+#include "host/base/error.h"
+#include "host/scene/validate.h"
+
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+/// The box of the tree, and of the spheres beside it.
+glm::dvec3 centreOf(const PackedScene &scene) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high = -low;
+    const auto include = [&](const glm::dvec3 &from, const glm::dvec3 &to) {
+        low = glm::min(low, from);
+        high = glm::max(high, to);
+    };
+    if (scene.hasTriangles)
+        include(scene.frame.boundsLower, scene.frame.boundsUpper);
+    for (const layout::SphereRecord &sphere : scene.loopSpheres)
+        include(glm::dvec3(sphere.centre) - static_cast<double>(sphere.radius),
+                glm::dvec3(sphere.centre) + static_cast<double>(sphere.radius));
+    return low.x <= high.x ? 0.5 * (low + high) : glm::dvec3(0.0);
+}
+
+/// With these overrides a camera would stand still.
+void requireNoPlace(const SceneOptions &options) {
+    for (const auto &[name, values] : {std::pair{"camera-position", &options.cameraPosition},
+                                       {"look-at", &options.lookAt},
+                                       {"up", &options.up}})
+        if (!values->empty())
+            throw OverrideError(name,
+                                "found beside a camera that moves by itself; allowed: with --turntable, "
+                                "or without --frames");
+}
+
+} // namespace
+
+std::string nameOfFrame(const std::string &pattern, int frame, const std::string &option) {
+    const std::filesystem::path path(pattern);
+    const std::string name = path.filename().string();
+    const std::size_t begin = name.find('#');
+    const std::size_t end = begin == std::string::npos ? begin : name.find_first_not_of('#', begin);
+    if (begin == std::string::npos || (end != std::string::npos && name.find('#', end) != std::string::npos))
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{}: found {}; the file name of frames has one run of #, which their numbers "
+                                "replace: frame.####.exr",
+                                option, pattern));
+    const std::size_t width = (end == std::string::npos ? name.size() : end) - begin;
+    const std::string numbered =
+        name.substr(0, begin) + fmt::format("{:0{}}", frame, width) + name.substr(begin + width);
+    return (path.parent_path() / numbered).string();
+}
+
+Sequence::Sequence(RenderRequest request, const SequenceOptions &options)
+    : request_(std::move(request)),
+      range_(options.frames.value_or(FrameRange{0, options.turntable.value_or(1) - 1})),
+      turntable_(options.turntable), framesPerSecond_(options.framesPerSecond.value_or(24.0)) {
+    const Part part = request_.part.value_or(Part{});
+    for (int frame = range_.first; frame <= range_.last; ++frame)
+        if (static_cast<std::uint32_t>(frame - range_.first) % part.count == part.index - 1)
+            frames_.push_back(frame);
+}
+
+RenderRequest Sequence::requestOf(int frame) const {
+    RenderRequest request = request_;
+    request.part.reset();
+    request.frame = frame;
+    request.output = nameOfFrame(request.output, frame, "--output");
+    if (!request.report.empty())
+        request.report = nameOfFrame(request.report, frame, "--report");
+    if (!request.checkpoint.empty())
+        request.checkpoint = nameOfFrame(request.checkpoint, frame, "--checkpoint");
+    return request;
+}
+
+void Sequence::prepare(RenderSession &session) {
+    RenderRequest request = request_;
+    if (!turntable_)
+        request.scene.load.sequence = SequenceTimes{framesPerSecond_, range_.last};
+    session.prepare(request);
+    PreparedScene &scene = session.scene();
+    const Camera &camera = scene.loaded.scene.camera;
+    if (turntable_) {
+        path_ = turntable(camera, pivotOf(camera, centreOf(scene.packed)), *turntable_);
+        return;
+    }
+    path_ = std::exchange(scene.loaded.cameraPath, {});
+    movesByTime_ = scene.loaded.movesByTime;
+    if (path_.empty() && !movesByTime_)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--frames: nothing moves in {}: give its camera a path, or turn around it by "
+                                "--turntable COUNT",
+                                scene.loaded.file.string()));
+    if (!path_.empty())
+        requireNoPlace(request.scene);
+    // A field of view that the command line or the image's shape decides is that of all frames.
+    if (request.scene.fovDegrees || scene.loaded.verticalFovDegrees)
+        for (CameraPose &pose : path_)
+            pose.horizontalFovDegrees = camera.horizontalFovDegrees;
+    validateCameraPath(path_, camera, scene.loaded.file.string());
+}
+
+void Sequence::moveTo(int frame, RenderSession &session) const {
+    if (movesByTime_) {
+        SceneOptions options = request_.scene;
+        options.load.timeSeconds = frame / framesPerSecond_;
+        session.replaceScene(options, true); // what there is to warn of was told for the first one
+        return;
+    }
+    PreparedScene &scene = session.scene();
+    Camera &camera = scene.loaded.scene.camera;
+    const int count = static_cast<int>(path_.size());
+    const int index = turntable_ ? frame % count : std::min(frame, count - 1);
+    camera = posed(camera, path_[static_cast<std::size_t>(index)]);
+    packCamera(scene.loaded.scene, scene.packed);
+}
+
+} // namespace hyalite

@@ -1,0 +1,326 @@
+#include "host/render/shared_backend.h"
+
+#include "host/base/error.h"
+#include "host/film/partition.h"
+#include "host/render/tile_queue.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+// A tile takes a renderer so long. The longer, the more is lost when the program is killed between two checkpoints; the
+// shorter, the more setting up tiles costs.
+constexpr double maxTileSeconds = 2.0;
+constexpr double minTileSeconds = 0.05;
+constexpr double firstSamples = 1 << 16; // of a tile for a renderer whose speed is not known
+
+struct Member {
+    std::unique_ptr<Backend> backend;
+    bool isLeftOut = false;
+};
+
+/// A member during one render.
+struct Worker {
+    Member *member;
+    double samplesPerSecond = 0.0; ///< by its last tile; 0: unknown
+    std::uint64_t lastSamples = 0; ///< that it added in the last tile
+    double currentSamples = 0.0;   ///< of the tile that it renders now, those from before included
+    BackendResult total{Film(Crop{}), {}, {}, {}};
+    RendererShare share;
+};
+
+std::uint64_t samplesIn(const Film &film) {
+    std::uint64_t count = 0;
+    for (const layout::FilmPixel &pixel : film.pixels)
+        count += pixel.sampleCount;
+    return count;
+}
+
+/// One picture.
+class SharedRender {
+  public:
+    SharedRender(std::vector<Member> &members, const PreparedScene &scene,
+                 const std::function<void(double)> &onProgress, const std::function<bool()> &shouldStop,
+                 Continuation continuation)
+        : scene_(scene), onProgress_(onProgress), shouldStop_(shouldStop), snapshots_(continuation.snapshots),
+          samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel)),
+          film_(continuation.film ? std::move(*continuation.film) : Film(scene.crop)),
+          queue_(film_, samplesPerPixel_), finishedSamples_(static_cast<double>(samplesIn(film_))) {
+        for (Member &member : members)
+            if (!member.isLeftOut) {
+                workers_.push_back({&member, 0.0, 0, 0.0, {Film(Crop{}), {}, {}, {}}, {}});
+                workers_.back().share.name = member.backend->name();
+            }
+    }
+
+    [[nodiscard]] BackendResult render() {
+        Stopwatch watch;
+        {
+            std::vector<std::jthread> threads;
+            threads.reserve(workers_.size());
+            for (Worker &worker : workers_)
+                threads.emplace_back([this, &worker] { run(worker); });
+        }
+        if (bug_)
+            std::rethrow_exception(bug_);
+        BackendResult all{std::move(film_), rays_, {}, {}};
+        all.timing.renderSeconds = watch.lap().seconds();
+        for (Worker &worker : workers_) {
+            const BackendResult &total = worker.total;
+            all.work += total.work;
+            all.timing.dispatchCount += total.timing.dispatchCount;
+            all.memory.deviceBytes += total.memory.deviceBytes;
+            all.memory.hostBytes += total.memory.hostBytes;
+            std::ranges::copy(total.faults, std::back_inserter(all.faults));
+            all.shares.push_back(worker.share);
+        }
+        if (lastFailure_ &&
+            std::ranges::all_of(workers_, [](const Worker &worker) { return worker.member->isLeftOut; }))
+            all.failure.emplace(*lastFailure_);
+        return all;
+    }
+
+  private:
+    void run(Worker &worker) {
+        try {
+            while (const std::optional<Crop> tile = take(worker))
+                renderTile(worker, *tile);
+        } catch (...) {
+            const std::scoped_lock lock(mutex_);
+            bug_ = std::current_exception();
+            changed_.notify_all();
+        }
+    }
+
+    /// Waits while others may give their tiles back.
+    [[nodiscard]] std::optional<Crop> take(Worker &worker) {
+        std::unique_lock lock(mutex_);
+        while (!worker.member->isLeftOut && !bug_ && !isToStop()) {
+            if (std::optional<Crop> tile = queue_.take(wantedPixels(worker))) {
+                ++busyCount_;
+                return tile;
+            }
+            if (busyCount_ == 0)
+                break;
+            changed_.wait_for(lock, std::chrono::milliseconds(50)); // shouldStop tells nobody when it changes
+        }
+        changed_.notify_all();
+        return std::nullopt;
+    }
+
+    /// Half of what would be this worker's of the rest, so that the next tiles can make good what was guessed wrongly.
+    [[nodiscard]] std::uint64_t wantedPixels(const Worker &worker) const {
+        const double perPixel = samplesPerPixel_;
+        if (worker.samplesPerSecond == 0.0)
+            return static_cast<std::uint64_t>(std::clamp(firstSamples / perPixel, 64.0, 4096.0));
+        double allSpeeds = 0.0;
+        for (const Worker &other : workers_)
+            if (!other.member->isLeftOut)
+                allSpeeds += other.samplesPerSecond > 0.0 ? other.samplesPerSecond : worker.samplesPerSecond;
+        const double pixelsPerSecond = worker.samplesPerSecond / perPixel;
+        const double fair =
+            static_cast<double>(queue_.pixelCount()) * worker.samplesPerSecond / allSpeeds / 2.0;
+        const double growing = 8.0 * static_cast<double>(worker.lastSamples) / perPixel;
+        return static_cast<std::uint64_t>(std::max(
+            std::min(std::clamp(fair, minTileSeconds * pixelsPerSecond, maxTileSeconds * pixelsPerSecond),
+                     growing),
+            64.0));
+    }
+
+    void renderTile(Worker &worker, const Crop &tile) {
+        Continuation continuation;
+        continuation.film.emplace(tile);
+        std::uint64_t samplesBefore = 0;
+        {
+            const std::scoped_lock lock(mutex_);
+            continuation.film->pixels = pixelsIn(film_, std::span(&tile, 1));
+            samplesBefore = samplesIn(*continuation.film);
+            worker.currentSamples = static_cast<double>(samplesBefore);
+            finishedSamples_ -= worker.currentSamples;
+        }
+        const double samplesInAll = static_cast<double>(continuation.film->pixels.size()) * samplesPerPixel_;
+        const auto onProgress = [&](double share) {
+            const std::scoped_lock lock(mutex_);
+            worker.currentSamples = share * samplesInAll;
+            tellProgress();
+        };
+        Stopwatch watch;
+        try {
+            BackendResult result = worker.member->backend->render(scene_, onProgress, nullptr, shouldStop_,
+                                                                  std::move(continuation));
+            const double seconds = watch.lap().seconds();
+            const std::scoped_lock lock(mutex_);
+            takeIn(worker, tile, samplesBefore, seconds, std::move(result));
+        } catch (const Error &error) {
+            const std::scoped_lock lock(mutex_);
+            finishedSamples_ += static_cast<double>(samplesBefore);
+            leaveOut(worker, tile, error);
+        } catch (const std::bad_alloc &) {
+            const std::scoped_lock lock(mutex_);
+            finishedSamples_ += static_cast<double>(samplesBefore);
+            leaveOut(worker, tile, Error(ErrorKind::LimitExceeded, "it has too little memory"));
+        }
+    }
+
+    // With the mutex:
+
+    void takeIn(Worker &worker, const Crop &tile, std::uint64_t samplesBefore, double seconds,
+                BackendResult result) {
+        const std::uint64_t samplesNow = samplesIn(result.film);
+        setPixelsIn(film_, std::span(&tile, 1), result.film.pixels);
+        rays_ += result.rays;
+        BackendResult &total = worker.total;
+        total.work += result.work;
+        total.timing.dispatchCount += result.timing.dispatchCount;
+        total.memory.deviceBytes = std::max(total.memory.deviceBytes, result.memory.deviceBytes);
+        total.memory.hostBytes = std::max(total.memory.hostBytes, result.memory.hostBytes);
+        for (const std::string &fault : result.faults)
+            total.faults.push_back(worker.share.name + ": " + fault);
+        const std::uint64_t added = samplesNow - samplesBefore;
+        // A driver compiles once, and says nothing of the next tiles.
+        const double working = seconds - result.timing.pipelineSeconds - result.timing.uploadSeconds;
+        if (added > 0)
+            worker.samplesPerSecond = static_cast<double>(added) / std::max(working, 1e-6);
+        worker.lastSamples = added;
+        worker.share.seconds += seconds;
+        worker.share.sampleCount += added;
+        ++worker.share.tileCount;
+        worker.currentSamples = 0.0;
+        finishedSamples_ += static_cast<double>(samplesNow);
+        if (result.failure) {
+            leaveOut(worker, tile, *result.failure);
+            return;
+        }
+        --busyCount_;
+        changed_.notify_all();
+        tellProgress();
+        if (snapshots_ != nullptr && snapshots_->isWanted())
+            snapshots_->take(
+                [this](std::span<layout::FilmPixel> copy) { std::ranges::copy(film_.pixels, copy.begin()); },
+                rays_);
+    }
+
+    void leaveOut(Worker &worker, const Crop &tile, const Error &why) {
+        worker.member->isLeftOut = true;
+        worker.currentSamples = 0.0;
+        worker.share.failure = why.what();
+        lastFailure_.emplace(why);
+        queue_.giveBack(tile);
+        --busyCount_;
+        changed_.notify_all();
+    }
+
+    void tellProgress() {
+        if (!onProgress_)
+            return;
+        double samples = finishedSamples_;
+        for (const Worker &worker : workers_)
+            samples += worker.currentSamples;
+        onProgress_(samples / (static_cast<double>(film_.pixels.size()) * samplesPerPixel_));
+    }
+
+    [[nodiscard]] bool isToStop() const { return shouldStop_ && shouldStop_(); }
+
+    const PreparedScene &scene_;
+    const std::function<void(double)> &onProgress_;
+    const std::function<bool()> &shouldStop_;
+    SnapshotTaker *snapshots_;
+    const std::uint32_t samplesPerPixel_;
+    std::vector<Worker> workers_;
+    std::mutex mutex_; ///< of what follows, and of the workers
+    std::condition_variable changed_;
+    Film film_;
+    TileQueue queue_;
+    RayCounts rays_;
+    double finishedSamples_; ///< in the film, but for tiles that are being rendered
+    int busyCount_ = 0;
+    std::optional<Error> lastFailure_;
+    std::exception_ptr bug_;
+};
+
+class SharedBackend : public Backend {
+  public:
+    explicit SharedBackend(std::vector<std::unique_ptr<Backend>> members) {
+        for (std::unique_ptr<Backend> &member : members)
+            members_.push_back({std::move(member)});
+    }
+
+    [[nodiscard]] std::string name() const override {
+        return joined([](const Backend &one) { return one.name(); });
+    }
+    [[nodiscard]] std::string description() const override {
+        return joined([](const Backend &one) { return one.description(); }, "; ");
+    }
+    [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
+        std::vector<RendererIdentity> all;
+        for (const Member &member : members_)
+            all.push_back(member.backend->identity(scene, integrator));
+        RendererIdentity identity = all.front();
+        for (const RendererIdentity &other : std::span(all).subspan(1)) {
+            const auto add = [](std::string &text, const std::string &more) {
+                if (text != more && !more.empty())
+                    text += (text.empty() ? "" : " + ") + more;
+            };
+            identity.name += " + " + other.name;
+            add(identity.driver, other.driver);
+            add(identity.arithmetic, other.arithmetic);
+            add(identity.equalBits, other.equalBits);
+            add(identity.kernel, other.kernel);
+            if (identity.kernelHash == 0)
+                identity.kernelHash = other.kernelHash;
+        }
+        return identity;
+    }
+    [[nodiscard]] gpu::BitGuarantee bits() const override {
+        return std::ranges::min_element(members_, {},
+                                        [](const Member &one) { return one.backend->bits().degree; })
+            ->backend->bits();
+    }
+    [[nodiscard]] std::string precision() const override { return members_.front().backend->precision(); }
+    [[nodiscard]] bool hasCompiler() const override {
+        return std::ranges::any_of(members_, [](const Member &one) { return one.backend->hasCompiler(); });
+    }
+
+    [[nodiscard]] BackendResult render(const PreparedScene &scene,
+                                       const std::function<void(double)> &onProgress, Timeline *timeline,
+                                       const std::function<bool()> &shouldStop,
+                                       Continuation continuation) override {
+        if (timeline != nullptr)
+            throw Error(ErrorKind::Usage, "dispatches are measured on one device at a time");
+        return SharedRender(members_, scene, onProgress, shouldStop, std::move(continuation)).render();
+    }
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+                                                        std::uint32_t sampleIndex) override {
+        return members_.front().backend->trace(scene, pixel, sampleIndex);
+    }
+
+  private:
+    template <class Text>
+    [[nodiscard]] std::string joined(const Text &text, const char *between = " + ") const {
+        std::string all;
+        for (const Member &member : members_)
+            all += (all.empty() ? "" : between) + text(*member.backend);
+        return all;
+    }
+
+    std::vector<Member> members_;
+};
+
+} // namespace
+
+std::unique_ptr<Backend> shareBackends(std::vector<std::unique_ptr<Backend>> members) {
+    return std::make_unique<SharedBackend>(std::move(members));
+}
+
+} // namespace hyalite

@@ -1,0 +1,36 @@
+// The queue of tiles of a picture that several renderers share.
+#pragma once
+
+#include "host/film/film.h"
+#include "host/image/crop.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hyalite {
+
+/// The unfinished pixels of a film as rectangles, which are cut as they are given out. For one thread at a time.
+class TileQueue {
+  public:
+    static constexpr int blockSide = 8; // a tile's sides are multiples of it, but for the last of the film
+
+    /// All of the film that has fewer than `samplesPerPixel` samples. Where much is finished, tiles may have finished
+    /// pixels, too.
+    TileQueue(const Film &film, std::uint32_t samplesPerPixel);
+
+    /// The next tile, of at most `mostPixels` unless it is a block of 8x8. Empty: none is left.
+    [[nodiscard]] std::optional<Crop> take(std::uint64_t mostPixels);
+
+    /// A tile that was not finished: it is the next to be given out.
+    void giveBack(const Crop &tile);
+
+    /// Pixels that wait.
+    [[nodiscard]] std::uint64_t pixelCount() const { return pixelCount_; }
+
+  private:
+    std::vector<Crop> waiting_; ///< the next one last
+    std::uint64_t pixelCount_ = 0;
+};
+
+} // namespace hyalite

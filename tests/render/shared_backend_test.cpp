@@ -1,0 +1,199 @@
+// Several renderers that share a picture: its bits are those of one, whoever fails or stops.
+#include "host/render/shared_backend.h"
+
+#include "host/import/assets.h"
+#include "host/render/cpu_backend.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <latch>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace hyalite {
+namespace {
+
+/// How a member fails.
+enum class Failure {
+    None,
+    Throws,  ///< as a device does that a scene is too large for
+    GivesUp, ///< as a device does that is lost for good: with a film that has some of the samples
+};
+
+/// The CPU, as a member that fails at its `failingTile`-th tile.
+class MemberOnCpu : public Backend {
+  public:
+    /// Begins its first tile when all that are to come to `gate` have one.
+    MemberOnCpu(std::string name, std::shared_ptr<std::latch> gate, Failure failure = Failure::None,
+                int failingTile = 0)
+        : name_(std::move(name)), gate_(std::move(gate)), failure_(failure), failingTile_(failingTile) {}
+
+    [[nodiscard]] std::string name() const override { return name_; }
+    [[nodiscard]] std::string description() const override { return name_; }
+    [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
+        return cpu_->identity(scene, integrator);
+    }
+    [[nodiscard]] BackendResult render(const PreparedScene &scene,
+                                       const std::function<void(double)> &onProgress, Timeline *timeline,
+                                       const std::function<bool()> &shouldStop,
+                                       Continuation continuation) override {
+        if (tileCount_ == 0 && gate_)
+            gate_->arrive_and_wait();
+        const bool isFailing = tileCount_++ == failingTile_ && failure_ != Failure::None;
+        if (isFailing && failure_ == Failure::Throws)
+            throw Error(ErrorKind::LimitExceeded, "too little memory");
+        std::atomic<int> left = 40; // samples
+        const auto givesUp = [&] { return left-- <= 0; };
+        BackendResult result = cpu_->render(scene, onProgress, timeline, isFailing ? givesUp : shouldStop,
+                                            std::move(continuation));
+        if (isFailing)
+            result.failure.emplace(ErrorKind::DeviceLost, "lost");
+        return result;
+    }
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+                                                        std::uint32_t sampleIndex) override {
+        return cpu_->trace(scene, pixel, sampleIndex);
+    }
+
+  private:
+    std::unique_ptr<Backend> cpu_ = makeCpuBackend(reference::Precision::Float32, 1);
+    std::string name_;
+    std::shared_ptr<std::latch> gate_;
+    Failure failure_;
+    int failingTile_;
+    int tileCount_ = 0;
+};
+
+template <class... Members> std::unique_ptr<Backend> share(Members... members) {
+    std::vector<std::unique_ptr<Backend>> all;
+    (all.push_back(std::make_unique<MemberOnCpu>(std::move(members))), ...);
+    return shareBackends(std::move(all));
+}
+
+struct SharedBackends : ::testing::Test {
+    PreparedScene scene = [] {
+        SceneOptions options;
+        options.scene = "cornell";
+        options.width = 120;
+        options.height = 100;
+        options.settings.push_back({[](RenderSettings &settings) { settings.samplesPerPixel = 6; }});
+        return prepareScene(options, Source::Dropped, true);
+    }();
+    BackendResult alone =
+        makeCpuBackend(reference::Precision::Float32, 2)->render(scene, {}, nullptr, {}, {});
+
+    [[nodiscard]] static BackendResult render(Backend &backend, const PreparedScene &scene,
+                                              Continuation continuation = {}) {
+        return backend.render(scene, {}, nullptr, {}, std::move(continuation));
+    }
+    void expectWhole(const BackendResult &result) const {
+        EXPECT_EQ(differingPixelCount(result.film, alone.film), 0u);
+        EXPECT_EQ(result.rays, alone.rays);
+        EXPECT_FALSE(result.failure);
+    }
+};
+
+TEST_F(SharedBackends, HaveTheBitsOfOne) {
+    const auto gate = std::make_shared<std::latch>(3);
+    const auto backend = share(MemberOnCpu("a", gate), MemberOnCpu("b", gate), MemberOnCpu("c", gate));
+    const BackendResult result = render(*backend, scene);
+    expectWhole(result);
+    ASSERT_EQ(result.shares.size(), 3u);
+    std::uint64_t sampleCount = 0;
+    for (const RendererShare &one : result.shares) {
+        EXPECT_GT(one.tileCount, 0u) << one.name;
+        sampleCount += one.sampleCount;
+    }
+    EXPECT_EQ(sampleCount, 120u * 100u * 6u);
+}
+
+TEST_F(SharedBackends, LeaveOutWhoThrows) {
+    const auto gate = std::make_shared<std::latch>(2);
+    const auto backend = share(MemberOnCpu("good", gate), MemberOnCpu("bad", gate, Failure::Throws));
+    const BackendResult result = render(*backend, scene);
+    expectWhole(result);
+    EXPECT_EQ(result.shares.at(0).failure, "");
+    EXPECT_EQ(result.shares.at(1).failure, "too little memory");
+    EXPECT_EQ(render(*backend, scene).shares.size(), 1u) << "it is left out of the next picture, too";
+}
+
+TEST_F(SharedBackends, GoOnFromTheTileOfWhoGivesUp) {
+    const auto gate = std::make_shared<std::latch>(2);
+    const auto backend = share(MemberOnCpu("good", gate), MemberOnCpu("bad", gate, Failure::GivesUp));
+    const BackendResult result = render(*backend, scene);
+    expectWhole(result);
+    EXPECT_EQ(result.shares.at(1).failure, "lost");
+}
+
+TEST_F(SharedBackends, FailWhereAllFail) {
+    const auto gate = std::make_shared<std::latch>(2);
+    const auto backend =
+        share(MemberOnCpu("a", gate, Failure::GivesUp), MemberOnCpu("b", gate, Failure::Throws, 1));
+    BackendResult result = render(*backend, scene);
+    ASSERT_TRUE(result.failure);
+    // What is there can be continued.
+    Continuation continuation;
+    continuation.film = std::move(result.film);
+    BackendResult rest = render(*share(MemberOnCpu("c", nullptr)), scene, std::move(continuation));
+    rest.rays += result.rays;
+    expectWhole(rest);
+}
+
+TEST_F(SharedBackends, StopAndGoOn) {
+    const auto backend = share(MemberOnCpu("a", nullptr), MemberOnCpu("b", nullptr));
+    std::atomic<int> left = 20'000;
+    BackendResult result = backend->render(scene, {}, nullptr, [&] { return left-- <= 0; }, {});
+    EXPECT_GT(differingPixelCount(result.film, alone.film), 0u);
+    Continuation continuation;
+    continuation.film = std::move(result.film);
+    BackendResult rest = render(*backend, scene, std::move(continuation));
+    rest.rays += result.rays;
+    expectWhole(rest);
+}
+
+TEST_F(SharedBackends, GiveSnapshotsThatGoOn) {
+    class Keeper : public SnapshotTaker {
+      public:
+        [[nodiscard]] bool isWanted() const noexcept override { return true; }
+        void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
+                  const RayCounts &rays) override {
+            if (++count != 4)
+                return;
+            film.emplace(Crop{0, 120, 0, 100});
+            copyFilm(film->pixels);
+            raysThen = rays;
+        }
+        int count = 0;
+        std::optional<Film> film;
+        RayCounts raysThen;
+    };
+    const auto backend = share(MemberOnCpu("a", nullptr), MemberOnCpu("b", nullptr));
+    Keeper keeper;
+    Continuation kept;
+    kept.snapshots = &keeper;
+    expectWhole(render(*backend, scene, std::move(kept)));
+    ASSERT_TRUE(keeper.film);
+    Continuation continuation;
+    continuation.film = std::move(*keeper.film);
+    BackendResult rest = render(*backend, scene, std::move(continuation));
+    rest.rays += keeper.raysThen;
+    expectWhole(rest);
+}
+
+TEST_F(SharedBackends, TellProgressThatNeverFalls) {
+    const auto backend = share(MemberOnCpu("a", nullptr), MemberOnCpu("b", nullptr));
+    double last = 0.0;
+    static_cast<void>(backend->render(scene,
+                                      [&](double share) {
+                                          EXPECT_GE(share, last - 1e-12);
+                                          last = share;
+                                      },
+                                      nullptr, {}, {}));
+    EXPECT_NEAR(last, 1.0, 1e-12);
+}
+
+} // namespace
+} // namespace hyalite
