@@ -23,7 +23,8 @@ namespace {
 
 struct VerifyOptions {
     std::vector<std::string> devices{"all"};
-    std::vector<std::string> scenes; ///< none: all
+    std::vector<std::string> scenes;  ///< none: all
+    std::vector<std::string> kernels; ///< likewise
     std::string junit;
     std::string report;
     bool isQuiet = false;
@@ -124,6 +125,16 @@ void print(const DeviceVerdict &verdict) {
                        film.difference ? describe(*film.difference) : film.failure);
 }
 
+/// Throws Error{Usage} for a word that is none of a kernel.
+void requireKernels(const std::vector<std::string> &names) {
+    std::vector<std::string_view> words;
+    for (const auto &[word, choice] : gpu::namedKernels)
+        words.push_back(word);
+    for (const std::string &name : names)
+        if (std::ranges::find(words, name) == words.end())
+            refuseValue("--kernels", name, quotedList(words) + suggestion(name, words));
+}
+
 /// Keeps the outcome with the device's tuning, which decides whether its bits count as measured.
 void keep(const gpu::DeviceInfo &device, bool isPassed) {
     Tuning tuning = readTuning(device);
@@ -137,9 +148,11 @@ void keep(const gpu::DeviceInfo &device, bool isPassed) {
     }
 }
 
-DeviceVerdict verifyWithProgress(const Subject &subject, const ShippedFilms &shipped, bool isQuiet) {
-    ProgressLine progress("verify " + (subject.device ? subject.device->name : subject.name), isQuiet);
-    return verifyDevice(subject.name, shipped,
+DeviceVerdict verifyWithProgress(const Subject &subject, const ShippedFilms &shipped,
+                                 const VerifyOptions &options) {
+    ProgressLine progress("verify " + (subject.device ? subject.device->name : subject.name),
+                          options.isQuiet);
+    return verifyDevice(subject.name, shipped, options.kernels,
                         [&](const FilmVerdict &, double share) { progress.update(share); });
 }
 
@@ -153,6 +166,7 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
         report.emplace(options.report);
     ShippedFilms shipped = readShippedFilms();
     keepScenes(shipped, options.scenes);
+    requireKernels(options.kernels);
     const std::vector<Subject> subjects = subjectsOf(options.devices);
     if (!options.isQuiet)
         fmt::print("{} films of {}, version {}\n", shipped.films.size(),
@@ -160,9 +174,9 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
 
     std::vector<DeviceVerdict> verdicts;
     for (const Subject &subject : subjects) {
-        verdicts.push_back(verifyWithProgress(subject, shipped, options.isQuiet));
+        verdicts.push_back(verifyWithProgress(subject, shipped, options));
         const DeviceVerdict &verdict = verdicts.back();
-        if (subject.device && options.scenes.empty())
+        if (subject.device && options.scenes.empty() && options.kernels.empty())
             keep(*subject.device, verdict.isPassed());
         if (!options.isQuiet || !verdict.isPassed())
             print(verdict);
@@ -201,6 +215,10 @@ void addVerifyCommand(CLI::App &app, CommandContext &context) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->default_str("all");
     command->add_option("--scenes", options->scenes, "only these of the shipped scenes")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->expected(1, -1);
+    command->add_option("--kernels", options->kernels, "only these kernels of devices")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->expected(1, -1);

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 #include <mutex>
+#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -16,12 +17,9 @@ namespace hyalite {
 
 namespace {
 
-/// A renderer with one kernel, and its films so far.
-struct Contender {
-    std::string kernel;
-    gpu::KernelChoice choice;
-    std::unique_ptr<Backend> backend;
-    std::vector<FilmVerdict> films{};
+struct Kernel {
+    std::string name; ///< empty for the CPU
+    gpu::KernelChoice choice{};
 
     /// The cost is that of a traversal with a stack, so that other kernels have none.
     [[nodiscard]] bool renders(const ShippedFilm &film) const {
@@ -30,18 +28,56 @@ struct Contender {
     }
 };
 
-std::vector<Contender> openAll(const std::string &device) {
-    std::vector<Contender> contenders;
+/// The kernels in groups that are opened one after the other: lavapipe has one vector width at a time, and a render's
+/// depends on whether its kernel has a stack (gpu::tellLavapipe).
+std::vector<std::vector<Kernel>> groupsOf(const std::string &device, const std::vector<std::string> &wanted) {
+    std::vector<std::vector<Kernel>> groups(1);
     if (isReference(device)) {
-        contenders.push_back({"", {}, openBackend(device)});
-        return contenders;
+        groups.front().push_back({""});
+        return groups;
     }
     for (const auto &[name, choice] : gpu::namedKernels) {
-        DeviceOptions options;
-        options.kernel = choice;
-        contenders.push_back({std::string(name), choice, openBackend(device, {}, renderConfigFor(options))});
+        if (!wanted.empty() && std::ranges::find(wanted, name) == wanted.end())
+            continue;
+        std::vector<Kernel> &last = groups.back();
+        const bool isOfLast = last.empty() || last.back().choice.traversal == choice.traversal;
+        (isOfLast ? last : groups.emplace_back()).push_back({std::string(name), choice});
     }
-    return contenders;
+    return groups;
+}
+
+/// A film by a kernel of a group.
+struct Task {
+    std::size_t kernel;
+    const ShippedFilm *film;
+};
+
+/// Film by film, the last ones first, which are of the largest scenes.
+std::vector<Task> tasksOf(const std::vector<Kernel> &kernels, const ShippedFilms &shipped) {
+    std::vector<Task> tasks;
+    for (const ShippedFilm &film : std::views::reverse(shipped.films))
+        for (std::size_t kernel = 0; kernel < kernels.size(); ++kernel)
+            if (kernels[kernel].renders(film))
+                tasks.push_back({kernel, &film});
+    return tasks;
+}
+
+/// A renderer for each kernel that has something to render.
+using Renderers = std::vector<std::unique_ptr<Backend>>;
+
+Renderers openAll(const std::vector<Kernel> &kernels, const std::vector<Task> &tasks,
+                  const std::string &device) {
+    Renderers renderers(kernels.size());
+    for (const Task &task : tasks) {
+        if (renderers[task.kernel] != nullptr)
+            continue;
+        const Kernel &kernel = kernels[task.kernel];
+        DeviceOptions options;
+        if (!kernel.name.empty())
+            options.kernel = kernel.choice;
+        renderers[task.kernel] = openBackend(device, {}, renderConfigFor(options));
+    }
+    return renderers;
 }
 
 PreparedScene prepare(const ShippedFilms &shipped, const ShippedFilm &film) {
@@ -84,15 +120,16 @@ FilmDifference explain(Backend &backend, const PreparedScene &scene, const Film 
     return difference;
 }
 
-FilmVerdict judge(Contender &contender, const PreparedScene &scene, const ShippedFilm &film) {
+FilmVerdict judge(Backend &backend, const Kernel &kernel, const PreparedScene &scene,
+                  const ShippedFilm &film) {
     FilmVerdict verdict;
     verdict.film = film;
-    verdict.kernel = contender.kernel;
+    verdict.kernel = kernel.name;
     Stopwatch watch;
     try {
         Timeline timeline;
         const BackendResult result =
-            contender.backend->render(scene, {}, contender.kernel.empty() ? nullptr : &timeline, {}, {});
+            backend.render(scene, {}, kernel.name.empty() ? nullptr : &timeline, {}, {});
         verdict.seconds = watch.lap().seconds();
         verdict.hash = filmHash(result.film);
         if (result.failure)
@@ -100,27 +137,28 @@ FilmVerdict judge(Contender &contender, const PreparedScene &scene, const Shippe
         else if (!result.faults.empty())
             verdict.failure = result.faults.front();
         if (!result.failure && verdict.hash != film.hash)
-            verdict.difference = explain(*contender.backend, scene, result.film, timeline);
+            verdict.difference = explain(backend, scene, result.film, timeline);
     } catch (const Error &error) {
         (error.kind == ErrorKind::LimitExceeded ? verdict.lack : verdict.failure) = error.what();
     }
     return verdict;
 }
 
-/// Calls `work` for each contender, as many at a time as there are processors: drivers compile on one each.
-void runAll(std::vector<Contender> &contenders, const std::function<void(Contender &)> &work) {
+// Drivers compile on one processor each; more would gain little, and each has a scene in memory.
+constexpr unsigned maxWorkers = 4;
+
+/// Calls work(renderers, index) for each of `count` tasks, by several threads with renderers of their own.
+void runAll(std::vector<Renderers> &workers, std::size_t count,
+            const std::function<void(Renderers &, std::size_t)> &work) {
     std::atomic<std::size_t> next = 0;
-    const auto workSome = [&] {
-        for (std::size_t i = next++; i < contenders.size(); i = next++)
-            work(contenders[i]);
-    };
-    std::vector<std::future<void>> workers;
-    for (unsigned i = 1; i < std::min<std::size_t>(std::thread::hardware_concurrency(), contenders.size());
-         ++i)
-        workers.push_back(std::async(std::launch::async, workSome));
-    workSome();
-    for (std::future<void> &worker : workers)
-        worker.get();
+    std::vector<std::future<void>> running;
+    for (Renderers &renderers : workers)
+        running.push_back(std::async(std::launch::async, [&] {
+            for (std::size_t i = next++; i < count; i = next++)
+                work(renderers, i);
+        }));
+    for (std::future<void> &one : running)
+        one.get();
 }
 
 } // namespace
@@ -137,31 +175,43 @@ bool DeviceVerdict::isPassed() const {
 }
 
 DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shipped,
+                           const std::vector<std::string> &wanted,
                            const std::function<void(const FilmVerdict &, double)> &onFilm) {
-    std::vector<Contender> contenders = openAll(device);
+    const std::vector<std::vector<Kernel>> groups = groupsOf(device, wanted);
     std::size_t filmCount = 0;
-    for (const Contender &contender : contenders)
-        filmCount += static_cast<std::size_t>(std::ranges::count_if(
-            shipped.films, [&](const ShippedFilm &film) { return contender.renders(film); }));
+    for (const std::vector<Kernel> &kernels : groups)
+        filmCount += tasksOf(kernels, shipped).size();
+    const unsigned mostWorkers =
+        isReference(device) ? 1 : std::clamp(std::thread::hardware_concurrency(), 1u, maxWorkers);
+    DeviceVerdict verdict;
     std::mutex mutex;
     std::size_t finishedCount = 0;
-    const auto renderAll = [&](Contender &contender) {
-        for (const ShippedFilm &film : shipped.films) {
-            if (!contender.renders(film))
-                continue;
-            contender.films.push_back(judge(contender, prepare(shipped, film), film));
+    for (const std::vector<Kernel> &kernels : groups) {
+        const std::vector<Task> tasks = tasksOf(kernels, shipped);
+        if (tasks.empty())
+            continue;
+        std::vector<Renderers> workers;
+        for (std::size_t i = 0; i < std::min<std::size_t>(mostWorkers, tasks.size()); ++i)
+            workers.push_back(openAll(kernels, tasks, device));
+        const Backend &first = *workers.front()[tasks.front().kernel];
+        verdict.device = first.name();
+        verdict.description = first.description();
+        verdict.bits = first.bits();
+        std::vector<FilmVerdict> verdicts(tasks.size());
+        runAll(workers, tasks.size(), [&](Renderers &renderers, std::size_t i) {
+            const auto &[kernel, film] = tasks[i];
+            verdicts[i] = judge(*renderers[kernel], kernels[kernel], prepare(shipped, *film), *film);
             const std::lock_guard lock(mutex);
             ++finishedCount;
             if (onFilm)
-                onFilm(contender.films.back(),
-                       static_cast<double>(finishedCount) / static_cast<double>(filmCount));
-        }
-    };
-    runAll(contenders, renderAll);
-    const Backend &first = *contenders.front().backend;
-    DeviceVerdict verdict{first.name(), first.description(), first.bits(), {}};
-    for (Contender &contender : contenders)
-        std::ranges::move(contender.films, std::back_inserter(verdict.films));
+                onFilm(verdicts[i], static_cast<double>(finishedCount) / static_cast<double>(filmCount));
+        });
+        // As people read them: kernel by kernel.
+        for (std::size_t kernel = 0; kernel < kernels.size(); ++kernel)
+            for (std::size_t i = tasks.size(); i-- > 0;)
+                if (tasks[i].kernel == kernel)
+                    verdict.films.push_back(std::move(verdicts[i]));
+    }
     return verdict;
 }
 

@@ -48,14 +48,15 @@ struct DeviceVerdict {
     gpu::BitGuarantee bits;  ///< as known before this verification
     std::vector<FilmVerdict> films;
 
-    /// Whether each film was rendered, by one kernel at least, and each of them with the shipped bits.
+    /// Whether each film was rendered that a kernel can render, and each of them with the shipped bits.
     [[nodiscard]] bool isPassed() const;
 };
 
-/// Renders `shipped.films` on "cpu", or on a device as openBackend() takes it, with every kernel that it can run,
-/// several at a time. `onFilm` gets each verdict with the finished share of the work, from one thread at a time.
+/// Renders `shipped.films` on "cpu", or on a device as openBackend() takes it, with those of gpu::namedKernels that
+/// `kernels` names and the device can run (none: all of them), several at a time. `onFilm` gets each verdict with the finished share of the work, from one thread at a time.
 /// Devices that fail while they render do not throw. Throws as openBackend() and prepareScene() do.
 [[nodiscard]] DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shipped,
+                                         const std::vector<std::string> &kernels = {},
                                          const std::function<void(const FilmVerdict &, double)> &onFilm = {});
 
 } // namespace hyalite

@@ -46,6 +46,18 @@ class Verify : public FaultyDevice {
     }
 };
 
+TEST_F(Verify, MayHaveTheKernelsThatAreNamed) {
+    keepLights({"id", "cost"});
+    const Outcome outcome =
+        runHere("verify --device 0 --kernels skip-list --quiet --report " + path("r.json"), "");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    ASSERT_EQ(report().at("devices").at(0).at("films").size(), 1u) << report(); // no cost without a stack
+    EXPECT_EQ(report().at("devices").at(0).at("films").at(0).at("kernel"), "skip-list");
+    const Outcome refused = runHere("verify --kernels skip-lists", "");
+    EXPECT_EQ(refused.exitCode, 2) << refused;
+    EXPECT_TRUE(contains(refused.errors, "--kernels: found \"skip-lists\"")) << refused;
+}
+
 TEST_F(Verify, PassesOnAllDevices) {
     Surroundings patient;
     patient.timeoutSeconds = 600.0;
@@ -107,7 +119,7 @@ TEST_F(Verify, SaysThatTheProgramItselfComputesOtherwise) {
 
 TEST_F(Verify, CountsDevicesThatFail) {
     keepLights({"ao"});
-    const Outcome outcome = runHere("verify --device 0 --quiet", "vkQueueSubmit:12:VK_ERROR_DEVICE_LOST");
+    const Outcome outcome = runHere("verify --device 0 --quiet", "vkQueueSubmit:4:VK_ERROR_DEVICE_LOST");
     EXPECT_EQ(outcome.exitCode, 1) << outcome;
     EXPECT_TRUE(contains(outcome.output, "VK_ERROR_DEVICE_LOST")) << outcome;
 }
