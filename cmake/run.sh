@@ -5,7 +5,7 @@
 #   cmake/run.sh test                builds and runs all tests
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
 #   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all of
-#                                    them or those named: parallel, slurm, image, kubernetes
+#                                    them or those named: parallel, mpi, slurm, image, kubernetes
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it,
 #                                    --driver=mesa or --driver=swiftshader also images by drivers that it fetches
@@ -25,7 +25,7 @@ needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-t
         libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
         zlib1g-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers)
-declare -A needed_for_farm=([parallel]="parallel" [slurm]="munge procps slurm-client slurmctld slurmd"
+declare -A needed_for_farm=([parallel]="parallel" [mpi]="libopenmpi-dev openmpi-bin procps" [slurm]="munge procps slurm-client slurmctld slurmd"
                            [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")
 needed_for_bench=(libbenchmark-dev libembree-dev)
 needed_for_check=(clang-format-14 clang-tidy-14 libomp-14-dev)
@@ -154,7 +154,9 @@ test-farm)
         [ -n "${needed_for_farm[$template]:-}" ] || { usage >&2; exit 2; }
         install_missing ${needed_for_farm[$template]}
     done
-    build_all "$(tests_as_before)"
+    options=()
+    [[ " ${templates[*]} " != *" mpi "* ]] || options=(-DHYALITE_MPI=ON)
+    build_all "$(tests_as_before)" "${options[@]}"
     exec "$root/tests/farm/run.sh" "$build" "$@"
     ;;
 build)

@@ -4,6 +4,7 @@
 #include "host/cli/options.h"
 #include "host/cli/render_request.h"
 #include "host/import/assets.h"
+#include "host/render/rank_backend.h"
 #include "host/render/render_job.h"
 
 #include <fmt/format.h>
@@ -203,15 +204,41 @@ ExitCode renderOne(const RenderRequest &request, const std::string &commandLine,
     return signal != 0 ? exitCodeOf(errorKindOf(signal)) : ExitCode::Ok;
 }
 
+/// A rank but the first: renders tiles, and writes nothing.
+ExitCode serve(RenderRequest request, Ranks &ranks) {
+    request.isQuiet = true;
+    RenderSession session;
+    try {
+        session.prepare(request);
+        session.open();
+    } catch (const Error &error) {
+        excuse(ranks, error.what());
+        return ExitCode::Ok; // rank 0 says so
+    }
+    serveTiles(ranks, session.scene(), session.backend());
+    return ExitCode::Ok;
+}
+
 ExitCode runRender(const RenderRequest &request, const std::string &commandLine) {
     requireOptionsThatGoTogether(request);
-    RenderSession session;
+    const std::unique_ptr<Ranks> ranks = joinRanks();
+    if (ranks != nullptr && ranks->rank() > 0)
+        return serve(request, *ranks);
+    std::optional<RankCrew> crew;
+    if (ranks != nullptr)
+        crew.emplace(*ranks);
+    RenderSession session(crew ? &*crew : nullptr);
     return renderOne(request, commandLine, session);
 }
 
-ExitCode runSequence(const RenderRequest &request, const SequenceOptions &options,
-                     const std::string &commandLine) {
+ExitCode runSequence(RenderRequest request, const SequenceOptions &options, const std::string &commandLine) {
     requireSequenceOptions(request, options);
+    const std::unique_ptr<Ranks> ranks = joinRanks();
+    if (ranks != nullptr && request.part)
+        throw Error(ErrorKind::Usage, "--part: found several ranks, which are the parts of a sequence");
+    if (ranks != nullptr)
+        request.part =
+            Part{static_cast<std::uint32_t>(ranks->rank()) + 1, static_cast<std::uint32_t>(ranks->count())};
     Sequence sequence(request, options);
     if (sequence.frames().empty()) {
         fmt::print("part {} of {} has no frame\n", request.part->index, request.part->count);

@@ -1,5 +1,9 @@
 #include "host/render/render_session.h"
 
+#include "host/render/shared_backend.h"
+
+#include <utility>
+
 namespace hyalite {
 
 void RenderSession::prepare(const RenderRequest &request) {
@@ -16,8 +20,16 @@ void RenderSession::replaceScene(const SceneOptions &options, bool isQuiet) {
 }
 
 void RenderSession::open() {
-    if (opening_.valid())
-        opened_ = opening_.get();
+    if (!opening_.valid())
+        return;
+    opened_ = opening_.get();
+    if (crew_ == nullptr)
+        return;
+    std::vector<std::unique_ptr<Backend>> members = crew_->backends(*scene_, *opened_.backend, opened_.notes);
+    if (members.empty())
+        return;
+    members.insert(members.begin(), std::move(opened_.backend));
+    opened_.backend = shareBackends(std::move(members));
 }
 
 } // namespace hyalite

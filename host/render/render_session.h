@@ -5,6 +5,7 @@
 #include "host/image/tone_map.h"
 #include "host/render/opening.h"
 #include "host/render/prepare.h"
+#include "host/render/rank_backend.h"
 #include "host/scene/integrators.h"
 
 #include <future>
@@ -41,6 +42,9 @@ struct RenderRequest {
 
 class RenderSession {
   public:
+    /// With a crew, the other ranks share the pictures. It must outlive this.
+    explicit RenderSession(RankCrew *crew = nullptr) : crew_(crew) {}
+
     /// Loads and builds the scene, and opens the renderers at the same time, as soon as the outline is known. Throws as
     /// prepareScene() does.
     void prepare(const RenderRequest &request);
@@ -59,6 +63,7 @@ class RenderSession {
     [[nodiscard]] const std::vector<std::string> &notes() const { return opened_.notes; }
 
   private:
+    RankCrew *crew_;
     std::optional<PreparedScene> scene_;
     std::future<OpenedRenderers> opening_;
     OpenedRenderers opened_;

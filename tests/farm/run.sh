@@ -6,7 +6,7 @@ set -euo pipefail
 [ $# -ge 1 ] || { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}" >&2; exit 2; }
 build=$1
 shift
-[ $# -gt 0 ] || set -- parallel slurm image kubernetes
+[ $# -gt 0 ] || set -- parallel mpi slurm image kubernetes
 for name in "$@"; do
     "$(dirname "${BASH_SOURCE[0]}")/$name.sh" "$build"
 done
