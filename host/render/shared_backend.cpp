@@ -19,12 +19,6 @@ namespace hyalite {
 
 namespace {
 
-// A tile takes a renderer so long. The longer, the more is lost when the program is killed between two checkpoints; the
-// shorter, the more setting up tiles costs.
-constexpr double maxTileSeconds = 2.0;
-constexpr double minTileSeconds = 0.05;
-constexpr double firstSamples = 1 << 16; // of a tile for a renderer whose speed is not known
-
 struct Member {
     std::unique_ptr<Backend> backend;
     bool isLeftOut = false;
@@ -119,23 +113,17 @@ class SharedRender {
         return std::nullopt;
     }
 
-    /// Half of what would be this worker's of the rest, so that the next tiles can make good what was guessed wrongly.
     [[nodiscard]] std::uint64_t wantedPixels(const Worker &worker) const {
-        const double perPixel = samplesPerPixel_;
-        if (worker.samplesPerSecond == 0.0)
-            return static_cast<std::uint64_t>(std::clamp(firstSamples / perPixel, 64.0, 4096.0));
-        double allSpeeds = 0.0;
+        TileWish wish;
+        wish.samplesPerPixel = samplesPerPixel_;
+        wish.samplesPerSecond = worker.samplesPerSecond;
         for (const Worker &other : workers_)
             if (!other.member->isLeftOut)
-                allSpeeds += other.samplesPerSecond > 0.0 ? other.samplesPerSecond : worker.samplesPerSecond;
-        const double pixelsPerSecond = worker.samplesPerSecond / perPixel;
-        const double fair =
-            static_cast<double>(queue_.pixelCount()) * worker.samplesPerSecond / allSpeeds / 2.0;
-        const double growing = 8.0 * static_cast<double>(worker.lastSamples) / perPixel;
-        return static_cast<std::uint64_t>(std::max(
-            std::min(std::clamp(fair, minTileSeconds * pixelsPerSecond, maxTileSeconds * pixelsPerSecond),
-                     growing),
-            64.0));
+                wish.allSamplesPerSecond +=
+                    other.samplesPerSecond > 0.0 ? other.samplesPerSecond : worker.samplesPerSecond;
+        wish.lastSamples = static_cast<double>(worker.lastSamples);
+        wish.waitingPixels = static_cast<double>(queue_.pixelCount());
+        return tilePixels(wish);
     }
 
     void renderTile(Worker &worker, const Crop &tile) {

@@ -80,4 +80,22 @@ void TileQueue::giveBack(const Crop &tile) {
     pixelCount_ += pixelsOf(tile);
 }
 
+std::uint64_t tilePixels(const TileWish &wish) {
+    constexpr double leastSeconds = 0.05;
+    constexpr double mostSeconds = 2.0;
+    constexpr double growth = 8.0;
+    constexpr double leastPixels = 64.0;
+    constexpr double firstPixels = 4096.0;
+    constexpr double firstSamples = 1 << 16; // of a tile for a renderer whose speed is not known
+    if (wish.samplesPerSecond == 0.0)
+        return static_cast<std::uint64_t>(
+            std::clamp(firstSamples / wish.samplesPerPixel, leastPixels, firstPixels));
+    const double pixelsPerSecond = wish.samplesPerSecond / wish.samplesPerPixel;
+    const double fair = 0.5 * wish.waitingPixels * wish.samplesPerSecond / wish.allSamplesPerSecond;
+    const double wanted =
+        std::min(std::clamp(fair, leastSeconds * pixelsPerSecond, mostSeconds * pixelsPerSecond),
+                 growth * wish.lastSamples / wish.samplesPerPixel);
+    return static_cast<std::uint64_t>(std::max(wanted, leastPixels));
+}
+
 } // namespace hyalite

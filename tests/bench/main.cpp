@@ -63,6 +63,7 @@ int main(int argumentCount, char **arguments) {
         bench::registerSizes(context);
         bench::registerNoise(context);
         bench::registerStartUp(context);
+        bench::registerFarm(context);
         bench::TableReporter reporter;
         benchmark::RunSpecifiedBenchmarks(&reporter);
         fmt::print("\n{}", reporter.markdown(context.device()));

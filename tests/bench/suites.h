@@ -12,6 +12,7 @@ void registerRays(
 void registerFrames(Context &context);     ///< whole images, on each device and on the CPU
 void registerSizes(Context &context);      ///< time a ray by triangles, instances and lamps
 void registerNoise(Context &context);      ///< of paths at equal time, beside a path tracer on Embree
+void registerFarm(Context &context);       ///< pictures that renderers share
 void registerStartUp(Context &context);    ///< the smallest of images
 void registerBuilding(Context &context);   ///< trees, beside Embree's
 void registerReading();                    ///< OBJ files, beside tinyobjloader

@@ -76,5 +76,22 @@ TEST(TileQueue, GivesWhatCameBackNext) {
     EXPECT_EQ(queue.take(256), first);
 }
 
+TEST(TilePixels, AreAShareOfTheRestWithinBounds) {
+    TileWish wish{10.0, 1e6, 4e6, 1e9, 80'000.0}; // 100,000 pixels a second, a quarter of all
+    EXPECT_EQ(tilePixels(wish), 10'000u);         // half of a quarter
+    wish.waitingPixels = 1e9;
+    EXPECT_EQ(tilePixels(wish), 200'000u); // two seconds
+    wish.waitingPixels = 1000.0;
+    EXPECT_EQ(tilePixels(wish), 5000u); // a twentieth of a second
+    wish.lastSamples = 1000.0;
+    EXPECT_EQ(tilePixels(wish), 800u); // eight times the last one
+    wish.lastSamples = 1.0;
+    EXPECT_EQ(tilePixels(wish), 64u);
+    wish.samplesPerSecond = 0.0;
+    EXPECT_EQ(tilePixels(wish), 4096u);
+    wish.samplesPerPixel = 1024.0;
+    EXPECT_EQ(tilePixels(wish), 64u);
+}
+
 } // namespace
 } // namespace hyalite

@@ -1,0 +1,51 @@
+#include "host/film/film_file.h"
+#include "host/render/opening.h"
+#include "host/render/shared_backend.h"
+#include "tests/bench/race.h"
+#include "tests/bench/subject.h"
+#include "tests/bench/suites.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hyalite::bench {
+
+namespace {
+
+/// A picture through the queue of tiles with one renderer in it, beside the same renderer alone: what scheduling costs.
+void measureQueue(benchmark::State &state, const Context &context, const std::string &sceneName,
+                  int samplesPerPixel) {
+    SceneOptions options;
+    options.scene = sceneName;
+    options.settings.push_back(
+        {[=](RenderSettings &settings) { settings.samplesPerPixel = samplesPerPixel; }});
+    const PreparedScene scene = prepareScene(options, Source::Dropped, true);
+    const std::string device = std::to_string(context.device().index);
+    const std::unique_ptr<Backend> alone = openBackend(device, processorsFor(0, scene));
+    std::vector<std::unique_ptr<Backend>> members;
+    members.push_back(openBackend(device, processorsFor(0, scene)));
+    const std::unique_ptr<Backend> shared = shareBackends(std::move(members));
+    const auto render = [&](Backend &backend) { return backend.render(scene, {}, nullptr, {}, {}); };
+    if (differingPixelCount(render(*alone).film, render(*shared).film) != 0) { // and the kernels are there
+        state.SkipWithError("the pictures differ");
+        return;
+    }
+    const Rival rivals[] = {{"alone", timed([&] { (void)render(*alone); })}};
+    race(state, timed([&] { (void)render(*shared); }), rivals);
+}
+
+} // namespace
+
+void registerFarm(Context &context) {
+    for (const auto &[scene, samples] : {std::pair{"cornell", 64}, {"cat", 16}, {"studio-cat", 16}})
+        addBenchmark(fmt::format("farm/{}/queue", scene), 7,
+                     [&context, scene = std::string(scene), samples = samples](benchmark::State &state) {
+                         measureQueue(state, context, scene, samples);
+                     });
+}
+
+} // namespace hyalite::bench
