@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -115,11 +116,14 @@ void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request) {
 }
 
 /// The finished part of an incomplete image, and its file.
-void tellWhatIsFinished(const RenderReport &report) {
+void tellWhatIsFinished(const RenderReport &report, const RenderRequest &request) {
     const FinishedWork &finished = report.finished;
-    printMessage("stopped by {}: {} of {} pixels are finished, {:.1f} % of the samples; {} has them\n",
+    std::string where = report.output + " has them";
+    if (request.frame)
+        where = request.checkpoint.empty() ? "nothing is written" : request.checkpoint + " has them";
+    printMessage("stopped by {}: {} of {} pixels are finished, {:.1f} % of the samples; {}\n",
                  report.stoppedBy, finished.pixelCount, finished.wantedPixelCount,
-                 percentOf(finished.sampleCount, finished.wantedPixelCount, report), report.output);
+                 percentOf(finished.sampleCount, finished.wantedPixelCount, report), where);
 }
 
 /// The last line: the speed of this run.
@@ -151,8 +155,8 @@ void tellOutcome(const RenderJob &job, const RenderRequest &request) {
     const bool isQuiet = request.isQuiet;
     const RenderReport &report = job.report();
     if (!report.finished.isComplete && !(isQuiet && job.isCutByTime()))
-        tellWhatIsFinished(report);
-    if (isQuiet)
+        tellWhatIsFinished(report, request);
+    if (isQuiet || (request.frame && !report.finished.isComplete))
         return;
     tellSpeed(report, request.part);
     tellShares(report);
@@ -240,8 +244,19 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
         request.part =
             Part{static_cast<std::uint32_t>(ranks->rank()) + 1, static_cast<std::uint32_t>(ranks->count())};
     Sequence sequence(request, options);
+    std::set<std::string> names;
+    for (const int frame : sequence.frames()) {
+        const RenderRequest ofFrame = sequence.requestOf(frame);
+        for (const std::string &name : {ofFrame.output, ofFrame.report, ofFrame.checkpoint})
+            if (!name.empty() && !names.insert(name).second)
+                throw Error(ErrorKind::Usage,
+                            fmt::format("{} would be two files: those of frames need names of their "
+                                        "own",
+                                        name));
+    }
     if (sequence.frames().empty()) {
-        fmt::print("part {} of {} has no frame\n", request.part->index, request.part->count);
+        if (!request.isQuiet)
+            fmt::print("part {} of {} has no frame\n", request.part->index, request.part->count);
         return ExitCode::Ok;
     }
     requireOptionsThatGoTogether(sequence.requestOf(sequence.frames().front()));

@@ -19,7 +19,7 @@ namespace hyalite {
 namespace {
 
 constexpr std::string_view magic = "hyalite checkpoint\n";
-constexpr std::uint32_t currentVersion = 3;
+constexpr std::uint32_t currentVersion = 4;
 constexpr std::uint32_t maxTextBytes = 1u << 16; // of the identity, and of the origin
 constexpr std::uint32_t maxLayers = 64;
 
@@ -57,7 +57,7 @@ std::string valueOf(std::string_view text, std::string_view name) {
 
 class Reader {
   public:
-    explicit Reader(const std::filesystem::path &path) : file_(path) {}
+    Reader(const std::filesystem::path &path, const Partition *known) : file_(path), known_(known) {}
 
     [[nodiscard]] CheckpointFile read() {
         const std::vector<std::byte> head = file_.head(magic.size() + sizeof(Header));
@@ -135,8 +135,12 @@ class Reader {
         // Before the squares are counted, which takes memory: parts are alike, but for few squares.
         const bool isPlausible = static_cast<std::uint64_t>(width * height) / 2 / header.partCount <
                                  inFile + 2 * std::uint64_t{Partition::mostSide} * Partition::mostSide;
-        const std::uint64_t expected =
-            isPlausible ? Partition(crop, header.partCount).pixelCountOf(header.partIndex) : 0;
+        const bool isKnown =
+            known_ != nullptr && known_->crop() == crop && known_->partCount() == header.partCount;
+        const std::uint64_t expected = isKnown ? known_->pixelCountOf(header.partIndex)
+                                       : isPlausible
+                                           ? Partition(crop, header.partCount).pixelCountOf(header.partIndex)
+                                           : 0;
         if (inFile != expected || file_.sizeBytes() != besidePixels + inFile * bytesEach)
             throw file_.bad(
                 fmt::format("it is damaged: part {} of {} of {} x {} pixels has another size than "
@@ -151,6 +155,7 @@ class Reader {
     }
 
     InputFile file_;
+    const Partition *known_;
     std::uint64_t offset_ = 0;
 };
 
@@ -260,7 +265,9 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<
     isNewestWhole_ = true;
 }
 
-CheckpointFile readCheckpointFile(const std::filesystem::path &path) { return Reader(path).read(); }
+CheckpointFile readCheckpointFile(const std::filesystem::path &path, const Partition *known) {
+    return Reader(path, known).read();
+}
 
 Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentity &identity,
                           const CheckpointSubject &subject) {

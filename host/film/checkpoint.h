@@ -92,8 +92,9 @@ class CheckpointWriter {
 
 /// Reads one generation; memory is in proportion to the size of the file, but for some 100 MB at most where it claims to
 /// be of very many parts. Throws Error{BadInput}, naming the file, if it cannot be read, is not a checkpoint, has another
-/// version or is damaged.
-[[nodiscard]] CheckpointFile readCheckpointFile(const std::filesystem::path &path);
+/// version or is damaged. `known` may be a partition that was made before, which then is not made again.
+[[nodiscard]] CheckpointFile readCheckpointFile(const std::filesystem::path &path,
+                                                const Partition *known = nullptr);
 
 /// The same, for a render that goes on. Throws Error{BadInput} likewise; and, with the difference and both values, if
 /// the file belongs to another render.

@@ -12,7 +12,7 @@ namespace hyalite {
 namespace {
 
 constexpr std::uint64_t squaresWanted =
-    16; // of each part: with fewer, one costly object decides what a part costs
+    64; // of each part: with fewer, one costly object decides what a part costs
 
 struct Squares {
     int side;
@@ -71,7 +71,7 @@ std::uint32_t Partition::mostParts(const Crop &crop) {
         Squares(crop, leastSide).count(), static_cast<std::uint64_t>(limits::partCount.high)));
 }
 
-Partition::Partition(const Crop &crop, std::uint32_t partCount) {
+Partition::Partition(const Crop &crop, std::uint32_t partCount) : crop_(crop) {
     assert(partCount >= 1 && partCount <= mostParts(crop));
     const Squares squares = divide(crop, partCount);
     // Along Morton's curve squares that follow one another are near. Of each run of `partCount` every part gets one, in an

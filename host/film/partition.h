@@ -32,6 +32,7 @@ class Partition {
     /// 1 <= partCount <= mostParts(crop). The only part of one is all of the crop, as one square.
     Partition(const Crop &crop, std::uint32_t partCount);
 
+    [[nodiscard]] const Crop &crop() const { return crop_; }
     [[nodiscard]] std::uint32_t partCount() const { return static_cast<std::uint32_t>(begins_.size() - 1); }
 
     /// The squares of a part, 1 <= part <= partCount(), inside the crop; those at its right and lower edges are cut.
@@ -41,6 +42,7 @@ class Partition {
     [[nodiscard]] std::uint64_t pixelCountOf(std::uint32_t part) const;
 
   private:
+    Crop crop_;
     std::vector<Crop> squares_;       // part by part
     std::vector<std::size_t> begins_; // of each part, and the end
 };

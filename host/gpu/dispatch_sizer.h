@@ -6,6 +6,12 @@
 
 namespace hyalite::gpu {
 
+/// What samples and work cost, by the dispatches so far; 0: unknown.
+struct DispatchCosts {
+    double sampleSeconds = 0.0; ///< per sample, with all slots running
+    double workSeconds = 0.0;   ///< per unit of work, likewise
+};
+
 /// Long dispatches block a display or are ended by the driver; short ones waste time on overhead. Two bounds keep them
 /// in between:
 ///
@@ -13,15 +19,19 @@ namespace hyalite::gpu {
 /// - the work of all slots together, by the time that recent work took. If a tile is more expensive than those before,
 /// the dispatch ends soon after the wanted time, and another one continues.
 ///
-/// The first dispatches are small, because nothing is known yet.
+/// The first dispatches are small, unless costs are known from the same scene.
 class DispatchSizer {
   public:
     static constexpr std::uint64_t minPixels = 256; ///< of a tile: enough for a few processors
 
     /// `seconds` > 0 is the wanted time of a dispatch. Sample counts are whole rounds of `samplesAbreast`; tiles have
     /// at most `maxPixels` pixels.
-    DispatchSizer(double seconds, std::uint32_t samplesAbreast, std::uint64_t maxPixels)
-        : seconds_(seconds), samplesAbreast_(samplesAbreast), mostPixels_(maxPixels) {}
+    DispatchSizer(double seconds, std::uint32_t samplesAbreast, std::uint64_t maxPixels,
+                  const DispatchCosts &known = {})
+        : seconds_(seconds), samplesAbreast_(samplesAbreast), mostPixels_(maxPixels),
+          sampleSeconds_(known.sampleSeconds), workSeconds_(known.workSeconds) {}
+
+    [[nodiscard]] DispatchCosts costs() const { return {sampleSeconds_, workSeconds_}; }
 
     /// Maximum number of pixels of a tile that needs `samples` samples per pixel. Slots are set up once per dispatch,
     /// so a small tile with all its samples is better than a large one in several dispatches, unless it would be very
@@ -89,8 +99,8 @@ class DispatchSizer {
     double seconds_;
     std::uint32_t samplesAbreast_;
     std::uint64_t mostPixels_;
-    double sampleSeconds_ = 0.0; ///< per sample, with all slots running; 0: unknown
-    double workSeconds_ = 0.0;   ///< per unit of work, likewise; 0: unknown
+    double sampleSeconds_; ///< as in DispatchCosts
+    double workSeconds_;
 };
 
 } // namespace hyalite::gpu

@@ -215,7 +215,8 @@ MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStag
                                 listLargest(buffers)),
                     Remedy::SmallerRender);
     const std::uint64_t neededBytes =
-        memory.hostBytes + (device.isSoftware() ? memory.deviceBytes - residentBytes : 0);
+        memory.hostBytes +
+        (device.isSoftware() ? memory.deviceBytes - std::min(residentBytes, memory.deviceBytes) : 0);
     const std::optional<std::uint64_t> available = availableHostBytes();
     if (available && neededBytes > *available)
         throw Error(ErrorKind::LimitExceeded,

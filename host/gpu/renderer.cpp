@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <future>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,6 +65,7 @@ struct ResidentScene {
     bool isSkipList;
     std::uint64_t sizeBytes;
     SceneBuffers buffers;
+    std::map<Integrator, DispatchCosts> costs{}; ///< of its renders so far
 };
 
 struct Renderer::State {
@@ -71,7 +73,8 @@ struct Renderer::State {
     std::optional<Device> device; ///< empty if it failed and could not be opened again
     RenderConfig wanted;
     KernelChoices preferred;
-    RenderConfig config;
+    RenderConfig config; ///< after faults, for less at a time
+    RenderConfig faultless;
     ArithmeticChoice arithmetic;
     BitGuarantee bits;
     PipelineCache pipelines;                 ///< of the device
@@ -87,6 +90,7 @@ struct Renderer::State {
         bits = guaranteeOf(info, check);
         config = completed(asked, info);
         config.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
+        faultless = config;
     }
 
     static Transfers transfers(const RenderConfig &config) {
@@ -201,6 +205,7 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                         const std::function<void(double)> &onProgress, Timeline *timeline,
                         const std::function<bool()> &shouldStop, Continuation continuation) {
     bool isBegun = continuation.film.has_value();
+    state_->config = state_->faultless; // a fault of a former render says little of this one
     Result result{isBegun ? std::move(*continuation.film) : Film(crop), {}, {}, {}};
     for (int retry = 0;; ++retry) {
         try {
@@ -267,6 +272,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     });
     const SceneBuffers &buffers = state_->buffersOf(scene, scenePlan, isSkipList);
     result.timing.uploadSeconds = endStage("upload");
+    DispatchCosts &costs = state_->resident->costs[settings.integrator];
 
     for (const Crop &band : bands) {
         const std::size_t width = static_cast<std::size_t>(crop.width());
@@ -279,7 +285,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
             job.film = bandPixels;
         const RayCounts raysBefore = result.rays;
         TileRenderer tiles(*state_->device, state_->pipelines, buffers, config, job, scenePlan,
-                           planJob(job, config, state_->info));
+                           planJob(job, config, state_->info), costs);
         result.timing.pipelineSeconds += endStage("buffers");
         if (firstPipeline.valid())
             firstPipeline.get();
@@ -314,6 +320,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
                     },
                     raysSoFar);
             });
+        costs = tiles.costs();
         result.work += totals.work;
         result.lanes += totals.lanes;
         result.timing.dispatchCount += totals.dispatchCount;

@@ -119,11 +119,13 @@ std::shared_ptr<const Pipeline> pipelineOf(Device &device, PipelineCache &pipeli
 
 TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const SceneBuffers &buffers,
                            const RenderConfig &config, const Job &job, const ScenePlan &scenePlan,
-                           const JobPlan &plan)
+                           const JobPlan &plan, const DispatchCosts &known)
     : device_(device), pipelines_(pipelines), buffers_(buffers), config_(config), job_(job),
       scenePlan_(scenePlan), plan_(plan), film_(device, plan.film), progress_(device, plan.progress),
       stacks_(device, plan.stacks), trace_(device, plan.trace),
-      sizer_(config.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount()) {
+      unfinished_(job.film, static_cast<std::uint32_t>(job.crop.width()),
+                  static_cast<std::uint32_t>(job.crop.height()), job.sampleEnd),
+      sizer_(config.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount(), known) {
     if (job.film.empty())
         film_.clear();
     else
@@ -292,10 +294,9 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         std::vector<WorkItem> waiting = cutFilm(begin);
         while (!waiting.empty() && !totals.isStopped) {
             WorkItem &item = waiting.back();
-            if (item.begin == end || item.tile.x >= dispatch_.filmWidth ||
-                item.tile.y >= dispatch_.filmHeight) {
+            if (item.begin == end || unfinished_.in(item.tile).unfinished == 0) {
                 waiting.pop_back();
-            } else if (mustHalve(item, end)) {
+            } else if (mustHalve(item, end) || isMostlyFinished(item.tile)) {
                 WorkItem half = item;
                 std::tie(half.tile, item.tile) = item.tile.halves();
                 waiting.push_back(half);
@@ -315,6 +316,11 @@ std::vector<TileRenderer::WorkItem> TileRenderer::cutFilm(std::uint32_t begin) c
             items.push_back({{x, y, plan_.largestTile.width, plan_.largestTile.height}, begin, false});
     std::ranges::reverse(items);
     return items;
+}
+
+bool TileRenderer::isMostlyFinished(const Tile &tile) const {
+    const UnfinishedBlocks::Count blocks = unfinished_.in(tile);
+    return device_.info().isSoftware() && tile.canBeHalved() && 2 * blocks.unfinished <= blocks.all;
 }
 
 bool TileRenderer::mustHalve(const WorkItem &item, std::uint32_t end) const {

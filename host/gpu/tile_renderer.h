@@ -13,6 +13,7 @@
 #include "host/gpu/render_config.h"
 #include "host/gpu/scene_buffers.h"
 #include "host/gpu/tile.h"
+#include "host/gpu/unfinished_blocks.h"
 
 #include <functional>
 #include <optional>
@@ -44,7 +45,8 @@ class TileRenderer {
 
     /// As above. Throws as Buffer does.
     TileRenderer(Device &device, PipelineCache &pipelines, const SceneBuffers &buffers,
-                 const RenderConfig &config, const Job &job, const ScenePlan &scenePlan, const JobPlan &plan);
+                 const RenderConfig &config, const Job &job, const ScenePlan &scenePlan, const JobPlan &plan,
+                 const DispatchCosts &known = {});
 
     /// Makes the kernel. Throws as Kernel does.
     void makeKernel();
@@ -63,6 +65,9 @@ class TileRenderer {
     void readFilm(std::span<layout::FilmPixel> pixels) const;
 
     [[nodiscard]] std::vector<layout::TraceEvent> readTrace() const;
+
+    /// What dispatches cost, for the next job of this scene and integrator.
+    [[nodiscard]] DispatchCosts costs() const { return sizer_.costs(); }
 
     /// Seconds spent building kernels during `run`.
     [[nodiscard]] double lateBuildSeconds() const { return lateBuildSeconds_; }
@@ -93,6 +98,9 @@ class TileRenderer {
     [[nodiscard]] std::uint32_t slotCount(const Tile &tile) const;
     /// The film in tiles of the largest size, the first one last.
     [[nodiscard]] std::vector<WorkItem> cutFilm(std::uint32_t begin) const;
+    /// Whether most of a tile is finished, and its halves are better looked at by themselves: slots of finished pixels
+    /// take a software device's time.
+    [[nodiscard]] bool isMostlyFinished(const Tile &tile) const;
     /// Whether an item with samples up to `end` is too large for one dispatch.
     [[nodiscard]] bool mustHalve(const WorkItem &item, std::uint32_t end) const;
     void moveTo(const Tile &tile);
@@ -123,6 +131,7 @@ class TileRenderer {
     std::uint32_t traceEventCount_ = 0;
     std::uint64_t samplesInFilm_ = 0; ///< of all pixels, before run
     std::uint32_t fewestInFilm_ = 0;  ///< minimum over pixels, before run
+    UnfinishedBlocks unfinished_;     ///< before run
     DispatchSizer sizer_;
     double lateBuildSeconds_ = 0.0;
     std::optional<Program> direct_; ///< drops what is unfinished at its end

@@ -28,6 +28,7 @@ struct LoadEvents {
 /// Frames of a sequence in time: frame n is at n / framesPerSecond.
 struct SequenceTimes {
     double framesPerSecond = 24.0;
+    int firstFrame = 0; ///< nobody asks for those before it
     int lastFrame = 0;
 };
 

@@ -56,7 +56,7 @@ BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, c
         for (std::size_t i = 0; i < survived; ++i)
             printMessage("note: {}; reopened the device to do half as much at a time\n", result.faults[i]);
         for (const RendererShare &share : result.shares)
-            if (!share.failure.empty())
+            if (!share.failure.empty() && share.seconds > 0.0) // else it was told before
                 printMessage("note: left out {}: {}\n", share.name, share.failure);
         return result;
     } catch (const std::bad_alloc &) {

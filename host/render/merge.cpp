@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace hyalite {
@@ -62,7 +61,7 @@ std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origi
 
 void Merger::add(const std::filesystem::path &path) {
     try {
-        const CheckpointFile file = readCheckpointFile(path);
+        const CheckpointFile file = readCheckpointFile(path, partition_ ? &*partition_ : nullptr);
         PartOrigin origin;
         try {
             origin = readPartOrigin(file.origin);

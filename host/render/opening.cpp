@@ -43,7 +43,7 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
 /// A renderer that the names mean: the CPU, or a device.
 using Choice = std::optional<gpu::DeviceInfo>;
 
-/// "all": the usable devices, and the CPU where none of them computes on it.
+/// "all": the usable devices; but one alone of those that compute on the CPU.
 std::vector<Choice> chooseAll(const std::vector<gpu::DeviceInfo> &devices, std::vector<std::string> &notes) {
     std::vector<Choice> chosen;
     std::string software;
@@ -61,10 +61,6 @@ std::vector<Choice> chooseAll(const std::vector<gpu::DeviceInfo> &devices, std::
                 software = device.name;
         }
     }
-    if (software.empty())
-        chosen.emplace_back();
-    else
-        leaveOut("cpu", software + " computes on the same cores");
     return chosen;
 }
 
@@ -92,13 +88,20 @@ OpenedRenderers openAll(const RendererNames &names, int threadCount, const gpu::
         return {open(names.front(), threadCount, config), {}};
     reserveHeap();
     OpenedRenderers opened;
-    const gpu::LoadedDevices loaded =
-        loadDevices(); // until those that are chosen have instances of their own
+    gpu::LoadedDevices loaded; // until those that are chosen have instances of their own
+    try {
+        loaded = loadDevices();
+    } catch (const Error &error) {
+        if (!isAll || error.kind != ErrorKind::NoDevice)
+            throw;
+        opened.notes.push_back(fmt::format("cpu alone: {}", error.what()));
+    }
     const std::vector<Choice> chosen =
         isAll ? chooseAll(loaded.devices, opened.notes) : chooseNamed(names, loaded.devices);
     std::vector<std::unique_ptr<Backend>> members;
     std::optional<Error> lastFailure;
-    for (const Choice &choice : chosen) {
+    std::string software;
+    const auto openOne = [&](const Choice &choice) {
         const auto leaveOut = [&](const std::string &why) {
             opened.notes.push_back(fmt::format("left out {}: {}", choice ? choice->name : "cpu", why));
         };
@@ -109,13 +112,21 @@ OpenedRenderers openAll(const RendererNames &names, int threadCount, const gpu::
             if (member->bits().degree == gpu::BitDegree::None)
                 leaveOut(fmt::format("its bits may be its own: {}; `hyalite verify` finds out",
                                      member->bits().reason));
-            else
+            else {
                 members.push_back(std::move(member));
+                if (choice && choice->isSoftware())
+                    software = choice->name;
+            }
         } catch (const Error &error) {
             lastFailure.emplace(error);
             leaveOut(error.what());
         }
-    }
+    };
+    std::ranges::for_each(chosen, openOne);
+    if (isAll && software.empty())
+        openOne({});
+    else if (isAll)
+        opened.notes.push_back(fmt::format("left out cpu: {} computes on the same cores", software));
     if (members.empty() && lastFailure)
         throw Error(*lastFailure);
     if (members.empty())

@@ -30,13 +30,18 @@ RenderRequest withCheckpoint(RenderRequest request) {
     return request;
 }
 
-/// Whether a PNG or OpenEXR file has this value of an attribute, which begins before its pixels. A program renames a
-/// finished file to its name, so that one that begins so is whole.
+/// Whether a PNG or OpenEXR file is whole, and has this value of an attribute, which stands before its pixels.
 bool hasAttribute(const std::filesystem::path &path, const std::string &value) {
     constexpr std::size_t mostBytes = std::size_t{1} << 20;
-    const InputFile file(path);
-    const std::vector<std::byte> head = file.head(mostBytes);
-    return !std::ranges::search(head, std::as_bytes(std::span(value))).empty();
+    try {
+        const std::vector<std::byte> head = InputFile(path).head(mostBytes);
+        if (std::ranges::search(head, std::as_bytes(std::span(value))).empty())
+            return false;
+        static_cast<void>(readImage(path)); // it may have been cut short on its way from another machine
+        return true;
+    } catch (const Error &) {
+        return false;
+    }
 }
 
 } // namespace
@@ -129,8 +134,9 @@ void RenderJob::resume() {
         try {
             resumed = resumeCheckpoint(request_.checkpoint, identity, subject);
         } catch (const Error &error) {
-            // Who is told to make a part again need not remove it before; but that of another picture stays.
-            if (!request_.part || error.remedy == Remedy::BeginAnew)
+            // Who is told to make a part again need not remove it before; but that of another picture stays. A frame
+            // that has changed begins anew, as it does without a checkpoint.
+            if (!request_.frame && (!request_.part || error.remedy == Remedy::BeginAnew))
                 throw;
             checkpointDamage_ = error.what();
         }
@@ -236,6 +242,11 @@ void RenderJob::takeResult(BackendResult result) {
     signalWhileRendering_ = signals_->first();
     report_.finished =
         finishedWork(result.film, squares(), session_.scene().loaded.scene.settings.samplesPerPixel);
+    const int samplesPerPixel = session_.scene().loaded.scene.settings.samplesPerPixel;
+    for (const ViewFilm &layer : layers_)
+        report_.finished.isComplete =
+            report_.finished.isComplete &&
+            finishedWork(layer.film, squares(), samplesOfView(layer.view, samplesPerPixel)).isComplete;
     if (result.failure && report_.finished.sampleCount == 0)
         throw Error(*result.failure);
     if (signalWhileRendering_ != 0 && report_.finished.sampleCount == 0)
@@ -296,7 +307,7 @@ void RenderJob::writeImage() {
 
 void RenderJob::writeReport() {
     report_.totalSeconds = secondsSince(start_);
-    if (!reportFile_)
+    if (!reportFile_ || (request_.frame && !report_.finished.isComplete))
         return;
     reportFile_->write(formatReport(report_));
     reportFile_->commit();

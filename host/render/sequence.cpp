@@ -86,7 +86,7 @@ RenderRequest Sequence::requestOf(int frame) const {
 void Sequence::prepare(RenderSession &session) {
     RenderRequest request = request_;
     if (!turntable_)
-        request.scene.load.sequence = SequenceTimes{framesPerSecond_, range_.last};
+        request.scene.load.sequence = SequenceTimes{framesPerSecond_, range_.first, range_.last};
     session.prepare(request);
     PreparedScene &scene = session.scene();
     const Camera &camera = scene.loaded.scene.camera;
@@ -110,11 +110,18 @@ void Sequence::prepare(RenderSession &session) {
     validateCameraPath(path_, camera, scene.loaded.file.string());
 }
 
-void Sequence::moveTo(int frame, RenderSession &session) const {
+void Sequence::moveTo(int frame, RenderSession &session) {
     if (movesByTime_) {
         SceneOptions options = request_.scene;
         options.load.timeSeconds = frame / framesPerSecond_;
         session.replaceScene(options, true); // what there is to warn of was told for the first one
+        PreparedScene &scene = session.scene();
+        if (scene.loaded.autoFramed) { // else the view would jump with what it frames
+            if (!framing_)
+                framing_ = scene.loaded.scene.camera;
+            scene.loaded.scene.camera = *framing_;
+            packCamera(scene.loaded.scene, scene.packed);
+        }
         return;
     }
     PreparedScene &scene = session.scene();

@@ -45,7 +45,7 @@ class Sequence {
     void prepare(RenderSession &session);
 
     /// Moves the session's camera, or loads the scene as it is then.
-    void moveTo(int frame, RenderSession &session) const;
+    void moveTo(int frame, RenderSession &session);
 
   private:
     const RenderRequest request_;
@@ -55,6 +55,7 @@ class Sequence {
     std::vector<int> frames_;
     CameraPath path_;
     bool movesByTime_ = false;
+    std::optional<Camera> framing_; ///< of a moving scene without a camera: that of the first frame
 };
 
 } // namespace hyalite

@@ -22,6 +22,7 @@ namespace {
 struct Member {
     std::unique_ptr<Backend> backend;
     bool isLeftOut = false;
+    std::optional<Error> failure{}; ///< why it is
 };
 
 /// A member during one render.
@@ -47,7 +48,8 @@ class SharedRender {
     SharedRender(std::vector<Member> &members, const PreparedScene &scene,
                  const std::function<void(double)> &onProgress, const std::function<bool()> &shouldStop,
                  Continuation continuation)
-        : scene_(scene), onProgress_(onProgress), shouldStop_(shouldStop), snapshots_(continuation.snapshots),
+        : members_(members), scene_(scene), onProgress_(onProgress), shouldStop_(shouldStop),
+          snapshots_(continuation.snapshots),
           samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel)),
           film_(continuation.film ? std::move(*continuation.film) : Film(scene.crop)),
           queue_(film_, samplesPerPixel_), finishedSamples_(static_cast<double>(samplesIn(film_))) {
@@ -70,6 +72,9 @@ class SharedRender {
             std::rethrow_exception(bug_);
         BackendResult all{std::move(film_), rays_, {}, {}};
         all.timing.renderSeconds = watch.lap().seconds();
+        for (const Member &member : members_)
+            if (member.isLeftOut && std::ranges::find(workers_, &member, &Worker::member) == workers_.end())
+                all.shares.push_back({member.backend->name(), 0, 0, 0.0, member.failure->what()});
         for (Worker &worker : workers_) {
             const BackendResult &total = worker.total;
             all.work += total.work;
@@ -79,9 +84,8 @@ class SharedRender {
             std::ranges::copy(total.faults, std::back_inserter(all.faults));
             all.shares.push_back(worker.share);
         }
-        if (lastFailure_ &&
-            std::ranges::all_of(workers_, [](const Worker &worker) { return worker.member->isLeftOut; }))
-            all.failure.emplace(*lastFailure_);
+        if (std::ranges::all_of(members_, &Member::isLeftOut))
+            all.failure.emplace(lastFailure_ ? *lastFailure_ : *members_.front().failure);
         return all;
     }
 
@@ -151,14 +155,19 @@ class SharedRender {
             const std::scoped_lock lock(mutex_);
             takeIn(worker, tile, samplesBefore, seconds, std::move(result));
         } catch (const Error &error) {
-            const std::scoped_lock lock(mutex_);
-            finishedSamples_ += static_cast<double>(samplesBefore);
-            leaveOut(worker, tile, error);
+            giveUp(worker, tile, samplesBefore, watch.lap().seconds(), error);
         } catch (const std::bad_alloc &) {
-            const std::scoped_lock lock(mutex_);
-            finishedSamples_ += static_cast<double>(samplesBefore);
-            leaveOut(worker, tile, Error(ErrorKind::LimitExceeded, "it has too little memory"));
+            giveUp(worker, tile, samplesBefore, watch.lap().seconds(),
+                   Error(ErrorKind::LimitExceeded, "it has too little memory"));
         }
+    }
+
+    void giveUp(Worker &worker, const Crop &tile, std::uint64_t samplesBefore, double seconds,
+                const Error &why) {
+        const std::scoped_lock lock(mutex_);
+        worker.share.seconds += seconds;
+        finishedSamples_ += static_cast<double>(samplesBefore);
+        leaveOut(worker, tile, why);
     }
 
     // With the mutex:
@@ -173,8 +182,11 @@ class SharedRender {
         total.timing.dispatchCount += result.timing.dispatchCount;
         total.memory.deviceBytes = std::max(total.memory.deviceBytes, result.memory.deviceBytes);
         total.memory.hostBytes = std::max(total.memory.hostBytes, result.memory.hostBytes);
+        if (result.failure && !result.faults.empty())
+            result.faults.pop_back(); // after which it was not opened again
         for (const std::string &fault : result.faults)
             total.faults.push_back(worker.share.name + ": " + fault);
+        isBegun_ = true;
         const std::uint64_t added = samplesNow - samplesBefore;
         // A driver compiles once, and says nothing of the next tiles.
         const double working = seconds - result.timing.pipelineSeconds - result.timing.uploadSeconds;
@@ -201,6 +213,7 @@ class SharedRender {
 
     void leaveOut(Worker &worker, const Crop &tile, const Error &why) {
         worker.member->isLeftOut = true;
+        worker.member->failure.emplace(why);
         worker.currentSamples = 0.0;
         worker.share.failure = why.what();
         lastFailure_.emplace(why);
@@ -218,8 +231,10 @@ class SharedRender {
         onProgress_(samples / (static_cast<double>(film_.pixels.size()) * samplesPerPixel_));
     }
 
-    [[nodiscard]] bool isToStop() const { return shouldStop_ && shouldStop_(); }
+    /// Not before there is something to be kept: until then a signal ends the program, which may wait for a compiler.
+    [[nodiscard]] bool isToStop() const { return isBegun_ && shouldStop_ && shouldStop_(); }
 
+    const std::vector<Member> &members_;
     const PreparedScene &scene_;
     const std::function<void(double)> &onProgress_;
     const std::function<bool()> &shouldStop_;
@@ -232,6 +247,7 @@ class SharedRender {
     TileQueue queue_;
     RayCounts rays_;
     double finishedSamples_; ///< in the film, but for tiles that are being rendered
+    bool isBegun_ = false;
     int busyCount_ = 0;
     std::optional<Error> lastFailure_;
     std::exception_ptr bug_;
@@ -252,8 +268,15 @@ class SharedBackend : public Backend {
     }
     [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
         std::vector<RendererIdentity> all;
-        for (const Member &member : members_)
-            all.push_back(member.backend->identity(scene, integrator));
+        for (const Member &member : members_) {
+            const bool isLast = all.empty() && &member == &members_.back();
+            try {
+                all.push_back(member.backend->identity(scene, integrator));
+            } catch (const Error &) { // it cannot render this, and will be left out
+                if (isLast)
+                    throw;
+            }
+        }
         RendererIdentity identity = all.front();
         for (const RendererIdentity &other : std::span(all).subspan(1)) {
             const auto add = [](std::string &text, const std::string &more) {

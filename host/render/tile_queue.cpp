@@ -91,7 +91,8 @@ std::uint64_t tilePixels(const TileWish &wish) {
         return static_cast<std::uint64_t>(
             std::clamp(firstSamples / wish.samplesPerPixel, leastPixels, firstPixels));
     const double pixelsPerSecond = wish.samplesPerSecond / wish.samplesPerPixel;
-    const double fair = 0.5 * wish.waitingPixels * wish.samplesPerSecond / wish.allSamplesPerSecond;
+    const double share = wish.samplesPerSecond / wish.allSamplesPerSecond;
+    const double fair = wish.waitingPixels * (share < 1.0 ? 0.5 * share : 1.0);
     const double wanted =
         std::min(std::clamp(fair, leastSeconds * pixelsPerSecond, mostSeconds * pixelsPerSecond),
                  growth * wish.lastSamples / wish.samplesPerPixel);

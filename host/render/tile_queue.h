@@ -43,7 +43,7 @@ struct TileWish {
 };
 
 /// The pixels of a renderer's next tile: half of what would be its share of all that waits, so that the tiles after it can
-/// make good what was guessed wrongly; but what it renders in 0.05 s at least and in 2 s at most, eight times the last
+/// make good what was guessed wrongly, or all if it is the only one; but what it renders in 0.05 s at least and in 2 s at most, eight times the last
 /// tile at most, and a workgroup's 64 at least. Tiles that took longer would lose more when the program is killed between
 /// two checkpoints, and shorter ones cost more than they gain.
 [[nodiscard]] std::uint64_t tilePixels(const TileWish &wish);

@@ -16,6 +16,7 @@ namespace {
 
 /// The numbers of a pose that are interpolated.
 using PoseNumbers = std::array<double, 13>;
+constexpr std::size_t firstSize = 9; // angles and lengths, behind points and directions
 
 PoseNumbers numbersOf(const CameraPose &pose) {
     const glm::dvec3 target = pose.position + pose.direction;
@@ -39,7 +40,7 @@ CameraPose poseFrom(const PoseNumbers &numbers) {
     pose.position = {numbers[0], numbers[1], numbers[2]};
     pose.direction = glm::dvec3(numbers[3], numbers[4], numbers[5]) - pose.position;
     pose.up = {numbers[6], numbers[7], numbers[8]};
-    pose.aperture = std::max(numbers[9], 0.0); // a spline may swing below the keys
+    pose.aperture = numbers[9];
     pose.horizontalFovDegrees = numbers[10];
     pose.focusDistance = numbers[11];
     pose.viewWidth = numbers[12];
@@ -71,6 +72,8 @@ class KeyCurve {
                 numbers[n] += t * (1.0 - t) *
                               ((1.0 - t) * (length * slopes_[i][n] - (to - from)) -
                                t * (length * slopes_[i + 1][n] - (to - from)));
+            if (n >= firstSize) // a spline may swing beyond its keys, where no camera is
+                numbers[n] = std::clamp(numbers[n], std::min(from, to), std::max(from, to));
         }
         return poseFrom(numbers);
     }

@@ -38,9 +38,29 @@ void measureQueue(benchmark::State &state, const Context &context, const std::st
     race(state, timed([&] { (void)render(*shared); }), rivals);
 }
 
+/// A tile of one workgroup with one sample: what setting up a tile takes.
+void measureTile(benchmark::State &state, const Context &context, const std::string &sceneName) {
+    SceneOptions options;
+    options.scene = sceneName;
+    options.settings.push_back({[](RenderSettings &settings) { settings.samplesPerPixel = 1; }});
+    const PreparedScene scene = prepareScene(options, Source::Dropped, true);
+    const std::unique_ptr<Backend> backend =
+        openBackend(std::to_string(context.device().index), processorsFor(0, scene));
+    const auto render = [&] {
+        Continuation tile;
+        tile.film.emplace(Crop{0, 8, 0, 8});
+        (void)backend->render(scene, {}, nullptr, {}, std::move(tile));
+    };
+    render(); // the kernel is there
+    race(state, timed(render), {});
+}
+
 } // namespace
 
 void registerFarm(Context &context) {
+    for (const char *scene : {"cornell", "cat", "studio-cat"})
+        addBenchmark(fmt::format("farm/{}/tile", scene), 50,
+                     [&context, scene](benchmark::State &state) { measureTile(state, context, scene); });
     for (const auto &[scene, samples] : {std::pair{"cornell", 64}, {"cat", 16}, {"studio-cat", 16}})
         addBenchmark(fmt::format("farm/{}/queue", scene), 7,
                      [&context, scene = std::string(scene), samples = samples](benchmark::State &state) {

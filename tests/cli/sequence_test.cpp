@@ -91,6 +91,9 @@ TEST_F(SequenceFrames, ThatAreMissingOrOtherAreRendered) {
     EXPECT_TRUE(contains(again.output, "f.1.exr: frame 1 is finished\n")) << again;
     EXPECT_TRUE(contains(again.output, "f.2.exr: 24x16, 2 spp")) << again;
     EXPECT_TRUE(load("f.3.exr") == third);
+    std::filesystem::resize_file(folder / "f.3.exr", third.size() / 2); // as a copy that was cut short
+    EXPECT_TRUE(contains(run(line + " --spp 2").output, "f.3.exr: 24x16, 2 spp"));
+    EXPECT_TRUE(load("f.3.exr") == third);
     EXPECT_TRUE(contains(run(line + " --spp 3").output, "f.1.exr: 24x16, 3 spp")); // another picture
 }
 
@@ -114,6 +117,21 @@ TEST_F(SequenceFrames, ThatAreNotFinishedAreNotWritten) {
     EXPECT_TRUE(contains(outcome.errors, "stopped by the time limit")) << outcome;
 }
 
+TEST_F(SequenceFrames, WithLayersThatAreNotFinishedAreNotWritten) {
+    store("moving.json", movingScene());
+    const std::string line = "render moving.json --frames 1 -o f.#.exr --width 256 --height 256 --device cpu "
+                             "--checkpoint f.#.checkpoint --resume";
+    ASSERT_EQ(run(line + " --spp 4").exitCode, 0);
+    std::filesystem::remove(folder / "f.1.exr");
+    const Outcome stopped = run(line + " --spp 4 --layers albedo,normal --time-limit 0.001");
+    EXPECT_EQ(stopped.exitCode, 0) << stopped;
+    EXPECT_TRUE(contains(stopped.errors, "f.1.checkpoint has them")) << stopped;
+    EXPECT_FALSE(entries().contains("f.1.exr"));
+    const Outcome other = run(line + " --spp 2"); // of another picture: it begins anew
+    EXPECT_EQ(other.exitCode, 0) << other;
+    EXPECT_TRUE(contains(other.errors, "starting from the beginning")) << other;
+}
+
 TEST_F(SequenceFrames, HaveNamesAndReasons) {
     store("moving.json", movingScene());
     store("upside.json", R"({"camera": {"path": {"keys": [{"frame": 0}, {"frame": 2, "up": [0, 0, 1]}]}}})");
@@ -121,6 +139,8 @@ TEST_F(SequenceFrames, HaveNamesAndReasons) {
     expectFailure(frames + " -o f.png", 2, {"--output: found f.png", "one run of #"});
     expectFailure(frames + " -o f.#.#.png", 2, {"one run of #"});
     expectFailure(frames + " -o f.#.png --report r.json", 2, {"--report: found r.json"});
+    expectFailure("render moving.json --frames 1..11 -o f#.png --report f1#.png", 2,
+                  {"f11.png would be two files"});
     expectFailure("render moving.json --frames 2..1 -o f.#.png", 2, {"--frames: found \"2..1\""});
     expectFailure("render spheres --frames 1..2 -o f.#.png", 2,
                   {"--frames: nothing moves in ", "--turntable"});

@@ -164,7 +164,7 @@ GltfMaker withMovingCamera() {
 }
 
 TEST_F(GltfView, CamerasMoveInTheFramesOfASequence) {
-    const LoadedScene loaded = load(withMovingCamera(), {.sequence = SequenceTimes{4.0, 6}});
+    const LoadedScene loaded = load(withMovingCamera(), {.sequence = SequenceTimes{4.0, 0, 6}});
     EXPECT_FALSE(loaded.movesByTime);
     ASSERT_EQ(loaded.cameraPath.size(), 7u);
     for (int frame = 0; frame <= 6; ++frame) {
@@ -179,7 +179,7 @@ TEST_F(GltfView, CamerasMoveInTheFramesOfASequence) {
     const std::size_t zero = flat.addVec3({1, 1, 1, 0, 0, 0});
     flat.json["animations"][0]["samplers"][0]["output"] = zero;
     try {
-        static_cast<void>(load(flat, {.sequence = SequenceTimes{4.0, 6}}));
+        static_cast<void>(load(flat, {.sequence = SequenceTimes{4.0, 0, 6}}));
         FAIL();
     } catch (const Error &error) {
         EXPECT_NE(std::string(error.what()).find("the camera is flattened in frame 4"), std::string::npos)
@@ -188,7 +188,7 @@ TEST_F(GltfView, CamerasMoveInTheFramesOfASequence) {
 }
 
 TEST_F(GltfView, WhatElseMovesIsToBeLoadedForEachFrame) {
-    const LoadOptions options{.sequence = SequenceTimes{24.0, 1}};
+    const LoadOptions options{.sequence = SequenceTimes{24.0, 0, 1}};
     EXPECT_FALSE(load(oneTriangle(), options).movesByTime);
     EXPECT_TRUE(load(animated("LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0}), options).movesByTime);
     GltfMaker carried = withMovingCamera(); // with the camera

@@ -117,7 +117,11 @@ TEST_F(SharedBackends, LeaveOutWhoThrows) {
     expectWhole(result);
     EXPECT_EQ(result.shares.at(0).failure, "");
     EXPECT_EQ(result.shares.at(1).failure, "too little memory");
-    EXPECT_EQ(render(*backend, scene).shares.size(), 1u) << "it is left out of the next picture, too";
+    const BackendResult next = render(*backend, scene); // it is left out of the next picture, too
+    expectWhole(next);
+    ASSERT_EQ(next.shares.size(), 2u);
+    EXPECT_EQ(next.shares[0].name, "bad");
+    EXPECT_EQ(next.shares[0].tileCount, 0u);
 }
 
 TEST_F(SharedBackends, GoOnFromTheTileOfWhoGivesUp) {

@@ -83,6 +83,9 @@ TEST(TilePixels, AreAShareOfTheRestWithinBounds) {
     EXPECT_EQ(tilePixels(wish), 200'000u); // two seconds
     wish.waitingPixels = 1000.0;
     EXPECT_EQ(tilePixels(wish), 5000u); // a twentieth of a second
+    wish.allSamplesPerSecond = 1e6;     // alone
+    wish.waitingPixels = 70'000.0;
+    EXPECT_EQ(tilePixels(wish), 70'000u);
     wish.lastSamples = 1000.0;
     EXPECT_EQ(tilePixels(wish), 800u); // eight times the last one
     wish.lastSamples = 1.0;

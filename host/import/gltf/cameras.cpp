@@ -82,8 +82,8 @@ CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const PlacedCa
                           const SequenceTimes &sequence) {
     const Document &document = buffers.document();
     const std::vector<Pose> rest = readPoses(document);
-    CameraPath path;
-    for (int frame = 0; frame <= sequence.lastFrame; ++frame) {
+    CameraPath path(static_cast<std::size_t>(sequence.firstFrame), poseOf(camera.camera));
+    for (int frame = sequence.firstFrame; frame <= sequence.lastFrame; ++frame) {
         std::vector<Pose> poses = rest;
         animate(buffers, frame / sequence.framesPerSecond, poses);
         const glm::dmat4x3 map = tree.toWorld(poses)[camera.node];

@@ -32,7 +32,7 @@ struct PlacedCamera {
                                                      const std::vector<glm::dmat4x3> &toWorld,
                                                      const std::string &choice);
 
-/// The path of the camera as the animations move it and the nodes above it, up to the sequence's last frame.
+/// The path of the camera as the animations move it and the nodes above it, from the sequence's first frame to its last.
 [[nodiscard]] CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const PlacedCamera &camera,
                                         const SequenceTimes &sequence);
 

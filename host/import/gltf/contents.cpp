@@ -168,10 +168,11 @@ Contents readContents(const std::filesystem::path &path, const FileReach &reach,
     contents.camera = readCamera(document, nodes, toWorld, options.camera);
     if (options.sequence) {
         const std::vector<bool> animated = animatedNodes(document);
-        const bool isAnimated = std::ranges::find(animated, true) != animated.end();
-        if (contents.camera && isAnimated)
+        const std::vector<bool> moving = tree.below(animated);
+        contents.movesByTime = std::ranges::find(animated, true) != animated.end() &&
+                               moveMoreThanCameras(document, nodes, moving);
+        if (contents.camera && moving[contents.camera->node] && !contents.movesByTime)
             contents.cameraPath = readCameraPath(buffers, tree, *contents.camera, *options.sequence);
-        contents.movesByTime = isAnimated && moveMoreThanCameras(document, nodes, tree.below(animated));
     }
     report.files = buffers.files();
     report.files.insert(report.files.begin(), path);

@@ -28,7 +28,7 @@ struct Contents {
     MeshFile file; ///< names its buffers, too, in its report
     std::vector<Light> lights;
     std::optional<PlacedCamera> camera;
-    CameraPath cameraPath{};  ///< of a sequence
+    CameraPath cameraPath{};  ///< of a sequence in which nothing else moves
     bool movesByTime = false; ///< meshes or lights do
 };
 
