@@ -25,19 +25,21 @@ using Clock = std::chrono::steady_clock;
 ///
 ///     the size of the JSON, 8 bytes   JSON   pixels
 struct Message {
-    json header;
+    std::string text; ///< the JSON
     std::vector<layout::FilmPixel> pixels{};
+
+    [[nodiscard]] json header() const { return json::parse(text); }
 };
 
-void send(Ranks &ranks, int to, const Message &message) {
-    const std::string text = message.header.dump(-1, ' ', false, json::error_handler_t::replace);
+void send(Ranks &ranks, int to, const json &header, std::span<const layout::FilmPixel> pixels = {}) {
+    const std::string text = header.dump(-1, ' ', false, json::error_handler_t::replace);
     const std::uint64_t textSize = text.size();
-    const std::span<const std::byte> pixels = std::as_bytes(std::span(message.pixels));
-    std::vector<std::byte> bytes(sizeof(textSize) + text.size() + pixels.size());
+    const std::span<const std::byte> pixelBytes = std::as_bytes(pixels);
+    std::vector<std::byte> bytes(sizeof(textSize) + text.size() + pixelBytes.size());
     std::memcpy(bytes.data(), &textSize, sizeof(textSize));
     std::memcpy(bytes.data() + sizeof(textSize), text.data(), text.size());
-    if (!pixels.empty())
-        std::memcpy(bytes.data() + sizeof(textSize) + text.size(), pixels.data(), pixels.size());
+    if (!pixelBytes.empty())
+        std::memcpy(bytes.data() + sizeof(textSize) + text.size(), pixelBytes.data(), pixelBytes.size());
     ranks.send(to, bytes);
 }
 
@@ -49,7 +51,7 @@ std::optional<Message> poll(Ranks &ranks, int from) {
     std::memcpy(&textSize, bytes->data(), sizeof(textSize));
     const std::span<const std::byte> rest = std::span(*bytes).subspan(sizeof(textSize));
     Message message;
-    message.header = json::parse(std::string(reinterpret_cast<const char *>(rest.data()), textSize));
+    message.text.assign(reinterpret_cast<const char *>(rest.data()), textSize);
     const std::span<const std::byte> pixels = rest.subspan(textSize);
     message.pixels.resize(pixels.size() / sizeof(layout::FilmPixel));
     if (!pixels.empty())
@@ -95,23 +97,24 @@ RendererIdentity identityFrom(const json &from) {
 /// The renderer of another rank.
 class RankBackend : public Backend {
   public:
-    RankBackend(Ranks &ranks, int rank, json hello) : ranks_(ranks), rank_(rank), hello_(std::move(hello)) {}
+    RankBackend(Ranks &ranks, int rank, std::string hello)
+        : ranks_(ranks), rank_(rank), hello_(std::move(hello)) {}
 
     [[nodiscard]] std::string name() const override {
-        return fmt::format("{} of rank {}", hello_.at("name").get<std::string>(), rank_);
+        return fmt::format("{} of rank {}", hello().at("name").get<std::string>(), rank_);
     }
     [[nodiscard]] std::string description() const override {
-        return fmt::format("rank {} on {}: {}", rank_, hello_.at("host").get<std::string>(),
-                           hello_.at("description").get<std::string>());
+        return fmt::format("rank {} on {}: {}", rank_, hello().at("host").get<std::string>(),
+                           hello().at("description").get<std::string>());
     }
     [[nodiscard]] RendererIdentity identity(const PackedScene &, Integrator) const override {
-        return identityFrom(hello_.at("renderer"));
+        return identityFrom(hello().at("renderer"));
     }
     [[nodiscard]] gpu::BitGuarantee bits() const override {
-        return {static_cast<gpu::BitDegree>(hello_.at("bitDegree").get<int>()), hello_.at("bitReason")};
+        return {static_cast<gpu::BitDegree>(hello().at("bitDegree").get<int>()), hello().at("bitReason")};
     }
-    [[nodiscard]] std::string precision() const override { return hello_.at("precision"); }
-    [[nodiscard]] bool hasCompiler() const override { return hello_.at("hasCompiler"); }
+    [[nodiscard]] std::string precision() const override { return hello().at("precision"); }
+    [[nodiscard]] bool hasCompiler() const override { return hello().at("hasCompiler"); }
 
     [[nodiscard]] BackendResult render(const PreparedScene &scene, const std::function<void(double)> &,
                                        Timeline *, const std::function<bool()> &shouldStop,
@@ -120,17 +123,17 @@ class RankBackend : public Backend {
         const RenderSettings &settings = scene.loaded.scene.settings;
         const Crop &crop = film.crop;
         send(ranks_, rank_,
-             {{{"kind", "tile"},
-               {"integrator", static_cast<int>(settings.integrator)},
-               {"samples", settings.samplesPerPixel},
-               {"sampler", static_cast<int>(settings.sampler)},
-               {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}}},
-              std::move(film.pixels)});
+             {{"kind", "tile"},
+              {"integrator", static_cast<int>(settings.integrator)},
+              {"samples", settings.samplesPerPixel},
+              {"sampler", static_cast<int>(settings.sampler)},
+              {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}}},
+             film.pixels);
         std::optional<Clock::time_point> stopped;
         std::optional<Message> answer;
         while (!(answer = poll(ranks_, rank_))) {
             if (!stopped && shouldStop && shouldStop()) {
-                send(ranks_, rank_, {{{"kind", "stop"}}});
+                send(ranks_, rank_, {{"kind", "stop"}});
                 stopped = Clock::now();
             }
             // The rank may be gone: then mpirun ends this one, too, and what is finished had better be written.
@@ -138,11 +141,11 @@ class RankBackend : public Backend {
                 throw Error(ErrorKind::DeviceLost, "it does not answer");
             std::this_thread::sleep_for(pollInterval);
         }
-        const json &header = answer->header;
-        film.pixels = std::move(answer->pixels);
-        BackendResult result{std::move(film), raysFrom(header.at("rays")), {}, {}};
+        const json header = answer->header();
         if (const std::string why = header.at("error"); !why.empty())
             throw Error(static_cast<ErrorKind>(header.at("errorKind").get<int>()), why);
+        film.pixels = std::move(answer->pixels);
+        BackendResult result{std::move(film), raysFrom(header.at("rays")), {}, {}};
         result.timing.dispatchCount = header.at("dispatches");
         result.timing.pipelineSeconds = header.at("pipelineSeconds");
         result.timing.uploadSeconds = header.at("uploadSeconds");
@@ -158,9 +161,11 @@ class RankBackend : public Backend {
     }
 
   private:
+    [[nodiscard]] json hello() const { return json::parse(hello_); }
+
     Ranks &ranks_;
     int rank_;
-    json hello_;
+    std::string hello_; ///< JSON
 };
 
 /// Whether rank 0 wants the tile back as it is. Asks seldom: it is called after each sample.
@@ -187,42 +192,46 @@ class StopQuestion {
     std::atomic<bool> isStopped_ = false;
 };
 
-Message renderTile(Ranks &ranks, PreparedScene &scene, Backend &backend, Message job) {
+/// Renders the tile of a message, and answers.
+void renderTile(Ranks &ranks, PreparedScene &scene, Backend &backend, const json &job,
+                std::vector<layout::FilmPixel> pixels) {
     RenderSettings &settings = scene.loaded.scene.settings;
-    settings.integrator = static_cast<Integrator>(job.header.at("integrator").get<int>());
-    settings.samplesPerPixel = job.header.at("samples");
-    settings.sampler = static_cast<SamplerKind>(job.header.at("sampler").get<int>());
-    const json &crop = job.header.at("crop");
+    settings.integrator = static_cast<Integrator>(job.at("integrator").get<int>());
+    settings.samplesPerPixel = job.at("samples");
+    settings.sampler = static_cast<SamplerKind>(job.at("sampler").get<int>());
+    const json &crop = job.at("crop");
     Continuation continuation;
     continuation.film.emplace(Crop{});
     continuation.film->crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
-    continuation.film->pixels = std::move(job.pixels);
-    Message answer{{{"kind", "done"}, {"rays", toJson(RayCounts{})}, {"error", ""}}};
+    continuation.film->pixels = std::move(pixels);
     StopQuestion shouldStop(ranks);
     try {
-        BackendResult result = backend.render(
+        const BackendResult result = backend.render(
             scene, {}, nullptr, [&] { return shouldStop(); }, std::move(continuation));
-        answer.header["rays"] = toJson(result.rays);
-        answer.header["dispatches"] = result.timing.dispatchCount;
-        answer.header["pipelineSeconds"] = result.timing.pipelineSeconds;
-        answer.header["uploadSeconds"] = result.timing.uploadSeconds;
-        answer.header["deviceBytes"] = result.memory.deviceBytes;
-        answer.header["faults"] = result.faults;
-        answer.header["failure"] = result.failure ? result.failure->what() : "";
-        answer.header["failureKind"] = static_cast<int>(result.failure ? result.failure->kind : ErrorKind{});
-        answer.pixels = std::move(result.film.pixels);
+        send(ranks, 0,
+             {{"error", ""},
+              {"rays", toJson(result.rays)},
+              {"dispatches", result.timing.dispatchCount},
+              {"pipelineSeconds", result.timing.pipelineSeconds},
+              {"uploadSeconds", result.timing.uploadSeconds},
+              {"deviceBytes", result.memory.deviceBytes},
+              {"faults", result.faults},
+              {"failure", result.failure ? result.failure->what() : ""},
+              {"failureKind", static_cast<int>(result.failure ? result.failure->kind : ErrorKind{})}},
+             result.film.pixels);
     } catch (const Error &error) {
-        answer.header["error"] = error.what();
-        answer.header["errorKind"] = static_cast<int>(error.kind);
+        send(ranks, 0, {{"error", error.what()}, {"errorKind", static_cast<int>(error.kind)}});
     }
-    return answer;
 }
 
 } // namespace
 
 RankCrew::~RankCrew() {
-    for (int rank = 1; rank < ranks_.count(); ++rank)
-        send(ranks_, rank, {{{"kind", "end"}}});
+    try {
+        for (int rank = 1; rank < ranks_.count(); ++rank)
+            send(ranks_, rank, {{"kind", "end"}});
+    } catch (const std::exception &) { // of memory: mpirun ends those that wait for ever
+    }
 }
 
 std::vector<std::unique_ptr<Backend>> RankCrew::backends(const PreparedScene &scene, const Backend &backend,
@@ -230,12 +239,13 @@ std::vector<std::unique_ptr<Backend>> RankCrew::backends(const PreparedScene &sc
     const std::string here = identityText(identityOf(scene, backend));
     std::vector<std::unique_ptr<Backend>> backends;
     for (int rank = 1; rank < ranks_.count(); ++rank) {
-        json hello = waitFor(ranks_, rank).header;
+        Message message = waitFor(ranks_, rank);
+        const json hello = message.header();
         std::string why = hello.value("excuse", "");
         if (const std::string there = hello.value("identity", here); why.empty() && there != here)
             why = describeDifferences(there, here);
         if (why.empty())
-            backends.push_back(std::make_unique<RankBackend>(ranks_, rank, std::move(hello)));
+            backends.push_back(std::make_unique<RankBackend>(ranks_, rank, std::move(message.text)));
         else
             notes.push_back(fmt::format("left out rank {}: {}", rank, why));
     }
@@ -245,28 +255,29 @@ std::vector<std::unique_ptr<Backend>> RankCrew::backends(const PreparedScene &sc
 void serveTiles(Ranks &ranks, PreparedScene &scene, Backend &backend) {
     const gpu::BitGuarantee bits = backend.bits();
     send(ranks, 0,
-         {{{"name", backend.name()},
-           {"host", hostName()},
-           {"description", backend.description()},
-           {"identity", identityText(identityOf(scene, backend))},
-           {"renderer", toJson(backend.identity(scene.packed, scene.loaded.scene.settings.integrator))},
-           {"bitDegree", static_cast<int>(bits.degree)},
-           {"bitReason", bits.reason},
-           {"precision", backend.precision()},
-           {"hasCompiler", backend.hasCompiler()}}});
+         {{"name", backend.name()},
+          {"host", hostName()},
+          {"description", backend.description()},
+          {"identity", identityText(identityOf(scene, backend))},
+          {"renderer", toJson(backend.identity(scene.packed, scene.loaded.scene.settings.integrator))},
+          {"bitDegree", static_cast<int>(bits.degree)},
+          {"bitReason", bits.reason},
+          {"precision", backend.precision()},
+          {"hasCompiler", backend.hasCompiler()}});
     for (;;) {
         Message message = waitFor(ranks, 0);
-        const std::string kind = message.header.at("kind");
+        const json header = message.header();
+        const std::string kind = header.at("kind");
         if (kind == "end")
             return;
         if (kind == "tile") // a "stop" that comes after its tile means nothing
-            send(ranks, 0, renderTile(ranks, scene, backend, std::move(message)));
+            renderTile(ranks, scene, backend, header, std::move(message.pixels));
     }
 }
 
 void excuse(Ranks &ranks, const std::string &why) {
-    send(ranks, 0, {{{"excuse", why}}});
-    while (waitFor(ranks, 0).header.at("kind") != "end") {
+    send(ranks, 0, {{"excuse", why}});
+    while (waitFor(ranks, 0).header().at("kind") != "end") {
     }
 }
 

@@ -35,7 +35,8 @@ bool hasAttribute(const std::filesystem::path &path, const std::string &value) {
     constexpr std::size_t mostBytes = std::size_t{1} << 20;
     try {
         const std::vector<std::byte> head = InputFile(path).head(mostBytes);
-        if (std::ranges::search(head, std::as_bytes(std::span(value))).empty())
+        const std::span<const std::byte> wanted = std::as_bytes(std::span(value));
+        if (std::search(head.begin(), head.end(), wanted.begin(), wanted.end()) == head.end())
             return false;
         static_cast<void>(readImage(path)); // it may have been cut short on its way from another machine
         return true;

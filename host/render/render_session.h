@@ -57,8 +57,7 @@ class RenderSession {
     [[nodiscard]] bool isOpen() const { return opened_.backend != nullptr; }
     [[nodiscard]] PreparedScene &scene() { return *scene_; }
     [[nodiscard]] const PreparedScene &scene() const { return *scene_; }
-    [[nodiscard]] Backend &backend() { return *opened_.backend; }
-    [[nodiscard]] const Backend &backend() const { return *opened_.backend; }
+    [[nodiscard]] Backend &backend() const { return *opened_.backend; }
     /// Renderers that are left out, each with the reason.
     [[nodiscard]] const std::vector<std::string> &notes() const { return opened_.notes; }
 

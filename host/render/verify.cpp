@@ -9,7 +9,6 @@
 #include <iterator>
 #include <memory>
 #include <mutex>
-#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -55,10 +54,10 @@ struct Task {
 /// Film by film, the last ones first, which are of the largest scenes.
 std::vector<Task> tasksOf(const std::vector<Kernel> &kernels, const ShippedFilms &shipped) {
     std::vector<Task> tasks;
-    for (const ShippedFilm &film : std::views::reverse(shipped.films))
+    for (std::size_t i = shipped.films.size(); i-- > 0;)
         for (std::size_t kernel = 0; kernel < kernels.size(); ++kernel)
-            if (kernels[kernel].renders(film))
-                tasks.push_back({kernel, &film});
+            if (kernels[kernel].renders(shipped.films[i]))
+                tasks.push_back({kernel, &shipped.films[i]});
     return tasks;
 }
 
@@ -152,6 +151,7 @@ void runAll(std::vector<Renderers> &workers, std::size_t count,
             const std::function<void(Renderers &, std::size_t)> &work) {
     std::atomic<std::size_t> next = 0;
     std::vector<std::future<void>> running;
+    running.reserve(workers.size());
     for (Renderers &renderers : workers)
         running.push_back(std::async(std::launch::async, [&] {
             for (std::size_t i = next++; i < count; i = next++)

@@ -37,9 +37,9 @@ struct CameraKey {
 enum class KeyInterpolation { Smooth, Linear };
 
 /// The path through keys, whose frames increase; it stands still before the first one. Points of the path and what it
-/// looks at (position + direction) are interpolated, and each other number by itself, between those of its keys. Smooth: cubic Hermite splines
-/// whose slope at a key is that of the parabola through it and its neighbours (finite differences for unequal
-/// intervals), at the ends that to the neighbour.
+/// looks at (position + direction) are interpolated, and each other number by itself, between those of its keys. Smooth:
+/// cubic Hermite splines whose slope at a key is that of the parabola through it and its neighbours (finite differences
+/// for unequal intervals), at the ends that to the neighbour.
 [[nodiscard]] CameraPath pathThrough(std::span<const CameraKey> keys, KeyInterpolation interpolation);
 
 /// `frameCount` poses on a full circle around an axis through `pivot` along the camera's up vector, counter-clockwise

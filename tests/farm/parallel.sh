@@ -9,7 +9,7 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 needs parallel parallel
 export VICTIMS=$folder/victims HYALITE=$root/tests/farm/killer.sh JOBS=2 RETRIES=8
-scene=(cornell --spp 16 --width 200 --height 120 --threads 1)
+scene=(cornell --spp 16 --width 200 --height 120 --layers albedo,normal,depth --threads 1)
 render_whole "${scene[@]}"
 for ((i = 1; i <= ${TIMES:-1}; ++i)); do
     echo 5 >"$VICTIMS"
