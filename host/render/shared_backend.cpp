@@ -28,11 +28,12 @@ struct Member {
 /// A member during one render.
 struct Worker {
     Member *member;
-    double samplesPerSecond = 0.0; ///< by its last tile; 0: unknown
+    double samplesPerSecond = 0.0; ///< of the last tile or of all, whichever is less; 0: unknown
+    double workingSeconds = 0.0;   ///< that it took for all, but for its compiler's
     std::uint64_t lastSamples = 0; ///< that it added in the last tile
     double currentSamples = 0.0;   ///< of the tile that it renders now, those from before included
     BackendResult total{Film(Crop{}), {}, {}, {}};
-    RendererShare share;
+    RendererShare share{};
 };
 
 std::uint64_t samplesIn(const Film &film) {
@@ -55,7 +56,7 @@ class SharedRender {
           queue_(film_, samplesPerPixel_), finishedSamples_(static_cast<double>(samplesIn(film_))) {
         for (Member &member : members)
             if (!member.isLeftOut) {
-                workers_.push_back({&member, 0.0, 0, 0.0, {Film(Crop{}), {}, {}, {}}, {}});
+                workers_.push_back({.member = &member});
                 workers_.back().share.name = member.backend->name();
             }
     }
@@ -190,8 +191,12 @@ class SharedRender {
         const std::uint64_t added = samplesNow - samplesBefore;
         // A driver compiles once, and says nothing of the next tiles.
         const double working = seconds - result.timing.pipelineSeconds - result.timing.uploadSeconds;
+        worker.workingSeconds += std::max(working, 1e-6);
+        // A tile of the background says little of the next one.
         if (added > 0)
-            worker.samplesPerSecond = static_cast<double>(added) / std::max(working, 1e-6);
+            worker.samplesPerSecond =
+                std::min(static_cast<double>(added) / std::max(working, 1e-6),
+                         static_cast<double>(worker.share.sampleCount + added) / worker.workingSeconds);
         worker.lastSamples = added;
         worker.share.seconds += seconds;
         worker.share.sampleCount += added;

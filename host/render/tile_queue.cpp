@@ -92,7 +92,7 @@ std::uint64_t tilePixels(const TileWish &wish) {
             std::clamp(firstSamples / wish.samplesPerPixel, leastPixels, firstPixels));
     const double pixelsPerSecond = wish.samplesPerSecond / wish.samplesPerPixel;
     const double share = wish.samplesPerSecond / wish.allSamplesPerSecond;
-    const double fair = wish.waitingPixels * (share < 1.0 ? 0.5 * share : 1.0);
+    const double fair = wish.waitingPixels * (share < 1.0 ? share / 16.0 : 1.0);
     const double wanted =
         std::min(std::clamp(fair, leastSeconds * pixelsPerSecond, mostSeconds * pixelsPerSecond),
                  growth * wish.lastSamples / wish.samplesPerPixel);

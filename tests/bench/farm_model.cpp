@@ -1,10 +1,10 @@
-// farm_model [--scene NAME] [--spp COUNT] [--start SECONDS] [--tile SECONDS] [--merge SECONDS] [--network BYTES]
+// farm_model [--scene NAME] [--spp COUNT] [--whole SECONDS] [--start SECONDS] [--tile SECONDS] [--merge SECONDS] [--network BYTES]
 //
 // Computes, and does not measure, how long a picture takes on 1 to 10,000 nodes like this machine, in parts and by ranks.
 // What it computes with is measured, here or elsewhere:
 //
 // - the work of each block of 8x8 pixels of the scene at 1920x1080: by the CPU twin, 2 samples a pixel, one thread; scaled
-//   so that the whole picture takes what this machine's device takes for it;
+//   so that the whole picture takes what this machine's device takes for it (8 samples, or --whole SECONDS);
 // - the options: start of a process, setting up a tile, reading a part in `merge`, bytes a second between ranks.
 //
 // Parts are those of Partition, tiles those of TileQueue and tilePixels(): the program's own.
@@ -26,6 +26,8 @@
 #include <string>
 #include <vector>
 
+#include <time.h>
+
 namespace hyalite {
 
 namespace {
@@ -36,6 +38,7 @@ constexpr int height = 1080;
 struct Options {
     std::string scene = "studio-cat";
     double samplesPerPixel = 4096;
+    double wholeSeconds = 0.0; ///< of the picture on one node; 0: measure
     double startSeconds = 0.4;
     double tileSeconds = 0.002;
     double mergeSecondsPerPart = 0.001;
@@ -47,6 +50,18 @@ double secondsOf(const std::function<void()> &work) {
     const auto start = std::chrono::steady_clock::now();
     work();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Of this thread on a processor: what else the machine does must not make a block of pixels dear.
+double processorSecondsOf(const std::function<void()> &work) {
+    const auto now = [] {
+        timespec time{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    };
+    const double start = now();
+    work();
+    return now() - start;
 }
 
 PreparedScene prepare(const std::string &name, int samplesPerPixel) {
@@ -71,15 +86,11 @@ class WorkMap {
                 Continuation block;
                 block.film.emplace(blockAt(x, y));
                 const double seconds =
-                    secondsOf([&] { (void)cpu->render(scene, {}, nullptr, {}, std::move(block)); });
+                    processorSecondsOf([&] { (void)cpu->render(scene, {}, nullptr, {}, std::move(block)); });
                 sums_[index(x + 1, y + 1)] = seconds;
                 sum += seconds;
             }
-        const PreparedScene timed = prepare(options.scene, 8);
-        const std::unique_ptr<Backend> device = openBackend("auto", processorsFor(0, timed));
-        (void)device->render(timed, {}, nullptr, {}, {}); // compiles
-        const double ofEight = secondsOf([&] { (void)device->render(timed, {}, nullptr, {}, {}); });
-        wholeSeconds_ = ofEight / 8.0 * options.samplesPerPixel;
+        wholeSeconds_ = options.wholeSeconds > 0.0 ? options.wholeSeconds : measureWhole(options);
         for (int y = 1; y <= rows; ++y)
             for (int x = 1; x <= columns; ++x) {
                 double &here = sums_[index(x, y)];
@@ -103,6 +114,14 @@ class WorkMap {
     static constexpr int side = TileQueue::blockSide;
     static constexpr int columns = width / side;
     static constexpr int rows = height / side;
+
+    static double measureWhole(const Options &options) {
+        const PreparedScene timed = prepare(options.scene, 8);
+        const std::unique_ptr<Backend> device = openBackend("auto", processorsFor(0, timed));
+        (void)device->render(timed, {}, nullptr, {}, {}); // compiles
+        return secondsOf([&] { (void)device->render(timed, {}, nullptr, {}, {}); }) / 8.0 *
+               options.samplesPerPixel;
+    }
 
     [[nodiscard]] static Crop blockAt(int x, int y) {
         return {x * side, (x + 1) * side, y * side, (y + 1) * side};
@@ -145,8 +164,10 @@ Outcome inParts(const WorkMap &work, const Options &options, std::uint32_t nodes
 /// Each node takes tiles from rank 0, whose messages go one after the other.
 Outcome byRanks(const WorkMap &work, const Options &options, std::uint32_t nodes) {
     struct Node {
-        double speed = 0.0; ///< samples a second in its last tile
+        double speed = 0.0; ///< samples a second, as SharedBackend takes it
         double lastSamples = 0.0;
+        double samples = 0.0;
+        double seconds = 0.0;
     };
     const double all = static_cast<double>(width) * height * options.samplesPerPixel;
     const Film film(Crop{0, width, 0, height});
@@ -181,8 +202,12 @@ Outcome byRanks(const WorkMap &work, const Options &options, std::uint32_t nodes
         const double seconds = work.secondsIn(*tile);
         setUpSeconds += options.tileSeconds;
         const double samples = pixels * options.samplesPerPixel;
-        speeds += samples / seconds - (node.speed > 0.0 ? node.speed : guess);
-        node = {samples / seconds, samples};
+        const double before = node.speed > 0.0 ? node.speed : guess;
+        node.samples += samples;
+        node.seconds += seconds;
+        node.speed = std::min(samples / seconds, node.samples / node.seconds);
+        node.lastSamples = samples;
+        speeds += node.speed - before;
         events.push({networkFree + options.tileSeconds + seconds, i});
     }
     const double fair = work.wholeSeconds() / nodes;
@@ -196,7 +221,7 @@ Outcome byRanks(const WorkMap &work, const Options &options, std::uint32_t nodes
 void run(const Options &options) {
     const WorkMap work(options);
     fmt::print(
-        "{}, {}x{}, {} spp: {:.0f} s on one node like this machine (computed from 8 spp)\n"
+        "{}, {}x{}, {} spp: {:.0f} s on one node like this machine\n"
         "start {} s, a tile {} s, merging {} s a part and {} s a pixel, {} bytes/s between ranks\n\n"
         "| nodes | in parts, s | efficiency | loses most by | by ranks, s | efficiency | loses most by |\n"
         "|---|---|---|---|---|---|---|\n",
@@ -223,6 +248,7 @@ int main(int argumentCount, char **arguments) {
     CLI::App app("how long a picture takes on many nodes: computed");
     app.add_option("--scene", options.scene);
     app.add_option("--spp", options.samplesPerPixel);
+    app.add_option("--whole", options.wholeSeconds, "of the picture on one node, seconds");
     app.add_option("--start", options.startSeconds, "of a process until its first ray, seconds");
     app.add_option("--tile", options.tileSeconds, "setting one up, seconds");
     app.add_option("--merge", options.mergeSecondsPerPart, "reading a part, seconds");

@@ -77,8 +77,8 @@ TEST(TileQueue, GivesWhatCameBackNext) {
 }
 
 TEST(TilePixels, AreAShareOfTheRestWithinBounds) {
-    TileWish wish{10.0, 1e6, 4e6, 1e9, 80'000.0}; // 100,000 pixels a second, a quarter of all
-    EXPECT_EQ(tilePixels(wish), 10'000u);         // half of a quarter
+    TileWish wish{10.0, 1e6, 4e6, 1e9, 640'000.0}; // 100,000 pixels a second, a quarter of all
+    EXPECT_EQ(tilePixels(wish), 10'000u);          // a sixteenth of a quarter
     wish.waitingPixels = 1e9;
     EXPECT_EQ(tilePixels(wish), 200'000u); // two seconds
     wish.waitingPixels = 1000.0;
