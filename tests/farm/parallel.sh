@@ -21,14 +21,17 @@ for ((i = 1; i <= ${TIMES:-1}; ++i)); do
     [ "$killed" -ge 1 ]
 done
 
-# A machine that is reached by ssh begins in another folder, and runs a shell's command.
+# A machine that is reached by ssh begins in the home folder, knows nothing of this shell's variables but has those of a login,
+# and runs a shell's command.
+export HOME=$folder/home
+mkdir "$HOME"
 cat >ssh <<'END'
 #!/usr/bin/env bash
 while [[ $1 == -* ]]; do shift; done
 [ "$1" = elsewhere ] || exit 255
 shift
 [ "$1" != -- ] || shift
-cd / && exec bash -c "$*"
+cd "$HOME" && exec env -i HOME="$HOME" PATH="$PATH" SHELL=/bin/bash bash -c "$*"
 END
 chmod +x ssh
 HYALITE=$PROGRAM PARALLEL_OPTIONS="--ssh $folder/ssh --sshlogin 2/elsewhere" \
