@@ -3,9 +3,9 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/cli/render_request.h"
-#include "host/film/film_file.h"
 #include "host/image/png.h"
 #include "host/render/audit.h"
+#include "host/render/film_picture.h"
 #include "host/render/identity.h"
 #include "host/render/merge.h"
 #include "host/render/opening.h"
@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -140,19 +139,14 @@ nlohmann::ordered_json provenanceOf(const Merger &merger, const std::string &com
 void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger, const MergeOptions &options,
                   const std::string &commandLine) {
     const PartOrigin &origin = merger.origin();
-    const Film &film = merger.film();
-    const Image image = film.toImage();
-    Picture picture(image);
+    FilmPicture picture{.film = merger.film(), .views = merger.layers()};
     picture.wholeWidth = origin.wholeWidth;
     picture.wholeHeight = origin.wholeHeight;
-    picture.crop = film.crop;
-    picture.layers = filmLayers(film);
-    std::ranges::move(viewLayers(merger.layers()), std::back_inserter(picture.layers));
     picture.attributes = attributesOf(provenanceOf(merger, commandLine));
-    RenderSettings shown;
-    shown.integrator = origin.integrator;
-    shown.exposureStops = origin.exposureStops;
-    writeFilm(file, format, film, picture, shown, options.tone.value_or(ToneCurve::Gamma));
+    picture.integrator = origin.integrator;
+    picture.exposureStops = origin.exposureStops;
+    picture.tone = options.tone.value_or(ToneCurve::Gamma);
+    writeFilmPicture(file, format, picture);
     file.commit();
 }
 

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -77,6 +79,20 @@ LoadedImage readImage(const std::filesystem::path &path) {
     }
     throw file.bad(file.sizeBytes() == 0 ? "it is empty"
                                          : "it is no PNG, OpenEXR, Radiance (HDR) or PFM file");
+}
+
+bool isImageWith(const std::filesystem::path &path, const std::string &text) {
+    constexpr std::size_t mostBytes = std::size_t{1} << 20;
+    try {
+        const std::vector<std::byte> head = InputFile(path).head(mostBytes);
+        const std::span<const std::byte> wanted = std::as_bytes(std::span(text));
+        if (std::search(head.begin(), head.end(), wanted.begin(), wanted.end()) == head.end())
+            return false;
+        static_cast<void>(readImage(path));
+        return true;
+    } catch (const Error &) {
+        return false;
+    }
 }
 
 } // namespace hyalite

@@ -8,6 +8,7 @@
 #include "host/image/tone_map.h"
 
 #include <filesystem>
+#include <string>
 
 namespace hyalite {
 
@@ -46,5 +47,9 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 /// or, except for OpenEXR, followed by other bytes. Throws Error{LimitExceeded} if it would take more than
 /// readingBytesMax.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
+
+/// Whether this is a whole image with an attribute of this text, in printable ASCII, which is found in the first MiB. Reads
+/// all of the file: it may have been cut short on its way from another machine.
+[[nodiscard]] bool isImageWith(const std::filesystem::path &path, const std::string &text);
 
 } // namespace hyalite

@@ -1,16 +1,13 @@
 #include "host/render/render_job.h"
 
 #include "host/base/hash.h"
-#include "host/base/input_file.h"
-#include "host/film/film_file.h"
 #include "host/image/png.h"
 #include "host/render/diagnosis.h"
+#include "host/render/film_picture.h"
 #include "host/render/identity.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace hyalite {
@@ -30,27 +27,12 @@ RenderRequest withCheckpoint(RenderRequest request) {
     return request;
 }
 
-/// Whether a PNG or OpenEXR file is whole, and has this value of an attribute, which stands before its pixels.
-bool hasAttribute(const std::filesystem::path &path, const std::string &value) {
-    constexpr std::size_t mostBytes = std::size_t{1} << 20;
-    try {
-        const std::vector<std::byte> head = InputFile(path).head(mostBytes);
-        const std::span<const std::byte> wanted = std::as_bytes(std::span(value));
-        if (std::search(head.begin(), head.end(), wanted.begin(), wanted.end()) == head.end())
-            return false;
-        static_cast<void>(readImage(path)); // it may have been cut short on its way from another machine
-        return true;
-    } catch (const Error &) {
-        return false;
-    }
-}
-
 } // namespace
 
 RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLine, RenderSession &session)
     : request_(withCheckpoint(request)),
       format_(request.part ? ImageFormat::Exr : imageFormatOf(request.output)), session_(session) {
-    if (!request_.part)
+    if (!request_.part && !mayBeThere())
         image_.emplace(request_.output);
     if (!request_.report.empty())
         reportFile_.emplace(request_.report);
@@ -103,6 +85,11 @@ void RenderJob::openDevice() {
     signals_.emplace(request_.isQuiet);
 }
 
+bool RenderJob::mayBeThere() const {
+    std::error_code error;
+    return request_.frame && request_.isResuming && std::filesystem::is_regular_file(request_.output, error);
+}
+
 void RenderJob::lookForFrame() {
     const RenderSettings &settings = session_.scene().loaded.scene.settings;
     const std::string whole =
@@ -111,9 +98,9 @@ void RenderJob::lookForFrame() {
                     settings.samplesPerPixel, settings.exposureStops,
                     static_cast<int>(request_.tone.value_or(ToneCurve::Gamma)));
     frameIdentity_ = hashText(hashBytes(std::as_bytes(std::span(whole))));
-    std::error_code error;
-    if (request_.isResuming && std::filesystem::is_regular_file(request_.output, error))
-        isFrameThere_ = hasAttribute(request_.output, frameIdentity_);
+    isFrameThere_ = mayBeThere() && isImageWith(request_.output, frameIdentity_);
+    if (!isFrameThere_ && !image_)
+        image_.emplace(request_.output);
 }
 
 void RenderJob::resume() {
@@ -269,20 +256,19 @@ void RenderJob::takeResult(BackendResult result) {
 }
 
 void RenderJob::writePicture(AtomicFile &file, const Film &film) const {
-    const Image image = film.toImage();
-    Picture picture(image);
-    picture.wholeWidth = session_.scene().loaded.scene.camera.width;
-    picture.wholeHeight = session_.scene().loaded.scene.camera.height;
-    picture.crop = film.crop;
-    picture.layers = filmLayers(film);
-    std::ranges::move(viewLayers(layers_), std::back_inserter(picture.layers));
+    const Scene &scene = session_.scene().loaded.scene;
+    FilmPicture picture{.film = film, .views = layers_};
+    picture.wholeWidth = scene.camera.width;
+    picture.wholeHeight = scene.camera.height;
     picture.attributes = attributesOf(provenanceToJson(report_.origin, report_.device));
     if (request_.frame) {
         picture.attributes.emplace_back("frame", fmt::format("{}", *request_.frame));
         picture.attributes.emplace_back("identity", frameIdentity_);
     }
-    writeFilm(file, format_, film, picture, session_.scene().loaded.scene.settings,
-              request_.tone.value_or(ToneCurve::Gamma));
+    picture.integrator = scene.settings.integrator;
+    picture.exposureStops = scene.settings.exposureStops;
+    picture.tone = request_.tone.value_or(ToneCurve::Gamma);
+    writeFilmPicture(file, format_, picture);
 }
 
 void RenderJob::writeImage() {

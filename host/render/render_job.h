@@ -65,6 +65,8 @@ class RenderJob {
     [[nodiscard]] std::vector<PeriodicFile> periodicFiles();
     [[nodiscard]] std::span<const Crop> squares() const;
     [[nodiscard]] PartOrigin partOrigin() const;
+    /// Whether the output may be the frame already; then it is opened only once it is known not to be.
+    [[nodiscard]] bool mayBeThere() const;
     void lookForFrame();
     void writeCheckpoint(const Film &film, const RayCounts &rays);
     void requireRoom() const;
@@ -74,7 +76,7 @@ class RenderJob {
     const RenderRequest request_;
     const Clock::time_point start_ = Clock::now();
     const ImageFormat format_;
-    std::optional<AtomicFile> image_; ///< unless the output is a part
+    std::optional<AtomicFile> image_; ///< unless the output is a part, or a frame that is there
     std::optional<AtomicFile> reportFile_;
     RenderSession &session_;
     std::optional<CaughtSignals> signals_; ///< until everything is written, when the most could be lost
