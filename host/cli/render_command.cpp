@@ -13,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -244,16 +243,6 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
         request.part =
             Part{static_cast<std::uint32_t>(ranks->rank()) + 1, static_cast<std::uint32_t>(ranks->count())};
     Sequence sequence(request, options);
-    std::set<std::string> names;
-    for (const int frame : sequence.frames()) {
-        const RenderRequest ofFrame = sequence.requestOf(frame);
-        for (const std::string &name : {ofFrame.output, ofFrame.report, ofFrame.checkpoint})
-            if (!name.empty() && !names.insert(name).second)
-                throw Error(ErrorKind::Usage,
-                            fmt::format("{} would be two files: those of frames need names of their "
-                                        "own",
-                                        name));
-    }
     if (sequence.frames().empty()) {
         if (!request.isQuiet)
             fmt::print("part {} of {} has no frame\n", request.part->index, request.part->count);

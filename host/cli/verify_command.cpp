@@ -168,6 +168,9 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
     keepScenes(shipped, options.scenes);
     requireKernels(options.kernels);
     const std::vector<Subject> subjects = subjectsOf(options.devices);
+    if (!options.kernels.empty() &&
+        std::ranges::none_of(subjects, [](const Subject &one) { return one.device.has_value(); }))
+        throw Error(ErrorKind::Usage, "--kernels: found --device cpu, which has none to choose from");
     if (!options.isQuiet)
         fmt::print("{} films of {}, version {}\n", shipped.films.size(),
                    fmt::join(shipped.sceneNames(), ", "), shipped.version);

@@ -68,7 +68,7 @@ void requireChoices(const Format &format, const LoadOptions &options, const std:
         refuse("this format has no cameras to choose from");
     if (!options.gltfScene.empty())
         refuse("this format has no scenes to choose from");
-    if (options.timeSeconds)
+    if (options.timeSeconds || (options.sequence && options.sequence->framesPerSecond))
         refuse("this format has no animations");
 }
 

@@ -25,11 +25,14 @@ struct LoadEvents {
     OnReading onReading{}; ///< the share of all meshes that is read, each counting the same
 };
 
-/// Frames of a sequence in time: frame n is at n / framesPerSecond.
+/// Frames of a sequence in time.
 struct SequenceTimes {
-    double framesPerSecond = 24.0;
-    int firstFrame = 0; ///< nobody asks for those before it
+    std::optional<double> framesPerSecond{}; ///< default: 24
+    int firstFrame = 0;                      ///< nobody asks for those before it
     int lastFrame = 0;
+
+    /// In seconds.
+    [[nodiscard]] double timeOf(int frame) const { return frame / framesPerSecond.value_or(24.0); }
 };
 
 /// How a scene is loaded.
@@ -37,10 +40,11 @@ struct LoadOptions {
     LoadEvents events{};
     std::vector<std::filesystem::path> allowedPaths{}; ///< files that a scene may name beside those near it
     // Formats that have a choice, as glTF does; others refuse them.
-    std::string camera{};                    ///< name or index; empty: the first one
-    std::string gltfScene{};                 ///< name or index; empty: the file's default one
-    std::optional<double> timeSeconds{};     ///< of animations; empty: the pose of rest
-    std::optional<SequenceTimes> sequence{}; ///< whose frames want the path of the camera
+    std::string camera{};                ///< name or index; empty: the first one
+    std::string gltfScene{};             ///< name or index; empty: the file's default one
+    std::optional<double> timeSeconds{}; ///< of animations; empty: the pose of rest
+    std::optional<SequenceTimes>
+        sequence{}; ///< whose frames want the path of the camera; a choice is its rate
 };
 
 struct LoadedScene {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace hyalite {
@@ -64,11 +65,20 @@ std::string nameOfFrame(const std::string &pattern, int frame, const std::string
 Sequence::Sequence(RenderRequest request, const SequenceOptions &options)
     : request_(std::move(request)),
       range_(options.frames.value_or(FrameRange{0, options.turntable.value_or(1) - 1})),
-      turntable_(options.turntable), framesPerSecond_(options.framesPerSecond.value_or(24.0)) {
+      turntable_(options.turntable), times_{options.framesPerSecond, range_.first, range_.last} {
     const Part part = request_.part.value_or(Part{});
     for (int frame = range_.first; frame <= range_.last; ++frame)
         if (static_cast<std::uint32_t>(frame - range_.first) % part.count == part.index - 1)
             frames_.push_back(frame);
+    std::set<std::string> names;
+    for (const int frame : frames_) {
+        const RenderRequest ofFrame = requestOf(frame);
+        for (const std::string &name : {ofFrame.output, ofFrame.report, ofFrame.checkpoint})
+            if (!name.empty() && !names.insert(name).second)
+                throw Error(
+                    ErrorKind::Usage,
+                    fmt::format("{} would be two files: those of frames need names of their own", name));
+    }
 }
 
 RenderRequest Sequence::requestOf(int frame) const {
@@ -86,7 +96,7 @@ RenderRequest Sequence::requestOf(int frame) const {
 void Sequence::prepare(RenderSession &session) {
     RenderRequest request = request_;
     if (!turntable_)
-        request.scene.load.sequence = SequenceTimes{framesPerSecond_, range_.first, range_.last};
+        request.scene.load.sequence = times_;
     session.prepare(request);
     PreparedScene &scene = session.scene();
     const Camera &camera = scene.loaded.scene.camera;
@@ -113,7 +123,7 @@ void Sequence::prepare(RenderSession &session) {
 void Sequence::moveTo(int frame, RenderSession &session) {
     if (movesByTime_) {
         SceneOptions options = request_.scene;
-        options.load.timeSeconds = frame / framesPerSecond_;
+        options.load.timeSeconds = times_.timeOf(frame);
         session.replaceScene(options, true); // what there is to warn of was told for the first one
         PreparedScene &scene = session.scene();
         if (scene.loaded.autoFramed) { // else the view would jump with what it frames

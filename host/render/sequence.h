@@ -31,7 +31,8 @@ struct SequenceOptions {
 
 class Sequence {
   public:
-    /// The file names of the request have #, one for each digit of the frame at least.
+    /// The file names of the request have #, which the numbers of frames replace. Throws Error{Usage} if one has none, or
+    /// if two files would have the same name.
     Sequence(RenderRequest request, const SequenceOptions &options);
 
     /// The frames to render: those of the part, if one is asked for; they are dealt in turn.
@@ -51,7 +52,7 @@ class Sequence {
     const RenderRequest request_;
     const FrameRange range_;
     const std::optional<int> turntable_;
-    const double framesPerSecond_;
+    const SequenceTimes times_;
     std::vector<int> frames_;
     CameraPath path_;
     bool movesByTime_ = false;

@@ -86,11 +86,13 @@ TEST_F(SequenceFrames, ThatAreMissingOrOtherAreRendered) {
     ASSERT_EQ(run(line + " --spp 2").exitCode, 0);
     const std::string third = load("f.3.exr");
     std::filesystem::remove(folder / "f.2.exr");
+    std::filesystem::permissions(folder / "f.1.exr", std::filesystem::perms::owner_read); // as of an archive
     const Outcome again = run(line + " --spp 2");
     EXPECT_EQ(again.exitCode, 0) << again;
     EXPECT_TRUE(contains(again.output, "f.1.exr: frame 1 is finished\n")) << again;
     EXPECT_TRUE(contains(again.output, "f.2.exr: 24x16, 2 spp")) << again;
     EXPECT_TRUE(load("f.3.exr") == third);
+    std::filesystem::permissions(folder / "f.1.exr", std::filesystem::perms::owner_all);
     std::filesystem::resize_file(folder / "f.3.exr", third.size() / 2); // as a copy that was cut short
     EXPECT_TRUE(contains(run(line + " --spp 2").output, "f.3.exr: 24x16, 2 spp"));
     EXPECT_TRUE(load("f.3.exr") == third);
@@ -148,6 +150,7 @@ TEST_F(SequenceFrames, HaveNamesAndReasons) {
     expectFailure(frames + " -o f.#.pfm --resume", 2, {"--resume: .exr and .png say which frame they are"});
     expectFailure(frames + " -o f.#.png --partial 1", 2, {"--partial: "});
     expectFailure("render moving.json --fps 3 -o f.png", 2, {"--fps needs --frames"});
+    expectFailure(frames + " -o f.#.png --fps 3", 2, {"moving.json: this format has no animations"});
     expectFailure("render upside.json --frames 0..2 -o f.#.png", 3, {"camera of frame 2: up"});
 }
 

@@ -157,6 +157,7 @@ TEST_F(Verify, RefusesWhatIsNotThere) {
     expectFailure("verify --scenes ligths", 2, {"--scenes", "ligths", "did you mean \"lights\""});
     expectFailure("verify --device cpu-double", 2, {"--device", "double precision has other bits"});
     expectFailure("verify --device no-such-device", 4, {"no-such-device"});
+    expectFailure("verify --device cpu --kernels stack", 2, {"--kernels", "--device cpu"});
     expectFailure("verify --device cpu --junit a --report a", 2, {"--junit", "--report"});
 }
 

@@ -85,7 +85,7 @@ CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const PlacedCa
     CameraPath path(static_cast<std::size_t>(sequence.firstFrame), poseOf(camera.camera));
     for (int frame = sequence.firstFrame; frame <= sequence.lastFrame; ++frame) {
         std::vector<Pose> poses = rest;
-        animate(buffers, frame / sequence.framesPerSecond, poses);
+        animate(buffers, sequence.timeOf(frame), poses);
         const glm::dmat4x3 map = tree.toWorld(poses)[camera.node];
         if (!(glm::length(map[2]) > 0.0 && glm::length(map[1]) > 0.0))
             document.at("nodes", camera.node).fail(fmt::format("the camera is flattened in frame {}", frame));
