@@ -29,16 +29,14 @@ std::vector<BufferUse> usesOf(std::span<const Buffer *const> buffers) {
 
 } // namespace
 
-Kernel::Kernel(Device &device, std::shared_ptr<const Pipeline> pipeline,
-               std::span<const Buffer *const> buffers)
+Kernel::Kernel(Device &device, std::shared_ptr<Pipeline> pipeline, std::span<const Buffer *const> buffers)
     : device_(device), pipeline_(std::move(pipeline)) {
     makeDescriptors(buffers);
 }
 
 Kernel::Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
                std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers)
-    : Kernel(device,
-             std::make_shared<const Pipeline>(device, std::move(name), spirv, constants, usesOf(buffers)),
+    : Kernel(device, std::make_shared<Pipeline>(device, std::move(name), spirv, constants, usesOf(buffers)),
              buffers) {}
 
 void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
@@ -119,15 +117,21 @@ RunTimes Kernel::submit(const layout::DispatchConstants &constants,
 }
 
 RunTimes Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount) {
-    return submit(constants, [&](VkCommandBuffer commands) { record(commands, constants, workgroupCount); });
+    const RunTimes times =
+        submit(constants, [&](VkCommandBuffer commands) { record(commands, constants, workgroupCount); });
+    pipeline_->setRun();
+    return times;
 }
 
 RunTimes Kernel::run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount,
                      const Kernel &next, std::uint32_t nextWorkgroupCount) {
-    return submit(constants, [&](VkCommandBuffer commands) {
+    const RunTimes times = submit(constants, [&](VkCommandBuffer commands) {
         record(commands, constants, workgroupCount);
         next.record(commands, constants, nextWorkgroupCount);
     });
+    pipeline_->setRun();
+    next.pipeline_->setRun();
+    return times;
 }
 
 } // namespace hyalite::gpu

@@ -19,13 +19,15 @@ using SpecializationConstants = std::array<std::uint32_t, layout::constantCount>
 class Kernel {
   public:
     /// `buffers` are bindings 0, 1, ..., of the uses that the pipeline was made for. Throws as `check` does.
-    Kernel(Device &device, std::shared_ptr<const Pipeline> pipeline, std::span<const Buffer *const> buffers);
+    Kernel(Device &device, std::shared_ptr<Pipeline> pipeline, std::span<const Buffer *const> buffers);
 
     /// With a pipeline of its own. Throws as Pipeline does, too.
     Kernel(Device &device, std::string name, std::span<const std::uint32_t> spirv,
            std::span<const std::uint32_t> constants, std::span<const Buffer *const> buffers);
 
     [[nodiscard]] const std::string &name() const { return pipeline_->name(); }
+    /// Whether its pipeline has run, here or elsewhere.
+    [[nodiscard]] bool isWarm() const { return pipeline_->hasRun(); }
 
     /// Runs the kernel with these push constants, waits, and makes its results visible to the host.
     RunTimes run(const layout::DispatchConstants &constants, std::uint32_t workgroupCount);
@@ -41,7 +43,7 @@ class Kernel {
                     const std::function<void(VkCommandBuffer)> &record);
 
     Device &device_;
-    std::shared_ptr<const Pipeline> pipeline_;
+    std::shared_ptr<Pipeline> pipeline_;
     DescriptorPoolHandle descriptorPool_;
     VkDescriptorSet descriptorSet_ = VK_NULL_HANDLE; ///< freed with its pool
 };

@@ -11,10 +11,10 @@ constexpr std::size_t mostKept = 12;
 
 } // namespace
 
-std::shared_ptr<const Pipeline> PipelineCache::get(Device &device, const std::string &name,
-                                                   std::span<const std::uint32_t> spirv,
-                                                   const SpecializationConstants &constants,
-                                                   std::span<const BufferUse> bindings) {
+std::shared_ptr<Pipeline> PipelineCache::get(Device &device, const std::string &name,
+                                             std::span<const std::uint32_t> spirv,
+                                             const SpecializationConstants &constants,
+                                             std::span<const BufferUse> bindings) {
     const auto found = std::ranges::find_if(kept_, [&](const Kept &one) {
         return one.spirv == spirv.data() && one.constants == constants &&
                std::ranges::equal(one.bindings, bindings);
@@ -23,7 +23,7 @@ std::shared_ptr<const Pipeline> PipelineCache::get(Device &device, const std::st
         kept_.splice(kept_.begin(), kept_, found);
         return kept_.front().pipeline;
     }
-    auto made = std::make_shared<const Pipeline>(device, name, spirv, constants, bindings);
+    auto made = std::make_shared<Pipeline>(device, name, spirv, constants, bindings);
     kept_.push_front({spirv.data(), constants, {bindings.begin(), bindings.end()}, std::move(made)});
     if (kept_.size() > mostKept)
         kept_.pop_back();

@@ -18,10 +18,10 @@ class PipelineCache {
   public:
     /// The pipeline of a kernel, as Pipeline makes it, or the one that was made for the same three. The words of a
     /// kernel are known by their address: they must outlive the cache.
-    [[nodiscard]] std::shared_ptr<const Pipeline> get(Device &device, const std::string &name,
-                                                      std::span<const std::uint32_t> spirv,
-                                                      const SpecializationConstants &constants,
-                                                      std::span<const BufferUse> bindings);
+    [[nodiscard]] std::shared_ptr<Pipeline> get(Device &device, const std::string &name,
+                                                std::span<const std::uint32_t> spirv,
+                                                const SpecializationConstants &constants,
+                                                std::span<const BufferUse> bindings);
 
     /// Before the device is closed.
     void clear() { kept_.clear(); }
@@ -31,7 +31,7 @@ class PipelineCache {
         const std::uint32_t *spirv;
         SpecializationConstants constants;
         std::vector<BufferUse> bindings;
-        std::shared_ptr<const Pipeline> pipeline;
+        std::shared_ptr<Pipeline> pipeline;
     };
     std::list<Kept> kept_; ///< the last used first
 };

@@ -99,10 +99,9 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     return constants;
 }
 
-std::shared_ptr<const Pipeline> pipelineOf(Device &device, PipelineCache &pipelines,
-                                           const RenderConfig &config, const Job &job,
-                                           const ScenePlan &scenePlan, const JobPlan &plan,
-                                           bool isResumable) {
+std::shared_ptr<Pipeline> pipelineOf(Device &device, PipelineCache &pipelines, const RenderConfig &config,
+                                     const Job &job, const ScenePlan &scenePlan, const JobPlan &plan,
+                                     bool isResumable) {
     const WaitingPlan &waiting = waitingPlan(plan, isResumable);
     std::array<BufferUse, layout::bindingCount> uses{};
     std::ranges::transform(byBinding(scenePlan.buffers, plan.film, plan.progress, waiting.paths,
@@ -182,6 +181,8 @@ void TileRenderer::makeKernel() {
 void TileRenderer::warmUp() { warmUp(direct_ ? *direct_ : *resumable_); }
 
 void TileRenderer::warmUp(Program &program) {
+    if (program.kernel.isWarm() && (!program.adding || program.adding->isWarm()))
+        return;
     const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
     const std::uint32_t groupCount = std::exchange(groupCount_, dispatch_.interleave); // the minimum
     const std::uint32_t groupCountInTurn = std::exchange(groupCountInTurn_, dispatch_.interleave);

@@ -51,7 +51,7 @@ class TileRenderer {
     /// Makes the kernel. Throws as Kernel does.
     void makeKernel();
 
-    /// Runs the kernel without samples, for drivers that compile at the first dispatch.
+    /// Runs the kernel without samples, for drivers that compile at the first dispatch; unless it has run before.
     void warmUp();
 
     /// Runs until all samples of all tiles are in the film, or until `shouldStop` returns true; the film then has the

@@ -219,7 +219,7 @@ std::size_t PackedScene::sizeBytes() const {
     return bytes;
 }
 
-std::uint64_t PackedScene::contentHash() const {
+std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
     layout::FrameRecord seen = frame;
     seen.seed = 0;
     seen.maxDepth = 0;
@@ -228,17 +228,20 @@ std::uint64_t PackedScene::contentHash() const {
     seen.environmentTexels = 0; // this and the next are for some integrators only
     seen.environmentProbability = 0.0f;
     seen.filterTexels = 0;
+    const std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)), ofArrays);
+    return hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
+}
+
+std::uint64_t PackedScene::arraysHash() const {
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials)
         material.emitterPdf = 0.0f; // for some integrators only
-    std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)));
     std::vector<layout::SphereRecord> seenSpheres = spheres;
     for (layout::SphereRecord &sphere : seenSpheres)
         sphere.emitter = sphere.primitiveId = 0;
-    hash = hashBytes(std::as_bytes(std::span(seenSpheres)), hash);
+    std::uint64_t hash = hashBytes(std::as_bytes(std::span(seenSpheres)));
     hash = hashBytes(std::as_bytes(std::span(lights)), hash);
     hash = hashBytes(std::as_bytes(std::span(seenMaterials)), hash);
-    hash = hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
     if ((lighting & layout::lightsByEnvironment) != 0)
         hash =
             hashBytes(std::as_bytes(std::span(lookups).subspan(

@@ -82,8 +82,12 @@ struct PackedScene {
     [[nodiscard]] std::size_t sizeBytes() const;
 
     /// Hash of the visible scene: camera and image size, background, lights, materials and primitives. It does not
-    /// depend on the tree, the seed or the maximum depth, and is the same on every machine.
-    [[nodiscard]] std::uint64_t contentHash() const;
+    /// depend on the tree, the seed or the maximum depth, and is the same on every machine. `ofArrays` is arraysHash().
+    [[nodiscard]] std::uint64_t contentHash(std::uint64_t ofArrays) const;
+    [[nodiscard]] std::uint64_t contentHash() const { return contentHash(arraysHash()); }
+
+    /// Of all but `frame` and `camera`: what scenes of one serial number have in common.
+    [[nodiscard]] std::uint64_t arraysHash() const;
 };
 
 /// The sampler of the kernels, layout::sampler...

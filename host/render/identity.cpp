@@ -34,7 +34,7 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
             names.push_back(nameOf(layer));
         identity.emplace_back("layers", fmt::format("{}", fmt::join(names, ",")));
     }
-    identity.emplace_back("scene and camera", hashText(scene.packed.contentHash()));
+    identity.emplace_back("scene and camera", hashText(scene.contentHash()));
     identity.emplace_back("precision", backend.precision());
     identity.emplace_back("kernels of this program", pixelSources());
     return identity;

@@ -264,6 +264,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);
     warnOfOverlaps(prepared.bvh);
     prepared.packed = packScene(scene, prepared.bvh);
+    prepared.arraysHash = prepared.packed.arraysHash();
     if (source == Source::Dropped) {
         scene.meshes = {};
         scene.prototypes = {};
@@ -280,7 +281,7 @@ Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLi
     Provenance origin;
     origin.commandLine = commandLine;
     origin.scene = scene.loaded.file.string();
-    origin.sceneHash = scene.packed.contentHash();
+    origin.sceneHash = scene.contentHash();
     origin.triangleCount = scene.packed.triangles.size();
     origin.width = scene.crop.width();
     origin.height = scene.crop.height();

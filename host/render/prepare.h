@@ -55,10 +55,14 @@ struct PreparedScene {
     LoadedScene loaded; ///< its scene without meshes if the source was dropped
     Bvh bvh;            ///< empty if the source was dropped
     PackedScene packed;
+    std::uint64_t arraysHash = 0; ///< of `packed`
     Crop crop;
     LightSources sources;
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
+
+    /// packed.contentHash()
+    [[nodiscard]] std::uint64_t contentHash() const { return packed.contentHash(arraysHash); }
 };
 
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or OverrideError for conflicting overrides,

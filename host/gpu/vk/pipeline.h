@@ -25,6 +25,10 @@ class Pipeline {
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
     [[nodiscard]] VkDescriptorSetLayout setLayout() const { return setLayout_.get(); }
 
+    /// Whether a dispatch of it has ended: some drivers compile it only then.
+    [[nodiscard]] bool hasRun() const { return hasRun_; }
+    void setRun() { hasRun_ = true; }
+
   private:
     void makeLayouts(Device &device, std::span<const BufferUse> uses);
     void makePipeline(Device &device, std::span<const std::uint32_t> spirv,
@@ -34,6 +38,7 @@ class Pipeline {
     SetLayoutHandle setLayout_;
     PipelineLayoutHandle layout_;
     PipelineHandle pipeline_;
+    bool hasRun_ = false;
 };
 
 } // namespace hyalite::gpu
