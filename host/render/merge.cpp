@@ -1,5 +1,6 @@
 #include "host/render/merge.h"
 
+#include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/render/backend.h"
 #include "host/scene/names.h"
@@ -12,6 +13,8 @@
 namespace hyalite {
 
 namespace {
+
+constexpr std::size_t shownBytes = 300;
 
 /// The first pixel that differs in any bit, as the index among those of the squares.
 std::optional<std::size_t> firstDifference(std::span<const layout::FilmPixel> a,
@@ -71,7 +74,9 @@ void Merger::add(const std::filesystem::path &path) {
             if (origin.wholeWidth < file.crop.x1 || origin.wholeHeight < file.crop.y1)
                 throw Error(ErrorKind::BadInput, "its crop is larger than its picture");
         } catch (const Error &error) {
-            throw Error(error.kind, fmt::format("cannot use part '{}': {}", path.string(), error.what()));
+            throw Error(error.kind,
+                        fmt::format("cannot use part '{}': {}", path.string(),
+                                    excerpt(error.what(), shownBytes))); // as of the file's own words
         }
         take(file, origin);
     } catch (const Error &error) {

@@ -86,7 +86,7 @@ std::string PartOrigin::commandFor(const Part &own, const Part &part) const {
     pointers.reserve(again.size());
     for (const std::string &word : again)
         pointers.push_back(word.c_str());
-    return shellLine(pointers);
+    return cleanText(shellLine(pointers));
 }
 
 std::string hostName() {

@@ -1,13 +1,11 @@
-// Checkpoints as `hyalite render --resume` reads them. The input is read twice: as it is, and with the hash at its end
+// Checkpoints as `hyalite render --resume` reads them. The input is read twice: as it is, and with the version and the hash
 // put right, as one who makes up a file would.
-#include "host/base/hash.h"
 #include "host/film/checkpoint.h"
+#include "tests/fuzz/checkpoint_bytes.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/heap_peak.h"
 
 #include <cstdint>
-#include <cstring>
-#include <string>
 
 namespace hyalite::fuzz {
 namespace {
@@ -36,25 +34,6 @@ void read(const TemporaryFolder &folder, std::string_view content) {
             "a film of another size is taken");
     for (const layout::FilmPixel &pixel : film.pixels)
         require(pixel.sampleCount <= samplesPerPixel, "a pixel has more samples than are wanted");
-}
-
-/// With the hash that belongs to it, if it has a header.
-std::string repaired(std::string_view content) {
-    constexpr std::size_t headBytes = 19 + 88;
-    std::string bytes(content);
-    if (bytes.size() < headBytes + sizeof(std::uint64_t))
-        return bytes;
-    std::uint32_t identityBytes = 0;
-    std::memcpy(&identityBytes, bytes.data() + 19 + 4, sizeof identityBytes);
-    const auto all = std::as_bytes(std::span(bytes)).first(bytes.size() - sizeof(std::uint64_t));
-    if (identityBytes > all.size() - headBytes)
-        return bytes;
-    std::uint64_t hash = hashBytes(all.first(headBytes));
-    hash = hashBytes(all.subspan(headBytes, identityBytes), hash);
-    hash = hashBytes({}, hash); // no origin
-    hash = hashBytes(all.subspan(headBytes + identityBytes), hash);
-    std::memcpy(bytes.data() + all.size(), &hash, sizeof hash);
-    return bytes;
 }
 
 } // namespace

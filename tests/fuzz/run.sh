@@ -40,7 +40,7 @@ for format in "${formats[@]}"; do
     gltf) words=("-dict=$here/gltf.words") ;;
     ply) words=("-dict=$here/ply.words") ;;
     stl) words=("-dict=$here/stl.words") ;;
-    baseline | scene) words=("-dict=$here/json.words") ;;
+    baseline | part | scene) words=("-dict=$here/json.words") ;;
     esac
     if "$build/bin/fuzz_$format" -max_total_time="$seconds" -rss_limit_mb=1024 -timeout=30 -max_len=4096 \
         -print_final_stats=1 -artifact_prefix="$build/finds/$format-" "${words[@]}" \

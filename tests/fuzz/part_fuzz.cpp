@@ -1,0 +1,69 @@
+// Parts as `hyalite merge` reads them. The input is read twice: as it is, and with the version and the hash put right, as
+// one who makes up a file would.
+#include "host/render/merge.h"
+#include "tests/fuzz/checkpoint_bytes.h"
+#include "tests/fuzz/harness.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace hyalite::fuzz {
+namespace {
+
+constexpr std::int64_t mostPixels = std::int64_t{1}
+                                    << 20; // a picture takes memory, and may, where its parts are small
+
+void requirePlain(const std::string &text) {
+    require(std::ranges::none_of(
+                text, [](char c) { return (static_cast<unsigned char>(c) < ' ' && c != '\n') || c == 127; }),
+            "what is told has control characters");
+}
+
+bool isSmall(const std::filesystem::path &file) {
+    bool isSmall = false;
+    const auto refused = refusalOf([&] {
+        const Crop crop = readCheckpointFile(file, nullptr).crop;
+        isSmall = std::int64_t{crop.width()} * crop.height() <= mostPixels;
+    });
+    return refused || isSmall;
+}
+
+void read(const TemporaryFolder &folder, std::string_view content) {
+    const std::filesystem::path file = folder.write("1.part", content);
+    if (!isSmall(file))
+        return;
+    Merger merger;
+    merger.add(file);
+    for (const auto &lines : {merger.faults().unusable, merger.faults().foreign, merger.faults().differences})
+        std::ranges::for_each(lines, requirePlain);
+    require(merger.hasParts() == merger.faults().unusable.empty(), "a part is neither taken nor refused");
+    if (!merger.hasParts())
+        return;
+    require(merger.partCount() == 1 && merger.faults().foreign.empty() && merger.faults().differences.empty(),
+            "one part differs from itself");
+    merger.add(file);
+    require(merger.partCount() == 1 && merger.faults().differences.empty(), "a part differs from its copy");
+    const std::vector<std::uint32_t> missing = merger.missing();
+    require(missing.size() + 1 == merger.partition().partCount(), "parts are lost");
+    if (!missing.empty())
+        requirePlain(merger.commandFor(missing.front()));
+    for (const auto &[maker, count] : merger.makers())
+        requirePlain(maker);
+    const Film &film = merger.film();
+    require(film.pixels.size() ==
+                static_cast<std::size_t>(film.crop.width()) * static_cast<std::size_t>(film.crop.height()),
+            "the picture has another size than its crop");
+    require(merger.layers().size() == merger.origin().layers.size(), "layers are lost");
+}
+
+} // namespace
+} // namespace hyalite::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
+    using namespace hyalite::fuzz;
+    static const TemporaryFolder folder;
+    const std::string_view content = textOf(data, sizeBytes);
+    read(folder, content);
+    read(folder, repaired(content));
+    return 0;
+}
