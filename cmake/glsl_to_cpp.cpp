@@ -232,8 +232,8 @@ class Translator {
     std::map<std::string, std::size_t> names_; ///< of the first overload
 };
 
-/// Adds the texts of the files that a file includes, each after those that it includes itself, and then its own. `file` is the
-/// one that was read last.
+/// Adds the texts of the files that a file includes, each after those that it includes itself, and then its own. `file`
+/// is the one that was read last.
 void addLeaves(const std::string &root, const std::string &path, std::string &file,
                std::vector<std::string> &texts) {
     file = path;

@@ -68,8 +68,8 @@ struct Bvh {
 /// The triangles of all meshes in input order. Throws Error{LimitExceeded} beyond 2^30 - 65 triangles.
 [[nodiscard]] std::vector<BuildTriangle> buildTriangles(const Scene &scene);
 
-/// buildTriangles, and after them the spheres in the tree (tree_spheres.h) and the instances. The instances' boxes enclose their triangles, and nothing that is outside the
-/// exact bounds of the scene.
+/// buildTriangles, and after them the spheres in the tree (tree_spheres.h) and the instances. The instances' boxes
+/// enclose their triangles, and nothing that is outside the exact bounds of the scene.
 [[nodiscard]] std::vector<BuildTriangle> buildItems(const Scene &scene);
 
 /// Builds the tree of the given kind; `None` gives one leaf. No tree is deeper than layout::maxTreeDepth - 1.

@@ -39,8 +39,9 @@ std::uint32_t little32(std::span<const std::byte> bytes) {
     return value;
 }
 
-/// The header of a file, or the headers of its parts, that are safe to pass to the library. For some attributes the library allocates the size that they claim
-/// before it checks the data. Here they get a type that it does not know, so that it keeps their bytes as they are.
+/// The header of a file, or the headers of its parts, that are safe to pass to the library. For some attributes the
+/// library allocates the size that they claim before it checks the data. Here they get a type that it does not know, so
+/// that it keeps their bytes as they are.
 ///
 ///     76 2f 31 01   version and flags   (name \0 type \0 size value)...   \0     of several parts: one after the other,
 ///                                                                            and another \0

@@ -8,8 +8,8 @@
 
 namespace hyalite {
 
-/// Renders each picture by all members at once. Each takes tiles from one queue, as large as it renders in a second or
-/// two, and smaller ones towards the end, so that all end together. The bits are those of any member.
+/// Renders each picture by all members at once. Each takes tiles from one queue, as large as it renders in two seconds
+/// at most, and smaller ones towards the end, so that all end together. The bits are those of any member.
 ///
 /// A member that fails is left out from then on, and its tile is given to another; if none is left, the render ends as
 /// that of a failing device does. While it runs, its snapshots have finished tiles; a render that is stopped has what

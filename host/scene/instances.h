@@ -33,8 +33,8 @@ struct InputOrder {
 /// The tangent in world space, of any length; w stays. Twin: placedTangent in shaders/geometry/instance.glsl.
 [[nodiscard]] glm::vec4 placedTangent(const Placement &placement, const glm::vec4 &tangent);
 
-/// The mesh for mirroring instances: other winding, negative normals, and tangents with the other side. So its places have the winding and the
-/// normals of a mesh that is seen from outside.
+/// The mesh for mirroring instances: other winding, negative normals, and tangents with the other side. So its places
+/// have the winding and the normals of a mesh that is seen from outside.
 [[nodiscard]] TriangleMesh mirrored(TriangleMesh mesh);
 
 /// Makes the mesh a prototype, and a mirrored one if some maps mirror, with an instance at each placement. They come

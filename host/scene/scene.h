@@ -101,8 +101,8 @@ struct TriangleMesh {
     CornerValues<glm::vec2> secondUvs{}; ///< for textures whose uvSet is 1; finite
     /// Factors on base colour and opacity, linear, in [0, 1]; 1 at triangles without any.
     CornerValues<glm::vec4> colours{};
-    /// For normal maps: vectors in which u grows, of any length, and the sign of the direction of v: cross(normal, xyz) * w. Without
-    /// them, tangents follow from the texture coordinates of each triangle.
+    /// For normal maps: vectors in which u grows, of any length, and the sign w of the direction of v, which is
+    /// cross(normal, xyz) * w. Without them, tangents follow from the texture coordinates of each triangle.
     CornerValues<glm::vec4> tangents{};
 
     [[nodiscard]] std::uint32_t materialOf(std::size_t triangle) const {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <span>
 
@@ -69,8 +70,9 @@ class Parts : public CommandLine {
             ASSERT_EQ(renderPart(index, count).exitCode, 0);
     }
 
-    /// Changes a bit of the pixel with this index, and makes the file's hash fit, as a machine that computes wrongly does.
-    void lie(const std::string &name, std::size_t pixel) const {
+    /// Changes a file, and makes its hash fit. `change` gets its bytes, and where its origin and its pixels begin.
+    void change(const std::string &name,
+                const std::function<void(std::string &, std::size_t, std::size_t)> &change) const {
         std::string bytes = load(name);
         constexpr std::size_t headBytes = 19 + 88;
         std::uint32_t identityBytes = 0;
@@ -78,8 +80,7 @@ class Parts : public CommandLine {
         std::memcpy(&identityBytes, bytes.data() + 19 + 4, sizeof identityBytes);
         std::memcpy(&originBytes, bytes.data() + 19 + 80, sizeof originBytes);
         const std::size_t pixelsBegin = headBytes + identityBytes + originBytes;
-        char &byte = bytes[pixelsBegin + 32 * pixel];
-        byte = static_cast<char>(byte ^ 1);
+        change(bytes, headBytes + identityBytes, pixelsBegin);
         const auto all = std::as_bytes(std::span(bytes));
         std::uint64_t hash = hashBytes(all.first(headBytes));
         hash = hashBytes(all.subspan(headBytes, identityBytes), hash);
@@ -87,6 +88,14 @@ class Parts : public CommandLine {
         hash = hashBytes(all.subspan(pixelsBegin, all.size() - pixelsBegin - sizeof hash), hash);
         std::memcpy(bytes.data() + bytes.size() - sizeof hash, &hash, sizeof hash);
         store(name, bytes);
+    }
+
+    /// Changes a bit of the pixel with this index, as a machine that computes wrongly does.
+    void lie(const std::string &name, std::size_t pixel) const {
+        change(name, [&](std::string &bytes, std::size_t, std::size_t pixelsBegin) {
+            char &byte = bytes[pixelsBegin + 32 * pixel];
+            byte = static_cast<char>(byte ^ 1);
+        });
     }
 };
 
@@ -194,6 +203,15 @@ TEST_F(Parts, ThatLieAreNamedByAnAudit) {
     EXPECT_EQ(codes, (std::set<int>{0, 1}));
     std::filesystem::remove(folder / "sheet.obj");
     expectFailure("merge p1.part p2.part -o c.pfm --audit 1 --device cpu", 3, {"sheet.obj"});
+}
+
+TEST_F(Parts, AreToldOfInCleanText) {
+    renderParts(1);
+    change("p1.part", [](std::string &bytes, std::size_t originBegin, std::size_t) {
+        bytes.at(originBegin + 1) = '\x7f'; // of a name in the JSON, so that the message of its reader has it
+    });
+    const std::string refusal = expectFailure("merge p1.part -o a.pfm", 3, {"'p1.part'", "how it was made"});
+    EXPECT_FALSE(contains(refusal, "\x7f")) << refusal;
 }
 
 TEST_F(Parts, RefuseWhatIsNotForThem) {
