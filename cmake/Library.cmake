@@ -1,3 +1,7 @@
+if(HYALITE_SANITIZE)
+    add_library(hyalite_leaks OBJECT ${PROJECT_SOURCE_DIR}/tests/leaks.cpp)
+endif()
+
 # hyalite_library(TARGET)
 #
 # What all libraries of host/ share: includes by their path from the source folder, such as "host/scene/scene.h", and
@@ -6,7 +10,7 @@ function(hyalite_library target)
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
     hyalite_warnings(${target})
     if(HYALITE_SANITIZE)
-        target_sources(${target} INTERFACE ${PROJECT_SOURCE_DIR}/tests/leaks.cpp)
+        target_sources(${target} INTERFACE $<TARGET_OBJECTS:hyalite_leaks>)
     endif()
 endfunction()
 
