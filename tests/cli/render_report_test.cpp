@@ -20,8 +20,8 @@ class RenderReport : public CommandLine {
 };
 
 const std::string smallReported = " --width 16 --height 12 --spp 2";
-/// Hours of work, in which to watch the progress.
-const std::string endlessReported = " --width 512 --height 512 --spp 65536";
+/// Seconds of work, in which to watch the progress.
+const std::string endlessReported = " --width 64 --height 64 --spp 8192";
 
 std::set<std::string> keysOf(const nlohmann::json &object) {
     std::set<std::string> keys;
