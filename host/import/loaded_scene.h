@@ -40,11 +40,10 @@ struct LoadOptions {
     LoadEvents events{};
     std::vector<std::filesystem::path> allowedPaths{}; ///< files that a scene may name beside those near it
     // Formats that have a choice, as glTF does; others refuse them.
-    std::string camera{};                ///< name or index; empty: the first one
-    std::string gltfScene{};             ///< name or index; empty: the file's default one
-    std::optional<double> timeSeconds{}; ///< of animations; empty: the pose of rest
-    std::optional<SequenceTimes>
-        sequence{}; ///< whose frames want the path of the camera; a choice is its rate
+    std::string camera{};                    ///< name or index; empty: the first one
+    std::string gltfScene{};                 ///< name or index; empty: the file's default one
+    std::optional<double> timeSeconds{};     ///< of animations; empty: the pose of rest
+    std::optional<SequenceTimes> sequence{}; ///< that wants the camera's path; its rate is a choice
 };
 
 struct LoadedScene {
