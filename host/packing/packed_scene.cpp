@@ -286,7 +286,7 @@ std::uint32_t samplerOf(const RenderSettings &settings) {
 }
 
 PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded) {
-    assert(bvh.order.size() <= triangleCount(scene) + scene.instances.size());
+    assert(bvh.order.size() <= triangleCount(scene) + bvh.spheres.size() + scene.instances.size());
     static std::atomic<std::uint64_t> count = 0;
     PackedScene packed;
     packed.serial = ++count;
