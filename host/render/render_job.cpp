@@ -27,12 +27,18 @@ RenderRequest withCheckpoint(RenderRequest request) {
     return request;
 }
 
+/// Whether the output may be the frame already; then it is opened only once it is known not to be.
+bool mayBeThere(const RenderRequest &request) {
+    std::error_code error;
+    return request.frame && request.isResuming && std::filesystem::is_regular_file(request.output, error);
+}
+
 } // namespace
 
 RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLine, RenderSession &session)
     : request_(withCheckpoint(request)),
       format_(request.part ? ImageFormat::Exr : imageFormatOf(request.output)), session_(session) {
-    if (!request_.part && !mayBeThere())
+    if (!request_.part && !mayBeThere(request_))
         image_.emplace(request_.output);
     if (!request_.report.empty())
         reportFile_.emplace(request_.report);
@@ -85,11 +91,6 @@ void RenderJob::openDevice() {
     signals_.emplace(request_.isQuiet);
 }
 
-bool RenderJob::mayBeThere() const {
-    std::error_code error;
-    return request_.frame && request_.isResuming && std::filesystem::is_regular_file(request_.output, error);
-}
-
 void RenderJob::lookForFrame() {
     const RenderSettings &settings = session_.scene().loaded.scene.settings;
     const std::string whole =
@@ -98,7 +99,7 @@ void RenderJob::lookForFrame() {
                     settings.samplesPerPixel, settings.exposureStops,
                     static_cast<int>(request_.tone.value_or(ToneCurve::Gamma)));
     frameIdentity_ = hashText(hashBytes(std::as_bytes(std::span(whole))));
-    isFrameThere_ = mayBeThere() && isImageWith(request_.output, frameIdentity_);
+    isFrameThere_ = !image_ && isImageWith(request_.output, frameIdentity_);
     if (!isFrameThere_ && !image_)
         image_.emplace(request_.output);
 }

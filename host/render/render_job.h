@@ -65,8 +65,6 @@ class RenderJob {
     [[nodiscard]] std::vector<PeriodicFile> periodicFiles();
     [[nodiscard]] std::span<const Crop> squares() const;
     [[nodiscard]] PartOrigin partOrigin() const;
-    /// Whether the output may be the frame already; then it is opened only once it is known not to be.
-    [[nodiscard]] bool mayBeThere() const;
     void lookForFrame();
     void writeCheckpoint(const Film &film, const RayCounts &rays);
     void requireRoom() const;

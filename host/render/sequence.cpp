@@ -44,6 +44,11 @@ void requireNoPlace(const SceneOptions &options) {
                                 "or without --frames");
 }
 
+SequenceTimes timesOf(const SequenceOptions &options) {
+    const FrameRange range = options.frames.value_or(FrameRange{0, options.turntable.value_or(1) - 1});
+    return {options.framesPerSecond, range.first, range.last};
+}
+
 } // namespace
 
 std::string nameOfFrame(const std::string &pattern, int frame, const std::string &option) {
@@ -63,12 +68,10 @@ std::string nameOfFrame(const std::string &pattern, int frame, const std::string
 }
 
 Sequence::Sequence(RenderRequest request, const SequenceOptions &options)
-    : request_(std::move(request)),
-      range_(options.frames.value_or(FrameRange{0, options.turntable.value_or(1) - 1})),
-      turntable_(options.turntable), times_{options.framesPerSecond, range_.first, range_.last} {
+    : request_(std::move(request)), turntable_(options.turntable), times_(timesOf(options)) {
     const Part part = request_.part.value_or(Part{});
-    for (int frame = range_.first; frame <= range_.last; ++frame)
-        if (static_cast<std::uint32_t>(frame - range_.first) % part.count == part.index - 1)
+    for (int frame = times_.firstFrame; frame <= times_.lastFrame; ++frame)
+        if (static_cast<std::uint32_t>(frame - times_.firstFrame) % part.count == part.index - 1)
             frames_.push_back(frame);
     std::set<std::string> names;
     for (const int frame : frames_) {

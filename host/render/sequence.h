@@ -50,7 +50,6 @@ class Sequence {
 
   private:
     const RenderRequest request_;
-    const FrameRange range_;
     const std::optional<int> turntable_;
     const SequenceTimes times_;
     std::vector<int> frames_;

@@ -3,11 +3,12 @@
 #include "host/base/hash.h"
 #include "host/base/input_file.h"
 #include "host/film/checkpoint.h"
-#include "tests/fuzz/harness.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
 
 namespace hyalite::fuzz {
 namespace {
@@ -30,8 +31,6 @@ std::uint32_t currentVersion() {
     const std::vector<std::byte> head = InputFile(path).head(headBytes);
     return numberAt({reinterpret_cast<const char *>(head.data()), head.size()}, magicBytes);
 }
-
-} // namespace
 
 std::string repaired(std::string_view content) {
     static const std::uint32_t version = currentVersion();
@@ -58,6 +57,14 @@ std::string repaired(std::string_view content) {
         take(filmBytes);
     std::memcpy(bytes.data() + bytes.size() - sizeof hash, &hash, sizeof hash);
     return bytes;
+}
+
+} // namespace
+
+void readAlsoRepaired(std::string_view content, void (*read)(const TemporaryFolder &, std::string_view)) {
+    static const TemporaryFolder folder;
+    read(folder, content);
+    read(folder, repaired(content));
 }
 
 } // namespace hyalite::fuzz

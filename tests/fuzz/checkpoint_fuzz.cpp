@@ -1,5 +1,4 @@
-// Checkpoints as `hyalite render --resume` reads them. The input is read twice: as it is, and with the version and the hash
-// put right, as one who makes up a file would.
+// Checkpoints as `hyalite render --resume` reads them.
 #include "host/film/checkpoint.h"
 #include "tests/fuzz/checkpoint_bytes.h"
 #include "tests/fuzz/harness.h"
@@ -41,9 +40,6 @@ void read(const TemporaryFolder &folder, std::string_view content) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
     using namespace hyalite::fuzz;
-    static const TemporaryFolder folder;
-    const std::string_view content = textOf(data, sizeBytes);
-    read(folder, content);
-    read(folder, repaired(content));
+    readAlsoRepaired(textOf(data, sizeBytes), read);
     return 0;
 }

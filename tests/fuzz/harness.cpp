@@ -16,6 +16,14 @@ void require(bool holds, std::string_view message) {
     std::abort();
 }
 
+void requirePlain(std::string_view text) {
+    const auto isControl = [](char c) {
+        const auto code = static_cast<unsigned char>(c);
+        return (code < 0x20 && c != '\n') || code == 0x7F;
+    };
+    require(std::none_of(text.begin(), text.end(), isControl), "a message holds control characters");
+}
+
 std::optional<std::string> refusalOf(const std::function<void()> &read) {
     try {
         read();
@@ -24,12 +32,7 @@ std::optional<std::string> refusalOf(const std::function<void()> &read) {
         if (error.kind != ErrorKind::BadInput && error.kind != ErrorKind::LimitExceeded)
             throw;
         std::string message = error.what();
-        const auto isControl = [](char c) {
-            const auto code = static_cast<unsigned char>(c);
-            return (code < 0x20 && c != '\n') || code == 0x7F;
-        };
-        require(std::none_of(message.begin(), message.end(), isControl),
-                "a message holds control characters");
+        requirePlain(message);
         return message;
     }
 }

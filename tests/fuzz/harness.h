@@ -16,6 +16,9 @@ namespace hyalite::fuzz {
 /// Ends the process with `message` unless `holds`: the input is a find.
 void require(bool holds, std::string_view message);
 
+/// Requires a text that goes to a terminal to hold no control characters but line feeds.
+void requirePlain(std::string_view text);
+
 /// Calls read(). The message where it refuses the input, by an Error{BadInput} or Error{LimitExceeded}, whose message
 /// holds no control characters, as it goes to a terminal; nothing where it takes it.
 [[nodiscard]] std::optional<std::string> refusalOf(const std::function<void()> &read);

@@ -1,5 +1,4 @@
-// Parts as `hyalite merge` reads them. The input is read twice: as it is, and with the version and the hash put right, as
-// one who makes up a file would.
+// Parts as `hyalite merge` reads them.
 #include "host/render/merge.h"
 #include "tests/fuzz/checkpoint_bytes.h"
 #include "tests/fuzz/harness.h"
@@ -10,14 +9,8 @@
 namespace hyalite::fuzz {
 namespace {
 
-constexpr std::int64_t mostPixels = std::int64_t{1}
-                                    << 20; // a picture takes memory, and may, where its parts are small
-
-void requirePlain(const std::string &text) {
-    require(std::ranges::none_of(
-                text, [](char c) { return (static_cast<unsigned char>(c) < ' ' && c != '\n') || c == 127; }),
-            "what is told has control characters");
-}
+// A picture takes memory, and may, where its parts are small.
+constexpr std::int64_t mostPixels = std::int64_t{1} << 20;
 
 bool isSmall(const std::filesystem::path &file) {
     bool isSmall = false;
@@ -61,9 +54,6 @@ void read(const TemporaryFolder &folder, std::string_view content) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
     using namespace hyalite::fuzz;
-    static const TemporaryFolder folder;
-    const std::string_view content = textOf(data, sizeBytes);
-    read(folder, content);
-    read(folder, repaired(content));
+    readAlsoRepaired(textOf(data, sizeBytes), read);
     return 0;
 }
