@@ -115,7 +115,7 @@ template <class Real>
     if ((scene.scattering & layout::scattersAtCoatNormals) != 0) {
         const Vec3<Real> coat =
             hitNormal(scene, ray, hit, surface, material.textures, layout::slotClearcoatNormal);
-        axes.coatNormal = coatNormalFacing(coat, surface.geometricNormal, ray.direction, isBehind);
+        axes.coatNormal = isBehind ? -coat : coat;
     }
     return axes;
 }

@@ -308,7 +308,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                                                surface.geometricNormal, axes, isBehind, crossing.eta, lobe.x);
 
         litPoint_ = {surface.position, surface.normal,
-                     isGlass(scene_, material) || material.transmission > 0};
+                     isLitFromBehind<Real>(scene_, scene_.fetchMaterial(materialIndex))};
         const EmitterChoice<Real> choice = chooseEmitter(scene_, litPoint_, vertexBits(pairChoice).x);
         const std::uint32_t emitter = choice.index;
         const LightSample<Real> light =

@@ -26,6 +26,12 @@ bool isThinGlass(MaterialRecord material) {
            isThin(material);
 }
 
+// Whether light from behind a surface that scatters counts, too. Textures only take from transmission: asked of the record
+// without them, the answer is a bound.
+bool isLitFromBehind(MaterialRecord material) {
+    return (scattering & (scattersAtRoughGlass | scattersAtThin)) != 0u && (isGlass(material) || isThinGlass(material));
+}
+
 // Whether the material shows its base colour, whatever the light.
 bool showsBaseColour(MaterialRecord material) { return (scattering & scattersAtUnlit) != 0u && isUnlit(material); }
 
@@ -81,7 +87,7 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
               float eta, float choice) {
     Bsdf bsdf;
     bsdf.frame = makeOrthonormalBasis(dotProduct(direction, normal) < 0.0 ? normal : geometricNormal);
-    bsdf.wo = toLocal(bsdf.frame, -direction);
+    bsdf.wo = viewerInFrame(bsdf.frame, -direction);
     bsdf.kind = bsdfOpaque;
     bsdf.alpha = material.alpha;
     bsdf.alphas = vec2(material.alpha);
@@ -105,7 +111,7 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     if ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled)
         return makePrincipled(bsdf, material, isBehind, choice);
     if ((scattering & scattersAtGltf) != 0u && kindOf(material) == materialGltf)
-        return makeGltf(bsdf, material, axes, -direction, isBehind, choice);
+        return makeGltf(bsdf, material, axes, geometricNormal, -direction, isBehind, choice);
     if ((scattering & scattersAtRoughConductors) != 0u && kindOf(material) == materialConductor) {
         bsdf.isConductor = true;
         return addOpaqueLobes(bsdf, 1.0, 0.0, vec3(0.0), material.averageReflectance);

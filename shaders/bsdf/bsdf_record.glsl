@@ -40,3 +40,19 @@ struct BsdfEval {
 };
 
 vec3 toLocal(Frame f, vec3 v) { return vec3(dotProduct(f.x, v), dotProduct(f.y, v), dotProduct(f.z, v)); }
+
+// The smallest cosine of the viewer to the normal. Lobes divide by it.
+const float minViewCosine = 1e-6;
+
+// wo of a viewer in the direction `toViewer`, a unit vector not below the surface.
+vec3 viewerInFrame(Frame f, vec3 toViewer) {
+    vec3 wo = toLocal(f, toViewer);
+    return vec3(vec2(wo), greater(wo.z, minViewCosine));
+}
+
+// The random number of a choice in [0, 1) that was not below `share`, spread over [0, 1) again.
+float choiceBeyond(float choice, float share) {
+    float above = choice - share;
+    float rest = 1.0 - share;
+    return lesser(divide(above, rest), 16777215.0 / 16777216.0);
+}

@@ -6,7 +6,7 @@
 // What a material needs of a surface beyond its normal.
 struct SurfaceAxes {
     vec3 tangent;    // in which u grows, of any length; 0: unknown
-    vec3 coatNormal; // of the clear coat: a unit vector on the side of the viewer
+    vec3 coatNormal; // of the clear coat: a unit vector that is on the same side of the surface as the viewer
 };
 
 // Reflectance of the dielectric part at normal incidence: KHR_materials_specular.
@@ -25,7 +25,7 @@ Bsdf makeAnisotropic(Bsdf bsdf, MaterialRecord material, vec3 tangent, vec3 toVi
     vec3 x = along * material.anisotropyCosine + across * material.anisotropySine;
     bsdf.frame.x = x;
     bsdf.frame.y = crossProduct(normal, x);
-    bsdf.wo = toLocal(bsdf.frame, toViewer);
+    bsdf.wo = viewerInFrame(bsdf.frame, toViewer);
     float strength = material.anisotropy * material.anisotropy;
     bsdf.alphas = vec2(mixture(material.alpha, 1.0, strength), material.alpha);
     float product = bsdf.alphas.x * bsdf.alphas.y;
@@ -36,33 +36,34 @@ Bsdf makeAnisotropic(Bsdf bsdf, MaterialRecord material, vec3 tangent, vec3 toVi
 // The coat alone, with its own normal.
 Bsdf makeCoatOf(Bsdf bsdf, MaterialRecord material, vec3 toViewer, vec3 normal, float share) {
     bsdf.frame = makeOrthonormalBasis(normal);
-    bsdf.wo = toLocal(bsdf.frame, toViewer);
+    bsdf.wo = viewerInFrame(bsdf.frame, toViewer);
     return makeClearcoat(bsdf, material, share);
 }
 
-// `toViewer` is a unit vector: bsdf.wo in world space.
-Bsdf makeGltf(Bsdf bsdf, MaterialRecord material, SurfaceAxes axes, vec3 toViewer, bool isBehind, float choice) {
+// `toViewer` is a unit vector: bsdf.wo in world space. `geometricNormal` is on its side. A coat whose normal faces away from
+// the viewer takes the geometric one, as the frame does: at a negative cosine Schlick's curve exceeds 1.
+Bsdf makeGltf(Bsdf bsdf, MaterialRecord material, SurfaceAxes axes, vec3 geometricNormal, vec3 toViewer, bool isBehind,
+              float choice) {
     float left = choice;
     bool isInside = isBehind && material.transmission > 0.0 && !isThin(material);
     if (material.clearcoat > 0.0 && !isInside) {
-        float cosine = lesser(dotProduct(toViewer, axes.coatNormal), 1.0);
+        vec3 coatNormal = dotProduct(toViewer, axes.coatNormal) > 0.0 ? axes.coatNormal : geometricNormal;
+        float cosine = lesser(dotProduct(toViewer, coatNormal), 1.0);
         float share = material.clearcoat * clearcoatAlbedo(cosine, squareRoot(material.clearcoatAlpha));
         if (left < share)
-            return makeCoatOf(bsdf, material, toViewer, axes.coatNormal, share);
+            return makeCoatOf(bsdf, material, toViewer, coatNormal, share);
         float rest = 1.0 - share;
         float dimmed = 1.0 - material.clearcoat * schlickReflectance(cosine, vec3(clearcoatReflectance), 1.0).x;
         bsdf.weight = divide(dimmed, rest);
-        float above = left - share;
-        left = divide(above, rest);
+        left = choiceBeyond(left, share);
     }
     float strongestSheen = largestComponent(material.sheenColour);
     if ((scattering & scattersAtSheen) != 0u && strongestSheen > 0.0) {
         float share = lesser(strongestSheen * sheenAlbedo(bsdf.wo.z, material.sheenAlpha), 1.0);
         if (left < share)
             return makeSheen(bsdf, material.sheenColour, material.sheenAlpha, share);
-        float rest = 1.0 - share; // both the weight of what lies below and the probability of choosing it
-        float above = left - share;
-        left = divide(above, rest);
+        // The weight of what lies below, 1 - share, is also the probability of choosing it.
+        left = choiceBeyond(left, share);
     }
     vec3 normalReflectance = dielectricReflectance(material);
     vec3 colour = material.albedo;

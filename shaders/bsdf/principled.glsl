@@ -12,9 +12,8 @@ Bsdf makePrincipled(Bsdf bsdf, MaterialRecord material, bool isBehind, float cho
         float clearcoatShare = material.clearcoat * energy;
         if (left < clearcoatShare)
             return makeClearcoat(bsdf, material, clearcoatShare);
-        float rest = 1.0 - clearcoatShare; // both the weight of what lies below and the probability of choosing it
-        float above = left - clearcoatShare;
-        left = divide(above, rest);
+        // The weight of what lies below, 1 - clearcoatShare, is also the probability of choosing it.
+        left = choiceBeyond(left, clearcoatShare);
     }
     float dielectric = 1.0 - material.metallic;
     float glass = isBehind && material.transmission > 0.0 ? 1.0 : dielectric * material.transmission;

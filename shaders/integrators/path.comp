@@ -52,11 +52,8 @@ void addRadiance(uint slot, vec3 weight, vec3 radiance) {
 
 // The surface that the path was on before its ray, as the light tree sees it.
 LitPoint litPoint(uint slot) {
-    bool isTransmitting = false;
-    if ((scattering & scattersAtRoughGlass) != 0u) {
-        MaterialRecord material = fetchMaterial(path[slot].surfaceMaterial & ~seenFromBehind);
-        isTransmitting = isGlass(material) || material.transmission > 0.0;
-    }
+    bool isTransmitting =
+        scattering != 0u && isLitFromBehind(fetchMaterial(path[slot].surfaceMaterial & ~seenFromBehind));
     return LitPoint(path[slot].surfacePosition, path[slot].surfaceNormal, isTransmitting);
 }
 

@@ -118,8 +118,9 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
-    if (showsBaseColour(material) && !showsCost) {
-        path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * material.albedo;
+    if (showsBaseColour(material)) {
+        if (!showsCost)
+            path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * material.albedo;
         traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
         endPath(slot);
         return;

@@ -92,11 +92,3 @@ vec3 visibleNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
     }
     return isBehind ? -facing : facing;
 }
-
-// The normal of a clear coat on the side of the viewer; the geometric one where the other one faces away. Both are on the
-// front side.
-vec3 coatNormalFacing(vec3 normal, vec3 geometricNormal, vec3 direction, bool isBehind) {
-    vec3 coat = isBehind ? -normal : normal;
-    vec3 up = isBehind ? -geometricNormal : geometricNormal;
-    return dotProduct(direction, coat) < 0.0 ? coat : up;
-}

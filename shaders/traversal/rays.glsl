@@ -208,7 +208,7 @@ SurfaceAxes hitAxes(uint slot, MaterialRecord material, vec3 normal, bool isBehi
         vec3 coat = surface.normal;
         if ((texturing & texturesClearcoatNormal) != 0u)
             coat = hitNormal(slot, surface, material.textures, slotClearcoatNormal);
-        axes.coatNormal = coatNormalFacing(coat, surface.geometricNormal, path[slot].rayDirection, isBehind);
+        axes.coatNormal = isBehind ? -coat : coat;
     }
     return axes;
 }
