@@ -255,10 +255,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                 surface.normal = -surface.normal;
                 surface.geometricNormal = -surface.geometricNormal;
             }
-            if (scene_.scattering != 0)
-                return scatterFromBsdf(ray, hit, surface, material, materialIndex, isBehind);
-            throughput_ *= Vec3<Real>(material.albedo);
-            return scatterFromDiffuse(surface, hit.primitive);
+            return scatterAt(ray, hit, surface, material, materialIndex, isBehind);
         }
         if (!survivesRoulette())
             return std::nullopt;
@@ -268,36 +265,11 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return reflect(ray, surface, surface.normal, hit.primitive);
     }
 
-    /// At a diffuse surface: samples a light and the next direction.
-    [[nodiscard]] std::optional<Ray<Real>> scatterFromDiffuse(const Surface<Real> &surface,
-                                                              std::uint32_t primitive) {
-        const Vec3<Real> direction = sampleCosine(surface.normal, unitFloats<Real>(vertexBits(pairScatter)));
-        const bool isAbove = dotProduct(surface.geometricNormal, direction) > 0;
-        scatterPdf_ = isAbove ? pdfCosine(dotProduct(surface.normal, direction)) : Real(0);
-
-        litPoint_ = {surface.position, surface.normal, false};
-        const EmitterChoice<Real> choice = chooseEmitter(scene_, litPoint_, vertexBits(pairChoice).x);
-        const std::uint32_t emitter = choice.index;
-        const LightSample<Real> light =
-            sampleEmitter<Real>(scene_, choice, surface.position, vertexBits(pairLight));
-        const Real cosine = dotProduct(surface.normal, light.direction);
-        const bool isLit = largestComponent(light.radiance) > 0 && cosine > 0 &&
-                           dotProduct(surface.geometricNormal, light.direction) > 0;
-        const Real reflected = pdfCosine(cosine); // also the density of a scattered ray
-        const Real share = light.pdf > 0 ? reflected * powerHeuristic(light.pdf, reflected) : reflected;
-        if (isLit)
-            aimAt(surface, emitter, light,
-                  throughput_ * (light.radiance * share) * transmittance(light.distance), primitive);
-        else
-            aimAtNothing(emitter);
-        return scatter(surface, direction, primitive);
-    }
-
-    /// At a surface with lobes: samples a light and the next direction.
-    [[nodiscard]] std::optional<Ray<Real>> scatterFromBsdf(const Ray<Real> &ray, const Hit<Real> &hit,
-                                                           const Surface<Real> &surface,
-                                                           const MaterialRecord<Real> &material,
-                                                           std::uint32_t materialIndex, bool isBehind) {
+    /// At a surface that scatters: samples a light and the next direction.
+    [[nodiscard]] std::optional<Ray<Real>> scatterAt(const Ray<Real> &ray, const Hit<Real> &hit,
+                                                     const Surface<Real> &surface,
+                                                     const MaterialRecord<Real> &material,
+                                                     std::uint32_t materialIndex, bool isBehind) {
         const std::uint32_t primitive = hit.primitive;
         const Crossing crossing = isGlass(scene_, material)
                                       ? crossingOf(materialIndex, !isBehind)

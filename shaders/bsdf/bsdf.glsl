@@ -81,12 +81,19 @@ vec3 mirrorReflectance(MaterialRecord material, float cosine) {
 
 // ---- BSDFs
 
-// The BSDF where a ray in `direction` hits a surface. The unit normals `normal` and `geometricNormal` are on the side
-// of the viewer, as is that of `axes`. `eta` is as in Bsdf; `choice`, in [0, 1), is random.
+// The BSDF where a ray in `direction` hits a surface. `geometricNormal`, a unit vector, is on the side of the viewer; the
+// unit normal `normal` and that of `axes` are on the same side of the surface. `eta` is as in Bsdf; `choice`, in [0, 1), is
+// random.
+//
+// On a smooth mesh a shading normal may face away from the viewer. Facets that turn away cannot be seen: lobes of facets
+// take the geometric normal there. Lambert's lobe does not depend on the viewer, and keeps the shading normal, so that
+// shading is smooth up to silhouettes, as in Cycles (kernel/closure/bsdf_diffuse.h). Directions below the geometric surface
+// get nothing from either, so that a surface never reflects more than its albedo.
 Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, SurfaceAxes axes, bool isBehind,
               float eta, float choice) {
     Bsdf bsdf;
-    bsdf.frame = makeOrthonormalBasis(dotProduct(direction, normal) < 0.0 ? normal : geometricNormal);
+    bool isLambertian = scattering == 0u || kindOf(material) == materialDiffuse;
+    bsdf.frame = makeOrthonormalBasis(isLambertian || dotProduct(direction, normal) < 0.0 ? normal : geometricNormal);
     bsdf.wo = viewerInFrame(bsdf.frame, -direction);
     bsdf.kind = bsdfOpaque;
     bsdf.alpha = material.alpha;
@@ -131,6 +138,8 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
 // Samples a direction wi in the frame. It is 0 if the facet sends light to the wrong side. `u` in [0, 1)^2 and `choice`
 // in [0, 1) are random. The pdf is evalBsdf(bsdf, wi).pdf.
 vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
+    if (scattering == 0u)
+        return sampleDiffuse(u);
     if ((scattering & scattersAtSheen) != 0u && bsdf.kind == bsdfSheen)
         return sampleHemisphere(u);
     bool isThrough = (scattering & scattersAtThin) != 0u && bsdf.kind == bsdfOpaque &&
@@ -155,7 +164,7 @@ BsdfEval evalBsdf(Bsdf bsdf, vec3 wi) {
         return evalGlass(bsdf, wi);
     if (wi.z <= 0.0 && ((scattering & scattersAtThin) == 0u || bsdf.thinProbability == 0.0 || wi.z == 0.0))
         return BsdfEval(vec3(0.0), 0.0);
-    if (bsdf.kind == bsdfDiffuse)
+    if (scattering == 0u || bsdf.kind == bsdfDiffuse)
         return evalDiffuse(bsdf, wi);
     if ((scattering & scattersAtSheen) != 0u && bsdf.kind == bsdfSheen)
         return evalSheen(bsdf, wi);

@@ -191,7 +191,7 @@ bool isSpecularHere(uint slot, MaterialRecord material, uint materialIndex, bool
 // Slots of the textures that say what a path does at a hit. Those that only the BSDF needs are looked up when it is made.
 uint slotsBeforeLight(MaterialRecord material) {
     uint slots = texturesEmission | texturesTransmission;
-    if (scattering == 0u || showsBaseColour(material))
+    if (showsBaseColour(material))
         slots |= texturesBaseColour;
     if (!isMixture(material)) // so that it may be specular
         slots |= texturesRoughness;
@@ -233,10 +233,7 @@ void shadeHit(uint slot) {
             surface.geometricNormal = -surface.geometricNormal;
         }
         standOn(slot, surface);
-        if (scattering != 0u)
-            path[slot].surfaceMaterial = materialIndex | (isBehind ? seenFromBehind : 0u);
-        else
-            path[slot].throughput *= material.albedo;
+        path[slot].surfaceMaterial = materialIndex | (isBehind ? seenFromBehind : 0u);
         return;
     }
     if (!survivesRoulette(slot))
@@ -273,8 +270,8 @@ void aimAt(uint slot, uint emitter, LightSample light) {
     beginShadow(slot, light.direction, light.distance);
 }
 
-// On a surface with lobes: samples the direction in which the path continues, and a light.
-void aimFromBsdf(uint slot) {
+// Stage: on a surface, sample the direction in which the path continues, and a light.
+void aimAtLight(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
     MaterialRecord material =
@@ -316,36 +313,6 @@ void aimFromBsdf(uint slot) {
         aimAt(slot, emitter, light);
     else
         aimAtNothing(slot, emitter);
-}
-
-// Stage: on a surface, sample the direction in which the path continues, and a light.
-void aimAtLight(uint slot) {
-    if (scattering != 0u) {
-        aimFromBsdf(slot);
-        return;
-    }
-    vec3 normal = path[slot].surfaceNormal;
-    vec3 direction = sampleCosine(normal, unitFloats(vertexBits(slot, pairScatter)));
-    bool isAbove = dotProduct(surfaceAt(slot).geometricNormal, direction) > 0.0;
-    path[slot].scatterDirection = direction;
-    path[slot].scatterPdf = isAbove ? pdfCosine(dotProduct(normal, direction)) : 0.0;
-
-    EmitterChoice choice = chooseEmitter(litPoint(slot), vertexBits(slot, pairChoice).x);
-    uint emitter = choice.index;
-    LightSample light = sampleEmitter(choice, path[slot].surfacePosition, vertexBits(slot, pairLight));
-    float cosine = dotProduct(normal, light.direction);
-    bool isLit = largestComponent(light.radiance) > 0.0 && cosine > 0.0 &&
-                 dotProduct(surfaceAt(slot).geometricNormal, light.direction) > 0.0;
-    if (!isLit) {
-        aimAtNothing(slot, emitter);
-        return;
-    }
-    float reflected = pdfCosine(cosine); // also the pdf of a scattered ray
-    float share = light.pdf > 0.0 ? reflected * powerHeuristic(light.pdf, reflected) : reflected;
-    path[slot].surfaceWeight = path[slot].throughput * (light.radiance * share);
-    if (hasDielectric)
-        path[slot].surfaceWeight *= transmittance(slot, light.distance);
-    aimAt(slot, emitter, light);
 }
 
 // Stage: the shadow ray has arrived, or was stopped.
