@@ -14,30 +14,41 @@ Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord 
     return Surface(position, vec3(0.0), normal, normal);
 }
 
+// The point of a hit keeps a distance from the edges of its triangle, of 8 units of rounding of the largest coordinate or
+// more, so that rounding does not carry it past the next wall of a closed mesh: then a ray would leave through the edge. In
+// a triangle that is narrower than twice that it is in the middle.
 Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, float v) {
     vec3 edge1 = triangle.v1 - triangle.v0;
     vec3 edge2 = triangle.v2 - triangle.v0;
     vec3 area = crossProduct(edge1, edge2);
     // Scaled first, because the square of a tiny or a giant area leaves the range of floats.
     float largest = largestComponent(abs(area));
-    vec3 geometric = largest > 0.0 ? unitVector(area * divide(1.0, largest)) : vec3(0.0); // no area: no light
+    float inverse = divide(1.0, largest);
+    vec3 geometric = largest > 0.0 ? unitVector(area * inverse) : vec3(0.0); // no area: no light
     vec3 blended = trianglePoint(normals.n0, normals.n1, normals.n2, u, v);
     vec3 normal = dotProduct(blended, blended) > 0.0 ? unitVector(blended) : geometric;
+    // Of a weight, whose height above its edge is at least the area of the edges' parallelogram by the longest edge.
+    float extent = largestComponent(greater(abs(edge1), abs(edge2)));
+    float reach = largestComponent(abs(triangle.v0)) + extent;
+    float margin = lesser(reach * (8.0 / 16777216.0) * (2.0 * extent * inverse), 1.0 / 3.0);
+    float first = greater(lesser(u, 1.0 - 2.0 * margin), margin);
+    float second = greater(lesser(v, 1.0 - margin - first), margin);
     Surface surface;
-    surface.position = trianglePoint(triangle.v0, triangle.v1, triangle.v2, u, v);
-    surface.error = trianglePointError(triangle.v0, triangle.v1, triangle.v2, u, v);
+    surface.position = trianglePoint(triangle.v0, triangle.v1, triangle.v2, first, second);
+    surface.error = trianglePointError(triangle.v0, triangle.v1, triangle.v2, first, second);
     surface.normal = normal;
     surface.geometricNormal = dotProduct(geometric, normal) < 0.0 ? -geometric : geometric;
     return surface;
 }
 
-// Origin of a ray that leaves the surface in `direction`: moved along the geometric normal by twice the error bound, to
-// the side of the direction (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing
-// Gems, chapter 6, and PBRT section 6.8.6, name the problem; the bound is PBRT's). Spheres need no offset.
+// Origin of a ray that leaves the surface in `direction`: moved along the geometric normal, to the side of the direction, by
+// the bound on the error in that direction (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection",
+// Ray Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; trianglePointError has the bound). Spheres need no
+// offset.
 vec3 offsetRayOrigin(Surface surface, vec3 direction) {
     if (!hasTriangles)
         return surface.position; // the same, unless the normal is NaN
-    float distance = 2.0 * dotProduct(abs(surface.geometricNormal), surface.error);
+    float distance = dotProduct(abs(surface.geometricNormal), surface.error);
     float side = dotProduct(direction, surface.geometricNormal) < 0.0 ? -distance : distance;
     return surface.position + surface.geometricNormal * side;
 }
