@@ -134,7 +134,7 @@ class Path {
             point.geometricNormal = -point.geometricNormal;
         }
         seesEmitters_ = world_.search == Search::ByScattering;
-        return scatter(point, Bsdf(substance, sides ? sides->indexRatio() : 1.0, isBehind), sides);
+        return scatter(point, substance, Bsdf(substance, sides ? sides->indexRatio() : 1.0, isBehind), sides);
     }
 
     bool reflect(const SurfacePoint &point, const Substance &substance) {
@@ -170,8 +170,11 @@ class Path {
     }
 
     /// Normals are on the side that the path comes from.
-    bool scatter(const SurfacePoint &point, const Bsdf &bsdf, const std::optional<Crossing> &sides) {
-        const bool isFacing = glm::dot(direction_, point.normal) < 0.0;
+    bool scatter(const SurfacePoint &point, const Substance &substance, const Bsdf &bsdf,
+                 const std::optional<Crossing> &sides) {
+        // A shading normal that faces away is that of nothing visible, but for Lambert's law, which has no viewer.
+        const bool isLambertian = substance.material->kind == MaterialKind::Diffuse;
+        const bool isFacing = isLambertian || glm::dot(direction_, point.normal) < 0.0;
         const Frame frame(isFacing ? point.normal : point.geometricNormal);
         const Vec view = frame.toLocal(-direction_);
         // The BSDF for a direction; 0 where the shading normal has it on the other side than the surface.

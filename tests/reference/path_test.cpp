@@ -121,6 +121,29 @@ TEST(PathFurnace, AWhiteBallInGlassIsInvisibleToo) {
     expectRadiance(scene, 1.0);
 }
 
+TEST(Path, ADiffuseSilhouetteDoesNotDependOnOtherMaterials) {
+    // The shading normals lean 60 degrees to the left, and the eye is 60 degrees to the right: it sees the wall, but they
+    // face away. Of an even sky a surface that leans by an angle sees (1 + cos) / 2 (Lambert's law).
+    for (const bool isBesideMetal : {false, true}) {
+        Scene scene = sceneFrom({5.0 * std::sqrt(3.0), 0, 5.0}, 4096);
+        scene.camera.direction = -scene.camera.position;
+        scene.background = glm::vec3(1.0f);
+        addWall(scene, addMaterial(scene, diffuse(0.6f)), {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+        TriangleMesh &wall = scene.meshes.back();
+        wall.normals = {{-std::sqrt(0.75f), 0.0f, 0.5f}};
+        for (MeshTriangle &triangle : wall.triangles)
+            triangle.normals = glm::uvec3(0);
+        if (isBesideMetal) {
+            Material metal;
+            metal.kind = MaterialKind::Conductor;
+            metal.conductorIndex = glm::vec3(0.2f);
+            metal.conductorExtinction = glm::vec3(3.0f);
+            scene.spheres.push_back({{0, 0, -50}, 1.0, addMaterial(scene, metal), false});
+        }
+        expectRadiance(scene, 0.6 * 0.75, 3e-3);
+    }
+}
+
 TEST(PathLight, ASphereAboveAFloor) {
     // Irradiance pi L (r / d)^2 under a sphere, whatever its size: here by cones, and by areas from inside a shell of
     // light.

@@ -784,8 +784,7 @@ TEST(Triangle, RaysOfNanAndInfinityHitNothing) {
 }
 
 TEST(Triangle, PointErrorBoundsTheRoundingOfThePoint) {
-    // For weights as they are rounded: the third is fl(1 - u - v). What its rounding adds, u times a corner, moves the
-    // point off the plane by no more than the bound allows along the normal: that is what offsetRayOrigin needs.
+    // The bound holds for each coordinate, and along the normal, which is what offsetRayOrigin needs.
     Random random(114);
     Tally wrong("coordinates off by more than the bound", random.seed());
     Tally offPlane("points off their plane by more than the bound", random.seed());
@@ -799,7 +798,7 @@ TEST(Triangle, PointErrorBoundsTheRoundingOfThePoint) {
         const glm::vec3 c(offset + random.inCube(scale));
         const float u = static_cast<float>(random.below(8) == 0 ? 0.0 : random.uniform());
         const float v = static_cast<float>(random.uniform() * (1.0 - static_cast<double>(u)));
-        const float w = 1.0f - u - v;
+        const long double w = 1.0L - static_cast<long double>(u) - static_cast<long double>(v);
         const glm::vec3 point = trianglePoint(a, b, c, u, v);
         const glm::vec3 bound = trianglePointError(a, b, c, u, v);
         const auto describePoint = [&] {
@@ -807,7 +806,7 @@ TEST(Triangle, PointErrorBoundsTheRoundingOfThePoint) {
         };
         const LongVec exact = LongVec(a) * static_cast<long double>(u) +
                               LongVec(b) * static_cast<long double>(v) +
-                              LongVec(c) * static_cast<long double>(w);
+                              LongVec(c) * w;
         for (int axis = 0; axis < 3; ++axis) {
             const double error =
                 static_cast<double>(std::abs(static_cast<long double>(point[axis]) - exact[axis]));
