@@ -19,7 +19,7 @@ namespace hyalite {
 namespace {
 
 constexpr std::string_view magic = "hyalite checkpoint\n";
-constexpr std::uint32_t currentVersion = 5;
+constexpr std::uint32_t currentVersion = 6;
 constexpr std::uint32_t maxTextBytes = 1u << 16; // of the identity, and of the origin
 constexpr std::uint32_t maxLayers = 64;
 

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -16,18 +17,31 @@
 
 namespace hyalite {
 
+/// The sum of the samples' radiance, with the rest that float32 leaves out.
+[[nodiscard]] inline glm::dvec3 sumOf(const layout::FilmPixel &pixel) {
+    return glm::dvec3(pixel.sum) + glm::dvec3(pixel.sumRest);
+}
+
+/// The mean of the samples, rounded to float32 once; black without samples.
+[[nodiscard]] inline glm::vec3 meanOf(const layout::FilmPixel &pixel) {
+    return pixel.sampleCount > 0 ? glm::vec3(sumOf(pixel) / static_cast<double>(pixel.sampleCount))
+                                 : glm::vec3(0.0f);
+}
+
 /// The unbiased estimate of the variance of the mean of a pixel's samples, per channel:
 ///
 ///     (sum x^2 - (sum x)^2 / n) / (n - 1) / n
 ///
 /// with Bessel's correction. It assumes independent samples; low-discrepancy samples have less variance. NaN below two
-/// samples. The sums of the film are float32: variances below 2^-24 of the squared mean are lost in rounding.
+/// samples. Squares are rounded to float32 before they are summed: variances of samples below 2^-24 of the squared mean are
+/// lost in rounding.
 [[nodiscard]] inline glm::dvec3 varianceOfMean(const layout::FilmPixel &pixel) {
     if (pixel.sampleCount < 2)
         return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
     const double count = pixel.sampleCount;
-    const glm::dvec3 sum(pixel.sum);
-    const glm::dvec3 deviation = glm::dvec3(pixel.sumOfSquares) - sum * sum / count;
+    const glm::dvec3 sum = sumOf(pixel);
+    const glm::dvec3 squares = glm::dvec3(pixel.sumOfSquares) + glm::dvec3(pixel.squaresRest);
+    const glm::dvec3 deviation = squares - sum * sum / count;
     return glm::max(deviation, glm::dvec3(0.0)) / ((count - 1.0) * count);
 }
 
@@ -42,9 +56,7 @@ struct Film {
     /// The mean of the samples of each pixel; black without samples.
     [[nodiscard]] Image toImage() const {
         Image image(crop.width(), crop.height());
-        for (std::size_t i = 0; i < pixels.size(); ++i)
-            if (pixels[i].sampleCount > 0)
-                image.pixels()[i] = pixels[i].sum / static_cast<float>(pixels[i].sampleCount);
+        std::ranges::transform(pixels, image.pixels().begin(), meanOf);
         return image;
     }
 };

@@ -42,21 +42,20 @@ template <class SampleIntegrator> bool isAbandoned(const SampleIntegrator &integ
 template <class Real, class SampleIntegrator, class IsLast>
 std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel, std::uint32_t sampleCount,
                           layout::FilmPixel &film, const IsLast &isLast) {
-    Vec3<Real> sum(film.sum);
-    Vec3<Real> sumOfSquares(film.sumOfSquares);
+    FilmPixel<Real> sums(film);
     const std::uint32_t countBefore = film.sampleCount;
     std::uint32_t finishedCount = countBefore;
     bool isStopped = false;
     while (finishedCount < sampleCount && !isStopped) {
-        const Vec3<Real> radiance = withoutSubnormals<Real>(integrator.sampleRadiance(pixel, finishedCount));
+        const Vec3<Real> radiance = integrator.sampleRadiance(pixel, finishedCount);
         if (isAbandoned(integrator))
             break;
-        sum = sum + radiance;
-        sumOfSquares = sumOfSquares + withoutSubnormals<Real>(radiance * radiance);
+        sums = withSample(sums, radiance);
         ++finishedCount;
         isStopped = isLast();
     }
-    film = {glm::vec3(sum), finishedCount, glm::vec3(sumOfSquares), 0.0f};
+    film = {glm::vec3(sums.sum), finishedCount, glm::vec3(sums.sumRest), 0.0f,
+            glm::vec3(sums.sumOfSquares), 0.0f, glm::vec3(sums.squaresRest), 0.0f};
     return finishedCount - countBefore;
 }
 

@@ -25,7 +25,7 @@ Layer layerOf(const ViewFilm &of) {
     const auto fillRow = [&film, isNormal, channelCount](int y, std::span<float> row) {
         float *next = row.data();
         for (const layout::FilmPixel &pixel : rowOf(film, y)) {
-            const glm::vec3 mean = pixel.sum / static_cast<float>(std::max(pixel.sampleCount, 1u));
+            const glm::vec3 mean = meanOf(pixel);
             const glm::vec3 value = isNormal ? normalOf(mean) : mean;
             for (int channel = 0; channel < channelCount; ++channel)
                 *next++ = value[channel];

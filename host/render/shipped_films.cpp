@@ -83,12 +83,15 @@ ShippedFilms readShippedFilms() {
 
 std::uint64_t filmHash(const Film &film) {
     static_assert(std::endian::native == std::endian::little);
-    std::vector<std::array<std::uint32_t, 7>> words;
+    std::vector<std::array<std::uint32_t, 13>> words;
     words.reserve(film.pixels.size());
     for (const layout::FilmPixel &pixel : film.pixels) {
-        const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
-        words.push_back({bits(pixel.sum.x), bits(pixel.sum.y), bits(pixel.sum.z), bits(pixel.sumOfSquares.x),
-                         bits(pixel.sumOfSquares.y), bits(pixel.sumOfSquares.z), pixel.sampleCount});
+        std::array<std::uint32_t, 13> &inFilm = words.emplace_back();
+        auto next = inFilm.begin();
+        for (const glm::vec3 &sum : {pixel.sum, pixel.sumRest, pixel.sumOfSquares, pixel.squaresRest})
+            for (int channel = 0; channel < 3; ++channel)
+                *next++ = std::bit_cast<std::uint32_t>(sum[channel]);
+        *next = pixel.sampleCount;
     }
     return hashBytes(std::as_bytes(std::span(words)));
 }

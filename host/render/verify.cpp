@@ -87,10 +87,6 @@ PreparedScene prepare(const ShippedFilms &shipped, const ShippedFilm &film) {
     return prepareScene(options, Source::Dropped, true);
 }
 
-bool areEqual(const layout::FilmPixel &a, const layout::FilmPixel &b) {
-    return a.sum == b.sum && a.sumOfSquares == b.sumOfSquares && a.sampleCount == b.sampleCount;
-}
-
 /// The first dispatch that rendered this pixel.
 std::optional<DispatchRecord> dispatchOf(const Timeline &timeline, const glm::ivec2 &pixel) {
     const auto found = std::ranges::find_if(timeline.dispatches, [&](const DispatchRecord &dispatch) {
@@ -107,7 +103,7 @@ FilmDifference explain(Backend &backend, const PreparedScene &scene, const Film 
     const Film wanted = twin->render(scene, {}, nullptr, {}, {}).film;
     FilmDifference difference;
     difference.pixelCount = differingPixelCount(film, wanted);
-    const auto first = std::ranges::mismatch(film.pixels, wanted.pixels, areEqual).in1;
+    const auto first = std::ranges::mismatch(film.pixels, wanted.pixels, haveEqualBits).in1;
     if (first == film.pixels.end())
         return difference;
     const auto index = static_cast<int>(first - film.pixels.begin());

@@ -4,8 +4,6 @@
 // left. The glass of the highest priority is there: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced
 // Images", JGT 7(2), 2002. Materials are sorted by priority, so it is the first one with a count.
 
-const uint mediumBits = 4u;
-
 // The glass around the path, or noMaterial.
 uint mediumAround(uint inside) { return inside == 0u ? noMaterial : uint(findLSB(inside)) / mediumBits; }
 

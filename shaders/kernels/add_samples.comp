@@ -9,6 +9,7 @@ const bool hasBounces = true;
 
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/math/vector.glsl"
+#include "shaders/math/sums.glsl"
 #include "shaders/memory/lanes.glsl"
 #include "shaders/integrators/path_slots.glsl"
 
@@ -29,9 +30,7 @@ void main() {
         SampleRecord found = samples[place];
         isNext = isNext && found.finished != 0u;
         if (isNext) {
-            vec3 radiance = withoutSubnormals(found.radiance);
-            pixel.sum = pixel.sum + radiance;
-            pixel.sumOfSquares = pixel.sumOfSquares + withoutSubnormals(radiance * radiance);
+            pixel = withSample(pixel, found.radiance);
             added += 1u;
             rays += unpackCounts(found.finished);
             samples[place].finished = 0u;

@@ -191,7 +191,8 @@ const uint noMaterial = 0xFFFFFFFFu;
 
 // Dielectrics come first among the materials, in order of falling priority. Where several overlap, the one of the
 // highest priority is there (shaders/bsdf/media.glsl).
-const uint maxMedia = 8u; // dielectrics that the path integrator tells apart
+const uint maxMedia = 8u;   // dielectrics that the path integrator tells apart
+const uint mediumBits = 4u; // of the count of each of them in a word (shaders/bsdf/media.glsl)
 
 struct MaterialRecord {
     vec3 albedo;       // conductor: reflectance at normal incidence; principled: base colour
@@ -528,6 +529,10 @@ struct FrameRecord {
         topListLength; // nodes of the scene's own tree in each skip list; those of meshes with instances follow
     uint firstTriangleId; // of the triangle with input index 0
     uint sheenTexels;     // the first one
+    uint mediaAtEye;      // the glass around the eye (shaders/bsdf/media.glsl)
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 // ---- Dispatch constants A dispatch works on one tile of the film, with `samplesAbreast` path slots for each pixel.
@@ -558,11 +563,16 @@ struct DispatchConstants {
 
 // ---- Results
 
+// Of the samples' radiance. Sums are compensated (shaders/math/sums.glsl): what is summed is a sum with its rest.
 struct FilmPixel {
-    vec3 sum; // of the samples' radiance
+    vec3 sum;
     uint sampleCount;
-    vec3 sumOfSquares;
+    vec3 sumRest;
     float pad0;
+    vec3 sumOfSquares;
+    float pad1;
+    vec3 squaresRest;
+    float pad2;
 };
 
 // A sample that waits to be added to the film.
@@ -753,11 +763,11 @@ static_assert(firstCoordinateRow == linearTableRow + rowsPerTable &&
 static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, isTwoSided) == 44);
 static_assert(sizeof(LightNode) == 48 && offsetof(LightNode, reference) == 44);
 static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
-static_assert(sizeof(FrameRecord) == 192 && offsetof(FrameRecord, boundsUpper) == 96);
+static_assert(sizeof(FrameRecord) == 208 && offsetof(FrameRecord, boundsUpper) == 96);
 static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(SampleRecord) == 16);
 static_assert(countMask >= maxPathDepth && sampleIsFinished >= 1u << 4u * bitsPerCount);
-static_assert(sizeof(FilmPixel) == 32 && offsetof(FilmPixel, sumOfSquares) == 16);
+static_assert(sizeof(FilmPixel) == 64 && offsetof(FilmPixel, sumOfSquares) == 32);
 static_assert(sizeof(DispatchProgress) == 64);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
 static_assert(sizeof(PathRecord) == 240 && offsetof(PathRecord, rayTarget) == 208);

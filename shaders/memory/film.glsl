@@ -3,7 +3,7 @@
 #if LANES_SHUFFLE
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
-const uint filmPixelWords = 8u;
+const uint filmPixelWords = 16u;
 const uint filmSampleCountWord = 3u;
 
 // The slots of a pixel share the loads and stores of its words, because lavapipe makes them lane by lane and word by
@@ -17,14 +17,19 @@ FilmPixel loadFilmPixel(uint index, bool isUsed) {
             words[begin + lane] = values[lane];
     }
     return FilmPixel(uintBitsToFloat(uvec3(words[0], words[1], words[2])), words[3],
-                     uintBitsToFloat(uvec3(words[4], words[5], words[6])), uintBitsToFloat(words[7]));
+                     uintBitsToFloat(uvec3(words[4], words[5], words[6])), 0.0,
+                     uintBitsToFloat(uvec3(words[8], words[9], words[10])), 0.0,
+                     uintBitsToFloat(uvec3(words[12], words[13], words[14])), 0.0);
 }
 
 void storeFilmPixel(uint index, bool isUsed, FilmPixel pixel) {
     uvec3 sum = floatBitsToUint(pixel.sum);
+    uvec3 sumRest = floatBitsToUint(pixel.sumRest);
     uvec3 squares = floatBitsToUint(pixel.sumOfSquares);
-    uint words[filmPixelWords] = uint[](sum.x, sum.y, sum.z, pixel.sampleCount, squares.x, squares.y, squares.z,
-                                        floatBitsToUint(pixel.pad0));
+    uvec3 squaresRest = floatBitsToUint(pixel.squaresRest);
+    uint words[filmPixelWords] =
+        uint[](sum.x, sum.y, sum.z, pixel.sampleCount, sumRest.x, sumRest.y, sumRest.z, 0u, squares.x, squares.y,
+               squares.z, 0u, squaresRest.x, squaresRest.y, squaresRest.z, 0u);
     [[unroll]] for (uint begin = 0u; begin < filmPixelWords; begin += samplesAbreast) {
         uint mine = words[begin];
         [[unroll]] for (uint lane = 1u; lane < samplesAbreast; ++lane)
@@ -73,12 +78,9 @@ void addRoundToFilm(uint slot) {
     uint first = path[slot].sampleIndex - sampleLane(slot);
     vec3 radiances[maxSamplesAbreast];
     exchangeRadiances(slot, radiances);
-    // Slots without a sample add 0, which changes no bit of any sum but -0.
-    [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
-        vec3 radiance = withoutSubnormals(radiances[lane]);
-        film[slot].sum = film[slot].sum + radiance;
-        film[slot].sumOfSquares = film[slot].sumOfSquares + withoutSubnormals(radiance * radiance);
-    }
+    // Slots without a sample add 0, which changes no bit.
+    [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
+        film[slot] = withSample(film[slot], radiances[lane]);
     film[slot].sampleCount += min(samplesAbreast, dispatch.sampleEnd - first);
     if (path[slot].sampleIndex < dispatch.sampleEnd)
         finishedSampleCount += 1u;

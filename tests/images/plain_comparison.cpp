@@ -56,7 +56,7 @@ Estimate meanOf(const Film &film, const Region &region) {
         for (int x = region.x0; x < region.x1; ++x) {
             const layout::FilmPixel &pixel = film.pixels[static_cast<std::size_t>(y * film.crop.width() + x)];
             const double count = pixel.sampleCount;
-            const glm::dvec3 mean = glm::dvec3(pixel.sum) / count;
+            const glm::dvec3 mean = sumOf(pixel) / count;
             estimate.mean += mean / pixelCount;
             estimate.variance += (glm::dvec3(pixel.sumOfSquares) / count - mean * mean) / (count - 1.0) /
                                  (pixelCount * pixelCount);

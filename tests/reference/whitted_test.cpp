@@ -439,16 +439,14 @@ TEST(Film, SumsTheSamplesInTheirOrder) {
     const Film film = renderAll(scene).film;
     WhittedIntegrator<float> integrator(data, layout::samplerSobol);
     for (const glm::uvec2 pixel : {glm::uvec2(18, 11), {3, 4}, {36, 22}, {20, 15}}) {
-        glm::vec3 sum(0.0f);
-        glm::vec3 squares(0.0f);
-        for (std::uint32_t sample = 0; sample < 5; ++sample) {
-            const glm::vec3 radiance = integrator.sampleRadiance(pixel, sample);
-            sum += radiance;
-            squares += radiance * radiance;
-        }
+        FilmPixel<float> sums(layout::FilmPixel{});
+        for (std::uint32_t sample = 0; sample < 5; ++sample)
+            sums = withSample<float>(sums, integrator.sampleRadiance(pixel, sample));
         const layout::FilmPixel &stored = film.pixels[pixel.y * 37u + pixel.x];
-        EXPECT_EQ(stored.sum, sum);
-        EXPECT_EQ(stored.sumOfSquares, squares);
+        EXPECT_EQ(stored.sum, sums.sum);
+        EXPECT_EQ(stored.sumRest, sums.sumRest);
+        EXPECT_EQ(stored.sumOfSquares, sums.sumOfSquares);
+        EXPECT_EQ(stored.squaresRest, sums.squaresRest);
     }
 }
 

@@ -97,7 +97,8 @@ TEST(FilmHash, IsOfAllThatAFilmHolds) {
     std::set<std::uint64_t> hashes{filmHash(film)};
     film.pixels[0].pad0 = 5.0f;
     EXPECT_EQ(filmHash(film), *hashes.begin()) << "padding is nothing that it holds";
-    for (float *value : {&film.pixels[0].sum.z, &film.pixels[1].sum.x, &film.pixels[1].sumOfSquares.y}) {
+    for (float *value : {&film.pixels[0].sum.z, &film.pixels[1].sum.x, &film.pixels[0].sumRest.y,
+                         &film.pixels[1].sumOfSquares.y, &film.pixels[1].squaresRest.z}) {
         *value = -0.0f;
         EXPECT_TRUE(hashes.insert(filmHash(film)).second);
     }
