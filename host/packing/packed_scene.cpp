@@ -4,6 +4,7 @@
 #include "host/packing/emitters.h"
 #include "host/packing/environment.h"
 #include "host/packing/listed_triangles.h"
+#include "host/packing/media_at.h"
 #include "host/packing/microfacet_energy.h"
 #include "host/packing/packed_trees.h"
 #include "host/packing/pixel_filter.h"
@@ -191,6 +192,14 @@ GlassNodes glassNodesOf(const Scene &scene) {
     return nodes;
 }
 
+/// The packed index of each material, by its index in the input.
+std::vector<std::uint32_t> packedMaterials(const std::vector<std::uint32_t> &order) {
+    std::vector<std::uint32_t> packed(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        packed[order[i]] = i;
+    return packed;
+}
+
 /// The input indices of the materials, in packed order.
 std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials) {
     std::vector<std::uint32_t> order(materials.size());
@@ -298,11 +307,10 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
                                                                              : layout::treeHasSpheresToo;
 
     const std::vector<std::uint32_t> order = materialOrder(scene.materials);
-    std::vector<std::uint32_t> packedMaterial(order.size()); // by the index in the input
-    for (std::uint32_t i = 0; i < order.size(); ++i) {
-        packedMaterial[order[i]] = i;
-        packed.materials.push_back(packMaterial(scene.materials[order[i]]));
-    }
+    const std::vector<std::uint32_t> packedMaterial = packedMaterials(order);
+    packed.frame.mediaAtEye = mediaAt(scene, packedMaterial, scene.camera.position);
+    for (const std::uint32_t index : order)
+        packed.materials.push_back(packMaterial(scene.materials[index]));
     const auto useMaterial = [&](std::uint32_t index, bool hasSheer) {
         const MaterialRow &row = rowOf(scene.materials[index].kind);
         packed.hasEmission = packed.hasEmission || scene.materials[index].emission != glm::vec3(0.0f);
@@ -382,6 +390,8 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
 void packCamera(const Scene &scene, PackedScene &packed) {
     setCamera(scene.camera, packed.frame);
     packed.camera = cameraOf(scene.camera);
+    packed.frame.mediaAtEye =
+        mediaAt(scene, packedMaterials(materialOrder(scene.materials)), scene.camera.position);
 }
 
 } // namespace hyalite

@@ -34,7 +34,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         radiance_ = Vec3<Real>(Real(0));
         throughput_ = Vec3<Real>(Real(1));
         scatterPdf_ = 0;
-        mediaInside_ = 0;
+        mediaInside_ = scene_.frame.mediaAtEye;
         depth_ = 1;
         std::optional<Ray<Real>> ray = Ray<Real>{primary.origin, primary.direction};
         while (ray) {
@@ -171,12 +171,10 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     };
 
     [[nodiscard]] Crossing crossingOf(std::uint32_t materialIndex, bool isEntering) const {
-        // A path that leaves glass without having entered it started inside.
-        const std::uint32_t before = isEntering || mediumCount(mediaInside_, materialIndex) > 0
-                                         ? mediaInside_
-                                         : enterMedium(mediaInside_, materialIndex);
+        // Glass that is left without having been entered changes nothing: paths begin in what is around the eye.
+        const std::uint32_t before = mediaInside_;
         const std::uint32_t beyond =
-            isEntering ? enterMedium(mediaInside_, materialIndex) : leaveMedium(mediaInside_, materialIndex);
+            isEntering ? enterMedium(before, materialIndex) : leaveMedium(before, materialIndex);
         const std::uint32_t medium = mediumAround(before);
         const std::uint32_t mediumBeyond = mediumAround(beyond);
         return {before, beyond, mediumIndex(medium) / mediumIndex(mediumBeyond), medium == mediumBeyond};

@@ -30,7 +30,10 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         pixel_ = pixel;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
-        pending_.push_back({{primary.origin, primary.direction}, Vec3<Real>(Real(1)), 1, layout::noMaterial});
+        pending_.push_back({{primary.origin, primary.direction},
+                            Vec3<Real>(Real(1)),
+                            1,
+                            mediumAround(scene_.frame.mediaAtEye)});
         for (std::uint64_t segmentCount = 1; !pending_.empty(); ++segmentCount) {
             if (segmentCount % segmentsBetweenPolls == 0 && isToStop_ && isToStop_()) {
                 pending_.clear();

@@ -37,7 +37,7 @@ vec2 lobeChoice(uint slot) {
 void beginSample(uint slot) {
     sendPrimaryRay(slot);
     path[slot].scatterPdf = 0.0;
-    path[slot].mediaInside = 0u;
+    path[slot].mediaInside = hasDielectric ? frame.mediaAtEye : 0u;
 }
 
 void endPath(uint slot) { path[slot].stage = stageSampleDone; }
@@ -139,10 +139,9 @@ struct Crossing {
 };
 
 Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {
-    uint inside = path[slot].mediaInside;
-    // A path that leaves glass without having entered it began inside.
-    uint before = isEntering || mediumCount(inside, materialIndex) > 0u ? inside : enterMedium(inside, materialIndex);
-    uint beyond = isEntering ? enterMedium(inside, materialIndex) : leaveMedium(inside, materialIndex);
+    // Glass that is left without having been entered changes nothing: paths begin in what is around the eye.
+    uint before = path[slot].mediaInside;
+    uint beyond = isEntering ? enterMedium(before, materialIndex) : leaveMedium(before, materialIndex);
     uint medium = mediumAround(before);
     uint mediumBeyond = mediumAround(beyond);
     return Crossing(before, beyond, divide(mediumIndex(medium), mediumIndex(mediumBeyond)), medium == mediumBeyond);

@@ -18,7 +18,8 @@ void sendPrimaryRay(uint slot) {
     path[slot].stage = stageSampleDone;
     if (path[slot].sampleIndex < dispatch.sampleEnd) {
         PrimaryRay ray = primaryRay(imagePixel[slot], path[slot].sampleIndex);
-        startRay(slot, ray.origin, ray.direction, noPrimitive, 1u, noMaterial);
+        startRay(slot, ray.origin, ray.direction, noPrimitive, 1u,
+                 hasDielectric ? mediumAround(frame.mediaAtEye) : noMaterial);
         rayCounts[slot].x += 1u;
     }
 }

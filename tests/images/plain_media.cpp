@@ -1,8 +1,16 @@
 #include "tests/images/plain_media.h"
 
 #include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
 
 namespace hyalite::testing::plain {
+
+Media::Media(const Scene &scene) : scene_(&scene), counts_(scene.materials.size(), 0) {
+    for (const Sphere &sphere : scene.spheres)
+        if (isGlass(scene.materials[sphere.materialIndex]) &&
+            glm::distance(scene.camera.position, sphere.centre) < sphere.radius)
+            counts_[sphere.materialIndex] += sphere.inwardNormal ? -1 : 1;
+}
 
 const Material *Media::around() const {
     const Material *found = nullptr;
@@ -26,14 +34,10 @@ Vec Media::transmittance(double distance) const {
 
 Crossing crossing(const Media &around, std::uint32_t materialIndex, bool isEntering) {
     Crossing result{around, around};
-    if (isEntering) {
+    if (isEntering)
         result.beyond.enter(materialIndex);
-        return result;
-    }
-    if (around.isIn(materialIndex))
+    else if (around.isIn(materialIndex))
         result.beyond.leave(materialIndex);
-    else
-        result.before.enter(materialIndex);
     return result;
 }
 

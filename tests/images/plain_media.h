@@ -11,7 +11,8 @@ namespace hyalite::testing::plain {
 /// How many surfaces of each material of glass a path has entered and not left.
 class Media {
   public:
-    explicit Media(const Scene &scene) : scene_(&scene), counts_(scene.materials.size(), 0) {}
+    /// What is around the eye of the scene's camera: the oracle knows of spheres.
+    explicit Media(const Scene &scene);
 
     /// The glass of highest priority, of equal ones the first in the scene; or none.
     [[nodiscard]] const Material *around() const;
@@ -41,7 +42,7 @@ struct Crossing {
     [[nodiscard]] bool isNothing() const { return before.around() == beyond.around() || indexRatio() == 1.0; }
 };
 
-/// A path that leaves glass which it has not entered began in it.
+/// Leaving glass that was not entered changes nothing.
 [[nodiscard]] Crossing crossing(const Media &around, std::uint32_t materialIndex, bool isEntering);
 
 } // namespace hyalite::testing::plain
