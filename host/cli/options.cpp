@@ -102,6 +102,12 @@ CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<st
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+CLI::Option *addTimeLimit(CLI::App &command, std::optional<double> &seconds, const std::string &help) {
+    return addNumber(command, "--time-limit", seconds, anySeconds,
+                     help + "; loading and building do not count")
+        ->type_name("SECONDS");
+}
+
 CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve) {
     return addChoice(command, "--tone", curve, toneCurveNames,
                      "tone curve of a PNG: gamma (2.2, the default) and srgb clip bright colours, aces and "

@@ -131,6 +131,12 @@ CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<st
 /// --tone, for commands that write a PNG. `curve` must outlive the command; it is empty for the default.
 CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve);
 
+/// The range of times.
+inline constexpr Interval anySeconds{0.0, 1e9, false};
+
+/// --time-limit. `help` says what ends.
+CLI::Option *addTimeLimit(CLI::App &command, std::optional<double> &seconds, const std::string &help);
+
 /// A file option as the user gave it; the path is empty without the option.
 struct NamedFile {
     std::string option;

@@ -25,7 +25,6 @@ namespace {
 struct ProfileOptions {
     MeasurementRequest measurement;
     ProfilePaths paths;
-    bool isCounting = false;
     std::string baseline;
     std::optional<std::string> maxRegression; ///< default: 5%
     std::optional<Gate> gate;
@@ -62,6 +61,8 @@ void printMeasured(const Profile &profile) {
                profile.frames.size() - measured, profile.frames.size() - measured == 1 ? "is" : "are");
     if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
         fmt::print("memory       {} in buffers on the device\n", sizeText(bytes));
+    for (const std::string &omission : profile.leftOut)
+        fmt::print("left out     by the time limit: {}\n", omission);
     fmt::print("\n{}", profileTable(profile));
 }
 
@@ -93,9 +94,14 @@ Baseline readBaseline(const ProfileOptions &options) {
     return baseline;
 }
 
-ExitCode judge(const Profile &profile, const Baseline &baseline) {
+ExitCode judge(const Measurement &measurement, const Baseline &baseline) {
     if (!baseline.figures)
         return ExitCode::Ok;
+    if (measurement.isCut()) {
+        fmt::print("\nNOT compared with the baseline: the time limit ended what it is compared with\n");
+        return ExitCode::AnswerIsNo;
+    }
+    const Profile &profile = measurement.profile();
     const BaselineComparison comparison =
         compareWithBaseline(*baseline.figures, figuresOf(profile), baseline.maxRegression, baseline.gate);
     fmt::print("\n{}", comparisonTable(comparison, baseline.maxRegression, baseline.gate));
@@ -116,19 +122,21 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     if (baseline.figures)
         requireSameJob(*baseline.figures, profile);
     printHead(profile, measurement.device());
+    const bool isCounting = options.measurement.isCounting || files.wantsHeatMap(measurement.scene());
+    measurement.startTime(isCounting);
     if (const std::optional<std::string> fault = measurement.verify()) {
         printFault(*fault, measurement.device());
         return ExitCode::AnswerIsNo;
     }
     measurement.measure();
-    if (options.isCounting || files.wantsHeatMap(measurement.scene()))
+    if (isCounting)
         measurement.countWork();
-    if (options.isCounting)
+    if (options.measurement.isCounting)
         measurement.countKernelWork();
     files.writeImage(measurement);
     printMeasured(profile);
     files.writeFigures(measurement);
-    return judge(profile, baseline);
+    return judge(measurement, baseline);
 }
 
 void addMeasurementOptions(CLI::App &command, MeasurementRequest &request) {
@@ -143,6 +151,8 @@ void addMeasurementOptions(CLI::App &command, MeasurementRequest &request) {
         ->default_str("1");
     addNumber(command, "--repeat", request.repeatCount, repeatCounts, "number of measured renders")
         ->default_str("5");
+    addTimeLimit(command, request.timeLimitSeconds,
+                 "end all renders after this time and write what was measured and counted until then");
     command.add_flag("--no-verify", request.isUnverified,
                      "skip the comparison with the image of the CPU twin");
     command.add_flag("--quiet", request.isQuiet, "show no progress");
@@ -182,8 +192,8 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     const auto options = std::make_shared<ProfileOptions>();
     addMeasurementOptions(*command, options->measurement);
     addFileOptions(*command, options->paths);
-    command->add_flag("--counts", options->isCounting,
-                      "render twice more and count nodes, boxes and triangles, of primary rays with a stack "
+    command->add_flag("--counts", options->measurement.isCounting,
+                      "render twice more and count nodes, boxes and triangles, of the same rays with a stack "
                       "and of the kernel's own traversal, and how busy the kernel's lanes are");
     addBaselineOptions(*command, *options);
     command->callback([options, &context] { context.exitCode = runProfile(*options, context.commandLine); });

@@ -8,13 +8,17 @@
 #include "host/report/trace_json.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace hyalite {
 
 namespace {
 
 std::vector<Attribute> originOf(const Profile &profile) {
-    return attributesOf(provenanceToJson(profile.origin, profile.device));
+    std::vector<Attribute> attributes = attributesOf(provenanceToJson(profile.origin, profile.device));
+    if (!profile.leftOut.empty())
+        attributes.emplace_back("leftOut", fmt::format("{}", fmt::join(profile.leftOut, "; ")));
+    return attributes;
 }
 
 std::vector<std::byte> pngOf(const Drawing &drawing, const Profile &profile) {

@@ -6,11 +6,11 @@
 #include "host/import/assets.h"
 #include "host/render/rank_backend.h"
 #include "host/render/render_job.h"
+#include "host/render/time_limit.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -251,17 +251,14 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
     requireOptionsThatGoTogether(sequence.requestOf(sequence.frames().front()));
     RenderSession session;
     sequence.prepare(session);
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point begin = Clock::now();
+    const TimeLimit limit(request.timeLimitSeconds);
     for (const int frame : sequence.frames()) {
         RenderRequest ofFrame = sequence.requestOf(frame);
-        if (ofFrame.timeLimitSeconds) {
-            *ofFrame.timeLimitSeconds -= std::chrono::duration<double>(Clock::now() - begin).count();
-            if (*ofFrame.timeLimitSeconds <= 0.0) {
-                printMessage("stopped by the time limit before frame {}\n", frame);
-                break;
-            }
+        if (limit.isReached()) {
+            printMessage("stopped by the time limit before frame {}\n", frame);
+            break;
         }
+        ofFrame.timeLimitSeconds = limit.secondsLeft();
         sequence.moveTo(frame, session);
         if (const ExitCode code = renderOne(ofFrame, commandLine, session); code != ExitCode::Ok)
             return code;

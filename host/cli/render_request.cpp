@@ -14,8 +14,6 @@ namespace hyalite {
 
 namespace {
 
-constexpr Interval anySeconds{0.0, 1e9, false};
-
 /// "3/16".
 Part readPart(const std::string &word) {
     const std::size_t slash = word.find('/');
@@ -113,9 +111,7 @@ void addRenderOptions(CLI::App &command, RenderRequest &request) {
                     "render only part I of N of the picture into --output, a .part file, from which the same "
                     "command goes on; `hyalite merge` makes the picture of all parts")
         ->type_name("I/N");
-    addNumber(command, "--time-limit", request.timeLimitSeconds, anySeconds,
-              "stop after this time and write the partial image; loading and building do not count")
-        ->type_name("SECONDS");
+    addTimeLimit(command, request.timeLimitSeconds, "stop after this time and write the partial image");
     addLongRenderOptions(command, request);
     command.add_flag("--quiet", request.isQuiet, "print errors only");
 }

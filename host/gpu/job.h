@@ -19,7 +19,8 @@ struct Job {
     std::uint32_t sampleEnd;
     bool isTraced;
     std::span<const layout::FilmPixel>
-        film{}; ///< samples are added to it; empty: start without samples. Read only at the start
+        film{};             ///< samples are added to it; empty: start without samples. Read only at the start
+    bool showsWork = false; ///< in place of radiance
 };
 
 } // namespace hyalite::gpu

@@ -98,13 +98,14 @@ struct Renderer::State {
     }
 
     /// The configuration for an integrator and a scene.
-    [[nodiscard]] RenderConfig configFor(const PackedScene &scene, Integrator integrator) const {
+    [[nodiscard]] RenderConfig configFor(const PackedScene &scene, Integrator integrator,
+                                         bool showsWork) const {
         RenderConfig used = config;
         used.traversal = wanted.traversal;
         used.slotsPerInvocation = wanted.slotsPerInvocation;
         used.samplesAbreast = wanted.samplesAbreast;
         const Workload workload = workloadOf(scene, integrator);
-        if (integrator == Integrator::Cost) {
+        if (showsWork) {
             if (wanted.traversal == Traversal::SkipList)
                 throw Error(ErrorKind::Usage,
                             fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
@@ -194,11 +195,12 @@ const ArithmeticChoice &Renderer::arithmetic() const { return state_->arithmetic
 const BitGuarantee &Renderer::bits() const { return state_->bits; }
 
 std::string_view Renderer::kernelName(const PackedScene &scene, Integrator integrator) const {
-    return gpu::kernelName(state_->configFor(scene, integrator));
+    return gpu::kernelName(state_->configFor(scene, integrator, integrator == Integrator::Cost));
 }
 
 std::uint64_t Renderer::kernelHash(const PackedScene &scene, Integrator integrator) const {
-    return hashBytes(std::as_bytes(kernelWords(state_->configFor(scene, integrator), integrator)));
+    return hashBytes(std::as_bytes(
+        kernelWords(state_->configFor(scene, integrator, integrator == Integrator::Cost), integrator)));
 }
 
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
@@ -248,7 +250,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     };
     if (timeline != nullptr)
         timeline->clock = state_->device->timestamps().describe();
-    const RenderConfig config = state_->configFor(scene, settings.integrator);
+    const RenderConfig config = state_->configFor(scene, settings.integrator, showsWork(settings));
     const bool isSkipList = config.traversal == Traversal::SkipList;
     const auto jobOf = [&](const Crop &band) {
         return Job{scene,
@@ -257,7 +259,9 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
                    samplerOf(settings),
                    0,
                    static_cast<std::uint32_t>(settings.samplesPerPixel),
-                   false};
+                   false,
+                   {},
+                   showsWork(settings)};
     };
     const std::vector<Crop> bands = cutIntoBands(crop, state_->info);
     const ScenePlan scenePlan = planScene(scene, isSkipList);
@@ -338,12 +342,18 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
                                                 const glm::uvec2 &pixel, std::uint32_t sampleIndex) {
     const int x = static_cast<int>(pixel.x);
     const int y = static_cast<int>(pixel.y);
-    const Job job{
-        scene, {x, x + 1, y, y + 1}, settings.integrator, samplerOf(settings), sampleIndex, sampleIndex + 1,
-        true};
+    const Job job{scene,
+                  {x, x + 1, y, y + 1},
+                  settings.integrator,
+                  samplerOf(settings),
+                  sampleIndex,
+                  sampleIndex + 1,
+                  true,
+                  {},
+                  showsWork(settings)};
     if (!state_->device)
         state_->reopen();
-    const RenderConfig config = state_->configFor(scene, settings.integrator);
+    const RenderConfig config = state_->configFor(scene, settings.integrator, showsWork(settings));
     const bool isSkipList = config.traversal == Traversal::SkipList;
     const ScenePlan scenePlan = planScene(scene, isSkipList);
     const JobPlan jobPlan = planJob(job, config, state_->info);

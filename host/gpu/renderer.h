@@ -25,7 +25,7 @@ struct Result {
     Film film;
     RayCounts rays; ///< of the samples added to the film
     RenderTiming timing;
-    WorkCounts work;     ///< all 0 unless the render config asks for counting, or the integrator is the cost
+    WorkCounts work;     ///< all 0 unless the render config asks for counting, or samples show the work
     LaneCounts lanes{};  ///< likewise
     MemoryPlan memory{}; ///< peak memory
     std::vector<std::string>
@@ -61,7 +61,7 @@ class Renderer {
     ///
     /// If a Vulkan call fails, the device is opened again with half the work per dispatch, up to three times, and the
     /// render continues from a copy of the film. After the last failure the result is that copy. Throws
-    /// Error{LimitExceeded} if the scene is too large for the device, and Error{Usage} if the cost, which counts a
+    /// Error{LimitExceeded} if the scene is too large for the device, and Error{Usage} if the work, which is that of a
     /// traversal with a stack, is requested from another kernel.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
                                 const std::function<void(double)> &onProgress = {},

@@ -94,7 +94,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantSamplesInTurn] = plan.takesSamplesInTurn && !isResumable;
     constants[layout::constantBroadcasts] = plan.exchangesByBroadcast;
     constants[layout::constantIsCounting] = config.isCounting;
-    constants[layout::constantShowsCost] = job.integrator == Integrator::Cost;
+    constants[layout::constantShowsCost] = job.showsWork;
     constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;
     return constants;
 }

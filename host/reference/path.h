@@ -46,7 +46,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
 
     [[nodiscard]] const RayCounts &counts() const { return counts_; }
     /// Of the traversal.
-    [[nodiscard]] const Counter &counter() const { return counter_; }
+    [[nodiscard]] Counter &counter() { return counter_; }
 
     /// Appends all further events to `events`, which must outlive the integrator.
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }

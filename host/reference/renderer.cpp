@@ -17,15 +17,15 @@ namespace hyalite::reference {
 
 namespace {
 
-/// The cost integrator: a sample is the traversal work of a Whitted sample.
-template <class Real> class CostIntegrator : public WhittedIntegrator<Real, WorkCounter> {
+/// A sample is the traversal work of a sample of `Integrator`.
+template <class Real, class Integrator> class WorkOf : public Integrator {
   public:
-    using WhittedIntegrator<Real, WorkCounter>::WhittedIntegrator;
+    using Integrator::Integrator;
 
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
         this->counter().sample = glm::vec3(0.0f);
-        static_cast<void>(WhittedIntegrator<Real, WorkCounter>::sampleRadiance(pixel, sampleIndex, shift));
+        static_cast<void>(Integrator::sampleRadiance(pixel, sampleIndex, shift));
         return Vec3<Real>(this->counter().sample);
     }
 };
@@ -174,17 +174,20 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 /// Calls `use` with a factory of integrators of the requested kind.
 template <class Real, class Counter, class Use>
 auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, const Use &use) {
-    const std::uint32_t sampler = samplerOf(settings);
-    if constexpr (std::is_same_v<Counter, WorkCounter>)
-        if (settings.integrator == Integrator::Cost)
-            return use([&] { return CostIntegrator<Real>(scene, sampler); });
+    const auto useOf = [&]<class Integrator>(std::type_identity<Integrator>, const auto &...arguments) {
+        if constexpr (std::is_same_v<Counter, WorkCounter>)
+            if (showsWork(settings))
+                return use(
+                    [&] { return WorkOf<Real, Integrator>(scene, samplerOf(settings), arguments...); });
+        return use([&] { return Integrator(scene, samplerOf(settings), arguments...); });
+    };
     const IntegratorRow &row = rowOf(settings.integrator);
     if (row.kernel == "whitted")
-        return use([&] { return WhittedIntegrator<Real, Counter>(scene, sampler); });
+        return useOf(std::type_identity<WhittedIntegrator<Real, Counter>>());
     if (row.kernel == "path")
-        return use([&] { return PathIntegrator<Real, Counter>(scene, sampler); });
+        return useOf(std::type_identity<PathIntegrator<Real, Counter>>());
     assert(row.kernel == "view");
-    return use([&] { return ViewIntegrator<Real, Counter>(scene, sampler, row.view); });
+    return useOf(std::type_identity<ViewIntegrator<Real, Counter>>(), row.view);
 }
 
 template <class Real>
@@ -213,7 +216,7 @@ Result render(const PackedScene &scene, const RenderSettings &settings, const Cr
             });
     };
     const bool isDouble = options.precision == Precision::Float64;
-    if (options.isCounting || settings.integrator == Integrator::Cost)
+    if (options.isCounting || showsWork(settings))
         return isDouble ? renderAs.template operator()<double, WorkCounter>()
                         : renderAs.template operator()<float, WorkCounter>();
     return isDouble ? renderAs.template operator()<double, NoCounter>()

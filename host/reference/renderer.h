@@ -28,7 +28,7 @@ struct Options {
 struct Result {
     Film film;
     RayCounts rays;  ///< of the samples that were added to the film
-    WorkCounts work; ///< all 0 unless counting was asked for, or the integrator is the cost
+    WorkCounts work; ///< all 0 unless counting was asked for, or samples show the work
 };
 
 /// Renders `crop` of the scene's image. The result does not depend on the number of threads, nor, with Float32, on

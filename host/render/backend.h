@@ -22,7 +22,7 @@ struct BackendResult {
     Film film;
     RayCounts rays;           ///< traced by this call
     RenderTiming timing;      ///< only renderSeconds on the CPU
-    WorkCounts work;          ///< all 0 without counting, unless the integrator is the cost
+    WorkCounts work;          ///< all 0 without counting, unless samples show the work
     LaneCounts lanes{};       ///< of a device, likewise
     gpu::MemoryPlan memory{}; ///< peak memory of a device, and of the host for it
     std::vector<std::string>

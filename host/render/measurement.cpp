@@ -1,10 +1,14 @@
 #include "host/render/measurement.h"
 
 #include "host/image/metrics.h"
+#include "host/report/figure_text.h"
+#include "host/report/render_report.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace hyalite {
@@ -46,15 +50,43 @@ void Measurement::openDevice() {
     profile_.device = backend_->identity(scene_.packed, profile_.origin.settings.integrator);
 }
 
-Film Measurement::renderFrame(const std::string &label, bool isMeasured) {
+void Measurement::startTime(bool isCounting) {
+    limit_ = TimeLimit(request_.timeLimitSeconds);
+    measuring_ = limit_.share(isCounting ? 0.5 : 1.0);
+    profile_.timeLimitSeconds = request_.timeLimitSeconds;
+}
+
+BackendResult Measurement::render(Backend &backend, const std::string &task, const TimeLimit &limit,
+                                  Timeline *timeline) const {
+    BackendResult result = renderWithProgress(backend, scene_, task, request_.isQuiet, timeline,
+                                              [&limit] { return limit.isReached(); });
+    if (result.failure)
+        throw Error(*result.failure);
+    return result;
+}
+
+double Measurement::finishedShare(const Film &film) const {
+    const int samplesPerPixel = scene_.loaded.scene.settings.samplesPerPixel;
+    const FinishedWork finished = finishedWork(film, std::span(&film.crop, 1), samplesPerPixel);
+    return static_cast<double>(finished.sampleCount) / static_cast<double>(finished.wantedPixelCount) /
+           samplesPerPixel;
+}
+
+bool Measurement::renderFrame(const std::string &label, bool isMeasured) {
     Frame frame;
     frame.label = label;
-    frame.isMeasured = isMeasured;
     Stopwatch watch;
-    BackendResult result = renderWithProgress(*backend_, scene_, label, request_.isQuiet, &frame.timeline);
+    BackendResult result = render(*backend_, label, measuring_, &frame.timeline);
     frame.span = watch.lap();
+    frame.finishedShare = finishedShare(result.film);
+    const bool isFinished = frame.finishedShare == 1.0;
+    frame.isMeasured = isMeasured && isFinished;
+    if (!film_ || frame.finishedShare > filmShare_) {
+        filmShare_ = frame.finishedShare;
+        film_ = std::move(result.film);
+    }
     profile_.frames.push_back(std::move(frame));
-    return std::move(result.film);
+    return isFinished;
 }
 
 std::optional<std::string> Measurement::verify() {
@@ -63,13 +95,21 @@ std::optional<std::string> Measurement::verify() {
             request_.isUnverified ? "not verified, as asked" : "not verified: it is the reference itself";
         return std::nullopt;
     }
-    const Film film = renderFrame("verification", false);
+    profile_.verification = "not verified: the time limit came before the CPU twin had finished";
+    if (!renderFrame("verification", false)) {
+        profile_.leftOut.emplace_back("the verification");
+        return std::nullopt;
+    }
     const std::unique_ptr<Backend> twin = openBackend("cpu");
     Stopwatch watch;
-    const BackendResult wanted = renderWithProgress(*twin, scene_, "the CPU twin", request_.isQuiet);
+    const BackendResult wanted = render(*twin, "the CPU twin", measuring_.share(0.5));
     profile_.hostStages.push_back({"the CPU twin", watch.lap()});
-    if (const std::size_t count = differingPixelCount(film, wanted.film); count > 0)
-        return fmt::format("{} of {} pixels differ from the CPU twin's", count, film.pixels.size());
+    if (finishedShare(wanted.film) < 1.0) {
+        profile_.leftOut.emplace_back("the verification");
+        return std::nullopt;
+    }
+    if (const std::size_t count = differingPixelCount(*film_, wanted.film); count > 0)
+        return fmt::format("{} of {} pixels differ from the CPU twin's", count, wanted.film.pixels.size());
     if (const RayCounts rays = raysOf(profile_.frames.back()); rays != wanted.rays)
         return fmt::format("{} rays were traced, and {} by the CPU twin", rays.total(), wanted.rays.total());
     profile_.isVerified = true;
@@ -78,21 +118,50 @@ std::optional<std::string> Measurement::verify() {
 }
 
 void Measurement::measure() {
-    for (int i = 1; i <= request_.warmupCount; ++i)
-        static_cast<void>(renderFrame(fmt::format("warm-up {}", i), false));
-    for (int i = 1; i <= request_.repeatCount; ++i)
-        film_ = renderFrame(fmt::format("repeat {}", i), true);
+    const auto isTimeLeft = [this] { return profile_.frames.empty() || !measuring_.isReached(); };
+    for (int i = 1; i <= request_.warmupCount && isTimeLeft(); ++i)
+        (void)renderFrame(fmt::format("warm-up {}", i), false);
+    int measuredCount = 0;
+    while (measuredCount < request_.repeatCount && isTimeLeft() &&
+           renderFrame(fmt::format("repeat {}", measuredCount + 1), true))
+        ++measuredCount;
+    if (measuredCount == request_.repeatCount)
+        return;
+    if (measuredCount > 0) {
+        profile_.leftOut.push_back(
+            fmt::format("{} of {} repeats", request_.repeatCount - measuredCount, request_.repeatCount));
+        return;
+    }
+    Frame &most = *std::ranges::max_element(profile_.frames, {}, &Frame::finishedShare);
+    most.isMeasured = true;
+    profile_.leftOut.push_back(fmt::format(
+        "all repeats: the measured frame is the {}, {}", most.label,
+        most.finishedShare < 1.0 ? fmt::format("ended at {} of its samples", shareText(most.finishedShare))
+                                 : "which is finished"));
+}
+
+void Measurement::cutCount(const char *what, double share) {
+    isCountCut_ = true;
+    profile_.leftOut.push_back(fmt::format("{}, of which {} are there", what, shareText(share)));
 }
 
 void Measurement::countWork() {
     const std::unique_ptr<Backend> counter =
         openBackend(request_.device, processorsFor(request_.threadCount, scene_));
-    RenderSettings &settings = scene_.loaded.scene.settings;
-    const Integrator measured = std::exchange(settings.integrator, Integrator::Cost);
-    const BackendResult result = renderWithProgress(*counter, scene_, "counting", request_.isQuiet);
-    settings.integrator = measured;
-    profile_.work = result.work;
-    profile_.workHistogram = binWork(testsPerSample(result.film));
+    bool &isWorkShown = scene_.loaded.scene.settings.isWorkShown;
+    isWorkShown = true;
+    const BackendResult result = render(*counter, "counting", limit_.share(request_.isCounting ? 0.5 : 1.0));
+    isWorkShown = false;
+    if (const double share = finishedShare(result.film); share < 1.0)
+        cutCount("the work of the rays: the heat map shows the samples", share);
+    else
+        profile_.work = result.work;
+    const std::vector<float> tests = testsPerSample(result.film);
+    std::vector<float> ofSampled;
+    for (std::size_t i = 0; i < tests.size(); ++i)
+        if (result.film.pixels[i].sampleCount > 0)
+            ofSampled.push_back(tests[i]);
+    profile_.workHistogram = binWork(ofSampled);
     heatMap_ = drawCost(result.film);
 }
 
@@ -103,11 +172,13 @@ void Measurement::countKernelWork() {
     config.isCounting = true;
     const std::unique_ptr<Backend> counter =
         openBackend(request_.device, processorsFor(request_.threadCount, scene_), config);
-    const BackendResult result =
-        renderWithProgress(*counter, scene_, "counting the kernel's work", request_.isQuiet);
-    profile_.kernelWork =
-        KernelWork{counter->identity(scene_.packed, scene_.loaded.scene.settings.integrator).kernel,
-                   result.work, result.lanes};
+    const BackendResult result = render(*counter, "counting the kernel's work", limit_);
+    if (const double share = finishedShare(result.film); share < 1.0)
+        cutCount("the work of the kernel: the samples", share);
+    else
+        profile_.kernelWork =
+            KernelWork{counter->identity(scene_.packed, scene_.loaded.scene.settings.integrator).kernel,
+                       result.work, result.lanes};
 }
 
 } // namespace hyalite

@@ -182,10 +182,7 @@ void RenderJob::writeCheckpoint(const Film &film, const RayCounts &rays) {
     checkpoint_->write(film, rays, layers);
 }
 
-bool RenderJob::shouldStop() const {
-    return signals_->first() != 0 ||
-           (request_.timeLimitSeconds && secondsSince(renderStart_) >= *request_.timeLimitSeconds);
-}
+bool RenderJob::shouldStop() const { return signals_->first() != 0 || timeLimit_.isReached(); }
 
 std::vector<PeriodicFile> RenderJob::periodicFiles() {
     std::vector<PeriodicFile> files;
@@ -204,7 +201,7 @@ std::vector<PeriodicFile> RenderJob::periodicFiles() {
 
 void RenderJob::renderLayers() {
     snapshots_.emplace(session_.scene().crop, periodicFiles());
-    renderStart_ = Clock::now();
+    timeLimit_ = TimeLimit(request_.timeLimitSeconds);
     layers_ = renderViews(session_.backend(), session_.scene(), request_.layers,
                           request_.part ? squares() : std::span<const Crop>(), layersBefore_,
                           request_.isQuiet, [this] { return shouldStop(); });

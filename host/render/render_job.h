@@ -11,6 +11,7 @@
 #include "host/render/periodic_files.h"
 #include "host/render/render_session.h"
 #include "host/render/stop.h"
+#include "host/render/time_limit.h"
 #include "host/report/render_report.h"
 
 #include <chrono>
@@ -88,7 +89,7 @@ class RenderJob {
     std::optional<Film> filmBefore_;
     std::vector<Film> layersBefore_;
     std::vector<ViewFilm> layers_;
-    Clock::time_point renderStart_;
+    TimeLimit timeLimit_;
     std::optional<PeriodicFiles> snapshots_; ///< writes with the members above
     std::optional<Film> film_;
     int signalWhileRendering_ = 0;

@@ -58,6 +58,8 @@ std::string jobText(const std::filesystem::path &scene, int width, int height, J
 
 /// Throws exceptions of nlohmann::json, or Error, if something is missing or wrong.
 ProfileFigures figuresOf(const Json &json) {
+    if (json.contains("finishedShare"))
+        throw Error(ErrorKind::BadInput, "the time limit ended its only frame, which has no time");
     ProfileFigures figures;
     const Json &device = json.at("device");
     figures.device = device.at("name").get<std::string>() + ", " + device.at("driver").get<std::string>();

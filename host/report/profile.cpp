@@ -117,6 +117,14 @@ std::vector<KernelSummary> summariseKernels(const Profile &profile) {
     return kernels;
 }
 
+double measuredShare(const Profile &profile) {
+    double share = 1.0;
+    for (const Frame &frame : profile.frames)
+        if (frame.isMeasured)
+            share = std::min(share, frame.finishedShare);
+    return share;
+}
+
 std::vector<double> frameMillis(const Profile &profile) {
     std::vector<double> millis;
     for (const Frame &frame : profile.frames)

@@ -20,6 +20,7 @@ struct Frame {
     bool isMeasured = false;
     Span span; ///< the whole call, on the host
     Timeline timeline;
+    double finishedShare = 1.0; ///< of its samples; below 1: the time limit ended it
 };
 
 /// Traversal work of the measured kernel.
@@ -34,12 +35,15 @@ struct Profile {
     RendererIdentity device;
     std::string verification; ///< result, or why there is none
     bool isVerified = false;
+    std::optional<double> timeLimitSeconds;
+    std::vector<std::string> leftOut;     ///< by the time limit
     std::optional<WorkCounts> work;       ///< of a frame with a stack, if requested
     std::optional<KernelWork> kernelWork; ///< of a frame of the measured kernel, if requested
-    std::vector<WorkBin> workHistogram;   ///< of the same frame
+    std::vector<WorkBin> workHistogram;   ///< of the pixels of such a frame
     std::uint64_t sceneBytes = 0;         ///< of the scene's arrays
     std::vector<StageRecord> hostStages;  ///< outside of frames: load, build, open, write
-    std::vector<Frame> frames; ///< in the order in which they were rendered; at least one is measured
+    /// In the order in which they were rendered. At least one is measured: if the time limit ends the first one, that.
+    std::vector<Frame> frames;
 };
 
 /// One stage of a frame, or of the host. Times in milliseconds.
@@ -72,6 +76,9 @@ struct KernelSummary {
 
 /// The frame as a row. It is not a stage, but about the sum of them.
 [[nodiscard]] StageSummary summariseFrame(const Profile &profile);
+
+/// The finished share of the measured frames; below 1: of a single one, which the time limit ended.
+[[nodiscard]] double measuredShare(const Profile &profile);
 
 /// Milliseconds of each measured frame.
 [[nodiscard]] std::vector<double> frameMillis(const Profile &profile);

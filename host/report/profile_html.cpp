@@ -253,6 +253,8 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
                         countText(static_cast<std::uint64_t>(origin.settings.samplesPerPixel), "sample") +
                             " per pixel",
                         markupText(profile.verification));
+    for (const std::string &omission : profile.leftOut)
+        html += fmt::format("<p>Left out by the time limit: {}</p>\n", markupText(omission));
     html += fmt::format(
         "<div class=\"top\">\n<img alt=\"The image that was rendered\" width=\"{}\" height=\"{}\" "
         "src=\"data:image/png;base64,{}\">\n<div class=\"figures\">\n",

@@ -47,6 +47,10 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
         json["deviceBytes"] = bytes;
     json["verification"] = profile.verification;
     json["isVerified"] = profile.isVerified;
+    if (profile.timeLimitSeconds)
+        json["timeLimit"] = {{"seconds", *profile.timeLimitSeconds}, {"leftOut", profile.leftOut}};
+    if (const double share = measuredShare(profile); share < 1.0)
+        json["finishedShare"] = share;
     json["repeats"] = frames.size();
     json["frameMillis"] = frames;
     json["stageShare"] = stageShare(summariseStages(profile));
@@ -60,7 +64,7 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
     json["work"]["rays"] = raysToJson(rays);
     if (profile.work)
         for (const WorkKind &kind : workKinds)
-            json["work"]["stackTraversal"][kind.name] = *profile.work.*kind.count;
+            json["work"]["withStack"][kind.name] = *profile.work.*kind.count;
     if (profile.kernelWork) {
         for (const WorkKind &kind : workKinds)
             json["work"][profile.kernelWork->kernel][kind.name] = profile.kernelWork->work.*kind.count;

@@ -74,10 +74,10 @@ std::string profileTable(const Profile &profile) {
         text += fmt::format("{:>12}", rays.*kind.count);
     text += fmt::format("{:>12}\n", rays.total());
     if (profile.work)
-        text += fmt::format(
-            "work of primary rays with a stack: {} nodes, {} boxes, {} triangles, deepest stack {}\n",
-            profile.work->nodesVisited, profile.work->boxesTested, profile.work->trianglesTested,
-            profile.work->deepestStack);
+        text +=
+            fmt::format("work of all rays with a stack: {} nodes, {} boxes, {} triangles, deepest stack {}\n",
+                        profile.work->nodesVisited, profile.work->boxesTested, profile.work->trianglesTested,
+                        profile.work->deepestStack);
     if (profile.kernelWork) {
         const auto &[kernel, work, lanes] = *profile.kernelWork;
         text += fmt::format("work of the kernel {}: {} nodes, {} boxes, {} triangles\n", kernel,

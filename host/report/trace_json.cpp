@@ -106,7 +106,10 @@ void addDispatch(TraceEvents &events, const DispatchRecord &dispatch) {
 }
 
 void addFrame(TraceEvents &events, const Frame &frame) {
-    events.addSlice(Track::Host, "frame", frame.label, frame.span, {{"measured", frame.isMeasured}});
+    OrderedJson args{{"measured", frame.isMeasured}};
+    if (frame.finishedShare < 1.0)
+        args["finishedShare"] = frame.finishedShare;
+    events.addSlice(Track::Host, "frame", frame.label, frame.span, args);
     for (const StageRecord &stage : frame.timeline.stages) {
         events.addSlice(Track::Host, "stage", stage.name, stage.span);
         events.addCounter(Track::Device, "memory (bytes)", stage.span.endNanos,
@@ -140,15 +143,12 @@ OrderedJson profileToTrace(const Profile &profile) {
         events.addSlice(Track::Host, "stage", stage.name, stage.span);
     for (const Frame &frame : profile.frames)
         addFrame(events, frame);
-    return {{"traceEvents", events.take()},
-            {"displayTimeUnit", "ms"},
-            {"otherData",
-             {{"program", "hyalite " HYALITE_VERSION},
-              {"commandLine", profile.origin.commandLine},
-              {"scene", profile.origin.scene},
-              {"device", profile.device.name},
-              {"driver", profile.device.driver},
-              {"clock", clock}}}};
+    OrderedJson origin{{"program", "hyalite " HYALITE_VERSION}, {"commandLine", profile.origin.commandLine},
+                       {"scene", profile.origin.scene},         {"device", profile.device.name},
+                       {"driver", profile.device.driver},       {"clock", clock}};
+    if (!profile.leftOut.empty())
+        origin["leftOut"] = profile.leftOut;
+    return {{"traceEvents", events.take()}, {"displayTimeUnit", "ms"}, {"otherData", origin}};
 }
 
 } // namespace hyalite

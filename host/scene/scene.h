@@ -152,7 +152,15 @@ struct RenderSettings {
         0.0; ///< Path: maximum that indirect light adds to a sample, per channel; 0: no limit
     LightChoice lightChoice = LightChoice::Auto; ///< Path
     double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
+    /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
+    /// Whitted.
+    bool isWorkShown = false;
 };
+
+/// Whether a sample is its traversal work, of a traversal with a stack: nodes, boxes and triangles.
+[[nodiscard]] inline bool showsWork(const RenderSettings &settings) {
+    return settings.isWorkShown || settings.integrator == Integrator::Cost;
+}
 
 struct Scene {
     Camera camera;

@@ -46,7 +46,8 @@ void addRadiance(uint slot, vec3 weight, vec3 radiance) {
     vec3 added = weight * radiance;
     if (path[slot].rayDepth > 1u)
         added = lesser(added, vec3(frame.radianceLimit));
-    path[slot].sampleRadiance = path[slot].sampleRadiance + added;
+    if (!showsCost)
+        path[slot].sampleRadiance = path[slot].sampleRadiance + added;
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
 }
 

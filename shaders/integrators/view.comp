@@ -19,7 +19,8 @@ layout(constant_id = constantView) const uint view = viewNormal;
 void beginSample(uint slot) { sendPrimaryRay(slot); }
 
 void show(uint slot, vec3 value) {
-    path[slot].sampleRadiance = value;
+    if (!showsCost)
+        path[slot].sampleRadiance = value;
     traceEvent(slot, traceRadiance, 0u, value);
 }
 

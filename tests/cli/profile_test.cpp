@@ -73,10 +73,67 @@ TEST_F(ProfileCommand, CountsTheSameWorkOnDeviceAndCpu) {
     const nlohmann::json onDevice = profile(line + softwareDevice()).at("work");
     const nlohmann::json onCpu = profile(line + "cpu").at("work");
     EXPECT_EQ(onDevice.at("rays"), onCpu.at("rays"));
-    EXPECT_EQ(onDevice.at("stackTraversal"), onCpu.at("stackTraversal"));
-    EXPECT_GT(onCpu.at("stackTraversal").at("nodesVisited").get<int>(), 32 * 24);
-    EXPECT_GT(onCpu.at("stackTraversal").at("deepestStack").get<int>(), 1);
-    EXPECT_FALSE(profile("spheres --device cpu" + smallProfiled).at("work").contains("stackTraversal"));
+    EXPECT_EQ(onDevice.at("withStack"), onCpu.at("withStack"));
+    EXPECT_GT(onCpu.at("withStack").at("nodesVisited").get<int>(), 32 * 24);
+    EXPECT_GT(onCpu.at("withStack").at("deepestStack").get<int>(), 1);
+    EXPECT_FALSE(profile("spheres --device cpu" + smallProfiled).at("work").contains("withStack"));
+}
+
+/// Balls of glass, through which a path of whitted splits in two up to 23 times.
+std::string glassScene() {
+    nlohmann::json scene{{"camera", {{"position", {0, 6, 12}}, {"target", {0, 0, 0}}}},
+                         {"background", 0.5},
+                         {"lights", {{{"type", "point"}, {"position", {0, 10, 5}}, {"power", 3000}}}},
+                         {"materials", {{"glass", {{"type", "dielectric"}, {"index", 1.5}}}}},
+                         {"settings", {{"integrator", "path"}, {"maxDepth", 24}}}};
+    for (int i = 0; i < 49; ++i)
+        scene["spheres"].push_back(
+            {{"centre", {(i % 7 - 3) * 1.5, 0, (i / 7 - 3) * 1.5}}, {"radius", 0.7}, {"material", "glass"}});
+    return scene.dump();
+}
+
+TEST_F(ProfileCommand, CountsTheWorkOfTheIntegratorThatIsMeasured) {
+    store("glass.json", glassScene());
+    const std::string line =
+        "glass.json --counts --heatmap heat.png --html page.html --no-verify" + smallProfiled;
+    const nlohmann::json onDevice = profile(line + " --device " + softwareDevice());
+    const Image heatOfDevice = readImage(folder / "heat.png").image;
+    const nlohmann::json onCpu = profile(line + " --device cpu");
+    EXPECT_EQ(onDevice.at("settings").at("integrator"), "path");
+    EXPECT_EQ(onDevice.at("work").at("rays"), onCpu.at("work").at("rays"));
+    EXPECT_EQ(onDevice.at("work").at("withStack"), onCpu.at("work").at("withStack"));
+    EXPECT_EQ(onDevice.at("testsPerSample"), onCpu.at("testsPerSample"));
+    EXPECT_EQ(heatOfDevice.pixels(), readImage(folder / "heat.png").image.pixels());
+    EXPECT_FALSE(onCpu.contains("timeLimit"));
+}
+
+TEST_F(ProfileCommand, ATimeLimitEndsItWithAllThatThereIs) {
+    store("glass.json", glassScene());
+    const std::string line =
+        "glass.json --integrator whitted --counts --heatmap heat.png --html page.html --trace "
+        "trace.json --width 512 --height 512 --spp 1000 --device ";
+    for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
+        const nlohmann::json report = profile(line + device + " --time-limit 2");
+        EXPECT_EQ(report.at("timeLimit").at("seconds"), 2);
+        EXPECT_GE(report.at("timeLimit").at("leftOut").size(), 2u) << report.at("timeLimit");
+        EXPECT_GT(report.at("finishedShare").get<double>(), 0.0);
+        EXPECT_LT(report.at("finishedShare").get<double>(), 1.0);
+        EXPECT_GT(report.at("work").at("rays").at("primary").get<std::uint64_t>(), 0u);
+        EXPECT_FALSE(report.at("work").contains("withStack"));
+        EXPECT_FALSE(report.at("testsPerSample").empty());
+        EXPECT_EQ(readImage(folder / "heat.png").image.width(), 512);
+        EXPECT_TRUE(contains(load("heat.png"), "leftOut"));
+        EXPECT_TRUE(contains(load("page.html"), "Left out by the time limit: "));
+        const nlohmann::json trace = nlohmann::json::parse(load("trace.json"));
+        expectTrace(trace);
+        EXPECT_EQ(trace.at("otherData").at("leftOut"), report.at("timeLimit").at("leftOut"));
+    }
+    expectFailure("profile " + line + "cpu --baseline profile.json", 3, {"profile.json", "its only frame"});
+    ASSERT_EQ(run("profile spheres --device cpu --report old.json" + smallProfiled).exitCode, 0);
+    const Outcome cut =
+        run("profile spheres --device cpu --baseline old.json --time-limit 1e-9" + smallProfiled);
+    EXPECT_EQ(cut.exitCode, 1) << cut;
+    EXPECT_TRUE(contains(cut.output, "NOT compared with the baseline")) << cut;
 }
 
 TEST_F(ProfileCommand, CountsTheWarmUp) {

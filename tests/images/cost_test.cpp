@@ -3,6 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/film/film_file.h"
+#include "host/scene/names.h"
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,28 @@ TEST(Cost, FollowsTheRaysOfThePicture) {
     const reference::Result cost = testing::renderOnCpu(scene);
     scene.settings.integrator = Integrator::Whitted;
     EXPECT_EQ(cost.rays, testing::renderOnCpu(scene).rays);
+}
+
+TEST(Cost, IsThatOfTheIntegrator) {
+    Scene scene = costOf("cat", 2);
+    for (const Integrator integrator : {Integrator::Path, Integrator::AmbientOcclusion}) {
+        scene.settings.integrator = integrator;
+        scene.settings.isWorkShown = false;
+        const reference::Result picture = testing::renderOnCpu(scene);
+        scene.settings.isWorkShown = true;
+        const reference::Result onCpu = testing::renderOnCpu(scene);
+        const gpu::Result onDevice = testing::renderOnDevice(scene);
+        EXPECT_EQ(onCpu.rays, picture.rays) << nameOf(integrator);
+        EXPECT_EQ(testing::differingPixels(onDevice.film, onCpu.film), 0u) << nameOf(integrator);
+        EXPECT_EQ(onDevice.work, onCpu.work) << nameOf(integrator);
+        EXPECT_EQ(onDevice.rays, onCpu.rays) << nameOf(integrator);
+        double tests = 0.0;
+        for (const float perSample : testsPerSample(onCpu.film))
+            tests += 2.0 * static_cast<double>(perSample);
+        EXPECT_GT(tests, 0.0) << nameOf(integrator);
+        EXPECT_EQ(tests, static_cast<double>(onCpu.work.boxesTested + onCpu.work.trianglesTested))
+            << nameOf(integrator);
+    }
 }
 
 TEST(Cost, IsNotThatOfASkipList) {
