@@ -39,6 +39,14 @@ template <class Print> void printRows(std::size_t count, const std::string &what
         fmt::print("             and {} more {}\n", count - maxRows, what);
 }
 
+/// A point of the scene in the coordinates of its file.
+std::string pointText(const Scene &scene, const glm::dvec3 &point) {
+    if (scene.origin == glm::dvec3(0.0))
+        return vectorText(point);
+    const glm::dvec3 ofFile = point + scene.origin;
+    return fmt::format("({:.12g}, {:.12g}, {:.12g})", ofFile.x, ofFile.y, ofFile.z);
+}
+
 void printBounds(const Scene &scene) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     glm::dvec3 low(infinity);
@@ -62,10 +70,14 @@ void printBounds(const Scene &scene) {
         addMesh(scene.prototypes[instance.prototype],
                 [&](const glm::vec3 &position) { return placedPoint(instance.toWorld, position); });
     if (low.x <= high.x)
-        fmt::print("bounds       {} to {}\n", vectorText(low), vectorText(high));
+        fmt::print("bounds       {} to {}\n", pointText(scene, low), pointText(scene, high));
+    if (scene.origin != glm::dvec3(0.0))
+        fmt::print("origin       {}: far from zero, so that coordinates are read relative to it\n",
+                   pointText(scene, glm::dvec3(0.0)));
 }
 
-void printCamera(const Camera &camera) {
+void printCamera(const Scene &scene) {
+    const Camera &camera = scene.camera;
     std::string lens;
     if (camera.kind == CameraKind::Perspective)
         lens = fmt::format(", {:.6g} degrees wide", camera.horizontalFovDegrees);
@@ -74,21 +86,21 @@ void printCamera(const Camera &camera) {
     if (camera.kind == CameraKind::Perspective && camera.aperture > 0.0)
         lens += fmt::format(", aperture {:.6g} in focus at {:.6g}", camera.aperture, camera.focusDistance);
     fmt::print("camera       {} at {}, looks along {}, up is {}{}; {}x{} pixels\n",
-               nameIn(cameraNames, camera.kind), vectorText(camera.position), vectorText(camera.direction),
-               vectorText(camera.up), lens, camera.width, camera.height);
+               nameIn(cameraNames, camera.kind), pointText(scene, camera.position),
+               vectorText(camera.direction), vectorText(camera.up), lens, camera.width, camera.height);
 }
 
-void printLight(const Light &light) {
+void printLight(const Scene &scene, const Light &light) {
     const std::string_view kind = nameIn(lightNames, light.kind);
     if (light.kind == LightKind::Directional)
         fmt::print("light        {} along {}, irradiance {}\n", kind, vectorText(light.direction),
                    colourText(light.power));
     else if (light.kind == LightKind::Spot)
         fmt::print("light        {} at {} along {}, {:.6g} degrees, power {}\n", kind,
-                   vectorText(light.position), vectorText(light.direction), light.angleDegrees,
+                   pointText(scene, light.position), vectorText(light.direction), light.angleDegrees,
                    colourText(light.power));
     else
-        fmt::print("light        {} at {}, power {}\n", kind, vectorText(light.position),
+        fmt::print("light        {} at {}, power {}\n", kind, pointText(scene, light.position),
                    colourText(light.power));
 }
 
@@ -176,9 +188,9 @@ void printShapes(const Scene &scene) {
 void printScene(const PreparedScene &prepared) {
     const Scene &scene = prepared.loaded.scene;
     printBounds(scene);
-    printCamera(scene.camera);
+    printCamera(scene);
     const std::vector<Wearers> wearers = countWearers(scene);
-    printRows(scene.lights.size(), "lights", [&](std::size_t i) { printLight(scene.lights[i]); });
+    printRows(scene.lights.size(), "lights", [&](std::size_t i) { printLight(scene, scene.lights[i]); });
     printEmitters(scene, wearers);
     if (const Image &sky = scene.environment.radiance; !sky.pixels().empty())
         fmt::print("environment  {}x{} pixels, scale {:.6g}, turned {:.6g} degrees\n", sky.width(),

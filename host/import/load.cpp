@@ -6,6 +6,7 @@
 #include "host/import/formats.h"
 #include "host/import/texture_library.h"
 #include "host/scene/framing.h"
+#include "host/scene/origin.h"
 #include "host/scene/validate.h"
 
 #include <fmt/format.h>
@@ -87,6 +88,7 @@ LoadedScene loadScene(const std::string &argument, const LoadOptions &options) {
             loaded.inputFiles.push_back(path.string());
     for (const Texture &texture : loaded.scene.textures)
         loaded.inputFiles.push_back(texture.name);
+    moveNear(loaded.scene, loaded.cameraPath, loaded.restOrigin);
     validateScene(loaded.scene, file.string());
     return loaded;
 }

@@ -48,7 +48,8 @@ struct LoadOptions {
 
 struct LoadedScene {
     Scene scene;
-    CameraPath cameraPath{};  ///< of its camera
+    CameraPath cameraPath{};                ///< of its camera
+    std::optional<glm::dvec3> restOrigin{}; ///< of a file with animations: its origin at all times (origin.h)
     bool movesByTime = false; ///< other frames of a sequence show other meshes or lights: load it for each
     std::filesystem::path file;
     std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names

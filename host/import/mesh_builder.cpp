@@ -2,6 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/import/obj_lines.h"
+#include "host/scene/origin.h"
 
 #include <algorithm>
 #include <cassert>
@@ -76,11 +77,13 @@ void failAtPlace(const std::string &file, PlaceUnit unit, std::size_t place, std
     throw Error(ErrorKind::BadInput, file + ": byte " + std::to_string(place) + ": " + std::string(message));
 }
 
-MeshBuilder::MeshBuilder(std::string file, const MeshTransform &transform, PlaceUnit placeUnit)
+MeshBuilder::MeshBuilder(std::string file, const MeshTransform &transform, const glm::dvec3 &origin,
+                         PlaceUnit placeUnit)
     : unit(placeUnit), rotation(rotationMatrix(transform.rotateDegrees)), scale(transform.scale),
       translate(transform.translate) {
     assert(transform.scale != 0.0);
     result.mesh.name = std::move(file);
+    result.mesh.origin = origin;
 }
 
 void MeshBuilder::reserve(std::size_t vertexCount, std::size_t triangleCount) {
@@ -101,7 +104,7 @@ void MeshBuilder::addPosition(const glm::dvec3 &positionObject, std::size_t plac
     if (!isWithin(world, maxCoordinate))
         fail(place, "the vertex is at " + describe(world) +
                         " after the transform; allowed are magnitudes up to 1e15");
-    result.mesh.positions.emplace_back(world);
+    result.mesh.positions.emplace_back(world - result.mesh.origin);
 }
 
 void MeshBuilder::setColour(const glm::vec3 &colour) {
@@ -281,7 +284,10 @@ ObjMesh MeshBuilder::finish() {
         material = waitingFaces[i].material;
         cutFace(corners);
     }
-    if (result.mesh.triangles.empty())
+    const auto mayBeTooSmall = [this] {
+        return result.mesh.origin == glm::dvec3(0.0) && originOf(result.mesh) != glm::dvec3(0.0);
+    };
+    if (result.mesh.triangles.empty() && !mayBeTooSmall())
         throw Error(ErrorKind::BadInput, result.mesh.name + ": no triangle in " +
                                              std::to_string(report.faceCount) + " faces (" +
                                              std::to_string(report.degenerateTriangleCount) +

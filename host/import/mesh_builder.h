@@ -33,7 +33,9 @@ struct FaceCorner {
 /// define them: from the first such face on, faces are kept until the end, at 12 bytes per corner and 12 per face.
 class MeshBuilder {
   public:
-    MeshBuilder(std::string file, const MeshTransform &transform, PlaceUnit unit = PlaceUnit::Line);
+    /// Positions of the mesh are relative to `origin`, in world space.
+    MeshBuilder(std::string file, const MeshTransform &transform, const glm::dvec3 &origin,
+                PlaceUnit unit = PlaceUnit::Line);
 
     /// Takes memory for so many vertices and triangles, where a reader knows their number.
     void reserve(std::size_t vertexCount, std::size_t triangleCount);
@@ -62,7 +64,8 @@ class MeshBuilder {
     void addFace(std::span<const FaceCorner> corners, std::size_t place);
 
     /// Moves the mesh out. Normals and texture coordinates that the file does not define are left out. Throws
-    /// Error{BadInput} for indices past the last vertex of the file, and if no triangle is left.
+    /// Error{BadInput} for indices past the last vertex of the file, and if no triangle is left; not of a far mesh
+    /// relative to zero (origin.h), whose triangles may be too small there.
     [[nodiscard]] ObjMesh finish();
 
   private:

@@ -65,7 +65,7 @@ struct MeshOptions {
 
 /// A mesh of a file, and where it is seen.
 struct PlacedMesh {
-    TriangleMesh mesh;
+    TriangleMesh mesh;                  ///< relative to its origin (origin.h)
     std::vector<glm::dmat4x3> places{}; ///< each with a volume; none: once, as it is
 };
 

@@ -9,6 +9,7 @@
 #include "host/import/obj_lines.h"
 #include "host/import/obj_plain.h"
 #include "host/import/obj_statement.h"
+#include "host/scene/origin.h"
 
 // tinyobjloader is compiled here, in double. The library in distributions rounds each number to float before the
 // transform, and converts numbers that are out of range. Rotations and large offsets would show that.
@@ -264,13 +265,11 @@ void leaveOutUselessTextures(ObjMesh &loaded) {
     }
 }
 
-} // namespace
-
-ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform, const OnReading &onReading,
-                TextureLibrary *textures) {
+ObjMesh readObj(const std::filesystem::path &file, const MeshTransform &transform, const glm::dvec3 &origin,
+                const OnReading &onReading, TextureLibrary *textures) {
     ObjLines lines(file);
     requireText(lines);
-    MeshBuilder builder(lines.fileName(), transform);
+    MeshBuilder builder(lines.fileName(), transform, origin);
     builder.report().files.push_back(file);
     std::size_t unusedStatementCount = 0;
     ObjMaterials materials(file, builder, textures);
@@ -294,6 +293,14 @@ ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transfor
                         loaded.report.undefinedNormalCount == 1 ? "s" : "",
                         loaded.report.undefinedNormalCount == 1 ? "s" : ""));
     return loaded;
+}
+
+} // namespace
+
+ObjMesh loadObj(const std::filesystem::path &file, const MeshTransform &transform, const OnReading &onReading,
+                TextureLibrary *textures) {
+    return readNear(
+        [&](const glm::dvec3 &origin) { return readObj(file, transform, origin, onReading, textures); });
 }
 
 MeshFile meshFileOf(ObjMesh loaded) {

@@ -11,7 +11,7 @@
 namespace hyalite {
 
 struct ObjMesh {
-    TriangleMesh mesh; ///< in world space; materialIndex is left 0
+    TriangleMesh mesh; ///< in world space, relative to its origin (origin.h); materialIndex is left 0
     /// Materials of its libraries, if they are read. mesh.triangleMaterials are indices into these, from 1; 0: no
     /// material. Both are empty if no triangle has a material.
     std::vector<Material> materials{};

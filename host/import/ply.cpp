@@ -8,6 +8,7 @@
 #include "host/import/ply_header.h"
 #include "host/import/ply_values.h"
 #include "host/import/whole_file.h"
+#include "host/scene/origin.h"
 
 #include <fmt/format.h>
 
@@ -378,22 +379,24 @@ ObjMesh loadPly(const std::filesystem::path &file, const MeshTransform &transfor
     requireFaces(header, fileName);
     const std::span<const char> body = std::span(bytes).subspan(header.bodyOffset);
     const bool isText = header.format == PlyFormat::Text;
-    MeshBuilder builder(fileName, transform, isText ? PlaceUnit::Line : PlaceUnit::Byte);
-    builder.report().files.push_back(file);
-    std::size_t smallFaceCount = 0;
-    const auto read = [&](auto values) {
-        PlyReader reader(header, std::move(values), builder, fileName, onReading);
-        reader.read();
-        smallFaceCount = reader.smallFaceCount();
-    };
-    if (isText)
-        read(PlyTextValues(body, header.bodyLine, fileName));
-    else
-        read(PlyByteValues(body, header.bodyOffset, header.format == PlyFormat::BigEndian, fileName));
-    if (smallFaceCount > 0)
-        builder.report().warnings.push_back(fmt::format(
-            "{}: {} faces with fewer than three corners are passed over", fileName, smallFaceCount));
-    return builder.finish();
+    return readNear([&](const glm::dvec3 &origin) {
+        MeshBuilder builder(fileName, transform, origin, isText ? PlaceUnit::Line : PlaceUnit::Byte);
+        builder.report().files.push_back(file);
+        std::size_t smallFaceCount = 0;
+        const auto read = [&](auto values) {
+            PlyReader reader(header, std::move(values), builder, fileName, onReading);
+            reader.read();
+            smallFaceCount = reader.smallFaceCount();
+        };
+        if (isText)
+            read(PlyTextValues(body, header.bodyLine, fileName));
+        else
+            read(PlyByteValues(body, header.bodyOffset, header.format == PlyFormat::BigEndian, fileName));
+        if (smallFaceCount > 0)
+            builder.report().warnings.push_back(fmt::format(
+                "{}: {} faces with fewer than three corners are passed over", fileName, smallFaceCount));
+        return builder.finish();
+    });
 }
 
 MeshFile readPlyMeshes(const std::filesystem::path &file, const MeshOptions &options) {

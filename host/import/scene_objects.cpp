@@ -9,6 +9,8 @@
 #include "host/scene/names.h"
 #include "host/scene/shapes.h"
 
+#include <glm/mat3x3.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -55,8 +57,9 @@ void applyTransform(const JsonObject &object, PlacedMesh &placed) {
     placed.mesh = transformed(std::move(placed.mesh), map);
     for (const glm::vec3 &position : placed.mesh.positions)
         for (glm::length_t axis = 0; axis < 3; ++axis)
-            if (!limits::coordinate.contains(static_cast<double>(position[axis])))
-                node->fail(fmt::format("moves a vertex to {}; allowed: coordinates {}", position[axis],
+            if (const double coordinate = static_cast<double>(position[axis]) + placed.mesh.origin[axis];
+                !limits::coordinate.contains(coordinate))
+                node->fail(fmt::format("moves a vertex to {}; allowed: coordinates {}", coordinate,
                                        limits::coordinate.text()));
 }
 
@@ -180,11 +183,16 @@ void addMesh(const JsonNode &node, const std::vector<glm::dmat4x3> &instances, P
     const std::size_t outerCount = std::max<std::size_t>(instances.size(), 1);
     if (outerCount > (limits::instanceCount - scene.instances.size()) / innerCount)
         node.fail(fmt::format("it has more instances than {}, with those before it", limits::instanceCount));
+    const glm::dvec3 origin = std::exchange(placed.mesh.origin, glm::dvec3(0.0));
+    const auto placementOf = [&](glm::dmat4x3 map) {
+        map[3] += glm::dmat3(map) * origin;
+        return toPlacement(map);
+    };
     std::vector<Placement> placements;
     placements.reserve(outerCount * innerCount);
     for (std::size_t i = 0; i < outerCount; ++i)
         for (std::size_t j = 0; j < innerCount; ++j)
-            placements.push_back(toPlacement(placed.places.empty() ? instances[i]
+            placements.push_back(placementOf(placed.places.empty() ? instances[i]
                                              : instances.empty()   ? placed.places[j]
                                                                  : composed(instances[i], placed.places[j])));
     addInstances(scene, std::move(placed.mesh), placements);

@@ -6,6 +6,7 @@
 #include "host/import/obj_lines.h"
 #include "host/import/obj_statement.h"
 #include "host/import/whole_file.h"
+#include "host/scene/origin.h"
 
 #include <fmt/format.h>
 
@@ -26,21 +27,26 @@ constexpr std::size_t headBytes = 84; ///< 80 of text, and the number of triangl
 constexpr std::size_t triangleBytes = 50;
 constexpr std::uint64_t stepTriangles = 65536; ///< between two reports of progress
 
-/// Numbers the distinct vertices of a mesh, from 0, in the order in which they come. A hash table with open addressing.
+/// Numbers the distinct vertices of a mesh, from 0, in the order in which they come. Vertices whose coordinates are equal
+/// as floats are one; those of a far mesh relative to the first one. A hash table with open addressing.
 class VertexMerger {
   public:
-    explicit VertexMerger(MeshBuilder &builder) : builder_(builder), places_(1024, none) {}
+    VertexMerger(MeshBuilder &builder, bool isFar) : builder_(builder), places_(1024, none), isFar_(isFar) {}
+
+    [[nodiscard]] MeshBuilder &builder() { return builder_; }
 
     /// The number of the vertex, which is added to the builder the first time.
-    std::uint32_t add(const glm::vec3 &position, std::size_t place) {
-        const Key key = keyOf(position);
+    std::uint32_t add(const glm::dvec3 &position, std::size_t place) {
+        if (isFar_ && keys_.empty())
+            first_ = position;
+        const Key key = keyOf(glm::vec3(position - first_));
         std::size_t slot = hashOf(key) & (places_.size() - 1);
         while (places_[slot] != none) {
             if (keys_[places_[slot]] == key)
                 return places_[slot];
             slot = (slot + 1) & (places_.size() - 1);
         }
-        builder_.addPosition(glm::dvec3(position), place);
+        builder_.addPosition(isFar_ ? position : glm::dvec3(glm::vec3(position)), place);
         const auto number = static_cast<std::uint32_t>(keys_.size());
         places_[slot] = number;
         keys_.push_back(key);
@@ -82,6 +88,8 @@ class VertexMerger {
     MeshBuilder &builder_;
     std::vector<Key> keys_;             ///< by number
     std::vector<std::uint32_t> places_; ///< numbers; a power of two
+    bool isFar_;
+    glm::dvec3 first_{0.0}; ///< position of a far mesh
 };
 
 FaceCorner cornerOf(std::uint32_t number) { return {static_cast<std::int32_t>(number) + 1, 0, 0}; }
@@ -94,8 +102,9 @@ template <class T> T littleEndian(const char *at) {
     return std::bit_cast<T>(bytes);
 }
 
-void readBinary(std::span<const char> bytes, const std::string &fileName, MeshBuilder &builder,
+void readBinary(std::span<const char> bytes, const std::string &fileName, VertexMerger merger,
                 const OnReading &onReading) {
+    MeshBuilder &builder = merger.builder();
     const auto count = littleEndian<std::uint32_t>(bytes.data() + 80);
     if ((bytes.size() - headBytes) / triangleBytes < count) {
         const std::string guess = guessContent(bytes.first(std::min(bytes.size(), guessedBytes)));
@@ -108,7 +117,6 @@ void readBinary(std::span<const char> bytes, const std::string &fileName, MeshBu
                         guess == "binary data" ? "" : guess));
     }
     builder.reserve(0, count);
-    VertexMerger merger(builder);
     for (std::uint32_t triangle = 0; triangle < count; ++triangle) {
         if (onReading && triangle % stepTriangles == stepTriangles - 1)
             onReading(static_cast<double>(triangle) / count);
@@ -146,7 +154,7 @@ class StlWords {
             ++at_;
     }
 
-    float number() {
+    double number() {
         const std::string_view word = next();
         const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
         double value = 0.0;
@@ -155,7 +163,7 @@ class StlWords {
         if (!isRead || (error != std::errc() && error != std::errc::result_out_of_range))
             fail("a vertex has " + (word.empty() ? "fewer than three numbers" : quoteInput(word)) +
                  "; allowed are three finite decimal numbers");
-        return static_cast<float>(value);
+        return value;
     }
 
     [[nodiscard]] std::size_t line() const { return line_; }
@@ -180,18 +188,18 @@ bool isWord(std::string_view found, std::string_view lower) {
     });
 }
 
-void readText(std::span<const char> bytes, const std::string &fileName, MeshBuilder &builder,
+void readText(std::span<const char> bytes, const std::string &fileName, VertexMerger merger,
               const OnReading &onReading) {
+    MeshBuilder &builder = merger.builder();
     constexpr std::string_view ignored[] = {"facet", "outer", "endfacet", "solid", "endsolid", "color"};
     StlWords words(bytes, fileName);
-    VertexMerger merger(builder);
     std::vector<FaceCorner> corners;
     std::uint64_t faceCount = 0;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         if (isWord(word, "vertex")) {
-            const float x = words.number();
-            const float y = words.number();
-            const float z = words.number();
+            const double x = words.number();
+            const double y = words.number();
+            const double z = words.number();
             corners.push_back(cornerOf(merger.add({x, y, z}, words.line())));
             if (corners.size() > maxFaceCorners)
                 words.fail(fmt::format("the facet has more than {} vertices", maxFaceCorners));
@@ -234,13 +242,16 @@ ObjMesh loadStl(const std::filesystem::path &file, const MeshTransform &transfor
     const std::string fileName = file.string();
     const std::vector<char> bytes = readWholeFile(file);
     const bool isInBinary = isBinary(bytes);
-    MeshBuilder builder(fileName, transform, isInBinary ? PlaceUnit::Byte : PlaceUnit::Line);
-    builder.report().files.push_back(file);
-    if (isInBinary)
-        readBinary(bytes, fileName, builder, onReading);
-    else
-        readText(bytes, fileName, builder, onReading);
-    return builder.finish();
+    return readNear([&](const glm::dvec3 &origin) {
+        MeshBuilder builder(fileName, transform, origin, isInBinary ? PlaceUnit::Byte : PlaceUnit::Line);
+        builder.report().files.push_back(file);
+        const bool isFar = origin != glm::dvec3(0.0);
+        if (isInBinary)
+            readBinary(bytes, fileName, VertexMerger(builder, isFar), onReading);
+        else
+            readText(bytes, fileName, VertexMerger(builder, isFar), onReading);
+        return builder.finish();
+    });
 }
 
 MeshFile readStlMeshes(const std::filesystem::path &file, const MeshOptions &options) {

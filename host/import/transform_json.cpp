@@ -107,6 +107,7 @@ Placement toPlacement(const glm::dmat4x3 &transform) {
         placement.rows[static_cast<std::size_t>(row)] =
             glm::vec3(transform[0][row], transform[1][row], transform[2][row]);
     placement.offset = glm::vec3(transform[3]);
+    placement.offsetRest = transform[3] - glm::dvec3(placement.offset);
     return placement;
 }
 

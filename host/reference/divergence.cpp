@@ -25,6 +25,17 @@ std::string vectorText(const glm::vec3 &v) {
     return fmt::format("({}, {}, {})", floatText(v.x), floatText(v.y), floatText(v.z));
 }
 
+/// Bits are those of the scene's coordinates.
+std::string pointText(const glm::vec3 &v, const glm::dvec3 &origin) {
+    if (origin == glm::dvec3(0.0))
+        return vectorText(v);
+    const auto text = [&](glm::length_t axis) {
+        return fmt::format("{:.15g} (0x{:08x})", static_cast<double>(v[axis]) + origin[axis],
+                           std::bit_cast<std::uint32_t>(v[axis]));
+    };
+    return fmt::format("({}, {}, {})", text(0), text(1), text(2));
+}
+
 std::string primitiveText(std::uint32_t id, std::uint32_t firstTriangleId) {
     if (id == layout::noPrimitive)
         return "none";
@@ -48,7 +59,7 @@ bool isSameDecision(const TraceEvent &a, const TraceEvent &b) {
 }
 
 Divergence describe(const TraceEvent &a, const TraceEvent &b, std::size_t index,
-                    std::uint32_t firstTriangleId) {
+                    std::uint32_t firstTriangleId, const glm::dvec3 &origin) {
     Divergence divergence;
     divergence.sampleIndex = a.sampleIndex;
     divergence.rayDepth = a.rayDepth;
@@ -83,19 +94,21 @@ Divergence describe(const TraceEvent &a, const TraceEvent &b, std::size_t index,
         divergence.valueA = (a.integer != 0 ? "total, " : "") + floatText(a.value.x);
         divergence.valueB = (b.integer != 0 ? "total, " : "") + floatText(b.value.x);
     } else {
-        divergence.valueA = vectorText(a.value);
-        divergence.valueB = vectorText(b.value);
+        const bool isPoint =
+            a.quantity == layout::traceRayOrigin || a.quantity == layout::traceSurfacePosition;
+        divergence.valueA = pointText(a.value, isPoint ? origin : glm::dvec3(0.0));
+        divergence.valueB = pointText(b.value, isPoint ? origin : glm::dvec3(0.0));
     }
     return divergence;
 }
 
 template <class IsSame>
 std::optional<Divergence> findFirst(const std::vector<TraceEvent> &a, const std::vector<TraceEvent> &b,
-                                    std::uint32_t firstTriangleId, IsSame isSame) {
+                                    std::uint32_t firstTriangleId, const glm::dvec3 &origin, IsSame isSame) {
     const std::size_t common = std::min(a.size(), b.size());
     for (std::size_t i = 0; i < common; ++i)
         if (!isSame(a[i], b[i]))
-            return describe(a[i], b[i], i, firstTriangleId);
+            return describe(a[i], b[i], i, firstTriangleId, origin);
     if (a.size() == b.size())
         return std::nullopt;
     Divergence divergence;
@@ -113,8 +126,8 @@ std::optional<Divergence> findFirst(const std::vector<TraceEvent> &a, const std:
 } // namespace
 
 std::optional<Divergence> findDivergence(const std::vector<TraceEvent> &a, const std::vector<TraceEvent> &b,
-                                         std::uint32_t firstTriangleId) {
-    return findFirst(a, b, firstTriangleId, [](const TraceEvent &x, const TraceEvent &y) {
+                                         std::uint32_t firstTriangleId, const glm::dvec3 &origin) {
+    return findFirst(a, b, firstTriangleId, origin, [](const TraceEvent &x, const TraceEvent &y) {
         return isSameDecision(x, y) && areSameBits(x.value, y.value);
     });
 }
@@ -122,7 +135,7 @@ std::optional<Divergence> findDivergence(const std::vector<TraceEvent> &a, const
 std::optional<Divergence> findDiscreteDivergence(const std::vector<TraceEvent> &a,
                                                  const std::vector<TraceEvent> &b,
                                                  std::uint32_t firstTriangleId) {
-    return findFirst(a, b, firstTriangleId, isSameDecision);
+    return findFirst(a, b, firstTriangleId, glm::dvec3(0.0), isSameDecision);
 }
 
 } // namespace hyalite

@@ -21,10 +21,12 @@ struct Divergence {
     std::uint32_t eventIndex = 0; ///< in both traces
 };
 
-/// Compares two traces of the same sample, step by step. `firstTriangleId` is that of the scene's frame.
+/// Compares two traces of the same sample, step by step. `firstTriangleId` is that of the scene's frame. Points are told
+/// in the coordinates of its file: those of the scene + `origin`.
 [[nodiscard]] std::optional<Divergence> findDivergence(const std::vector<layout::TraceEvent> &a,
                                                        const std::vector<layout::TraceEvent> &b,
-                                                       std::uint32_t firstTriangleId);
+                                                       std::uint32_t firstTriangleId,
+                                                       const glm::dvec3 &origin = glm::dvec3(0.0));
 
 /// The first step at which a decision differs, whatever the rounding of the numbers around it.
 [[nodiscard]] std::optional<Divergence> findDiscreteDivergence(const std::vector<layout::TraceEvent> &a,

@@ -19,7 +19,7 @@ std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, c
         const std::uint32_t index = static_cast<std::uint32_t>(sample);
         if (std::optional<Divergence> divergence =
                 findDivergence(first.trace(scene, pixel, index), second.trace(scene, pixel, index),
-                               scene.packed.frame.firstTriangleId))
+                               scene.packed.frame.firstTriangleId, scene.loaded.scene.origin))
             return divergence;
     }
     return std::nullopt;

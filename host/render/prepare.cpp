@@ -36,7 +36,7 @@ glm::dvec3 toVector(const std::vector<double> &values) { return {values[0], valu
 /// no scene file gives a direction.
 std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const LoadedScene &loaded) {
     if (!options.lookAt.empty())
-        return toVector(options.lookAt);
+        return toVector(options.lookAt) - loaded.scene.origin;
     if (loaded.autoFramed && !options.cameraPosition.empty())
         return triangleBounds(loaded.scene, loaded.file.string()).centre();
     return std::nullopt;
@@ -52,7 +52,7 @@ glm::dvec3 chooseUp(const SceneOptions &options) {
 /// Moves the camera. A new position keeps the direction; a new target keeps the position.
 void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &camera) {
     if (!options.cameraPosition.empty())
-        camera.position = toVector(options.cameraPosition);
+        camera.position = toVector(options.cameraPosition) - loaded.scene.origin;
     if (!options.up.empty())
         camera.up = toVector(options.up);
     if (!limits::directionLength.contains(glm::length(camera.up)))
@@ -285,6 +285,7 @@ Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLi
     origin.triangleCount = scene.packed.triangles.size();
     origin.width = scene.crop.width();
     origin.height = scene.crop.height();
+    origin.coordinateOrigin = scene.loaded.scene.origin;
     origin.settings = scene.loaded.scene.settings;
     return origin;
 }

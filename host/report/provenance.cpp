@@ -30,6 +30,8 @@ nlohmann::ordered_json provenanceToJson(const Provenance &provenance) {
     json["scene"] = provenance.scene;
     json["sceneHash"] = hashText(provenance.sceneHash);
     json["triangles"] = provenance.triangleCount;
+    if (const glm::dvec3 &origin = provenance.coordinateOrigin; origin != glm::dvec3(0.0))
+        json["origin"] = {origin.x, origin.y, origin.z};
     json["image"] = {{"width", provenance.width}, {"height", provenance.height}};
     json["settings"] = settingsToJson(provenance.settings);
     return json;

@@ -28,7 +28,8 @@ struct Provenance {
     std::string scene;           ///< path of the file
     std::uint64_t sceneHash = 0; ///< PackedScene::contentHash()
     std::size_t triangleCount = 0;
-    int width = 0; ///< of the output, pixels
+    glm::dvec3 coordinateOrigin{0.0}; ///< Scene::origin
+    int width = 0;                    ///< of the output, pixels
     int height = 0;
     RenderSettings settings;
 };

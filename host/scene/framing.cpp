@@ -75,14 +75,12 @@ std::vector<Light> lightsFrom(const Bounds &bounds, const Axes &axes, double eye
             lightFrom(towards(axes, eyeAzimuthDegrees + 5.0, 22.0), fillRadiance, bounds)};
 }
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Bounds nothing{glm::dvec3(infinity), glm::dvec3(-infinity)};
-
 /// Makes the box enclose the mesh, whose positions are where `place` brings them.
 template <class Place> void enclose(Bounds &bounds, const TriangleMesh &mesh, const Place &place) {
     for (const MeshTriangle &triangle : mesh.triangles)
         for (glm::length_t corner = 0; corner < 3; ++corner) {
-            const glm::dvec3 position(place(mesh.positions[triangle.positions[corner]]));
+            const glm::dvec3 position =
+                glm::dvec3(place(mesh.positions[triangle.positions[corner]])) + mesh.origin;
             bounds.low = glm::min(bounds.low, position);
             bounds.high = glm::max(bounds.high, position);
         }
@@ -102,14 +100,14 @@ void requireFramed(const Bounds &bounds, const std::string &name) {
 } // namespace
 
 Bounds triangleBounds(const TriangleMesh &mesh) {
-    Bounds bounds = nothing;
+    Bounds bounds = noBounds;
     enclose(bounds, mesh, [](const glm::vec3 &position) { return position; });
     requireFramed(bounds, mesh.name);
     return bounds;
 }
 
 Bounds triangleBounds(const Scene &scene, const std::string &name) {
-    Bounds bounds = nothing;
+    Bounds bounds = noBounds;
     for (const TriangleMesh &mesh : scene.meshes)
         enclose(bounds, mesh, [](const glm::vec3 &position) { return position; });
     for (const Instance &instance : scene.instances)
@@ -174,8 +172,9 @@ Material neutralMaterial(bool hasColours) {
 }
 
 Scene frameMesh(TriangleMesh mesh) {
-    const Bounds bounds = triangleBounds(mesh);
     Scene scene;
+    scene.origin = std::exchange(mesh.origin, glm::dvec3(0.0));
+    const Bounds bounds = triangleBounds(mesh);
     scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
     scene.lights = lightsFrom(bounds, {}, cameraAzimuthDegrees);
     scene.background = glm::vec3(backgroundGrey);

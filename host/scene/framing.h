@@ -3,6 +3,8 @@
 
 #include "host/scene/scene.h"
 
+#include <limits>
+
 namespace hyalite {
 
 /// The box of all corners of all triangles. Throws Error{BadInput} where a mesh names none, or where the box is
@@ -13,6 +15,10 @@ struct Bounds {
 
     [[nodiscard]] glm::dvec3 centre() const { return 0.5 * low + 0.5 * high; }
 };
+/// Of nothing.
+inline constexpr Bounds noBounds{glm::dvec3(std::numeric_limits<double>::infinity()),
+                                 glm::dvec3(-std::numeric_limits<double>::infinity())};
+
 [[nodiscard]] Bounds triangleBounds(const TriangleMesh &mesh);
 
 /// The same of all meshes and instances of the scene; `name` is the scene's, for the message.
@@ -48,7 +54,7 @@ struct Bounds {
 
 /// A scene of the mesh alone: two-sided, of the neutral material, before dark grey, seen by frameCamera at the default
 /// size and 40 degrees. A key light from the upper left and a weaker fill light from near the camera: what
-/// faces one of them has a radiance near 0.7 or 0.2, whatever the size of the mesh.
+/// faces one of them has a radiance near 0.7 or 0.2, whatever the size of the mesh. Its origin becomes that of the scene.
 [[nodiscard]] Scene frameMesh(TriangleMesh mesh);
 
 } // namespace hyalite

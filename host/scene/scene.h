@@ -104,6 +104,7 @@ struct TriangleMesh {
     /// For normal maps: vectors in which u grows, of any length, and the sign w of the direction of v, which is
     /// cross(normal, xyz) * w. Without them, tangents follow from the texture coordinates of each triangle.
     CornerValues<glm::vec4> tangents{};
+    glm::dvec3 origin{0.0}; ///< what positions are relative to, while a scene is loaded (origin.h); then zero
 
     [[nodiscard]] std::uint32_t materialOf(std::size_t triangle) const {
         return triangleMaterials.empty() ? materialIndex : triangleMaterials[triangle];
@@ -116,6 +117,8 @@ struct Placement {
     std::array<glm::vec3, 3> rows{glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f),
                                   glm::vec3(0.0f, 0.0f, 1.0f)};
     glm::vec3 offset{0.0f};
+    glm::dvec3 offsetRest{
+        0.0}; ///< what rounding took from the offset, while a scene is loaded (origin.h); then zero
 };
 
 /// A place of a prototype. addInstances in instances.h adds them.
@@ -163,6 +166,7 @@ struct RenderSettings {
 }
 
 struct Scene {
+    glm::dvec3 origin{0.0}; ///< coordinates of the file are those of the scene + this (origin.h)
     Camera camera;
     std::vector<Light> lights;
     Environment environment;    ///< in place of the background, where there is one

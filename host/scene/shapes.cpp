@@ -1,6 +1,7 @@
 #include "host/scene/shapes.h"
 
 #include "host/scene/instances.h"
+#include "host/scene/origin.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -125,8 +126,15 @@ TriangleMesh transformed(TriangleMesh mesh, const glm::dmat4x3 &map) {
     if (glm::dot(glm::cross(map[0], map[1]), map[2]) < 0.0)
         mesh = mirrored(std::move(mesh));
     const glm::dmat3 linear(map[0], map[1], map[2]);
+    const glm::dvec3 place = linear * mesh.origin + map[3];
+    OriginFinder finder;
+    (void)std::ranges::all_of(mesh.positions, [&](const glm::vec3 &position) {
+        return finder.add(linear * glm::dvec3(position) + place);
+    });
+    mesh.origin = finder.origin();
+    const glm::dvec3 offset = place - mesh.origin;
     for (glm::vec3 &position : mesh.positions)
-        position = glm::vec3(linear * glm::dvec3(position) + map[3]);
+        position = glm::vec3(linear * glm::dvec3(position) + offset);
     // The inverse transpose, but for a positive factor; scaled first, so that products stay in the range of doubles.
     const double scale = 1.0 / std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])});
     const glm::dvec3 a = map[0] * scale;

@@ -10,8 +10,12 @@
 #include "host/import/transform_json.h"
 #include "host/scene/instances.h"
 #include "host/scene/limits.h"
+#include "host/scene/origin.h"
 
 #include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
 
 #include <algorithm>
 #include <map>
@@ -36,12 +40,93 @@ void requireInRange(const glm::dmat4x3 &map, const JsonNode &node) {
                 node.fail(fmt::format("brings its mesh beyond coordinates {}", limits::coordinate.text()));
 }
 
+/// The boxes of meshes by the bounds that the file states of their positions.
+class StatedBounds {
+  public:
+    explicit StatedBounds(const Document &document) : document_(document), boxes_(document.count("meshes")) {}
+
+    /// Adds the corners of the mesh's box at each place. Returns whether the points so far are far.
+    bool add(std::size_t mesh, const std::vector<glm::dmat4x3> &places, OriginFinder &finder) {
+        if (!boxes_[mesh])
+            boxes_[mesh] = read(mesh);
+        const Bounds &box = *boxes_[mesh];
+        const auto addAt = [&](const glm::dmat4x3 &place) { return finder.addBox(box, place); };
+        return !(box.low.x <= box.high.x) || std::ranges::all_of(places, addAt);
+    }
+
+  private:
+    [[nodiscard]] Bounds read(std::size_t mesh) const {
+        Bounds box = noBounds;
+        for (const JsonNode &primitive : elementsOf(JsonObject(document_.at("meshes", mesh)), "primitives")) {
+            const JsonObject attributes(JsonObject(primitive).at("attributes"));
+            const auto positions = document_.reference(attributes, "POSITION", "accessors");
+            if (!positions)
+                continue;
+            const nlohmann::json &accessor = *document_.at("accessors", *positions).value;
+            const auto low = statedPoint(accessor, "min");
+            const auto high = statedPoint(accessor, "max");
+            if (low && high) {
+                box.low = glm::min(box.low, *low);
+                box.high = glm::max(box.high, *high);
+            }
+        }
+        return box;
+    }
+
+    /// Nothing where the file states no point. Of normalised integers it states what they are before.
+    static std::optional<glm::dvec3> statedPoint(const nlohmann::json &accessor, const char *key) {
+        if (accessor.value("normalized", nlohmann::json()) == true)
+            return glm::dvec3(*key == 'm' && key[1] == 'i' ? -1.0 : 1.0);
+        const auto found = accessor.find(key);
+        const auto isNumber = [](const nlohmann::json &number) { return number.is_number(); };
+        if (found == accessor.end() || !found->is_array() || found->size() != 3 ||
+            !std::ranges::all_of(*found, isNumber))
+            return std::nullopt;
+        return glm::dvec3((*found)[0].get<double>(), (*found)[1].get<double>(), (*found)[2].get<double>());
+    }
+
+    const Document &document_;
+    std::vector<std::optional<Bounds>>
+        boxes_; ///< of meshes that were asked for; empty ones: nothing is stated
+};
+
+/// The places of a node's mesh: one, or those of its instances.
+std::vector<glm::dmat4x3> placesOf(Buffers &buffers, const JsonObject &node, const glm::dmat4x3 &toWorld) {
+    const auto instancing = extensionOf(node, "EXT_mesh_gpu_instancing");
+    if (!instancing)
+        return {toWorld};
+    std::vector<glm::dmat4x3> places = readInstancing(buffers, *instancing);
+    for (glm::dmat4x3 &place : places)
+        place = composed(toWorld, place);
+    return places;
+}
+
+/// The origin of the scene at rest; nothing if the file states no bounds.
+std::optional<glm::dvec3> restOriginOf(Buffers &buffers, const NodeTree &tree,
+                                       const std::vector<std::size_t> &nodes, StatedBounds &bounds) {
+    const Document &document = buffers.document();
+    const std::vector<glm::dmat4x3> toWorld = tree.toWorld(readPoses(document));
+    OriginFinder finder;
+    const auto add = [&](std::size_t index) {
+        const JsonObject node(document.at("nodes", index));
+        const std::optional<std::size_t> mesh = document.reference(node, "mesh", "meshes");
+        if (!mesh)
+            return true;
+        const auto skin = document.reference(node, "skin", "skins");
+        return bounds.add(*mesh,
+                          skin ? jointMaps(buffers, *skin, toWorld) : placesOf(buffers, node, toWorld[index]),
+                          finder);
+    };
+    (void)std::ranges::all_of(nodes, add);
+    return finder.isEmpty() ? std::nullopt : std::optional(finder.origin());
+}
+
 /// Where nodes see meshes.
 class MeshUses {
   public:
     MeshUses(Buffers &buffers, const std::vector<Pose> &poses, const std::vector<glm::dmat4x3> &toWorld,
-             std::vector<std::string> &warnings)
-        : buffers_(buffers), poses_(poses), toWorld_(toWorld), warnings_(warnings) {}
+             StatedBounds &bounds, std::vector<std::string> &warnings)
+        : buffers_(buffers), poses_(poses), toWorld_(toWorld), bounds_(bounds), warnings_(warnings) {}
 
     void add(std::size_t index) {
         const Document &document = buffers_.document();
@@ -51,15 +136,10 @@ class MeshUses {
         if (!mesh)
             return;
         if (const auto skin = document.reference(object, "skin", "skins")) {
-            uses_.push_back({*mesh, {poses_[index].weights, jointMaps(buffers_, *skin, toWorld_)}, {}});
+            addSkinned(*mesh, poses_[index].weights, jointMaps(buffers_, *skin, toWorld_));
             return;
         }
-        std::vector<glm::dmat4x3> places{toWorld_[index]};
-        if (const auto instancing = extensionOf(object, "EXT_mesh_gpu_instancing")) {
-            places = readInstancing(buffers_, *instancing);
-            for (glm::dmat4x3 &place : places)
-                place = composed(toWorld_[index], place);
-        }
+        std::vector<glm::dmat4x3> places = placesOf(buffers_, object, toWorld_[index]);
         for (const glm::dmat4x3 &place : places)
             requireInRange(place, node);
         const std::size_t flatCount = std::erase_if(places, isFlat);
@@ -80,9 +160,20 @@ class MeshUses {
     [[nodiscard]] const std::vector<MeshUse> &uses() const { return uses_; }
 
   private:
+    void addSkinned(std::size_t mesh, const std::vector<double> &weights,
+                    std::vector<glm::dmat4x3> &&joints) {
+        OriginFinder finder;
+        (void)bounds_.add(mesh, joints, finder);
+        const glm::dvec3 origin = finder.origin();
+        for (glm::dmat4x3 &joint : joints)
+            joint[3] -= origin;
+        uses_.push_back({mesh, {weights, std::move(joints), origin}, {}});
+    }
+
     Buffers &buffers_;
     const std::vector<Pose> &poses_;
     const std::vector<glm::dmat4x3> &toWorld_;
+    StatedBounds &bounds_;
     std::vector<std::string> &warnings_;
     std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> known_;
     std::vector<MeshUse> uses_;
@@ -157,7 +248,8 @@ Contents readContents(const std::filesystem::path &path, const FileReach &reach,
 
     TextureReader textureReader(buffers, near, textures, report.warnings);
     contents.file.materials = readMaterials(document, textureReader, report.warnings);
-    MeshUses uses(buffers, poses, toWorld, report.warnings);
+    StatedBounds bounds(document);
+    MeshUses uses(buffers, poses, toWorld, bounds, report.warnings);
     for (const std::size_t node : nodes) {
         uses.add(node);
         if (const auto light =
@@ -166,6 +258,8 @@ Contents readContents(const std::filesystem::path &path, const FileReach &reach,
     }
     readMeshes(buffers, uses.uses(), options.onReading, contents.file);
     contents.camera = readCamera(document, nodes, toWorld, options.camera);
+    if (document.count("animations") > 0)
+        contents.restOrigin = restOriginOf(buffers, tree, nodes, bounds);
     if (options.sequence) {
         const std::vector<bool> animated = animatedNodes(document);
         const std::vector<bool> moving = tree.below(animated);

@@ -28,8 +28,9 @@ struct Contents {
     MeshFile file; ///< names its buffers, too, in its report
     std::vector<Light> lights;
     std::optional<PlacedCamera> camera;
-    CameraPath cameraPath{};  ///< of a sequence in which nothing else moves
-    bool movesByTime = false; ///< meshes or lights do
+    CameraPath cameraPath{};                ///< of a sequence in which nothing else moves
+    bool movesByTime = false;               ///< meshes or lights do
+    std::optional<glm::dvec3> restOrigin{}; ///< where there are animations: that of the scene at rest
 };
 
 [[nodiscard]] Contents readContents(const std::filesystem::path &path, const FileReach &reach,

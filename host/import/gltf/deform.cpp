@@ -83,11 +83,14 @@ glm::dmat4x3 blended(const std::vector<Influences> &sets, const std::vector<glm:
     return total > 0.0 ? sum * (1.0 / total) : joints[0];
 }
 
-void skin(const std::vector<glm::dmat4x3> &joints, Primitive &primitive) {
+void skin(const std::vector<glm::dmat4x3> &joints, const glm::dvec3 &origin, Primitive &primitive) {
     const std::vector<Influences> sets = influencesOf(primitive.attributes);
-    if (sets.empty())
-        return;
     Vertices &vertices = primitive.vertices;
+    if (sets.empty()) {
+        for (glm::vec3 &position : vertices.positions)
+            position = glm::vec3(glm::dvec3(position) - origin);
+        return;
+    }
     for (std::size_t i = 0; i < vertices.positions.size(); ++i) {
         const glm::dmat4x3 map = blended(sets, joints, vertices.sources[i]);
         const glm::dmat3 linear(map[0], map[1], map[2]);
@@ -108,7 +111,7 @@ void skin(const std::vector<glm::dmat4x3> &joints, Primitive &primitive) {
 void deform(Buffers &buffers, const JsonNode &node, const Deformation &deformation, Primitive &primitive) {
     morph(buffers, JsonObject(node), deformation.weights, primitive);
     if (!deformation.joints.empty())
-        skin(deformation.joints, primitive);
+        skin(deformation.joints, deformation.origin, primitive);
 }
 
 } // namespace hyalite::gltf

@@ -13,6 +13,7 @@ namespace hyalite::gltf {
 struct Deformation {
     std::vector<double> weights{};      ///< of morph targets; missing ones are 0
     std::vector<glm::dmat4x3> joints{}; ///< of a skin; none: the mesh has none
+    glm::dvec3 origin{0.0};             ///< what a skin's vertices are relative to: joints bring them there
 };
 
 /// Moves the vertices of the primitive at `node`, morph targets first. A skin brings them to the world. Throws

@@ -74,6 +74,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     setCamera(contents.camera, loaded);
     loaded.cameraPath = std::move(contents.cameraPath);
     loaded.movesByTime = contents.movesByTime;
+    loaded.restOrigin = contents.restOrigin;
     if (scene.lights.empty())
         scene.environment.radiance = neutralEnvironment();
     loaded.meshReports.push_back(std::move(contents.file.report));

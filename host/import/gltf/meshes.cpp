@@ -122,6 +122,7 @@ TriangleMesh MeshReader::read(std::size_t index, const Deformation &deformation)
     const std::string name = nameOf(object);
     mesh.name = fmt::format("{}#/meshes/{}{}{}", buffers_.document().fileName(), index,
                             name.empty() ? "" : " ", name);
+    mesh.origin = deformation.origin;
     Deformation whole = deformation;
     if (const std::optional<JsonNode> weights = object.find("weights"); weights && whole.weights.empty())
         whole.weights = numbersOf(*weights, weights->value->size());
