@@ -37,17 +37,21 @@ std::string plyAt(const glm::dvec3 &place, bool isText) {
         isText ? "ascii" : "binary_little_endian");
     const auto append = [&](const auto &value) {
         if (isText)
-            text += fmt::format("{} ", value);
+            text += fmt::format("{} ", +value);
         else
             text.append(reinterpret_cast<const char *>(&value), sizeof(value));
     };
-    for (const glm::dvec3 &corner : corners)
+    const auto endRow = [&] { text += isText ? "\n" : ""; };
+    for (const glm::dvec3 &corner : corners) {
         for (glm::length_t axis = 0; axis < 3; ++axis)
             append(corner[axis] + place[axis]);
+        endRow();
+    }
     for (const auto &face : faces) {
         append(static_cast<unsigned char>(3));
         for (const int corner : face)
             append(corner);
+        endRow();
     }
     return text;
 }

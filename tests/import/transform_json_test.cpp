@@ -47,13 +47,13 @@ TEST(Transform, RotatesAboutXThenYThenZ) {
             {0.3, 0.5, 0.7}));
 }
 
-struct Refusal {
+struct WrongTransform {
     const char *text;
     const char *place;
     const char *allowed;
 };
 
-class RefusedTransform : public ::testing::TestWithParam<Refusal> {};
+class RefusedTransform : public ::testing::TestWithParam<WrongTransform> {};
 
 TEST_P(RefusedTransform, SaysWhatIsAllowed) {
     const nlohmann::json value = nlohmann::json::parse(GetParam().text);
@@ -71,16 +71,16 @@ TEST_P(RefusedTransform, SaysWhatIsAllowed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, RefusedTransform,
-    ::testing::Values(Refusal{"5", "/here", "three rows of four"},
-                      Refusal{"[1, 2, 3]", "/here", "three rows"},
-                      Refusal{R"([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, "x", 0])", "/here/10", "a number"},
-                      Refusal{"[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,1,1]", "/here", "0, 0, 0, 1"},
-                      Refusal{R"([{"scale": 0}])", "/here", "with a volume"},
-                      Refusal{R"([{"scale": [1, 0, 1]}])", "/here", "with a volume"},
-                      Refusal{R"([{"scale": 1e-50}])", "/here", "with a volume"},
-                      Refusal{R"([{"scale": 2, "translate": [0, 0, 0]}])", "/here/0", "one key"},
-                      Refusal{R"([{"turn": 2}])", "/here/0/turn", "\"rotateDegrees\""},
-                      Refusal{R"([{"translate": [0, 1e16, 0]}])", "/here/0/translate/1", "1e+15"}));
+    ::testing::Values(WrongTransform{"5", "/here", "three rows of four"},
+                      WrongTransform{"[1, 2, 3]", "/here", "three rows"},
+                      WrongTransform{R"([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, "x", 0])", "/here/10", "a number"},
+                      WrongTransform{"[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,1,1]", "/here", "0, 0, 0, 1"},
+                      WrongTransform{R"([{"scale": 0}])", "/here", "with a volume"},
+                      WrongTransform{R"([{"scale": [1, 0, 1]}])", "/here", "with a volume"},
+                      WrongTransform{R"([{"scale": 1e-50}])", "/here", "with a volume"},
+                      WrongTransform{R"([{"scale": 2, "translate": [0, 0, 0]}])", "/here/0", "one key"},
+                      WrongTransform{R"([{"turn": 2}])", "/here/0/turn", "\"rotateDegrees\""},
+                      WrongTransform{R"([{"translate": [0, 1e16, 0]}])", "/here/0/translate/1", "1e+15"}));
 
 } // namespace
 } // namespace hyalite

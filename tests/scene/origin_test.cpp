@@ -36,7 +36,7 @@ TEST(Origin, IsNearWhateverIsFar) {
     std::uniform_real_distribution<double> place(-1.0, 1.0);
     for (int i = 0; i < 10'000; ++i) {
         const double scale = std::exp2(60.0 * place(random));
-        const double side = scale * std::exp2(-35.0 + 20.0 * place(random));
+        const double side = scale * std::exp2(-24.0 + 12.0 * place(random));
         const glm::dvec3 centre = scale * glm::dvec3(place(random), place(random), place(random));
         const glm::dvec3 origin = originOf(cubeAt(centre, side));
         if (origin == glm::dvec3(0.0))
