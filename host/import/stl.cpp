@@ -28,16 +28,20 @@ constexpr std::size_t triangleBytes = 50;
 constexpr std::uint64_t stepTriangles = 65536; ///< between two reports of progress
 
 /// Numbers the distinct vertices of a mesh, from 0, in the order in which they come. Vertices whose coordinates are equal
-/// as floats are one; those of a far mesh relative to the first one. A hash table with open addressing.
+/// as floats are one; `isExact`: relative to the first one. A hash table with open addressing.
 class VertexMerger {
   public:
-    VertexMerger(MeshBuilder &builder, bool isFar) : builder_(builder), places_(1024, none), isFar_(isFar) {}
+    VertexMerger(MeshBuilder &builder, bool isExact)
+        : builder_(builder), places_(1024, none), isExact_(isExact) {}
 
     [[nodiscard]] MeshBuilder &builder() { return builder_; }
+    /// Whether floats do not hold the digits of the vertices.
+    [[nodiscard]] bool areFar() const { return finder_.origin() != glm::dvec3(0.0); }
 
     /// The number of the vertex, which is added to the builder the first time.
     std::uint32_t add(const glm::dvec3 &position, std::size_t place) {
-        if (isFar_ && keys_.empty())
+        finder_.add(position);
+        if (isExact_ && keys_.empty())
             first_ = position;
         const Key key = keyOf(glm::vec3(position - first_));
         std::size_t slot = hashOf(key) & (places_.size() - 1);
@@ -46,7 +50,7 @@ class VertexMerger {
                 return places_[slot];
             slot = (slot + 1) & (places_.size() - 1);
         }
-        builder_.addPosition(isFar_ ? position : glm::dvec3(glm::vec3(position)), place);
+        builder_.addPosition(isExact_ ? position : glm::dvec3(glm::vec3(position)), place);
         const auto number = static_cast<std::uint32_t>(keys_.size());
         places_[slot] = number;
         keys_.push_back(key);
@@ -88,8 +92,9 @@ class VertexMerger {
     MeshBuilder &builder_;
     std::vector<Key> keys_;             ///< by number
     std::vector<std::uint32_t> places_; ///< numbers; a power of two
-    bool isFar_;
-    glm::dvec3 first_{0.0}; ///< position of a far mesh
+    bool isExact_;
+    glm::dvec3 first_{0.0}; ///< position, if exact
+    OriginFinder finder_;
 };
 
 FaceCorner cornerOf(std::uint32_t number) { return {static_cast<std::int32_t>(number) + 1, 0, 0}; }
@@ -102,7 +107,7 @@ template <class T> T littleEndian(const char *at) {
     return std::bit_cast<T>(bytes);
 }
 
-void readBinary(std::span<const char> bytes, const std::string &fileName, VertexMerger merger,
+void readBinary(std::span<const char> bytes, const std::string &fileName, VertexMerger &merger,
                 const OnReading &onReading) {
     MeshBuilder &builder = merger.builder();
     const auto count = littleEndian<std::uint32_t>(bytes.data() + 80);
@@ -188,7 +193,7 @@ bool isWord(std::string_view found, std::string_view lower) {
     });
 }
 
-void readText(std::span<const char> bytes, const std::string &fileName, VertexMerger merger,
+void readText(std::span<const char> bytes, const std::string &fileName, VertexMerger &merger,
               const OnReading &onReading) {
     MeshBuilder &builder = merger.builder();
     constexpr std::string_view ignored[] = {"facet", "outer", "endfacet", "solid", "endsolid", "color"};
@@ -242,16 +247,22 @@ ObjMesh loadStl(const std::filesystem::path &file, const MeshTransform &transfor
     const std::string fileName = file.string();
     const std::vector<char> bytes = readWholeFile(file);
     const bool isInBinary = isBinary(bytes);
-    return readNear([&](const glm::dvec3 &origin) {
+    bool areFar = false;
+    const auto read = [&](const glm::dvec3 &origin) {
         MeshBuilder builder(fileName, transform, origin, isInBinary ? PlaceUnit::Byte : PlaceUnit::Line);
         builder.report().files.push_back(file);
-        const bool isFar = origin != glm::dvec3(0.0);
+        VertexMerger merger(builder, areFar);
         if (isInBinary)
-            readBinary(bytes, fileName, VertexMerger(builder, isFar), onReading);
+            readBinary(bytes, fileName, merger, onReading);
         else
-            readText(bytes, fileName, VertexMerger(builder, isFar), onReading);
+            readText(bytes, fileName, merger, onReading);
+        areFar = merger.areFar();
         return builder.finish();
-    });
+    };
+    ObjMesh loaded = readNear(read);
+    if (areFar && loaded.mesh.origin == glm::dvec3(0.0)) // its transform brings it near
+        loaded = read(glm::dvec3(0.0));
+    return loaded;
 }
 
 MeshFile readStlMeshes(const std::filesystem::path &file, const MeshOptions &options) {

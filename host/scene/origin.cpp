@@ -25,7 +25,10 @@ double distanceOf(const Bounds &bounds) {
     return largestCoordinate(glm::max(glm::max(bounds.low, -bounds.high), glm::dvec3(0.0)));
 }
 
-bool isFar(const Bounds &bounds) { return distanceOf(bounds) > farExtents * extentOf(bounds); }
+bool isFar(const Bounds &bounds) {
+    constexpr double tiny = std::numeric_limits<float>::min();
+    return distanceOf(bounds) > std::max(farExtents * extentOf(bounds), tiny);
+}
 
 Bounds boundsOf(const std::vector<glm::vec3> &positions) {
     glm::vec3 low(std::numeric_limits<float>::max());

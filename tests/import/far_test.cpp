@@ -174,10 +174,13 @@ TEST_F(Far, MeshesOfFarFilesAreBroughtNearByTheirTransforms) {
                     {"camera", {{"position", {0, 0, 9}}}}}
             .dump();
     };
-    const LoadedScene near = loadAt("near.json", sceneOf("near.obj", glm::dvec3(0.0)));
-    for (const glm::dvec3 &place : places) {
-        static_cast<void>(write("far.obj", objAt(place)));
-        expectNear(loadAt("far.json", sceneOf("far.obj", place)), near, glm::dvec3(0.0));
+    static_cast<void>(write("near.stl", stlAt(glm::dvec3(0.0))));
+    for (const std::string extension : {"obj", "stl"}) {
+        const LoadedScene near = loadAt("near.json", sceneOf("near." + extension, glm::dvec3(0.0)));
+        for (const glm::dvec3 &place : places) {
+            static_cast<void>(write("far." + extension, extension == "obj" ? objAt(place) : stlAt(place)));
+            expectNear(loadAt("far.json", sceneOf("far." + extension, place)), near, glm::dvec3(0.0));
+        }
     }
 }
 
