@@ -56,7 +56,7 @@ template <class Read> [[nodiscard]] auto readNear(const Read &read) {
 }
 
 /// Gives the scene its origin, unless it has one, and its meshes the same: moves meshes, instances, spheres, lights, the
-/// camera and its path. `origin` is that of a scene that moves by time; empty: that of what is there.
-void moveNear(Scene &scene, CameraPath &path, const std::optional<glm::dvec3> &origin = {});
+/// camera and its path. `known` is the origin of a scene that moves by time; empty: that of what is there.
+void moveNear(Scene &scene, CameraPath &path, const std::optional<glm::dvec3> &known = {});
 
 } // namespace hyalite
