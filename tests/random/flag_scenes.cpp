@@ -1,0 +1,359 @@
+#include "tests/random/flag_scenes.h"
+
+#include "host/scene/instances.h"
+#include "tests/fixtures/texture_fixture.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace hyalite::testing {
+namespace {
+
+/// A square that the camera sees from the front; the sun and the background light both of its sides.
+Scene base() {
+    Scene scene;
+    scene.camera.kind = CameraKind::Orthographic;
+    scene.camera.position = {0, 0, 5};
+    scene.camera.viewWidth = 3.0;
+    scene.camera.width = 16;
+    scene.camera.height = 8;
+    scene.background = {0.5f, 0.25f, 1.0f};
+    scene.settings.integrator = Integrator::Path;
+    scene.settings.samplesPerPixel = 4;
+    scene.settings.maxDepth = 4;
+    scene.materials.resize(2);
+    scene.materials[0].reflectsBehind = true;
+    scene.materials[0].name = "front";
+    scene.materials[1].name = "behind";
+    scene.materials[1].albedo = {0.9f, 0.5f, 0.1f};
+    scene.meshes = {texturedQuad({-1, -1, 0}, {2, 0, 0.3f}, {0, 2, 0.2f})};
+    return scene;
+}
+
+Light light(LightKind kind, const glm::dvec3 &position = {1, 2, 3}) {
+    Light light;
+    light.kind = kind;
+    light.position = position;
+    light.direction = -position;
+    light.power = glm::dvec3(kind == LightKind::Directional ? 2.0 : 300.0);
+    light.angleDegrees = 60.0;
+    return light;
+}
+
+Scene litBy(LightKind kind) {
+    Scene scene = base();
+    scene.background = glm::vec3(0.0f);
+    scene.lights = {light(kind)};
+    return scene;
+}
+
+/// The base's square and a wall behind it, which is seen through it.
+Scene beforeAWall(MaterialKind kind) {
+    Scene scene = base();
+    scene.lights = {light(LightKind::Directional)};
+    scene.meshes.push_back(texturedQuad({-2, -2, -2}, {4, 0, 0}, {0, 4, 0}, 1));
+    scene.materials[0].kind = kind;
+    scene.materials[0].roughness = 0.3f;
+    return scene;
+}
+
+Texture image(bool hasAlpha = false) {
+    Texture texture = drawnTexture(3, 2, [&](int x, int y) {
+        const auto level = static_cast<std::uint32_t>(40 + 30 * x + 70 * y);
+        return levels(level, 255 - level, 200, hasAlpha ? level : 255);
+    });
+    texture.hasAlpha = hasAlpha;
+    return texture;
+}
+
+/// A glTF material, with all lobes for the slots that lobes have.
+Scene textured(std::uint32_t slot) {
+    Scene scene = beforeAWall(MaterialKind::Gltf);
+    Material &material = scene.materials[0];
+    material.metallic = 0.5f;
+    material.emission = glm::vec3(0.2f);
+    if (slot >= layout::slotTransmission) {
+        material.transmission = 0.5f;
+        material.isThin = true;
+        material.clearcoat = 0.5f;
+        material.sheenColour = {0.2f, 0.4f, 0.3f};
+        material.sheenRoughness = 0.5f;
+        material.anisotropy = 0.5f;
+    }
+    scene.textures = {image()};
+    material.textures[slot] = TextureUse{};
+    return scene;
+}
+
+/// Spheres that are too many to be tested by every ray.
+void addManySpheres(Scene &scene, std::uint32_t material = 1) {
+    for (int i = 0; i < 20; ++i)
+        scene.spheres.push_back({{i % 5 * 0.5 - 1.0, i / 5 * 0.5 - 0.7, 1.0}, 0.2, material, false});
+}
+
+class Rows {
+  public:
+    using Word = std::uint32_t PackedScene::*;
+
+    /// A bit of a word, which has `others` beside it.
+    void bit(std::string flag, Word word, std::uint32_t value, Scene scene, std::uint32_t others = 0,
+             bool isEncoded = false) {
+        rows_.push_back({std::move(flag), std::move(scene),
+                         [word](const PackedScene &packed) { return packed.*word; }, value | others,
+                         [word, value](PackedScene &packed) { packed.*word &= ~value; }, isEncoded});
+    }
+    void flag(std::string flag, bool PackedScene::*member, Scene scene) {
+        rows_.push_back({std::move(flag), std::move(scene),
+                         [member](const PackedScene &packed) { return packed.*member ? 1u : 0u; }, 1,
+                         [member](PackedScene &packed) { packed.*member = false; }});
+    }
+    template <class Read>
+    void value(std::string flag, std::uint32_t expected, Scene scene, const Read &read) {
+        rows_.push_back(
+            {std::move(flag), std::move(scene),
+             [read](const PackedScene &packed) { return static_cast<std::uint32_t>(read(packed)); },
+             expected});
+    }
+    [[nodiscard]] std::vector<FlagScene> take() { return std::move(rows_); }
+
+  private:
+    std::vector<FlagScene> rows_;
+};
+
+void addScattering(Rows &rows) {
+    const auto add = [&](const char *flag, std::uint32_t value, std::uint32_t others, MaterialKind kind,
+                         const std::function<void(Scene &, Material &)> &edit) {
+        Scene scene = beforeAWall(kind);
+        edit(scene, scene.materials[0]);
+        rows.bit(flag, &PackedScene::scattering, value, std::move(scene), others);
+    };
+    using namespace layout;
+    add("scattersAtConductors", scattersAtConductors, 0, MaterialKind::Conductor,
+        [](Scene &, Material &m) { m.roughness = 0.0f; });
+    add("scattersAtRoughConductors", scattersAtRoughConductors, scattersAtConductors, MaterialKind::Conductor,
+        [](Scene &, Material &) {});
+    add("scattersAtRoughGlass", scattersAtRoughGlass, 0, MaterialKind::Dielectric,
+        [](Scene &, Material &) {});
+    add("scattersAtPrincipled", scattersAtPrincipled, 0, MaterialKind::Principled,
+        [](Scene &, Material &) {});
+    add("scattersAtGltf", scattersAtGltf, 0, MaterialKind::Gltf, [](Scene &, Material &) {});
+    add("scattersAtSheen", scattersAtSheen, scattersAtGltf, MaterialKind::Gltf, [](Scene &, Material &m) {
+        m.sheenColour = {0.2f, 0.9f, 0.5f};
+    });
+    add("scattersAtAnisotropic", scattersAtAnisotropic, scattersAtGltf, MaterialKind::Gltf,
+        [](Scene &, Material &m) {
+            m.metallic = 1.0f;
+            m.anisotropy = 0.9f;
+        });
+    const auto makeThin = [](Scene &scene, Material &m) {
+        m.transmission = 0.9f;
+        m.isThin = true;
+        scene.lights.push_back(light(LightKind::Point, {0, 0, -1}));
+    };
+    add("scattersAtThin", scattersAtThin, scattersAtGltf, MaterialKind::Gltf, makeThin);
+    // Light from behind, chosen by a tree: what kernels ask of the scene and of the material must agree.
+    Scene lit = beforeAWall(MaterialKind::Gltf);
+    makeThin(lit, lit.materials[0]);
+    lit.lights.push_back(light(LightKind::Point, {1, 1, -1}));
+    lit.settings.lightChoice = LightChoice::Tree;
+    rows.value("constantHasLightTree", 1, lit,
+               [](const PackedScene &packed) { return !packed.lightNodes.empty(); });
+    add("scattersAtCoatNormals", scattersAtCoatNormals, scattersAtGltf, MaterialKind::Gltf,
+        [](Scene &scene, Material &m) {
+            m.clearcoat = 1.0f;
+            scene.textures = {image()};
+            m.textures[slotClearcoatNormal] = TextureUse{};
+        });
+    add("scattersAtUnlit", scattersAtUnlit, 0, MaterialKind::Gltf,
+        [](Scene &, Material &m) { m.isUnlit = true; });
+    add("scattersAtUnlit", scattersAtUnlit, 0, MaterialKind::Gltf, [](Scene &scene, Material &m) {
+        m.isUnlit = true;
+        scene.settings.integrator = Integrator::Cost;
+    });
+}
+
+void addLighting(Rows &rows) {
+    const auto add = [&](const char *flag, std::uint32_t value, Scene scene) {
+        rows.bit(flag, &PackedScene::lighting, value, std::move(scene));
+    };
+    add("lightsByPoints", layout::lightsByPoints, litBy(LightKind::Point));
+    add("lightsBySpots", layout::lightsBySpots, litBy(LightKind::Spot));
+    add("lightsByDirections", layout::lightsByDirections, litBy(LightKind::Directional));
+    Scene spheres = base();
+    spheres.materials[1].emission = glm::vec3(5.0f);
+    spheres.spheres = {{{1, 1, 2}, 0.3, 1, false}};
+    add("lightsBySpheres", layout::lightsBySpheres, spheres);
+    Scene triangles = base();
+    triangles.materials[1].emission = glm::vec3(5.0f);
+    triangles.meshes.push_back(texturedQuad({1.2f, -1, 0}, {0, 0, 1}, {0, 2, 0}, 1));
+    add("lightsByTriangles", layout::lightsByTriangles, triangles);
+    Scene sky = base();
+    sky.environment.radiance = Image(4, 2);
+    for (std::size_t i = 0; i < 8; ++i)
+        sky.environment.radiance.pixels()[i] = glm::vec3(static_cast<float>(i) * 0.5f, 1.0f, 0.5f);
+    add("lightsByEnvironment", layout::lightsByEnvironment, sky);
+
+    const auto lightTree = [](bool hasSun) {
+        Scene scene = litBy(LightKind::Point);
+        scene.lights.push_back(light(LightKind::Point, {-3, 1, 2}));
+        if (hasSun)
+            scene.lights.push_back(light(LightKind::Directional));
+        scene.settings.lightChoice = LightChoice::Tree;
+        return scene;
+    };
+    rows.value("constantHasLightTree", 1, lightTree(false),
+               [](const PackedScene &packed) { return !packed.lightNodes.empty(); });
+    rows.value("constantInfiniteEmitters", 1, lightTree(true),
+               [](const PackedScene &packed) { return packed.infiniteEmitterCount; });
+    Scene whitted = lightTree(true);
+    whitted.settings.integrator = Integrator::Whitted;
+    rows.value("constantLightCount", 3, whitted,
+               [](const PackedScene &packed) { return packed.lights.size(); });
+    rows.flag("constantHasEmission", &PackedScene::hasEmission, spheres);
+    rows.value("constantEmitterCount", 2, triangles,
+               [](const PackedScene &packed) { return packed.emitters.size(); });
+}
+
+void addTexturing(Rows &rows) {
+    const auto add = [&](std::string flag, std::uint32_t value, Scene scene, std::uint32_t others = 0,
+                         bool isEncoded = false) {
+        rows.bit(std::move(flag), &PackedScene::texturing, value, std::move(scene), others, isEncoded);
+    };
+    using namespace layout;
+    for (const TextureSlot &slot : textureSlots)
+        add(fmt::format("slot {}", slot.name), 1u << slot.slot, textured(slot.slot));
+    add("texturesLevels", texturesLevels, textured(slotBaseColour), texturesBaseColour, true);
+    Scene second = textured(slotBaseColour);
+    second.materials[0].textures[slotBaseColour]->uvSet = 1;
+    second.meshes[0].secondUvs = {{{0, 0}, {0, 2}, {2, 2}}, {{0, 1, 2}, {0, 2, 1}}};
+    add("texturesSecondUv", texturesSecondUv, second, texturesBaseColour);
+    Scene coloured = beforeAWall(MaterialKind::Diffuse);
+    coloured.meshes[0].colours = {{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}, {{0, 1, 2}, {0, 2, 1}}};
+    add("texturesColours", texturesColours, coloured);
+    Scene tangents = textured(slotNormal);
+    tangents.meshes[0].tangents = {{{0, 1, 0, 1}, {0, 1, 0, -1}, {1, 0, 0, 1}}, {{0, 1, 2}, {0, 2, 1}}};
+    add("texturesTangents", texturesTangents, tangents, texturesNormal);
+    Scene placed = textured(slotBaseColour);
+    placed.materials[0].textures[slotBaseColour]->wrapU = Wrap::Mirror;
+    placed.materials[0].textures[slotBaseColour]->offset = glm::vec2(0.6f);
+    add("texturesPlaced", texturesPlaced, placed, texturesBaseColour);
+    Scene channels = textured(slotRoughness);
+    channels.materials[0].textures[slotRoughness]->channel = Channel::Green;
+    add("texturesChannels", texturesChannels, channels, texturesRoughness);
+}
+
+void addPassing(Rows &rows) {
+    const auto add = [&](const char *flag, std::uint32_t value, const std::function<void(Material &)> &edit) {
+        Scene scene = beforeAWall(MaterialKind::Diffuse);
+        edit(scene.materials[0]);
+        rows.bit(flag, &PackedScene::passing, value, std::move(scene));
+    };
+    add("passesCutOut", layout::passesCutOut, [](Material &m) { m.opacity = 0.25f; });
+    add("passesBlended", layout::passesBlended, [](Material &m) {
+        m.opacity = 0.25f;
+        m.alphaMode = AlphaMode::Blend;
+    });
+    Scene culled = beforeAWall(MaterialKind::Diffuse);
+    culled.materials[0].isCulled = true;
+    culled.meshes[0] = texturedQuad({1, -1, 0}, {-2, 0, 0}, {0, 2, 0}); // from behind
+    rows.bit("passesCulled", &PackedScene::passing, layout::passesCulled, culled);
+}
+
+void addGeometry(Rows &rows) {
+    const Scene square = base();
+    rows.flag("constantHasTriangles", &PackedScene::hasTriangles, square);
+    Scene balls = base();
+    balls.meshes.clear();
+    balls.spheres = {{{0, 0, 0}, 1.0, 0, false}, {{0.5, 0, 1}, 0.3, 1, false}};
+    rows.value("constantSphereCount", 2, balls,
+               [](const PackedScene &packed) { return packed.loopSpheres.size(); });
+    const auto treeSpheres = [](const PackedScene &packed) { return packed.treeSpheres; };
+    rows.value("treeHasTriangles", layout::treeHasTriangles, square, treeSpheres);
+    Scene many = base();
+    addManySpheres(many);
+    rows.value("treeHasSpheresToo", layout::treeHasSpheresToo, many, treeSpheres);
+    many.meshes.clear();
+    rows.value("treeHasSpheresOnly", layout::treeHasSpheresOnly, many, treeSpheres);
+    Scene instances = base();
+    const TriangleMesh mesh = std::exchange(instances.meshes, {}).front();
+    Placement small;
+    small.rows[0].x = 0.5f;
+    small.offset = {0.3f, 0.2f, 1.0f};
+    const std::vector<Placement> placements{Placement(), small};
+    addInstances(instances, mesh, placements);
+    rows.value("constantHasInstances", 2, instances,
+               [](const PackedScene &packed) { return packed.instances.size(); });
+    Scene grid = base();
+    grid.meshes[0] = {};
+    for (int i = 0; i < 40; ++i)
+        addQuad(grid.meshes[0], glm::vec3(glm::dvec3(i % 8 * 0.3 - 1.2, i / 8 * 0.3 - 0.7, i % 3 * 0.1)),
+                {0.2f, 0, 0}, {0, 0.2f, 0.1f});
+    grid.settings.tree = TreeKind::Sah;
+    rows.value("constantHasPairs", 1, grid, [](const PackedScene &packed) { return packed.hasPairs; });
+    Scene closed = base();
+    closed.background = glm::vec3(0.0f);
+    closed.materials[1].emission = glm::vec3(5.0f);
+    closed.meshes.push_back(texturedQuad({1.2f, -1, 0}, {0, 0, 1}, {0, 2, 0}, 1));
+    rows.value("constantTrianglePairs", 2, closed,
+               [](const PackedScene &packed) { return packed.trianglePairs.size(); });
+    Scene mirror = beforeAWall(MaterialKind::Mirror);
+    rows.flag("constantHasSpecular", &PackedScene::hasSpecular, mirror);
+    Scene glass = beforeAWall(MaterialKind::Dielectric);
+    glass.materials[0].roughness = 0.0f;
+    rows.flag("constantHasDielectric", &PackedScene::hasDielectric, glass);
+    glass.settings.integrator = Integrator::Whitted;
+    rows.flag("constantHasDielectric", &PackedScene::hasDielectric, glass);
+}
+
+void addCameras(Rows &rows) {
+    const auto add = [&](const char *flag, std::uint32_t value, CameraKind kind, double aperture) {
+        Scene scene = base();
+        scene.camera.kind = kind;
+        scene.camera.aperture = aperture;
+        rows.value(flag, value, std::move(scene), [](const PackedScene &packed) { return packed.camera; });
+    };
+    add("cameraPinhole", layout::cameraPinhole, CameraKind::Perspective, 0.0);
+    add("cameraLens", layout::cameraLens, CameraKind::Perspective, 0.5);
+    add("cameraOrthographic", layout::cameraOrthographic, CameraKind::Orthographic, 0.0);
+    add("cameraPanorama", layout::cameraPanorama, CameraKind::Panorama, 0.0);
+}
+
+/// What settings choose.
+void addSettings(Rows &rows) {
+    for (const IntegratorRow &row : integratorTable) {
+        Scene scene = base();
+        scene.settings.integrator = row.integrator;
+        scene.settings.occlusionDistance = 3.0;
+        scene.meshes.push_back(texturedQuad({-1, -1, 0}, {2, 0, 0}, {0, 0, 2}, 1));
+        rows.value(fmt::format("integrator {}", row.name), row.view, std::move(scene),
+                   [view = row.view](const PackedScene &) { return view; });
+    }
+    const auto sampler = [&](const char *flag, std::uint32_t value, SamplerKind kind, FilterKind filter) {
+        Scene scene = base();
+        scene.settings.sampler = kind;
+        scene.settings.filter = filter;
+        const RenderSettings settings = scene.settings;
+        rows.value(flag, value, std::move(scene),
+                   [settings](const PackedScene &) { return samplerOf(settings); });
+    };
+    sampler("samplerCentre", layout::samplerCentre, SamplerKind::Centre, FilterKind::Box);
+    sampler("samplerSobol", layout::samplerSobol, SamplerKind::Sobol, FilterKind::Box);
+    sampler("samplerFiltered", layout::samplerFiltered, SamplerKind::Sobol, FilterKind::BlackmanHarris);
+}
+
+} // namespace
+
+std::vector<FlagScene> flagScenes() {
+    Rows rows;
+    addScattering(rows);
+    addLighting(rows);
+    addTexturing(rows);
+    addPassing(rows);
+    addGeometry(rows);
+    addCameras(rows);
+    addSettings(rows);
+    return rows.take();
+}
+
+} // namespace hyalite::testing

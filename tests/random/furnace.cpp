@@ -1,0 +1,38 @@
+#include "tests/random/furnace.h"
+
+#include "host/reference/renderer.h"
+
+#include <array>
+
+namespace hyalite::testing {
+
+bool gains(PackedScene &packed, const RenderSettings &settings, const glm::ivec2 &pixel) {
+    constexpr int sampleCount = 2000;
+    constexpr std::array weights{0.02, 0.1, 0.3, 0.9};
+    RenderSettings single = settings;
+    single.samplesPerPixel = 1;
+    const std::uint32_t seed = packed.frame.seed;
+    std::array<double, weights.size()> products{};
+    products.fill(1.0);
+    bool isAbove = false;
+    for (int i = 1; i <= sampleCount && !isAbove; ++i) {
+        packed.frame.seed = seed + 7919u * static_cast<std::uint32_t>(i);
+        reference::Options options;
+        options.threadCount = 1;
+        const glm::vec3 sample =
+            reference::render(packed, single, {pixel.x, pixel.x + 1, pixel.y, pixel.y + 1}, options)
+                .film.pixels.front()
+                .sum;
+        const double red = static_cast<double>(sample.x);
+        double mean = 0.0;
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            products[k] *= 1.0 + weights[k] * (red / (1.0 + furnaceAllowance) - 1.0);
+            mean += products[k] / weights.size();
+        }
+        isAbove = mean >= 1.0 / furnaceErrorRate;
+    }
+    packed.frame.seed = seed;
+    return isAbove;
+}
+
+} // namespace hyalite::testing

@@ -1,0 +1,150 @@
+#include "tests/random/scene_check.h"
+
+#include "host/base/error.h"
+#include "host/gpu/kernel_needs.h"
+#include "host/reference/renderer.h"
+#include "host/render/prepare.h"
+#include "host/scene/names.h"
+#include "tests/fixtures/test_device.h"
+#include "tests/random/furnace.h"
+#include "tests/random/scene_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace hyalite::testing {
+namespace {
+
+std::string describe(const Film &film, std::size_t index) {
+    const layout::FilmPixel &pixel = film.pixels[index];
+    const std::size_t width = static_cast<std::size_t>(film.crop.width());
+    return fmt::format("pixel ({}, {}) = ({}, {}, {}) of {} samples", index % width, index / width,
+                       pixel.sum.x, pixel.sum.y, pixel.sum.z, pixel.sampleCount);
+}
+
+/// Extreme scenes may exceed the largest float, and have infinities and their differences.
+std::optional<Fault> impossibleRadiance(const Film &film, bool isExtreme) {
+    for (std::size_t i = 0; i < film.pixels.size(); ++i)
+        for (glm::length_t channel = 0; channel < 3; ++channel) {
+            const float value = film.pixels[i].sum[channel];
+            if (value < 0.0f)
+                return Fault{FaultKind::Negative, describe(film, i)};
+            if (!std::isfinite(value) && !isExtreme)
+                return Fault{FaultKind::NotFinite, describe(film, i)};
+        }
+    return {};
+}
+
+/// Tries the two brightest pixels.
+std::optional<Fault> gain(const Film &film, PackedScene &packed, const RenderSettings &settings) {
+    std::vector<std::size_t> order(film.pixels.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    const auto meanOf = [&](std::size_t i) {
+        return film.pixels[i].sum.x / static_cast<float>(film.pixels[i].sampleCount);
+    };
+    constexpr std::ptrdiff_t triedCount = 2;
+    std::ranges::partial_sort(order, order.begin() + triedCount, std::greater(), meanOf);
+    for (std::ptrdiff_t i = 0; i < triedCount; ++i) {
+        const auto index = order[static_cast<std::size_t>(i)];
+        const int at = static_cast<int>(index);
+        const int width = film.crop.width();
+        if (meanOf(index) > 1.0f + static_cast<float>(furnaceAllowance) &&
+            gains(packed, settings, {at % width, at / width}))
+            return Fault{FaultKind::Gains, describe(film, index)};
+    }
+    return {};
+}
+
+std::optional<Fault> difference(const Film &device, const Film &cpu) {
+    std::size_t count = 0;
+    std::size_t first = 0;
+    for (std::size_t i = cpu.pixels.size(); i-- > 0;)
+        if (std::memcmp(&device.pixels[i], &cpu.pixels[i], sizeof(cpu.pixels[i])) != 0) {
+            ++count;
+            first = i;
+        }
+    if (count == 0)
+        return {};
+    return Fault{FaultKind::Differs,
+                 fmt::format("{} of {} pixels differ; the first: device {}, CPU {}", count, cpu.pixels.size(),
+                             describe(device, first), describe(cpu, first))};
+}
+
+} // namespace
+
+SceneCheck::SceneCheck(const std::vector<std::string> &kernels) {
+    for (const auto &[name, choice] : gpu::namedKernels)
+        if (std::ranges::count(kernels, name) > 0 ||
+            (kernels.empty() && gpu::lackFor(choice.traversal, testDevice()).empty()))
+            kernels_.push_back(name);
+    if (kernels_.size() < kernels.size() || kernels_.empty())
+        throw Error(ErrorKind::Usage, "a name that is not a kernel, or a device without any");
+}
+
+Way SceneCheck::wayOf(std::uint64_t seed, const std::string &integrator) const {
+    const std::uint64_t kind = seed / scenesOfKind;
+    Way way{kernels_[kind % kernels_.size()], kind / 4 % 4 == 3, kind % 5 == 4, kind % 7 == 6};
+    if (integrator == nameOf(Integrator::Cost)) // counts a traversal with a stack
+        way.kernel = kind % 2 == 0 ? "stack" : "stack-x2";
+    return way;
+}
+
+gpu::Renderer &SceneCheck::rendererOf(const Way &way) {
+    const auto found = renderers_.find({way.kernel, way.isHurried});
+    if (found != renderers_.end())
+        return found->second;
+    const gpu::KernelChoice choice = std::ranges::find(gpu::namedKernels, way.kernel,
+                                                       &std::pair<std::string_view, gpu::KernelChoice>::first)
+                                         ->second;
+    gpu::RenderConfig config;
+    config.traversal = choice.traversal;
+    config.slotsPerInvocation = choice.slotsPerInvocation;
+    if (way.isHurried) {
+        config.steps = 61;
+        config.samplesAbreast = 2;
+        config.tileWidth = config.tileHeight = 16;
+    }
+    return renderers_.try_emplace({way.kernel, way.isHurried}, testDevice(), config).first->second;
+}
+
+std::optional<Fault> SceneCheck::faultOf(const RandomScene &scene, const Way &way,
+                                         const std::filesystem::path &folder) {
+    try {
+        return faultOfFile(scene, way, writeDocument(scene.document, folder));
+    } catch (const Error &error) {
+        return Fault{FaultKind::Refused, error.what()};
+    } catch (const nlohmann::json::exception &error) { // a shrunk document of another form
+        return Fault{FaultKind::Refused, error.what()};
+    }
+}
+
+std::optional<Fault> SceneCheck::faultOfFile(const RandomScene &drawn, const Way &way,
+                                             const std::filesystem::path &file) {
+    SceneOptions options;
+    options.scene = file.string();
+    options.isFlattened = way.isFlattened;
+    PreparedScene prepared = prepareScene(options, Source::Kept, true);
+    const Scene &scene = prepared.loaded.scene;
+    const Crop &crop = prepared.crop;
+    PackedScene packed = way.isEncoded ? packScene(scene, prepared.bvh, 0) : std::move(prepared.packed);
+    const reference::Result cpu = reference::render(packed, scene.settings, crop);
+    if (std::optional<Fault> fault = impossibleRadiance(cpu.film, drawn.isExtreme))
+        return fault;
+    if (drawn.isFurnace)
+        if (std::optional<Fault> fault = gain(cpu.film, packed, scene.settings))
+            return fault;
+    const gpu::Result device = rendererOf(way).render(packed, scene.settings, crop);
+    if (device.failure)
+        throw *device.failure;
+    if (std::optional<Fault> fault = difference(device.film, cpu.film))
+        return fault;
+    if (device.rays != cpu.rays)
+        return Fault{FaultKind::Differs, "the numbers of rays differ"};
+    return {};
+}
+
+} // namespace hyalite::testing
