@@ -1,5 +1,5 @@
-// Kernels are specialised by flags of the scene: each has a scene that needs it, in which device and CPU agree, and which,
-// as HYALITE_TEST_ALL looks, a kernel without the flag would render otherwise.
+// Kernels are specialised by flags of the scene: each has a scene that needs it, in which device and CPU agree, and
+// which, as HYALITE_TEST_ALL looks, a kernel without the flag would render otherwise.
 #include "tests/fixtures/test_device.h"
 #include "tests/random/flag_scenes.h"
 

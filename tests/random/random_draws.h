@@ -1,4 +1,4 @@
-// Draws of single values: by table rows, with the ends of ranges, zeros and tiny numbers more often than chance has them.
+// Draws of single values: by table rows, with the ends of ranges, zeros and tiny numbers more often than by chance.
 #pragma once
 
 #include "host/scene/settings_table.h"

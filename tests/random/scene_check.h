@@ -32,8 +32,8 @@ struct Way {
 /// Checks scenes on the device of test_device.h, which is opened once for each kernel.
 class SceneCheck {
   public:
-    /// `kernels` are those that may be chosen; all that the device has, if there is none. Throws Error{Usage} for a name
-    /// that is not a kernel.
+    /// `kernels` are those that may be chosen; all that the device has, if there is none. Throws Error{Usage} for a
+    /// name that is not a kernel.
     explicit SceneCheck(const std::vector<std::string> &kernels);
 
     /// The ways in turn, by the seed.

@@ -15,8 +15,8 @@
 
 namespace hyalite::testing {
 
-/// Writes scene.json and its files into the folder, which is made. Returns the path of scene.json. Throws an exception of
-/// nlohmann::json if the document has another form.
+/// Writes scene.json and its files into the folder, which is made. Returns the path of scene.json. Throws an exception
+/// of nlohmann::json if the document has another form.
 std::filesystem::path writeDocument(const nlohmann::json &document, const std::filesystem::path &folder);
 
 } // namespace hyalite::testing
