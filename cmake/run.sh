@@ -2,7 +2,8 @@
 # Installs missing packages (Debian 12 and 13), builds, and runs what follows:
 #
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
-#   cmake/run.sh test                builds and runs all tests
+#   cmake/run.sh test                builds and runs the tests: five minutes
+#   cmake/run.sh test-all            all of them, with more kernels and draws, on more drivers, and of the farm: an hour
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
 #   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all of
 #                                    them or those named: parallel, mpi, slurm, image, kubernetes
@@ -139,6 +140,13 @@ test)
     install_for_tests
     build_all ON
     ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)"
+    ;;
+test-all)
+    install_for_tests
+    build_all ON
+    ctest --test-dir "$build" --build-config All --output-on-failure --parallel "$(nproc)"
+    "$root/tests/drivers/run.sh" "$build" whole
+    exec "$root/cmake/run.sh" test-farm
     ;;
 test-drivers)
     install_for_tests

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <future>
 #include <map>
 #include <optional>
@@ -75,19 +76,25 @@ struct Renderer::State {
     KernelChoices preferred;
     RenderConfig config; ///< after faults, for less at a time
     RenderConfig faultless;
+    StartupCheck check; ///< of the device
     ArithmeticChoice arithmetic;
     BitGuarantee bits;
     PipelineCache pipelines;                 ///< of the device
     std::optional<ResidentScene> resident{}; ///< likewise
 
     State(const DeviceInfo &deviceInfo, const RenderConfig &asked, const KernelChoices &choices)
-        : info(deviceInfo), device(std::in_place, info, transfers(asked)), wanted(asked), preferred(choices) {
-        const StartupCheck check = checkDevice(*device);
+        : info(deviceInfo), device(std::in_place, info, transfers(asked)), preferred(choices),
+          check(checkDevice(*device)) {
         info.consecutiveLanes = check.consecutiveLanes;
         if (!info.hasSlowShuffles && mayGainFromBroadcasts(info))
             info.hasSlowShuffles = areBroadcastsFaster(*device);
-        arithmetic = chooseArithmetic(info, check, asked.arithmetic);
         bits = guaranteeOf(info, check);
+        configure(asked);
+    }
+
+    void configure(const RenderConfig &asked) {
+        wanted = asked;
+        arithmetic = chooseArithmetic(info, check, asked.arithmetic);
         config = completed(asked, info);
         config.arithmetic = arithmetic.isNative ? Arithmetic::Native : Arithmetic::Own;
         faultless = config;
@@ -187,6 +194,11 @@ Renderer::Renderer(const DeviceInfo &device, const RenderConfig &config, const K
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer &&) noexcept = default;
 Renderer &Renderer::operator=(Renderer &&) noexcept = default;
+
+void Renderer::configure(const RenderConfig &config) {
+    assert(config.isStaged == state_->wanted.isStaged);
+    state_->configure(config);
+}
 
 const DeviceInfo &Renderer::device() const { return state_->info; }
 

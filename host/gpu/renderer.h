@@ -45,6 +45,10 @@ class Renderer {
     Renderer(Renderer &&) noexcept;
     Renderer &operator=(Renderer &&) noexcept;
 
+    /// Renders by another configuration from now on. The device stays open, with its scene and pipelines, so that
+    /// `config` has the same `isStaged`.
+    void configure(const RenderConfig &config);
+
     /// With what was found when it was opened.
     [[nodiscard]] const DeviceInfo &device() const;
     /// The choice of division and square root.

@@ -1,6 +1,7 @@
 #include "tests/cli/command_line.h"
 
 #include "host/image/image_file.h"
+#include "tests/fixtures/test_extent.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -16,6 +17,7 @@ namespace hyalite::testing {
 namespace fs = std::filesystem;
 
 void CommandLine::SetUp() {
+    hastenLavapipe();
     std::string pattern = (fs::path(::testing::TempDir()) / "hyalite-cli-XXXXXX").string();
     ASSERT_NE(mkdtemp(pattern.data()), nullptr) << pattern;
     folder = pattern;

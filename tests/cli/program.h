@@ -28,7 +28,7 @@ struct Surroundings {
     std::map<std::string, std::optional<std::string>> environment;
     Stream output = Stream::Captured;
     Stream errors = Stream::Captured;
-    double timeoutSeconds = 60.0;     ///< after which the program is killed and the test fails
+    double timeoutSeconds = 1200.0;   ///< after which the program is killed and the test fails
     std::string signalAfter;          ///< if set: `signal` is sent once, when standard error contains this
     std::function<bool()> signalWhen; ///< if set: `signal` is sent once, when this says so
     int signal = 0; ///< sent once and not before the program has said something, or as signalWhen says

@@ -1,5 +1,6 @@
 // verify: films of all devices against shipped hashes, and where a film differs that has other bits.
 #include "tests/cli/fault_process.h"
+#include "tests/fixtures/test_extent.h"
 
 #include <fmt/format.h>
 
@@ -59,9 +60,12 @@ TEST_F(Verify, MayHaveTheKernelsThatAreNamed) {
 }
 
 TEST_F(Verify, PassesOnAllDevices) {
-    Surroundings patient;
-    patient.timeoutSeconds = 600.0;
-    const Outcome outcome = runIn(patient, "verify --report r.json --junit r.xml");
+    // Images have each kernel's pictures on the driver at hand; to compile them all takes a minute, or half an hour.
+    const std::set<std::string> wanted =
+        isTestingAll() ? std::set<std::string>{"stack", "stack-x2", "skip-list", "skip-list-x2"}
+                       : std::set<std::string>{"skip-list"};
+    const Outcome outcome = run("verify --report r.json --junit r.xml" +
+                                std::string(isTestingAll() ? "" : " --kernels skip-list"));
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_TRUE(outcome.output.ends_with("equal, bit for bit\n")) << outcome;
     const Json devices = report().at("devices");
@@ -73,7 +77,7 @@ TEST_F(Verify, PassesOnAllDevices) {
         EXPECT_EQ(film.at("hash"), film.at("shippedHash"));
         kernels.insert(film.at("kernel").get<std::string>());
     }
-    EXPECT_EQ(kernels, (std::set<std::string>{"stack", "stack-x2", "skip-list", "skip-list-x2"}));
+    EXPECT_EQ(kernels, wanted);
     const std::string junit = load("r.xml");
     EXPECT_TRUE(contains(junit, "failures=\"0\" skipped=\"0\"")) << junit;
     EXPECT_TRUE(contains(junit, "<testcase classname=\"cpu\" name=\"lights, path\"")) << junit;

@@ -51,8 +51,8 @@ struct Continuations : ::testing::Test {
     }
     [[nodiscard]] gpu::Result onDevice(Continuation continuation,
                                        const gpu::RenderConfig &config = {}) const {
-        gpu::Renderer renderer(testing::testDevice(), config);
-        return renderer.render(packed, scene.settings, crop, {}, nullptr, {}, std::move(continuation));
+        return testing::rendererBy(config).render(packed, scene.settings, crop, {}, nullptr, {},
+                                                  std::move(continuation));
     }
     template <class Result>
     static void expectWhole(const Part &part, const Result &rest, const reference::Result &whole) {

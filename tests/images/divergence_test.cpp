@@ -84,7 +84,7 @@ TEST(Trace, OfBothTwinsIsEqual) {
     for (const char *name : {"spheres-nested", "cat", "cornell", "lamps"}) {
         const Scene scene = testing::shippedScene(name, 32, 32, 1);
         const PackedScene packed = testing::pack(scene);
-        gpu::Renderer renderer(testing::testDevice());
+        gpu::Renderer &renderer = testing::rendererBy({});
         for (const glm::uvec2 pixel : {glm::uvec2(26, 16), glm::uvec2(16, 16), glm::uvec2(3, 30)}) {
             const auto device = renderer.trace(packed, scene.settings, pixel, 0);
             const auto cpu =

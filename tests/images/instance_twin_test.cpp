@@ -1,4 +1,5 @@
-// A scene with instances has the picture of the same scene with a mesh for each instance, bit for bit, for every kernel.
+// A scene with instances has the picture of the same scene with a mesh for each instance, bit for bit, by the kernels in
+// turn.
 #include "host/scene/instances.h"
 #include "tests/fixtures/geometry_fixture.h"
 #include "tests/images/rendering.h"
@@ -93,8 +94,8 @@ Scene flattened(Scene scene) {
     return scene;
 }
 
-/// On both renderers, with all kernels, of the scene as it is and with a mesh for each instance.
-void expectOnePicture(Scene scene,
+/// On both renderers, of the scene as it is and with a mesh for each instance; by the kernels of a turn for each tree.
+void expectOnePicture(Scene scene, std::size_t turn,
                       std::initializer_list<TreeKind> trees = {TreeKind::Midpoint, TreeKind::Sah}) {
     for (const TreeKind tree : trees) {
         scene.settings.tree = tree;
@@ -102,15 +103,11 @@ void expectOnePicture(Scene scene,
         const reference::Result cpu = renderOnCpu(scene);
         EXPECT_EQ(differingPixels(cpu.film, wanted.film), 0u);
         EXPECT_EQ(cpu.rays, wanted.rays);
-        for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList})
-            for (const int slots : {1, 2}) {
-                gpu::RenderConfig config;
-                config.traversal = traversal;
-                config.slotsPerInvocation = slots;
-                const gpu::Result device = renderOnDevice(scene, config);
-                EXPECT_EQ(differingPixels(device.film, wanted.film), 0u) << slots << " slots";
-                EXPECT_EQ(device.rays, wanted.rays);
-            }
+        for (const gpu::RenderConfig &config : testing::kernelsInTurn(turn++)) {
+            const gpu::Result device = renderOnDevice(scene, config);
+            EXPECT_EQ(differingPixels(device.film, wanted.film), 0u) << gpu::kernelName(config);
+            EXPECT_EQ(device.rays, wanted.rays);
+        }
     }
 }
 
@@ -122,27 +119,28 @@ void expectManyHits(const Scene &scene) {
 
 TEST(InstanceTwins, AgreeWithMeshesForWhitted) {
     expectManyHits(crowd(1));
-    expectOnePicture(crowd(1));
+    expectOnePicture(crowd(1), 2);
 }
 
 TEST(InstanceTwins, AgreeWithMeshesForPaths) {
     Scene scene = crowd(2);
     scene.settings.integrator = Integrator::Path;
-    expectOnePicture(scene);
+    expectOnePicture(scene, 0);
 }
 
 TEST(InstanceTwins, AgreeWithMeshesFarFromTheOrigin) {
     expectManyHits(crowd(3, 3.0, {1e6, -1e6, 1e6}));
-    expectOnePicture(crowd(3, 3.0, {1e6, -1e6, 1e6}));
+    expectOnePicture(crowd(3, 3.0, {1e6, -1e6, 1e6}), 0);
 }
 
-TEST(InstanceTwins, AgreeWithMeshesThatAreNearlyFlat) { expectOnePicture(crowd(4, 1e6)); }
+TEST(InstanceTwins, AgreeWithMeshesThatAreNearlyFlat) { expectOnePicture(crowd(4, 1e6), 2); }
 
 TEST(InstanceTwins, AgreeWithMeshesInEveryView) {
+    std::size_t turn = 1;
     for (const Integrator view : {Integrator::Normal, Integrator::Uv, Integrator::AmbientOcclusion}) {
         Scene scene = crowd(5);
         scene.settings.integrator = view;
-        expectOnePicture(scene, {TreeKind::Sah});
+        expectOnePicture(scene, turn++, {TreeKind::Sah});
     }
 }
 
@@ -152,7 +150,7 @@ TEST(InstanceTwins, AgreeWithMeshesThatAreLights) {
     scene.materials[0].emission = {2.0f, 1.5f, 1.0f};
     arrangeInstances(scene, Flattening::Useful);
     EXPECT_FALSE(scene.instances.empty()); // those without emission
-    expectOnePicture(scene);
+    expectOnePicture(scene, 0);
     Scene other = crowd(6);
     other.settings.integrator = Integrator::Path;
     other.materials[0].emission = {2.0f, 1.5f, 1.0f};

@@ -62,14 +62,14 @@ TEST(OptimisedKernel, OfTheStackComputesTheSameBits) {
     expectSameBits(
         whittedStackOneSlot,
         {.slotsPerInvocation = 1, .arithmetic = gpu::Arithmetic::Own, .traversal = gpu::Traversal::Stack});
-    expectSameBits(
-        whittedStackTwoSlots,
-        {.slotsPerInvocation = 2, .arithmetic = gpu::Arithmetic::Native, .traversal = gpu::Traversal::Stack});
+    expectSameBits(whittedStackTwoSlots, {.slotsPerInvocation = 2,
+                                          .arithmetic = gpu::Arithmetic::Automatic,
+                                          .traversal = gpu::Traversal::Stack});
 }
 
 TEST(OptimisedKernel, OfTheSkipListComputesTheSameBits) {
     expectSameBits(whittedSkipOneSlot, {.slotsPerInvocation = 1,
-                                        .arithmetic = gpu::Arithmetic::Native,
+                                        .arithmetic = gpu::Arithmetic::Automatic,
                                         .traversal = gpu::Traversal::SkipList});
     expectSameBits(
         whittedSkipTwoSlots,

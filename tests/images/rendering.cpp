@@ -2,13 +2,17 @@
 
 #include "host/import/load.h"
 #include "host/scene/validate.h"
+#include "tests/fixtures/test_extent.h"
 
+#include <array>
 #include <cassert>
 #include <cstring>
 
 namespace hyalite::testing {
 
 namespace {
+
+const bool isHastened = (hastenLavapipe(), true);
 
 Crop wholeImage(const Scene &scene) { return {0, scene.camera.width, 0, scene.camera.height}; }
 
@@ -27,12 +31,34 @@ PackedScene pack(const Scene &scene, std::size_t maxDecoded) {
     return packScene(scene, buildBvh(scene.settings.tree, scene, scene.settings.leafSize), maxDecoded);
 }
 
+gpu::Renderer &rendererBy(const gpu::RenderConfig &config) {
+    assert(!config.isStaged && config.kernel.empty());
+    static gpu::Renderer renderer(testDevice());
+    renderer.configure(config);
+    return renderer;
+}
+
+std::span<const gpu::RenderConfig> allKernels() {
+    static const std::array<gpu::RenderConfig, 4> kernels{
+        {{.slotsPerInvocation = 1, .traversal = gpu::Traversal::SkipList},
+         {.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack},
+         {.slotsPerInvocation = 2, .traversal = gpu::Traversal::SkipList},
+         {.slotsPerInvocation = 2, .traversal = gpu::Traversal::Stack}}};
+    return kernels;
+}
+
+std::span<const gpu::RenderConfig> kernelsInTurn(std::size_t turn) {
+    return isTestingAll() ? allKernels() : allKernels().subspan(turn % allKernels().size(), 1);
+}
+
 gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config, std::size_t maxDecoded) {
     return renderOnDevice(scene, pack(scene, maxDecoded), config);
 }
 
 gpu::Result renderOnDevice(const Scene &scene, const PackedScene &packed, const gpu::RenderConfig &config) {
-    return gpu::Renderer(testing::testDevice(), config).render(packed, scene.settings, wholeImage(scene));
+    if (config.isStaged || !config.kernel.empty())
+        return gpu::Renderer(testDevice(), config).render(packed, scene.settings, wholeImage(scene));
+    return rendererBy(config).render(packed, scene.settings, wholeImage(scene));
 }
 
 reference::Result renderOnCpu(const Scene &scene, const PackedScene &packed, reference::Precision precision) {

@@ -8,6 +8,7 @@
 #include "host/scene/scene.h"
 #include "tests/fixtures/test_device.h"
 
+#include <span>
 #include <string>
 
 namespace hyalite::testing {
@@ -17,6 +18,18 @@ namespace hyalite::testing {
 
 /// Validates, builds the tree that the settings ask for, and packs.
 [[nodiscard]] PackedScene pack(const Scene &scene, std::size_t maxDecoded = maxDecodedBytes);
+
+/// The renderer of all tests of a process, on the device of test_device.h, by this configuration until the next call:
+/// drivers take longer to compile a kernel than to run it, and tests share what they have in common. `config` is neither
+/// staged nor has a kernel of its own.
+[[nodiscard]] gpu::Renderer &rendererBy(const gpu::RenderConfig &config);
+
+/// The four kernels that are shipped: a traversal with a number of slots each.
+[[nodiscard]] std::span<const gpu::RenderConfig> allKernels();
+
+/// One of them, the next one for the next `turn`: scenes in turn meet all kernels. All of them for every turn if
+/// everything is tested.
+[[nodiscard]] std::span<const gpu::RenderConfig> kernelsInTurn(std::size_t turn);
 
 /// Renders all of the image on the device of test_device.h.
 [[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config = {},

@@ -71,7 +71,7 @@ TEST_P(SamplesInTurn, GoOnFromAnyFilm) {
         .tileWidth = 16, .tileHeight = 16, .steps = 100, .traversal = gpu::Traversal::SkipList};
     for (const int copy : {0, 3, 10}) {
         OneCopy part(crop, copy);
-        gpu::Renderer renderer(testing::testDevice(), config);
+        gpu::Renderer &renderer = testing::rendererBy(config);
         (void)renderer.render(packed, scene.settings, crop, {}, nullptr, {}, {{}, &part});
         ASSERT_TRUE(part.isTaken);
         const gpu::Result rest = renderer.render(packed, scene.settings, crop, {}, nullptr, {}, {part.film});

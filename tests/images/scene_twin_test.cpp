@@ -31,16 +31,9 @@ void expectTwins(const Scene &scene, const gpu::RenderConfig &config = {}) {
     expectTwins(scene, {&config, 1});
 }
 
-// Both ways through the tree, with one path slot an invocation and with two: the kernels that are shipped.
 constexpr gpu::RenderConfig skipList{.traversal = gpu::Traversal::SkipList};
 constexpr gpu::RenderConfig stack{.traversal = gpu::Traversal::Stack};
 const std::array traversals{skipList, stack};
-const std::array<gpu::RenderConfig, 4> kernels{{
-    {.slotsPerInvocation = 1, .traversal = gpu::Traversal::SkipList},
-    {.slotsPerInvocation = 2, .traversal = gpu::Traversal::Stack},
-    {.slotsPerInvocation = 2, .traversal = gpu::Traversal::SkipList},
-    {.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack},
-}};
 
 TEST(Twins, AgreeOnTheShippedScenes) {
     expectTwins(shippedScene("spheres", 128, 128, 4));
@@ -69,13 +62,15 @@ TEST(Twins, AgreeAtEveryDepth) {
 }
 
 TEST(Twins, AgreeOnEveryTree) {
+    std::size_t turn = 0;
     for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
         for (const int leafSize : {1, 2, 8, 64}) {
             Scene scene = shippedScene("cat", 48, 48, 1);
             scene.settings.tree = tree;
             scene.settings.leafSize = leafSize;
-            expectTwins(scene, traversals);
+            expectTwins(scene, testing::kernelsInTurn(turn++));
         }
+        ++turn; // another kernel for this size of leaves
     }
 }
 
@@ -156,7 +151,7 @@ Scene pathScene(int width, int height, int samplesPerPixel) {
 
 TEST(Twins, AgreeOnPaths) {
     const Scene scene = pathScene(64, 64, 4);
-    expectTwins(scene, kernels);
+    expectTwins(scene, testing::allKernels());
     expectTwins(scene, {.tileWidth = 16, .tileHeight = 8, .arithmetic = gpu::Arithmetic::Own});
     expectTwins(shippedScene("cornell", 64, 64, 4));
     expectTwins(shippedScene("lamps", 64, 64, 4));
@@ -501,8 +496,7 @@ TEST(Crop, IsThatPartOfTheWholeImage) {
     const PackedScene packed = testing::pack(scene);
     const Image whole = renderOnCpu(scene).film.toImage();
     const Crop crop{11, 47, 5, 33};
-    gpu::Renderer renderer(testing::testDevice());
-    const Image part = renderer.render(packed, scene.settings, crop).film.toImage();
+    const Image part = testing::rendererBy({}).render(packed, scene.settings, crop).film.toImage();
     ASSERT_EQ(part.width(), 36);
     ASSERT_EQ(part.height(), 28);
     for (int y = 0; y < part.height(); ++y)

@@ -18,9 +18,9 @@ struct Recorded {
 };
 
 Recorded record(const Scene &scene, const Crop &crop, const gpu::RenderConfig &config = {}) {
-    gpu::Renderer renderer(testing::testDevice(), config);
     const PackedScene packed = testing::pack(scene);
     Timeline timeline;
+    gpu::Renderer &renderer = testing::rendererBy(config);
     Stopwatch watch;
     gpu::Result result = renderer.render(packed, scene.settings, crop, {}, &timeline);
     return {std::move(timeline), std::move(result), watch.lap()};
@@ -62,10 +62,10 @@ TEST(Timeline, ShortDispatchesAreManyAndChangeNoBit) {
         scene.settings.maxDepth = 8;
         scene.settings.integrator = integrator;
         const reference::Result wanted = testing::renderOnCpu(scene);
-        for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+        for (gpu::RenderConfig config : testing::kernelsInTurn(integrator == Integrator::Path ? 0 : 1))
             for (const double seconds : {1e-6, 1e-5, 10.0}) {
-                const Recorded all =
-                    record(scene, {0, 64, 0, 48}, {.dispatchSeconds = seconds, .traversal = traversal});
+                config.dispatchSeconds = seconds;
+                const Recorded all = record(scene, {0, 64, 0, 48}, config);
                 EXPECT_EQ(testing::differingPixels(all.result.film, wanted.film), 0u) << seconds;
                 EXPECT_EQ(all.result.rays, wanted.rays) << seconds;
                 const std::size_t count = all.timeline.dispatches.size();

@@ -55,34 +55,32 @@ Scene heapWithMeshes(std::uint64_t seed) {
     return scene;
 }
 
-void expectOnePicture(Scene scene, TreeKind tree, Integrator integrator) {
+void expectOnePicture(Scene scene, TreeKind tree, Integrator integrator, std::size_t turn) {
     scene.settings.tree = tree;
     scene.settings.integrator = integrator;
     const reference::Result wanted = renderOnCpu(scene);
-    for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList})
-        for (const int slots : {1, 2}) {
-            gpu::RenderConfig config;
-            config.traversal = traversal;
-            config.slotsPerInvocation = slots;
-            const gpu::Result device = renderOnDevice(scene, config);
-            EXPECT_EQ(differingPixels(device.film, wanted.film), 0u) << slots << " slots";
-            EXPECT_EQ(device.rays, wanted.rays);
-        }
+    for (const gpu::RenderConfig &config : testing::kernelsInTurn(turn)) {
+        const gpu::Result device = renderOnDevice(scene, config);
+        EXPECT_EQ(differingPixels(device.film, wanted.film), 0u) << gpu::kernelName(config);
+        EXPECT_EQ(device.rays, wanted.rays);
+    }
 }
 
-TEST(TreeSphereTwins, AgreeForWhitted) { expectOnePicture(heap(1), TreeKind::Midpoint, Integrator::Whitted); }
+TEST(TreeSphereTwins, AgreeForWhitted) {
+    expectOnePicture(heap(1), TreeKind::Midpoint, Integrator::Whitted, 3);
+}
 
-TEST(TreeSphereTwins, AgreeForPaths) { expectOnePicture(heap(2), TreeKind::Sah, Integrator::Path); }
+TEST(TreeSphereTwins, AgreeForPaths) { expectOnePicture(heap(2), TreeKind::Sah, Integrator::Path, 1); }
 
 TEST(TreeSphereTwins, AgreeAmongMeshesAndInstances) {
-    expectOnePicture(heapWithMeshes(3), TreeKind::Sah, Integrator::Whitted);
-    expectOnePicture(heapWithMeshes(4), TreeKind::Midpoint, Integrator::Path);
+    expectOnePicture(heapWithMeshes(3), TreeKind::Sah, Integrator::Whitted, 2);
+    expectOnePicture(heapWithMeshes(4), TreeKind::Midpoint, Integrator::Path, 0);
 }
 
 TEST(TreeSphereTwins, AgreeInViews) {
-    expectOnePicture(heapWithMeshes(5), TreeKind::Sah, Integrator::Id);
-    expectOnePicture(heap(6), TreeKind::Sah, Integrator::Uv);
-    expectOnePicture(heap(7), TreeKind::Midpoint, Integrator::AmbientOcclusion);
+    expectOnePicture(heapWithMeshes(5), TreeKind::Sah, Integrator::Id, 3);
+    expectOnePicture(heap(6), TreeKind::Sah, Integrator::Uv, 2);
+    expectOnePicture(heap(7), TreeKind::Midpoint, Integrator::AmbientOcclusion, 1);
 }
 
 // The nearest hit is defined without the tree, so that it does not matter how spheres are found.

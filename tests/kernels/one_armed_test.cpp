@@ -3,6 +3,7 @@
 #include "host/gpu/spirv/one_armed.h"
 
 #include "host/gpu/spirv/specialise.h"
+#include "tests/fixtures/test_extent.h"
 #include "tests/kernels/all_kernels.h"
 #include "tests/kernels/assembled_module.h"
 #include "tests/kernels/drawn_constants.h"
@@ -34,7 +35,7 @@ TEST(OneArmed, LeavesNoSelectionOfTwoArmsInAKernel) {
     std::mt19937 random(1);
     int before = 0;
     for (const EmbeddedKernel &kernel : allKernels()) {
-        for (int i = 0; i < 4; ++i) {
+        for (int i = 0; i < repetitions(1, 4); ++i) {
             const Words specialised = gpu::specialise(kernel.words, drawnConstants(random));
             const Words words = gpu::makeSelectionsOneArmed(specialised);
             ASSERT_EQ(errorsIn(words), "") << kernel.name;

@@ -4,6 +4,7 @@
 
 #include "host/gpu/spirv/instructions.h"
 #include "shaders/layout/layout.h"
+#include "tests/fixtures/test_extent.h"
 #include "tests/kernels/all_kernels.h"
 #include "tests/kernels/assembled_module.h"
 #include "tests/kernels/drawn_constants.h"
@@ -24,7 +25,7 @@ namespace {
 TEST(Specialise, LeavesValidKernels) {
     std::mt19937 random(1);
     for (const EmbeddedKernel &kernel : allKernels()) {
-        for (int i = 0; i < 6; ++i) {
+        for (int i = 0; i < repetitions(1, 6); ++i) {
             const Words constants = drawnConstants(random);
             const Words words = gpu::specialise(kernel.words, constants);
             ASSERT_EQ(errorsIn(words), "")
