@@ -161,19 +161,17 @@ TEST(InstanceTwins, AgreeWithMeshesThatAreLights) {
 TEST(InstanceTwins, AgreeWhenEveryFewStepsEndADispatch) {
     Scene scene = crowd(7);
     const reference::Result wanted = renderOnCpu(flattened(scene));
-    for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
-        gpu::RenderConfig config;
-        config.traversal = traversal;
-        config.steps = 37;
-        EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, wanted.film), 0u);
-    }
+    for (const std::size_t turn : {1, 2}) // a stack, and a skip list
+        for (gpu::RenderConfig config : testing::kernelsInTurn(turn)) {
+            config.steps = 37;
+            EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, wanted.film), 0u);
+        }
 }
 
 TEST(InstanceTwins, AgreeOnTheWorkOfAStack) {
     Scene scene = crowd(8);
     scene.settings.integrator = Integrator::Cost;
-    gpu::RenderConfig config;
-    config.traversal = gpu::Traversal::Stack;
+    const gpu::RenderConfig config{.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack};
     EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, renderOnCpu(scene).film), 0u);
 }
 
