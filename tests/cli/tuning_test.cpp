@@ -1,6 +1,9 @@
 // devices --tune: what is measured is shown, kept and used, and a file that is damaged does no harm.
+#include "host/base/hash.h"
 #include "host/gpu/processor_use.h"
+#include "host/gpu/render_config.h"
 #include "tests/cli/command_line.h"
+#include "tests/fixtures/test_extent.h"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +45,8 @@ class Tuning : public CommandLine {
 };
 
 TEST_F(Tuning, MeasuresShowsAndKeeps) {
+    if (!isTestingAll())
+        GTEST_SKIP() << "takes as long as a user waits for it";
     const Outcome outcome = run("devices --tune --device " + softwareDevice());
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     for (const char *part :
@@ -52,9 +57,11 @@ TEST_F(Tuning, MeasuresShowsAndKeeps) {
     const Outcome shown = run("devices");
     EXPECT_TRUE(contains(shown.output, "as measured on " + kept[0].at("date").get<std::string>())) << shown;
     EXPECT_EQ(kernelOf(smallTuned), kept[0].at("spheres").get<std::string>());
+    EXPECT_EQ(kept[0].at("key").at("kernels"), hashText(gpu::hashOfKernels()));
+}
 
-    // What it kept decides, and changes no bit.
-    const std::string hash = kept[0].at("key").at("kernels");
+TEST_F(Tuning, OfTheseKernelsDecidesAndChangesNoBit) {
+    const std::string hash = hashText(gpu::hashOfKernels());
     const std::string wanted = renderPfm(smallTuned + " --device cpu");
     for (const char *kernel : {"stack", "stack-x2", "skip-list", "skip-list-x2"}) {
         tune(kernel, hash);

@@ -38,7 +38,8 @@ constexpr double energyAllowance = 3e-3;
 void expectPlainRadiance(const char *renderer, const Film &film, const Scene &scene,
                          const Comparison &comparison);
 
-/// Likewise of the films of both renderers, device and CPU.
+/// Likewise of the film of the CPU, which has the device's bits (tests of twins); and of the device's if everything is
+/// tested.
 void expectPlainRadiance(const Scene &scene, const Comparison &comparison);
 
 } // namespace hyalite::testing
