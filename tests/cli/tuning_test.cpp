@@ -11,8 +11,6 @@
 #include <fstream>
 #include <string>
 
-#include <stdlib.h>
-
 namespace hyalite::testing {
 namespace {
 
@@ -97,7 +95,7 @@ TEST_F(Tuning, ADamagedFileIsToldAndChangesNothing) {
 TEST_F(Tuning, KeepsHowLanesExchangeWhichChangesNoBit) {
     if (!gpu::hasWideVectors())
         GTEST_SKIP() << "the processor has no vectors of 512 bits, and so no subgroups of 16 lanes";
-    unsetenv("LP_NATIVE_VECTOR_WIDTH"); // as wide as the processor's
+    leaveLavapipe();
     const std::string key = "exchange of 16 lanes";
     const std::string onDevice = " --device " + softwareDevice();
     static_cast<void>(renderPfm(smallTuned + onDevice));
