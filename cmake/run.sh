@@ -2,8 +2,8 @@
 # Installs missing packages (Debian 12 and 13), builds, and runs what follows:
 #
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
-#   cmake/run.sh test                builds and runs the tests: five minutes
-#   cmake/run.sh test-all            all of them, with more kernels and draws, on more drivers, and of the farm: an hour
+#   cmake/run.sh test                builds and runs the tests
+#   cmake/run.sh test-all            all of them, with more kernels and draws, on more drivers, and of the farm
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
 #   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all of
 #                                    them or those named: parallel, mpi, slurm, image, kubernetes
