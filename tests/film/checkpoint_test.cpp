@@ -60,7 +60,12 @@ Film filmOf(std::uint32_t sampleCount) {
     Film film({2, 5, 1, 3});
     float value = 0.1f;
     for (layout::FilmPixel &pixel : film.pixels) {
-        pixel = {{value, -value, 1e-40f * value}, sampleCount, {value * value, 1e30f, 0.0f}, 0.0f};
+        pixel = {};
+        pixel.sum = {value, -value, 1e-40f * value};
+        pixel.sumRest = glm::vec3(1e-9f * value);
+        pixel.sumOfSquares = {value * value, 1e30f, 0.0f};
+        pixel.squaresRest = {0.0f, 1e20f, 0.0f};
+        pixel.sampleCount = sampleCount;
         value *= 1.7f;
     }
     return film;
@@ -201,8 +206,11 @@ TEST_F(CheckpointTest, APartHasItsOwnPixelsAndLayersOnly) {
     Film film(crop);
     Film layer(crop);
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        film.pixels[i] = {glm::vec3(static_cast<float>(i)), 3, glm::vec3(0.5f), 0.0f};
-        layer.pixels[i] = {glm::vec3(-static_cast<float>(i)), 1, glm::vec3(0.0f), 0.0f};
+        film.pixels[i].sum = glm::vec3(static_cast<float>(i));
+        film.pixels[i].sampleCount = 3;
+        film.pixels[i].sumOfSquares = glm::vec3(0.5f);
+        layer.pixels[i].sum = glm::vec3(-static_cast<float>(i));
+        layer.pixels[i].sampleCount = 1;
     }
     const Partition partition(crop, 3);
     for (std::uint32_t index = 1; index <= 3; ++index) {

@@ -3,6 +3,8 @@
 #include "host/reference/hit_surface.h"
 #include "tests/fixtures/geometry_fixture.h"
 
+#include <glm/mat3x3.hpp>
+
 #include <cmath>
 
 namespace hyalite::reference {
