@@ -54,8 +54,8 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
         ++finishedCount;
         isStopped = isLast();
     }
-    film = {glm::vec3(sums.sum), finishedCount, glm::vec3(sums.sumRest), 0.0f,
-            glm::vec3(sums.sumOfSquares), 0.0f, glm::vec3(sums.squaresRest), 0.0f};
+    film = {glm::vec3(sums.sum),          finishedCount, glm::vec3(sums.sumRest),     0.0f,
+            glm::vec3(sums.sumOfSquares), 0.0f,          glm::vec3(sums.squaresRest), 0.0f};
     return finishedCount - countBefore;
 }
 

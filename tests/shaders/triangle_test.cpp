@@ -805,8 +805,7 @@ TEST(Triangle, PointErrorBoundsTheRoundingOfThePoint) {
             return fmt::format("{} {} {} at {:a} {:a}", text(a), text(b), text(c), u, v);
         };
         const LongVec exact = LongVec(a) * static_cast<long double>(u) +
-                              LongVec(b) * static_cast<long double>(v) +
-                              LongVec(c) * w;
+                              LongVec(b) * static_cast<long double>(v) + LongVec(c) * w;
         for (int axis = 0; axis < 3; ++axis) {
             const double error =
                 static_cast<double>(std::abs(static_cast<long double>(point[axis]) - exact[axis]));
