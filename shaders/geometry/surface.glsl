@@ -14,9 +14,9 @@ Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord 
     return Surface(position, vec3(0.0), normal, normal);
 }
 
-// The point of a hit keeps a distance from the edges of its triangle, of 8 units of rounding of the largest coordinate or
-// more, so that rounding does not carry it past the next wall of a closed mesh: then a ray would leave through the edge. In
-// a triangle that is narrower than twice that it is in the middle.
+// The point of a hit keeps a distance of about 8 units of rounding of the largest coordinate from the edges of its triangle,
+// so that rounding does not carry it past the next wall of a closed mesh, where a ray would leave through the edge. In a
+// triangle that is narrower than twice that it is in the middle.
 Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, float v) {
     vec3 edge1 = triangle.v1 - triangle.v0;
     vec3 edge2 = triangle.v2 - triangle.v0;
@@ -27,10 +27,11 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
     vec3 geometric = largest > 0.0 ? unitVector(area * inverse) : vec3(0.0); // no area: no light
     vec3 blended = trianglePoint(normals.n0, normals.n1, normals.n2, u, v);
     vec3 normal = dotProduct(blended, blended) > 0.0 ? unitVector(blended) : geometric;
-    // Of a weight, whose height above its edge is at least the area of the edges' parallelogram by the longest edge.
+    // Of a weight, which is the height above an edge by that of the opposite corner: the area of both edges' parallelogram
+    // by the length of the edge.
     float extent = largestComponent(greater(abs(edge1), abs(edge2)));
-    float reach = largestComponent(abs(triangle.v0)) + extent;
-    float margin = lesser(reach * (8.0 / 16777216.0) * (2.0 * extent * inverse), 1.0 / 3.0);
+    float reach = largestComponent(greater(greater(abs(triangle.v0), abs(triangle.v1)), abs(triangle.v2)));
+    float margin = lesser(reach * (8.0 / 16777216.0) * (extent * inverse), 1.0 / 3.0);
     float first = greater(lesser(u, 1.0 - 2.0 * margin), margin);
     float second = greater(lesser(v, 1.0 - margin - first), margin);
     Surface surface;
