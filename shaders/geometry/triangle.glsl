@@ -170,7 +170,7 @@ vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
 //     products           first, second
 //     their sum          along                 r |along|
 //     point, origin      v2 + along, offset    r |point| each
-//     a neighbour's hit  depth                 r extent: its size, for which that of this triangle stands
+//     a neighbour's hit  depth                 2 r extent: its size, for which that of this triangle stands
 //
 // The depth of a hit is uncertain by more where the neighbour is a needle: one in a million rays at cosines from 1e-4 to 1
 // is stopped by the next triangle of a face 100 times as long as wide. A larger bound would carry origins through walls: at
@@ -182,6 +182,6 @@ vec3 trianglePointError(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     vec3 second = edge1 * v;
     vec3 along = first + second;
     float extent = largestComponent(greater(abs(edge0), abs(edge1)));
-    vec3 size = 2.0 * (abs(first) + abs(second) + abs(v2 + along)) + abs(along) + extent;
+    vec3 size = 2.0 * (abs(first) + abs(second) + abs(v2 + along)) + abs(along) + 2.0 * extent;
     return size * (1.0 / 16777216.0);
 }
