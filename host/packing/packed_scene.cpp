@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -212,6 +213,16 @@ std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials)
     return order;
 }
 
+/// The fields of a frame that say what is around the eye: mediumAround in shaders/bsdf/media.glsl.
+void setMedia(const Scene &scene, const std::vector<std::uint32_t> &packedMaterial,
+              layout::FrameRecord &frame) {
+    frame.mediaAtEye = mediaAt(scene, packedMaterial, scene.camera.position);
+    frame.mediumAtEye =
+        frame.mediaAtEye == 0
+            ? layout::noMaterial
+            : static_cast<std::uint32_t>(std::countr_zero(frame.mediaAtEye)) / layout::mediumBits;
+}
+
 } // namespace
 
 std::array<SceneArray, layout::sceneArrayCount> PackedScene::arrays() const {
@@ -308,7 +319,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
 
     const std::vector<std::uint32_t> order = materialOrder(scene.materials);
     const std::vector<std::uint32_t> packedMaterial = packedMaterials(order);
-    packed.frame.mediaAtEye = mediaAt(scene, packedMaterial, scene.camera.position);
+    setMedia(scene, packedMaterial, packed.frame);
     for (const std::uint32_t index : order)
         packed.materials.push_back(packMaterial(scene.materials[index]));
     const auto useMaterial = [&](std::uint32_t index, bool hasSheer) {
@@ -390,8 +401,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
 void packCamera(const Scene &scene, PackedScene &packed) {
     setCamera(scene.camera, packed.frame);
     packed.camera = cameraOf(scene.camera);
-    packed.frame.mediaAtEye =
-        mediaAt(scene, packedMaterials(materialOrder(scene.materials)), scene.camera.position);
+    setMedia(scene, packedMaterials(materialOrder(scene.materials)), packed.frame);
 }
 
 } // namespace hyalite

@@ -30,10 +30,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         pixel_ = pixel;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
-        pending_.push_back({{primary.origin, primary.direction},
-                            Vec3<Real>(Real(1)),
-                            1,
-                            mediumAround(scene_.frame.mediaAtEye)});
+        pending_.push_back(
+            {{primary.origin, primary.direction}, Vec3<Real>(Real(1)), 1, scene_.frame.mediumAtEye});
         for (std::uint64_t segmentCount = 1; !pending_.empty(); ++segmentCount) {
             if (segmentCount % segmentsBetweenPolls == 0 && isToStop_ && isToStop_()) {
                 pending_.clear();

@@ -530,7 +530,7 @@ struct FrameRecord {
     uint firstTriangleId; // of the triangle with input index 0
     uint sheenTexels;     // the first one
     uint mediaAtEye;      // the glass around the eye (shaders/bsdf/media.glsl)
-    uint pad0;
+    uint mediumAtEye;     // the one that is there, or noMaterial: kernels do not branch on uniform values
     uint pad1;
     uint pad2;
 };

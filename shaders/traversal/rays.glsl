@@ -19,7 +19,7 @@ void sendPrimaryRay(uint slot) {
     if (path[slot].sampleIndex < dispatch.sampleEnd) {
         PrimaryRay ray = primaryRay(imagePixel[slot], path[slot].sampleIndex);
         startRay(slot, ray.origin, ray.direction, noPrimitive, 1u,
-                 hasDielectric ? mediumAround(frame.mediaAtEye) : noMaterial);
+                 hasDielectric ? frame.mediumAtEye : noMaterial);
         rayCounts[slot].x += 1u;
     }
 }

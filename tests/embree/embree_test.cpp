@@ -211,9 +211,11 @@ void compareHits(const Subject &subject, const FloatRay &ray, const FloatHit &ou
 
     const reference::Surface<float> surface = reference::triangleSurface<float>(
         subject.ours.triangles[ours.record], subject.ours.normals[ours.record], ours.u, ours.v);
-    rates.ourPosition =
-        std::max(rates.ourPosition,
-                 glm::distance(testing::Vector(surface.position), exact.position) / exact.ourPositionError);
+    // The point of the hit itself: that of the surface keeps its distance from the edges.
+    const layout::TriangleRecord &triangle = subject.ours.triangles[ours.record];
+    const vec3 point = reference::trianglePoint<float>(triangle.v0, triangle.v1, triangle.v2, ours.u, ours.v);
+    rates.ourPosition = std::max(rates.ourPosition, glm::distance(testing::Vector(point), exact.position) /
+                                                        exact.ourPositionError);
     const auto error = [&](const vec3 &normal) {
         return glm::length(glm::normalize(testing::Vector(normal)) - exact.normal);
     };
