@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 
 #include <malloc.h>
 #include <sys/prctl.h>
@@ -44,25 +45,31 @@ Memory memoryNow() {
             static_cast<double>(mallinfo2().uordblks) / 1024.0};
 }
 
+// A leak grows in every batch; pages that come and go with what happens to be free do not: the least growth is judged.
 TEST_F(ManyRenders, GrowNoMemory) {
     // For long runs by hand: HYALITE_TEST_SCALE=10 renders a thousand times.
     const char *scale = std::getenv("HYALITE_TEST_SCALE");
-    const int count = 100 * std::clamp(scale != nullptr ? std::atoi(scale) : 1, 1, 1000);
+    const int count = 20 * std::clamp(scale != nullptr ? std::atoi(scale) : 1, 1, 1000);
     useOneHeap();
     keepFreedMemory();
     prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0); // pages of 2 MiB would hide what is looked for
-    render(100);                           // until the heap has its holes
-    const Memory before = memoryNow();
-    render(count);
-    const Memory after = memoryNow();
-    const double allocatedKibibytes = after.allocatedKibibytes - before.allocatedKibibytes;
-    const double residentKibibytes = after.residentKibibytes - before.residentKibibytes;
-    fmt::print("    {} renders: {:.1f} KiB more allocated, {:.0f} KiB more resident\n", count,
-               allocatedKibibytes, residentKibibytes);
+    render(20);                            // until the heap has its holes
+    Memory least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    for (int batch = 0; batch < 4; ++batch) {
+        const Memory before = memoryNow();
+        render(count);
+        const Memory after = memoryNow();
+        const Memory growth{after.residentKibibytes - before.residentKibibytes,
+                            after.allocatedKibibytes - before.allocatedKibibytes};
+        fmt::print("    {} renders: {:.1f} KiB more allocated, {:.0f} KiB more resident\n", count,
+                   growth.allocatedKibibytes, growth.residentKibibytes);
+        least.residentKibibytes = std::min(least.residentKibibytes, growth.residentKibibytes);
+        least.allocatedKibibytes = std::min(least.allocatedKibibytes, growth.allocatedKibibytes);
+    }
     // The loader and lavapipe keep 0.2 KiB of each instance that there ever was.
-    EXPECT_LT(allocatedKibibytes, 1.0 * count);
-    // Pages come and go with what happened to be free, by two MiB; with a heap a thread it was 17 KiB a render.
-    EXPECT_LT(residentKibibytes, 2560.0 + 0.5 * count);
+    EXPECT_LT(least.allocatedKibibytes, 1.0 * count);
+    // With a heap a thread it was 17 KiB a render.
+    EXPECT_LT(least.residentKibibytes, 5.0 * count);
 }
 #endif
 
