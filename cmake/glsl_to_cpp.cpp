@@ -147,8 +147,12 @@ class Translator {
             if (statements[i].text != name || isMember(statements, i))
                 continue;
             std::size_t at = i + 1;
-            while (statements[at].text == ".")
-                at += 2;
+            while (statements[at].text == "." || statements[at].text == "[") {
+                const bool isIndexed = statements[at].text == "[";
+                for (++at; isIndexed && statements[at].text != "]"; ++at) {
+                }
+                ++at;
+            }
             at = afterBlanks(statements, at);
             const bool isCombined =
                 std::string_view("+-*/%^|&").find(statements[at].text) != std::string_view::npos;

@@ -57,7 +57,7 @@ void integrate() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
         placeSlot(slot);
         loadFilm(slot);
-        loadSlot(slot, film[slot].sampleCount);
+        loadSlot(slot, filmSampleCount[slot]);
     }
     // The same for all lanes that share a pixel.
     bool isOutOfSteps = false;

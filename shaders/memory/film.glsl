@@ -1,87 +1,72 @@
 // The film. Samples are added in the order of their indices, whichever slot computed them.
+//
+// The slots of a pixel share its sums: a slot keeps those whose number leaves its lane when divided by `samplesAbreast`.
+// Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 and 7 are nobody's.
 
-#if LANES_SHUFFLE
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
 const uint filmPixelWords = 16u;
 const uint filmSampleCountWord = 3u;
+const uint filmRestWords = 4u; // from a sum to its rest
+const uint filmSums = 8u;
 
-// The slots of a pixel share the loads and stores of its words, because lavapipe makes them lane by lane and word by
-// word. Unless `isUsed`, nothing is stored, and the words of another pixel are loaded.
-FilmPixel loadFilmPixel(uint index, bool isUsed) {
-    uint words[filmPixelWords];
-    [[unroll]] for (uint begin = 0u; begin < filmPixelWords; begin += samplesAbreast) {
-        uint values[maxSamplesAbreast];
-        exchangeAbreast(filmWords[(isUsed ? index : 0u) * filmPixelWords + begin + laneAbreast()], values);
-        [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
-            words[begin + lane] = values[lane];
-    }
-    return FilmPixel(uintBitsToFloat(uvec3(words[0], words[1], words[2])), words[3],
-                     uintBitsToFloat(uvec3(words[4], words[5], words[6])), 0.0,
-                     uintBitsToFloat(uvec3(words[8], words[9], words[10])), 0.0,
-                     uintBitsToFloat(uvec3(words[12], words[13], words[14])), 0.0);
+CompensatedSum filmSum[RAYS][filmSums]; // at each number's multiple of `samplesAbreast`
+uint filmSampleCount[RAYS];             // the same in all slots of a pixel
+
+uint filmWord(uint slot, uint number) {
+    return (isSlotUsed[slot] ? filmIndex[slot] : 0u) * filmPixelWords + number + (number & 4u);
 }
 
-void storeFilmPixel(uint index, bool isUsed, FilmPixel pixel) {
-    uvec3 sum = floatBitsToUint(pixel.sum);
-    uvec3 sumRest = floatBitsToUint(pixel.sumRest);
-    uvec3 squares = floatBitsToUint(pixel.sumOfSquares);
-    uvec3 squaresRest = floatBitsToUint(pixel.squaresRest);
-    uint words[filmPixelWords] =
-        uint[](sum.x, sum.y, sum.z, pixel.sampleCount, sumRest.x, sumRest.y, sumRest.z, 0u, squares.x, squares.y,
-               squares.z, 0u, squaresRest.x, squaresRest.y, squaresRest.z, 0u);
-    [[unroll]] for (uint begin = 0u; begin < filmPixelWords; begin += samplesAbreast) {
-        uint mine = words[begin];
-        [[unroll]] for (uint lane = 1u; lane < samplesAbreast; ++lane)
-            mine = laneAbreast() == lane ? words[begin + lane] : mine;
-        if (isUsed)
-            filmWords[index * filmPixelWords + begin + laneAbreast()] = mine;
+// Loads the slot's sums; those of another pixel, if it is not used.
+void loadFilm(uint slot) {
+    filmSampleCount[slot] = filmWords[filmWord(slot, filmSampleCountWord)];
+    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast) {
+        uint word = filmWord(slot, first + sampleLane(slot));
+        filmSum[slot][first] =
+            CompensatedSum(uintBitsToFloat(filmWords[word]), uintBitsToFloat(filmWords[word + filmRestWords]));
     }
 }
 
-// The radiances of the samples abreast, in order.
-void exchangeRadiances(uint slot, out vec3 radiances[maxSamplesAbreast]) {
+void storeFilm(uint slot) {
+    if (!isSlotUsed[slot])
+        return;
+    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast) {
+        uint number = first + sampleLane(slot);
+        bool isSum = (number & 3u) != 3u;
+        uint other = number == filmSampleCountWord ? filmSampleCount[slot] : 0u;
+        uint word = filmWord(slot, number);
+        filmWords[word] = isSum ? floatBitsToUint(filmSum[slot][first].value) : other;
+        filmWords[word + filmRestWords] = isSum ? floatBitsToUint(filmSum[slot][first].rest) : 0u;
+    }
+}
+
+// Adds the radiances of the samples abreast. Slots without a sample add 0, which changes no bit.
+void addRadiances(uint slot) {
     uint red[maxSamplesAbreast];
     uint green[maxSamplesAbreast];
     uint blue[maxSamplesAbreast];
     exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.x), red);
     exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.y), green);
     exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.z), blue);
-    [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
-        radiances[lane] = uintBitsToFloat(uvec3(red[lane], green[lane], blue[lane]));
+    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast) {
+        uint number = first + sampleLane(slot);
+        uint channel = number & 3u;
+        [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
+            uint bits = channel == 0u ? red[lane] : channel == 1u ? green[lane] : blue[lane];
+            float radiance = withoutSubnormals(uintBitsToFloat(bits));
+            float added = number < 4u ? radiance : withoutSubnormals(radiance * radiance);
+            filmSum[slot][first] = plus(filmSum[slot][first], added);
+        }
+    }
 }
-#else
-layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
-
-FilmPixel loadFilmPixel(uint index, bool isUsed) { return filmPixels[isUsed ? index : 0u]; }
-
-void storeFilmPixel(uint index, bool isUsed, FilmPixel pixel) {
-    if (isUsed)
-        filmPixels[index] = pixel;
-}
-
-const uint maxSamplesAbreast = 1u;
-
-void exchangeRadiances(uint slot, out vec3 radiances[maxSamplesAbreast]) { radiances[0] = path[slot].sampleRadiance; }
-#endif
-
-FilmPixel film[RAYS]; // the same in all slots of a pixel
-
-void loadFilm(uint slot) { film[slot] = loadFilmPixel(filmIndex[slot], isSlotUsed[slot]); }
-
-void storeFilm(uint slot) { storeFilmPixel(filmIndex[slot], isSlotUsed[slot], film[slot]); }
 
 // Ends the round if the samples of all slots of the pixel are finished.
 void addRoundToFilm(uint slot) {
     if (!isTrueForAllAbreast(path[slot].stage == stageSampleDone))
         return;
     uint first = path[slot].sampleIndex - sampleLane(slot);
-    vec3 radiances[maxSamplesAbreast];
-    exchangeRadiances(slot, radiances);
-    // Slots without a sample add 0, which changes no bit.
-    [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
-        film[slot] = withSample(film[slot], radiances[lane]);
-    film[slot].sampleCount += min(samplesAbreast, dispatch.sampleEnd - first);
+    addRadiances(slot);
+    filmSampleCount[slot] += min(samplesAbreast, dispatch.sampleEnd - first);
     if (path[slot].sampleIndex < dispatch.sampleEnd)
         finishedSampleCount += 1u;
     finishedRayCounts += rayCounts[slot];

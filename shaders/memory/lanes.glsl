@@ -55,5 +55,9 @@ uint maxOfLanes(uint x) { return x; }
 
 bool subgroupElected() { return true; }
 
+const uint maxSamplesAbreast = 1u;
+
+void exchangeAbreast(uint mine, out uint values[maxSamplesAbreast]) { values[0] = mine; }
+
 bool isTrueForAllAbreast(bool value) { return value; }
 #endif
