@@ -139,13 +139,13 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
 // in [0, 1) are random. The pdf is evalBsdf(bsdf, wi).pdf.
 vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
     if (scattering == 0u)
-        return sampleDiffuse(u);
+        return sampleCosine(u);
     if ((scattering & scattersAtSheen) != 0u && bsdf.kind == bsdfSheen)
         return sampleHemisphere(u);
     bool isThrough = (scattering & scattersAtThin) != 0u && bsdf.kind == bsdfOpaque &&
                      choice >= bsdf.specularProbability && choice < bsdf.specularProbability + bsdf.thinProbability;
     if (bsdf.kind == bsdfDiffuse || bsdf.kind == bsdfOpaque && choice >= bsdf.specularProbability && !isThrough)
-        return sampleDiffuse(u);
+        return sampleCosine(u);
     vec3 facet = sampleGgxVndf(bsdf.wo, bsdf.alphas, u);
     if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass) {
         DielectricFresnel glass = fresnelDielectric(-bsdf.wo, facet, bsdf.eta);

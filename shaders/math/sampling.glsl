@@ -24,13 +24,16 @@ vec3 toWorld(Frame f, vec3 v) {
     return f.x * v.x + f.y * v.y + f.z * v.z;
 }
 
-// A direction around `normal` with the pdf cos / pi per solid angle: a point of the unit disc, projected up (Malley).
-vec3 sampleCosine(vec3 normal, vec2 u) {
+// A direction around z with the pdf cos / pi per solid angle: a point of the unit disc, projected up (Malley).
+vec3 sampleCosine(vec2 u) {
     float radius = squareRoot(u.x);
     SineCosine angle = sineCosine(u.y);
     float below = 1.0 - u.x;
-    return unitVector(toWorld(makeOrthonormalBasis(normal), vec3(radius * angle.cosine, radius * angle.sine, squareRoot(below))));
+    return vec3(radius * angle.cosine, radius * angle.sine, squareRoot(below));
 }
+
+// The same around `normal`.
+vec3 sampleCosine(vec3 normal, vec2 u) { return unitVector(toWorld(makeOrthonormalBasis(normal), sampleCosine(u))); }
 
 float pdfCosine(float cosine) { return cosine * inversePi; }
 

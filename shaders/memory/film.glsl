@@ -1,7 +1,7 @@
 // The film. Samples are added in the order of their indices, whichever slot computed them.
 //
 // The slots of a pixel share its sums: a slot keeps those whose number leaves its lane when divided by `samplesAbreast`.
-// Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 and 7 are nobody's.
+// Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples.
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
@@ -9,34 +9,44 @@ const uint filmPixelWords = 16u;
 const uint filmSampleCountWord = 3u;
 const uint filmRestWords = 4u; // from a sum to its rest
 const uint filmSums = 8u;
+const uint nobodysSum = 7u;
 
 CompensatedSum filmSum[RAYS][filmSums]; // at each number's multiple of `samplesAbreast`
 uint filmSampleCount[RAYS];             // the same in all slots of a pixel
 
+// The word of a sum in the film; of another pixel's, if the slot is not used.
 uint filmWord(uint slot, uint number) {
     return (isSlotUsed[slot] ? filmIndex[slot] : 0u) * filmPixelWords + number + (number & 4u);
 }
 
-// Loads the slot's sums; those of another pixel, if it is not used.
+// Words are loaded and stored one by one on lavapipe, so that no slot touches more than it has to: there are no rests before
+// the first sample.
 void loadFilm(uint slot) {
-    filmSampleCount[slot] = filmWords[filmWord(slot, filmSampleCountWord)];
+    const uint laneOfCount = filmSampleCountWord & samplesAbreast - 1u;
+    uint count = 0u;
     [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast) {
-        uint word = filmWord(slot, first + sampleLane(slot));
-        filmSum[slot][first] =
-            CompensatedSum(uintBitsToFloat(filmWords[word]), uintBitsToFloat(filmWords[word + filmRestWords]));
+        uint value = filmWords[filmWord(slot, first + sampleLane(slot))];
+        filmSum[slot][first] = CompensatedSum(uintBitsToFloat(value), 0.0);
+        count = first + laneOfCount == filmSampleCountWord ? value : count;
     }
+    uint counts[maxSamplesAbreast];
+    exchangeAbreast(count, counts);
+    filmSampleCount[slot] = counts[laneOfCount];
+    if (filmSampleCount[slot] != 0u)
+        [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast)
+            filmSum[slot][first].rest =
+                uintBitsToFloat(filmWords[filmWord(slot, first + sampleLane(slot)) + filmRestWords]);
 }
 
 void storeFilm(uint slot) {
-    if (!isSlotUsed[slot])
-        return;
     [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast) {
         uint number = first + sampleLane(slot);
-        bool isSum = (number & 3u) != 3u;
-        uint other = number == filmSampleCountWord ? filmSampleCount[slot] : 0u;
         uint word = filmWord(slot, number);
-        filmWords[word] = isSum ? floatBitsToUint(filmSum[slot][first].value) : other;
-        filmWords[word + filmRestWords] = isSum ? floatBitsToUint(filmSum[slot][first].rest) : 0u;
+        bool isCount = number == filmSampleCountWord;
+        if (isSlotUsed[slot] && number != nobodysSum)
+            filmWords[word] = isCount ? filmSampleCount[slot] : floatBitsToUint(filmSum[slot][first].value);
+        if (isSlotUsed[slot] && number != nobodysSum && !isCount)
+            filmWords[word + filmRestWords] = floatBitsToUint(filmSum[slot][first].rest);
     }
 }
 
