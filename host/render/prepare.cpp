@@ -8,6 +8,7 @@
 #include "host/import/load.h"
 #include "host/render/diagnosis.h"
 #include "host/report/progress.h"
+#include "host/scene/contacts.h"
 #include "host/scene/framing.h"
 #include "host/scene/instances.h"
 #include "host/scene/limits.h"
@@ -261,6 +262,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     // Without a tree all triangles are tested one by one, and have to be in one space.
     const bool isFlattened = options.isFlattened || scene.settings.tree == TreeKind::None;
     arrangeInstances(scene, isFlattened ? Flattening::All : Flattening::Useful);
+    partContacts(scene);
     prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);
     warnOfOverlaps(prepared.bvh);
     prepared.packed = packScene(scene, prepared.bvh);

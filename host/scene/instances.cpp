@@ -206,10 +206,15 @@ void arrangeInstances(Scene &scene, Flattening flattening) {
     const auto becomesMesh = [&](const Instance &instance) {
         return isFlattened[instance.prototype] || isNearlyFlat(instance.toWorld);
     };
+    const std::vector<Instance> instances = scene.instances;
+    flattenInstances(scene, [&](std::size_t i) { return becomesMesh(instances[i]); });
+}
+
+void flattenInstances(Scene &scene, const std::function<bool(std::size_t)> &becomesMesh) {
     std::uint64_t flattenedTriangles = triangleCount(scene);
-    for (const Instance &instance : scene.instances)
-        if (becomesMesh(instance))
-            flattenedTriangles += scene.prototypes[instance.prototype].triangles.size();
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (becomesMesh(i))
+            flattenedTriangles += scene.prototypes[scene.instances[i].prototype].triangles.size();
     requireRoomFor(flattenedTriangles);
 
     std::vector<TriangleMesh> meshes;
@@ -220,7 +225,7 @@ void arrangeInstances(Scene &scene, Flattening flattening) {
              ++instanceIndex) {
             Instance instance = scene.instances[instanceIndex];
             instance.meshesBefore = static_cast<std::uint32_t>(meshes.size());
-            if (becomesMesh(instance))
+            if (becomesMesh(instanceIndex))
                 meshes.push_back(flattened(scene.prototypes[instance.prototype], instance.toWorld));
             else
                 instances.push_back(instance);

@@ -3,7 +3,9 @@
 
 #include "host/scene/scene.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -56,5 +58,8 @@ enum class Flattening {
 /// changes. The scene is valid. Throws Error{LimitExceeded} if
 /// the meshes are too large.
 void arrangeInstances(Scene &scene, Flattening flattening);
+
+/// The same for the instances, by their indices, that `becomesMesh` names.
+void flattenInstances(Scene &scene, const std::function<bool(std::size_t)> &becomesMesh);
 
 } // namespace hyalite

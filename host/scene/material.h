@@ -177,7 +177,8 @@ inline constexpr auto dielectric = std::to_array<MaterialKey>({
     {"segmentTint", ColourKey{&Material::segmentTint, limits::fraction, &Record::segmentTint},
      "factor on everything that a segment inside returns, whatever its length; `whitted` only"},
     {"absorption", absorption, "absorption per unit of length, by Beer's law; `path` only"},
-    {"priority", priority, "where dielectrics overlap, the one of highest priority wins; `path` only"},
+    {"priority", priority,
+     "where dielectrics overlap or have a face in common, the one of highest priority wins; `path` only"},
     {"roughness", roughness, "0 is smooth; `path` only"},
 });
 inline constexpr auto conductor = std::to_array<MaterialKey>({
