@@ -213,14 +213,29 @@ std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials)
     return order;
 }
 
-/// The fields of a frame that say what is around the eye: mediumAround in shaders/bsdf/media.glsl.
-void setMedia(const Scene &scene, const std::vector<std::uint32_t> &packedMaterial,
-              layout::FrameRecord &frame) {
-    frame.mediaAtEye = mediaAt(scene, packedMaterial, scene.camera.position);
-    frame.mediumAtEye =
-        frame.mediaAtEye == 0
-            ? layout::noMaterial
-            : static_cast<std::uint32_t>(std::countr_zero(frame.mediaAtEye)) / layout::mediumBits;
+/// Half the size of the box around the eye in which primary rays begin.
+glm::dvec3 spreadOfOrigins(const Camera &camera, const layout::FrameRecord &frame) {
+    const glm::dvec3 right = glm::abs(glm::dvec3(frame.pixelRight));
+    const glm::dvec3 up = glm::abs(glm::dvec3(frame.pixelUp));
+    constexpr double filterRadius = 1.5; // pixels
+    if (camera.kind == CameraKind::Orthographic)
+        return right * (0.5 * camera.width + filterRadius) + up * (0.5 * camera.height + filterRadius);
+    return static_cast<double>(frame.lensScale) * (right + up);
+}
+
+/// What kernels read of the camera, and of the glass around it: mediumAround in shaders/bsdf/media.glsl.
+void setEye(const Scene &scene, const std::vector<std::uint32_t> &packedMaterial, PackedScene &packed) {
+    layout::FrameRecord &frame = packed.frame;
+    const MediaAt media =
+        mediaAt(scene, packedMaterial, scene.camera.position, spreadOfOrigins(scene.camera, frame));
+    packed.camera = cameraOf(scene.camera);
+    const bool areElsewhere =
+        packed.camera == layout::cameraLens || packed.camera == layout::cameraOrthographic;
+    packed.camera |= areElsewhere && media.isSurfaceNear ? layout::cameraOriginsMeetGlass : 0u;
+    frame.mediaAtEye = media.around;
+    frame.mediumAtEye = media.around == 0
+                            ? layout::noMaterial
+                            : static_cast<std::uint32_t>(std::countr_zero(media.around)) / layout::mediumBits;
 }
 
 } // namespace
@@ -311,7 +326,6 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     PackedScene packed;
     packed.serial = ++count;
     packed.frame = packFrame(scene);
-    packed.camera = cameraOf(scene.camera);
     packed.hasTriangles = !bvh.order.empty();
     if (!bvh.spheres.empty())
         packed.treeSpheres = scene.meshes.empty() && scene.instances.empty() ? layout::treeHasSpheresOnly
@@ -319,7 +333,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
 
     const std::vector<std::uint32_t> order = materialOrder(scene.materials);
     const std::vector<std::uint32_t> packedMaterial = packedMaterials(order);
-    setMedia(scene, packedMaterial, packed.frame);
+    setEye(scene, packedMaterial, packed);
     for (const std::uint32_t index : order)
         packed.materials.push_back(packMaterial(scene.materials[index]));
     const auto useMaterial = [&](std::uint32_t index, bool hasSheer) {
@@ -400,8 +414,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
 
 void packCamera(const Scene &scene, PackedScene &packed) {
     setCamera(scene.camera, packed.frame);
-    packed.camera = cameraOf(scene.camera);
-    setMedia(scene, packedMaterials(materialOrder(scene.materials)), packed.frame);
+    setEye(scene, packedMaterials(materialOrder(scene.materials)), packed);
 }
 
 } // namespace hyalite

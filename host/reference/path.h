@@ -10,6 +10,7 @@
 #include "host/film/ray_counts.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/hit_surface.h"
+#include "host/reference/media_at_origin.h"
 
 #include <bit>
 #include <optional>
@@ -34,7 +35,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         radiance_ = Vec3<Real>(Real(0));
         throughput_ = Vec3<Real>(Real(1));
         scatterPdf_ = 0;
-        mediaInside_ = scene_.frame.mediaAtEye;
+        depth_ = 0;
+        mediaInside_ = mediaAtOrigin(scene_, primary.origin, pixel, sampleIndex, counter_,
+                                     [&](const Ray<Real> &ray) { traceRay(ray); });
         depth_ = 1;
         std::optional<Ray<Real>> ray = Ray<Real>{primary.origin, primary.direction};
         while (ray) {
@@ -65,6 +68,11 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
         if (events_ != nullptr)
             events_->push_back({quantity, sampleIndex_, depth_, integer, glm::vec3(value), 0});
+    }
+
+    void traceRay(const Ray<Real> &ray) {
+        traceEvent(layout::traceRayOrigin, 0, ray.origin);
+        traceEvent(layout::traceRayDirection, 0, ray.direction);
     }
 
     [[nodiscard]] glm::uvec2 vertexBits(std::uint32_t pair) const {
@@ -223,8 +231,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     /// The next ray of the path; empty at its end.
     [[nodiscard]] std::optional<Ray<Real>> followRay(Ray<Real> ray) {
         ray.keys = {pixel_, sampleIndex_, 2 * depth_};
-        traceEvent(layout::traceRayOrigin, 0, ray.origin);
-        traceEvent(layout::traceRayDirection, 0, ray.direction);
+        traceRay(ray);
         const Hit<Real> hit = closestHit(scene_, ray, counter_);
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         throughput_ *= transmittance(hit.distance);

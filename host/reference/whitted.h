@@ -6,6 +6,7 @@
 #include "host/film/ray_counts.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/hit_surface.h"
+#include "host/reference/media_at_origin.h"
 
 #include <cstdint>
 #include <functional>
@@ -30,8 +31,11 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         pixel_ = pixel;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
+        depth_ = 0;
+        const std::uint32_t media = mediaAtOrigin(scene_, primary.origin, pixel, sampleIndex, counter_,
+                                                  [&](const Ray<Real> &ray) { traceRay(ray); });
         pending_.push_back(
-            {{primary.origin, primary.direction}, Vec3<Real>(Real(1)), 1, scene_.frame.mediumAtEye});
+            {{primary.origin, primary.direction}, Vec3<Real>(Real(1)), 1, mediumAround(media)});
         for (std::uint64_t segmentCount = 1; !pending_.empty(); ++segmentCount) {
             if (segmentCount % segmentsBetweenPolls == 0 && isToStop_ && isToStop_()) {
                 pending_.clear();
@@ -73,10 +77,14 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             events_->push_back({quantity, sampleIndex_, depth_, integer, glm::vec3(value), 0});
     }
 
+    void traceRay(const Ray<Real> &ray) {
+        traceEvent(layout::traceRayOrigin, 0, ray.origin);
+        traceEvent(layout::traceRayDirection, 0, ray.direction);
+    }
+
     void followSegment(Segment segment) {
         depth_ = segment.depth;
-        traceEvent(layout::traceRayOrigin, 0, segment.ray.origin);
-        traceEvent(layout::traceRayDirection, 0, segment.ray.direction);
+        traceRay(segment.ray);
         segment.ray.keys = {pixel_, sampleIndex_, 2 * depth_};
         const Hit<Real> hit = closestHit(scene_, segment.ray, counter_);
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});

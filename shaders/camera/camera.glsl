@@ -75,13 +75,26 @@ vec2 sampleOffset(uvec2 pixel, uint sampleIndex) {
 
 // The primary ray through `offset`, for each kind of camera.
 PrimaryRay primaryRayThrough(uvec2 pixel, vec2 offset, uint sampleIndex) {
-    if (camera == cameraLens)
+    if ((camera & kindOfCamera) == cameraLens)
         return throughLens(pixel, offset, unitFloats(sampleBits(pairKeys(pixel, frame.seed, lensPair), sampleIndex)));
-    if (camera == cameraOrthographic)
+    if ((camera & kindOfCamera) == cameraOrthographic)
         return alongView(pixel, offset);
-    if (camera == cameraPanorama)
+    if ((camera & kindOfCamera) == cameraPanorama)
         return allAround(pixel, offset);
     return PrimaryRay(frame.eye, primaryDirection(pixel, offset));
+}
+
+// The rest of the straight way from the eye to the origin of a primary ray, from a point of it.
+struct WayToOrigin {
+    vec3 direction; // unit length; 0 where there is no way
+    float distance;
+};
+
+WayToOrigin wayToOrigin(vec3 from, vec3 origin) {
+    vec3 way = origin - frame.eye;
+    float whole = vectorLength(way);
+    vec3 direction = whole > 0.0 ? way * divide(1.0, whole) : vec3(0.0);
+    return WayToOrigin(direction, dotProduct(origin - from, direction));
 }
 
 // The primary ray of a sample.

@@ -20,8 +20,12 @@ void traceRays() {
     if (hasTriangles)
         traverse(stageClosest, false);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageClosest && !isTraversing(slot))
-            shadeHit(slot);
+        if (path[slot].stage == stageClosest && !isTraversing(slot)) {
+            if (originsMeetGlass() && path[slot].rayDepth == 0u)
+                passOnWay(slot);
+            else
+                shadeHit(slot);
+        }
     stepsTaken += 1u;
     passWork += workPerPass;
 }

@@ -35,9 +35,8 @@ vec2 lobeChoice(uint slot) {
 }
 
 void beginSample(uint slot) {
-    sendPrimaryRay(slot);
+    beginInMedia(slot);
     path[slot].scatterPdf = 0.0;
-    path[slot].mediaInside = hasDielectric ? frame.mediaAtEye : 0u;
 }
 
 void endPath(uint slot) { path[slot].stage = stageSampleDone; }

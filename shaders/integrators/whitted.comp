@@ -16,7 +16,7 @@ const bool hasBounces = false;
 #include "shaders/kernels/stages.glsl"
 #include "shaders/integrators/pending_rays.glsl"
 
-void beginSample(uint slot) { sendPrimaryRay(slot); }
+void beginSample(uint slot) { beginInMedia(slot); }
 
 // Ends a path; the sample may have another one pending.
 void endPath(uint slot) {

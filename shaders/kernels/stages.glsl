@@ -9,4 +9,5 @@
 #include "shaders/traversal/meet_triangle.glsl"
 #include "shaders/traversal/traverse.glsl"
 #include "shaders/traversal/rays.glsl"
+#include "shaders/integrators/media_at_origin.glsl"
 #include "shaders/integrators/integrate.glsl"

@@ -158,8 +158,9 @@ TEST(UniformBranches, AreInNoKernel) {
             !kernel.name.starts_with("view"))
             continue;
         ++kernelCount;
-        for (const std::uint32_t camera : {layout::cameraPinhole, layout::cameraLens,
-                                           layout::cameraOrthographic, layout::cameraPanorama}) {
+        for (const std::uint32_t camera :
+             {layout::cameraPinhole, layout::cameraLens, layout::cameraOrthographic, layout::cameraPanorama,
+              layout::cameraLens | layout::cameraOriginsMeetGlass}) {
             for (int i = 0; i < 6; ++i) {
                 const auto words = gpu::specialise(kernel.words, constantsOf(camera, i == 0, random));
                 const auto [uniform, all] = DataFlow(words).countBranches();

@@ -317,6 +317,16 @@ void addCameras(Rows &rows) {
     add("cameraLens", layout::cameraLens, CameraKind::Perspective, 0.5);
     add("cameraOrthographic", layout::cameraOrthographic, CameraKind::Orthographic, 0.0);
     add("cameraPanorama", layout::cameraPanorama, CameraKind::Panorama, 0.0);
+    Scene half = beforeAWall(MaterialKind::Dielectric); // of the orthographic view in glass
+    half.materials[0].roughness = 0.0f;
+    half.materials[0].absorption = {0.1f, 0.5f, 0.9f};
+    half.materials[0].segmentTint = {0.9f, 0.5f, 0.1f};
+    half.spheres = {{{2, 0, 5}, 2.0, 0, false}};
+    rows.bit("cameraOriginsMeetGlass", &PackedScene::camera, layout::cameraOriginsMeetGlass, half,
+             layout::cameraOrthographic);
+    half.settings.integrator = Integrator::Whitted;
+    rows.bit("cameraOriginsMeetGlass", &PackedScene::camera, layout::cameraOriginsMeetGlass, half,
+             layout::cameraOrthographic);
 }
 
 /// What settings choose.

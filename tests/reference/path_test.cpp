@@ -121,6 +121,35 @@ TEST(PathFurnace, AWhiteBallInGlassIsInvisibleToo) {
     expectRadiance(scene, 1.0);
 }
 
+TEST(Path, BeginsInTheGlassAroundEachOrigin) {
+    // A block of what absorbs and does not refract, down to x = 0: rays along -z that begin in it are in it for 10 units.
+    const double inside = std::exp(-1.0);
+    Scene scene = sceneFrom({0.5, 0, 0}, 1024);
+    scene.background = glm::vec3(1.0f);
+    scene.meshes.emplace_back();
+    scene.meshes[0].materialIndex = addMaterial(scene, glass(1.0f, 0.1f));
+    TriangleMesh &block = scene.meshes[0];
+    addQuad(block, {-10, -10, 10}, {10, 0, 0}, {0, 20, 0});
+    addQuad(block, {-10, -10, -10}, {0, 20, 0}, {10, 0, 0});
+    addQuad(block, {0, -10, -10}, {0, 20, 0}, {0, 0, 20});
+    addQuad(block, {-10, -10, -10}, {0, 0, 20}, {0, 20, 0});
+    addQuad(block, {-10, 10, -10}, {0, 0, 20}, {10, 0, 0});
+    addQuad(block, {-10, -10, -10}, {10, 0, 0}, {0, 0, 20});
+    scene.camera.kind = CameraKind::Orthographic;
+    scene.camera.viewWidth = 4.0;
+    expectRadiance(scene, 0.625 + 0.375 * inside, 3e-3);
+    scene.camera.position.x = -0.5; // an eye in the block
+    expectRadiance(scene, 0.375 + 0.625 * inside, 3e-3);
+
+    // A lens that is cut at a quarter of its radius.
+    scene.camera.kind = CameraKind::Perspective;
+    scene.camera.aperture = 2.0;
+    scene.camera.focusDistance = 1e6;
+    scene.camera.position.x = 0.25;
+    const double share = (std::acos(0.25) - 0.25 * std::sqrt(1.0 - 0.0625)) / pi;
+    expectRadiance(scene, 1.0 - share + share * inside, 3e-3);
+}
+
 TEST(Path, ADiffuseSilhouetteDoesNotDependOnOtherMaterials) {
     // The shading normals lean 60 degrees to the left, and the eye is 60 degrees to the right: it sees the wall, but they
     // face away. Of an even sky a surface that leans by an angle sees (1 + cos) / 2 (Lambert's law).
