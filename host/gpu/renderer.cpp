@@ -336,7 +336,8 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
                     },
                     raysSoFar);
             });
-        costs = tiles.costs();
+        if (bandSize >= DispatchSizer::minPixels) // fewer leave most slots idle
+            costs = tiles.costs();
         result.work += totals.work;
         result.lanes += totals.lanes;
         result.timing.dispatchCount += totals.dispatchCount;
