@@ -15,7 +15,7 @@ enum class ErrorKind {
     BadInput,         ///< a scene, mesh or image cannot be used
     NoDevice,         ///< no usable Vulkan device
     LimitExceeded,    ///< not enough memory, or a device limit is too low
-    DeviceLost,       ///< the device failed or hung while rendering
+    DeviceLost,       ///< the device failed, hung, or computed wrong bits
     OutputNotWritten, ///< an output file could not be written
     HungUp,           ///< SIGHUP, before there was a result
     Interrupted,      ///< SIGINT, likewise
@@ -31,6 +31,7 @@ enum class Remedy {
     ReferenceInstead, ///< the CPU renderer needs no Vulkan
     NoKernelChoice,   ///< let the program choose the kernel
     CompareRenders,   ///< a comparison shows where two renders differ
+    OneDevice,        ///< a picture by one device alone has no seams
     BeginAnew,        ///< render with the checkpoint's settings, or without the checkpoint
     AllowPath,        ///< let the scene read files in another folder
     ProfileReport     ///< a profile writes such a report

@@ -28,6 +28,8 @@ std::string_view wordsFor(Remedy remedy) {
         return "; leave out --kernel";
     case Remedy::CompareRenders:
         return "; `hyalite compare` tells where";
+    case Remedy::OneDevice:
+        return "; a picture by one --device alone has no seams, and `hyalite verify` tells more of its bits";
     case Remedy::BeginAnew:
         return "; render as before, or start over without --resume";
     case Remedy::AllowPath:

@@ -2,6 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/film/partition.h"
+#include "host/render/spot_check.h"
 #include "host/render/tile_queue.h"
 
 #include <algorithm>
@@ -38,6 +39,18 @@ std::uint64_t samplesIn(const Film &film) {
     return count;
 }
 
+/// Why a member that does `work` is to be left out; empty if it is done.
+template <class Work> std::optional<Error> failureOf(const Work &work) {
+    try {
+        work();
+        return std::nullopt;
+    } catch (const Error &error) {
+        return error;
+    } catch (const std::bad_alloc &) {
+        return Error(ErrorKind::LimitExceeded, "it has too little memory");
+    }
+}
+
 /// One picture.
 class SharedRender {
   public:
@@ -47,6 +60,7 @@ class SharedRender {
         : members_(members), scene_(scene), onProgress_(onProgress), shouldStop_(shouldStop),
           snapshots_(continuation.snapshots),
           samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel)),
+          spotCheck_(scene, continuation.film ? continuation.film->crop : scene.crop, shouldStop),
           film_(continuation.film ? std::move(*continuation.film) : Film(scene.crop)),
           queue_(film_, samplesPerPixel_), finishedSamples_(static_cast<double>(samplesIn(film_))) {
         for (Member &member : members)
@@ -144,26 +158,32 @@ class SharedRender {
             tellProgress();
         };
         Stopwatch watch;
-        try {
+        const std::optional<Error> failure = failureOf([&] {
+            checkBits(worker, watch);
             BackendResult result = worker.member->backend->render(scene_, onProgress, nullptr, shouldStop_,
                                                                   std::move(continuation));
             const double seconds = watch.lap().seconds();
             const std::scoped_lock lock(mutex_);
             takeIn(worker, tile, samplesBefore, seconds, std::move(result));
-        } catch (const Error &error) {
-            giveUp(worker, tile, samplesBefore, watch.lap().seconds(), error);
-        } catch (const std::bad_alloc &) {
-            giveUp(worker, tile, samplesBefore, watch.lap().seconds(),
-                   Error(ErrorKind::LimitExceeded, "it has too little memory"));
-        }
+        });
+        if (!failure)
+            return;
+        const std::scoped_lock lock(mutex_);
+        worker.share.seconds += watch.lap().seconds();
+        finishedSamples_ += static_cast<double>(samplesBefore);
+        leaveOut(worker, tile, *failure);
     }
 
-    void giveUp(Worker &worker, const Crop &tile, std::uint64_t samplesBefore, double seconds,
-                const Error &why) {
+    /// Throws if they are not the CPU's. A picture by one renderer has no seams, whatever its bits.
+    void checkBits(Worker &worker, Stopwatch &watch) {
+        Member &member = *worker.member;
+        const Integrator integrator = scene_.loaded.scene.settings.integrator;
+        if (workers_.size() == 1 || std::ranges::find(member.checked, integrator) != member.checked.end())
+            return;
+        if (spotCheck_.run(*member.backend, worker.total.faults))
+            member.checked.push_back(integrator);
         const std::scoped_lock lock(mutex_);
-        worker.share.seconds += seconds;
-        finishedSamples_ += static_cast<double>(samplesBefore);
-        leaveOut(worker, tile, why);
+        worker.share.seconds += watch.lap().seconds();
     }
 
     // With the mutex:
@@ -239,6 +259,7 @@ class SharedRender {
     SnapshotTaker *snapshots_;
     const std::uint32_t samplesPerPixel_;
     std::vector<Worker> workers_;
+    SpotCheck spotCheck_;
     std::mutex mutex_; ///< of what follows, and of the workers
     std::condition_variable changed_;
     Film film_;

@@ -66,6 +66,10 @@ TEST(Failure, MemoryAndThreadsThatAreNotToBeHadAreNoBugs) {
 TEST(Failure, RemediesAndOverridesAreNamedByTheirOptions) {
     EXPECT_EQ(failureOf(Error(ErrorKind::NoDevice, "no driver", Remedy::ReferenceInstead)).message,
               "no driver; --device cpu renders without Vulkan, to the same bits");
+    EXPECT_EQ(
+        failureOf(Error(ErrorKind::DeviceLost, "a and cpu disagree", Remedy::OneDevice)).message,
+        "a and cpu disagree; a picture by one --device alone has no seams, and `hyalite verify` tells more "
+        "of its bits");
     const Failure failure = failureOf(OverrideError("crop", "0,0,0,0 is empty"));
     EXPECT_EQ(failure.code, ExitCode::Usage);
     EXPECT_EQ(failure.message, "--crop: 0,0,0,0 is empty");

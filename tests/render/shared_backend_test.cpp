@@ -4,9 +4,11 @@
 #include "host/import/assets.h"
 #include "host/render/cpu_backend.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <latch>
 #include <memory>
 #include <mutex>
@@ -21,12 +23,13 @@ enum class Failure {
     None,
     Throws,  ///< as a device does that a scene is too large for
     GivesUp, ///< as a device does that is lost for good: with a film that has some of the samples
+    Differs, ///< one bit is wrong in the first pixel of each tile, and the mean is right
 };
 
-/// The CPU, as a member that fails at its `failingTile`-th tile.
+/// The CPU, as a member that fails at its `failingTile`-th tile; or that differs, in each.
 class MemberOnCpu : public Backend {
   public:
-    /// Begins its first tile when all that are to come to `gate` have one.
+    /// Begins with its first tile when all that are to come to `gate` have one.
     MemberOnCpu(std::string name, std::shared_ptr<std::latch> gate, Failure failure = Failure::None,
                 int failingTile = 0)
         : name_(std::move(name)), gate_(std::move(gate)), failure_(failure), failingTile_(failingTile) {}
@@ -40,31 +43,46 @@ class MemberOnCpu : public Backend {
                                        const std::function<void(double)> &onProgress, Timeline *timeline,
                                        const std::function<bool()> &shouldStop,
                                        Continuation continuation) override {
-        if (tileCount_ == 0 && gate_)
+        const bool isSpot = !onProgress; // of the check that comes before the tiles
+        if (spotCount_ + tileCount_ == 0 && gate_)
             gate_->arrive_and_wait();
-        const bool isFailing = tileCount_++ == failingTile_ && failure_ != Failure::None;
+        const bool isFailing = isFailingAt(isSpot ? -1 : tileCount_);
+        ++(isSpot ? spotCount_ : tileCount_);
         if (isFailing && failure_ == Failure::Throws)
             throw Error(ErrorKind::LimitExceeded, "too little memory");
         std::atomic<int> left = 40; // samples
         const auto givesUp = [&] { return left-- <= 0; };
-        BackendResult result = cpu_->render(scene, onProgress, timeline, isFailing ? givesUp : shouldStop,
+        const bool isGivingUp = isFailing && failure_ == Failure::GivesUp;
+        BackendResult result = cpu_->render(scene, onProgress, timeline, isGivingUp ? givesUp : shouldStop,
                                             std::move(continuation));
-        if (isFailing)
+        if (isGivingUp)
             result.failure.emplace(ErrorKind::DeviceLost, "lost");
+        if (isFailing && failure_ == Failure::Differs)
+            spoil(result.film.pixels.front());
         return result;
     }
+    /// Changes the last bit of the least of all sums.
+    static void spoil(layout::FilmPixel &pixel) {
+        pixel.squaresRest.x = std::nextafter(pixel.squaresRest.x, 1.0f);
+    }
+    [[nodiscard]] int spotCount() const { return spotCount_; }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
         return cpu_->trace(scene, pixel, sampleIndex);
     }
 
   private:
+    [[nodiscard]] bool isFailingAt(int tile) const {
+        return failure_ == Failure::Differs || (failure_ != Failure::None && tile == failingTile_);
+    }
+
     std::unique_ptr<Backend> cpu_ = makeCpuBackend(reference::Precision::Float32, 1);
     std::string name_;
     std::shared_ptr<std::latch> gate_;
     Failure failure_;
     int failingTile_;
     int tileCount_ = 0;
+    int spotCount_ = 0;
 };
 
 template <class... Members> std::unique_ptr<Backend> share(Members... members) {
@@ -122,6 +140,69 @@ TEST_F(SharedBackends, LeaveOutWhoThrows) {
     ASSERT_EQ(next.shares.size(), 2u);
     EXPECT_EQ(next.shares[0].name, "bad");
     EXPECT_EQ(next.shares[0].tileCount, 0u);
+}
+
+TEST_F(SharedBackends, LeaveOutWhoseBitsDiffer) {
+    const auto gate = std::make_shared<std::latch>(3);
+    const auto backend = share(MemberOnCpu("wrong", gate, Failure::Differs), MemberOnCpu("right", gate),
+                               MemberOnCpu("right, too", gate));
+    const BackendResult result = render(*backend, scene);
+    expectWhole(result);
+    ASSERT_EQ(result.shares.size(), 3u);
+    const RendererShare &wrong = result.shares[0];
+    EXPECT_EQ(wrong.tileCount, 0u);
+    EXPECT_GT(wrong.seconds, 0.0) << "only then it is told";
+    EXPECT_EQ(result.shares[1].failure, "");
+    EXPECT_EQ(result.shares[2].failure, "");
+    // The middle of 120x100 pixels: the last two of six samples.
+    Continuation spot;
+    spot.film.emplace(Crop{56, 57, 48, 49});
+    spot.film->pixels[0].sampleCount = 4;
+    layout::FilmPixel pixel = makeCpuBackend(reference::Precision::Float32, 1)
+                                  ->render(scene, {}, nullptr, {}, std::move(spot))
+                                  .film.pixels[0];
+    const auto text = [&] {
+        const glm::vec3 &rest = pixel.squaresRest;
+        return fmt::format("({:.9g} {:.9g} {:.9g})", rest.x, rest.y, rest.z);
+    };
+    const std::string right = text();
+    MemberOnCpu::spoil(pixel);
+    EXPECT_EQ(wrong.failure,
+              fmt::format("wrong and cpu disagree: at pixel (56, 48) the rest of the sum of squares "
+                          "of 2 samples is {} and {}",
+                          text(), right));
+    const BackendResult next = render(*backend, scene);
+    expectWhole(next);
+    EXPECT_EQ(next.shares.at(0).name, "wrong");
+    EXPECT_EQ(next.shares[0].tileCount, 0u);
+}
+
+TEST_F(SharedBackends, FailWhereAllDiffer) {
+    const auto backend =
+        share(MemberOnCpu("a", nullptr, Failure::Differs), MemberOnCpu("b", nullptr, Failure::Differs));
+    const BackendResult result = render(*backend, scene);
+    ASSERT_TRUE(result.failure);
+    EXPECT_EQ(result.failure->remedy, Remedy::OneDevice);
+    EXPECT_EQ(differingPixelCount(result.film, Film(scene.crop)), 0u);
+}
+
+TEST_F(SharedBackends, AreComparedOnceForEachIntegrator) {
+    const auto gate = std::make_shared<std::latch>(2);
+    std::vector<std::unique_ptr<Backend>> members;
+    members.push_back(std::make_unique<MemberOnCpu>("a", gate));
+    members.push_back(std::make_unique<MemberOnCpu>("b", gate));
+    const auto &a = static_cast<const MemberOnCpu &>(*members[0]);
+    const auto &b = static_cast<const MemberOnCpu &>(*members[1]);
+    const auto backend = shareBackends(std::move(members));
+    for (int frame = 0; frame < 2; ++frame) {
+        for (const RendererShare &share : render(*backend, scene).shares)
+            EXPECT_EQ(share.failure, "");
+        EXPECT_EQ(a.spotCount(), 4);
+        EXPECT_EQ(b.spotCount(), 4);
+    }
+    scene.loaded.scene.settings.integrator = Integrator::Normal;
+    static_cast<void>(render(*backend, scene));
+    EXPECT_GE(a.spotCount() + b.spotCount(), 12) << "one of them may have come too late for a tile";
 }
 
 TEST_F(SharedBackends, GoOnFromTheTileOfWhoGivesUp) {
