@@ -471,7 +471,8 @@ const uint cameraLens = 1u;         // a thin lens
 const uint cameraOrthographic = 2u; // parallel rays
 const uint cameraPanorama = 3u;     // all directions, by longitude and latitude
 const uint kindOfCamera = 3u;
-const uint cameraOriginsMeetGlass = 4u; // beside the kind: origins of primary rays may lie on both sides of glass
+const uint cameraOriginsMeetGlass =
+    4u; // beside the kind: origins of primary rays may lie on both sides of glass
 
 // Views: what they show of the first hit.
 
