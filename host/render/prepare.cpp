@@ -198,16 +198,19 @@ void warnOfOverlaps(const Bvh &bvh) {
                      statistics.triangleCount, statistics.trianglesTested);
 }
 
+/// Whether a triangle's material is one that `isMeant`, by its index.
+template <class IsMeant> bool wears(const TriangleMesh &mesh, const IsMeant &isMeant) {
+    return mesh.triangleMaterials.empty() ? isMeant(mesh.materialIndex)
+                                          : std::ranges::any_of(mesh.triangleMaterials, isMeant);
+}
+
 /// Whether anything is of glass without roughness, through which no shadow ray goes.
 bool hasSmoothGlass(const Scene &scene) {
     const auto isSmooth = [&](std::uint32_t index) {
         const Material &material = scene.materials[index];
         return material.kind == MaterialKind::Dielectric && material.roughness == 0.0f;
     };
-    const auto wearsIt = [&](const TriangleMesh &mesh) {
-        return mesh.triangleMaterials.empty() ? isSmooth(mesh.materialIndex)
-                                              : std::ranges::any_of(mesh.triangleMaterials, isSmooth);
-    };
+    const auto wearsIt = [&](const TriangleMesh &mesh) { return wears(mesh, isSmooth); };
     return std::ranges::any_of(scene.spheres, isSmooth, &Sphere::materialIndex) ||
            std::ranges::any_of(scene.meshes, wearsIt) || std::ranges::any_of(scene.prototypes, wearsIt);
 }
@@ -219,6 +222,16 @@ void warnOfLightsBehindGlass(const Scene &scene) {
                      "directional) through smooth glass: its shadow is dark, and it focuses none of that "
                      "light. Give the light a size, as a sphere with emission, or use --integrator "
                      "whitted");
+}
+
+/// Drops what is packed, but for glass: where a camera moves, packCamera asks what is around it.
+void dropSource(Scene &scene) {
+    const auto isOfGlass = [&](std::uint32_t index) { return isGlass(scene.materials[index]); };
+    for (std::vector<TriangleMesh> *meshes : {&scene.meshes, &scene.prototypes})
+        for (TriangleMesh &mesh : *meshes)
+            if (!wears(mesh, isOfGlass))
+                mesh = {};
+    scene.textures = {};
 }
 
 double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
@@ -268,10 +281,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     prepared.packed = packScene(scene, prepared.bvh);
     prepared.arraysHash = prepared.packed.arraysHash();
     if (source == Source::Dropped) {
-        scene.meshes = {};
-        scene.prototypes = {};
-        scene.instances = {};
-        scene.textures = {};
+        dropSource(scene);
         prepared.bvh = {};
     }
     prepared.loadSeconds = secondsBetween(start, loaded);

@@ -47,12 +47,12 @@ class OverrideError : public Error {
 };
 
 /// Whether meshes and tree are kept after packing. Renderers read only the packed scene; for a large mesh the rest is a
-/// sixth of the memory.
+/// sixth of the memory. Glass is kept in any case: what is around a camera that moves is asked of it.
 enum class Source { Kept, Dropped };
 
 /// A scene ready for both renderers.
 struct PreparedScene {
-    LoadedScene loaded; ///< its scene without meshes if the source was dropped
+    LoadedScene loaded; ///< its scene without meshes, but those of glass, if the source was dropped
     Bvh bvh;            ///< empty if the source was dropped
     PackedScene packed;
     std::uint64_t arraysHash = 0; ///< of `packed`

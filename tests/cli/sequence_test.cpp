@@ -55,6 +55,18 @@ TEST_F(SequenceFrames, OfATurntableAreThePicturesOfTheirCameras) {
     EXPECT_FALSE(load("t.1.pfm") == load("t.3.pfm"));
 }
 
+TEST_F(SequenceFrames, BeginInTheGlassAroundTheirCameras) {
+    // In a block that absorbs, 1.5 before its wall.
+    store("block.json", R"({"materials": {"block": {"type": "dielectric", "index": 1, "absorption": 1}},
+        "background": 1, "shapes": [{"type": "box", "material": "block"}],
+        "camera": {"position": [0, 0, 0.5], "direction": [0, 0, -1], "horizontalFov": 1},
+        "settings": {"integrator": "path"}})");
+    ASSERT_EQ(run("render block.json --turntable 2 -o t.#.pfm" + smallFrames).exitCode, 0);
+    const Image still = renderImage("block.json --width 24 --height 16 --spp 2");
+    EXPECT_TRUE(load("t.0.pfm") == load("rendered.pfm"));
+    EXPECT_NEAR(still.pixels()[0].x, std::exp(-1.5), 1e-3);
+}
+
 TEST_F(SequenceFrames, FollowGltfCamerasAndWhatMovesBesides) {
     GltfMaker maker = oneTriangle();
     const std::size_t input = maker.addScalars({0, 1});
