@@ -234,7 +234,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceRay(ray);
         const Hit<Real> hit = closestHit(scene_, ray, counter_);
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
-        throughput_ *= transmittance(hit.distance);
+        throughput_ = withoutSubnormals<Real>(throughput_ * transmittance(hit.distance));
         if (hit.primitive == layout::noPrimitive) {
             addEnvironment(ray);
             return std::nullopt;

@@ -202,7 +202,8 @@ void shadeHit(uint slot) {
     traceNearestHit(slot);
     endPath(slot);
     if (hasDielectric)
-        path[slot].throughput *= transmittance(slot, path[slot].rayLength);
+        path[slot].throughput =
+            withoutSubnormals(path[slot].throughput * transmittance(slot, path[slot].rayLength));
     if (path[slot].hitPrimitive == noPrimitive) {
         addEnvironment(slot);
         return;
