@@ -1,5 +1,7 @@
 #include "host/import/tangents.h"
 
+#include "host/base/disjoint_sets.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -103,23 +104,6 @@ struct Corner {
     std::uint32_t corner;
 };
 
-/// Groups of the triangles around one vertex.
-class Groups {
-  public:
-    explicit Groups(std::size_t count) : parents_(count) {
-        std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-    }
-    std::size_t rootOf(std::size_t i) {
-        while (parents_[i] != i)
-            i = parents_[i] = parents_[parents_[i]];
-        return i;
-    }
-    void join(std::size_t a, std::size_t b) { parents_[rootOf(b)] = rootOf(a); }
-
-  private:
-    std::vector<std::size_t> parents_;
-};
-
 class TangentBuilder {
   public:
     explicit TangentBuilder(const TangentInput &input) : input_(input), vertices_(weld(input)) {
@@ -159,7 +143,7 @@ class TangentBuilder {
     }
 
     void addStar(const std::vector<Corner> &star) {
-        Groups groups(star.size());
+        DisjointSets groups(star.size());
         /// Of each edge, by its other end, the first triangle of each orientation.
         std::unordered_map<std::uint32_t, std::array<std::optional<std::size_t>, 2>> edges;
         for (std::size_t i = 0; i < star.size(); ++i)
@@ -181,7 +165,7 @@ class TangentBuilder {
 
     /// Puts a triangle without area in the texture into the group of a neighbour.
     template <class Edges>
-    void adopt(const Corner &corner, std::size_t place, const Edges &edges, Groups &groups) const {
+    void adopt(const Corner &corner, std::size_t place, const Edges &edges, DisjointSets &groups) const {
         for (const std::uint32_t step : {1u, 2u})
             if (const auto edge = edges.find(endOf(corner, step)); edge != edges.end()) {
                 groups.join(edge->second[0] ? *edge->second[0] : *edge->second[1], place);
@@ -189,7 +173,7 @@ class TangentBuilder {
             }
     }
 
-    void addTangents(const std::vector<Corner> &star, Groups &groups) {
+    void addTangents(const std::vector<Corner> &star, DisjointSets &groups) {
         std::unordered_map<std::size_t, std::vector<std::size_t>> members; // by the group's root
         for (std::size_t i = 0; i < star.size(); ++i)
             members[groups.rootOf(i)].push_back(i);

@@ -1,28 +1,14 @@
 #include "host/scene/solids.h"
 
+#include "host/base/disjoint_sets.h"
+
+#include <algorithm>
 #include <bit>
-#include <numeric>
 #include <unordered_map>
 
 namespace hyalite {
 
 namespace {
-
-/// Disjoint sets of numbers.
-class Sets {
-  public:
-    explicit Sets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-
-    std::uint32_t find(std::uint32_t i) {
-        while (parents_[i] != i)
-            i = parents_[i] = parents_[parents_[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) { parents_[find(b)] = find(a); }
-
-  private:
-    std::vector<std::uint32_t> parents_;
-};
 
 std::uint64_t mixed(std::uint64_t x) {
     x = (x ^ x >> 32) * 0xd6e8feb86659fd93u;
@@ -54,13 +40,17 @@ struct PlacedCornerHash {
 Solids solidsOf(const TriangleMesh &mesh, const std::vector<Material> &materials) {
     Solids solids;
     solids.ofTriangles.assign(mesh.triangles.size(), noSolid);
+    const auto isOfGlass = [&](std::uint32_t index) { return isGlass(materials[index]); };
+    if (mesh.triangleMaterials.empty() ? !isOfGlass(mesh.materialIndex)
+                                       : std::ranges::none_of(mesh.triangleMaterials, isOfGlass))
+        return solids;
     const auto forGlass = [&](const auto &use) {
         for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
-            if (isGlass(materials[mesh.materialOf(i)]))
+            if (isOfGlass(mesh.materialOf(i)))
                 use(i, mesh.triangles[i].positions);
     };
     // Of triangles, as one corner may have several glasses.
-    Sets sets(mesh.triangles.size());
+    DisjointSets sets(mesh.triangles.size());
     std::unordered_map<std::uint64_t, std::uint32_t> ofIndices; // a triangle at the corner
     forGlass([&](std::uint32_t i, const glm::uvec3 &corners) {
         for (int k = 0; k < 3; ++k) {
@@ -71,10 +61,10 @@ Solids solidsOf(const TriangleMesh &mesh, const std::vector<Material> &materials
     std::vector<std::uint64_t> openEdges(mesh.triangles.size(), 0);
     forGlass([&](std::uint32_t i, const glm::uvec3 &corners) {
         for (int k = 0; k < 3; ++k)
-            openEdges[sets.find(i)] += edgeHash(corners[k], corners[(k + 1) % 3]);
+            openEdges[sets.rootOf(i)] += edgeHash(corners[k], corners[(k + 1) % 3]);
     });
     std::vector<bool> isOpen(mesh.triangles.size());
-    forGlass([&](std::uint32_t i, const glm::uvec3 &) { isOpen[i] = openEdges[sets.find(i)] != 0; });
+    forGlass([&](std::uint32_t i, const glm::uvec3 &) { isOpen[i] = openEdges[sets.rootOf(i)] != 0; });
     std::unordered_map<PlacedCorner, std::uint32_t, PlacedCornerHash> ofPositions;
     forGlass([&](std::uint32_t i, const glm::uvec3 &corners) {
         for (int k = 0; isOpen[i] && k < 3; ++k) {
@@ -84,7 +74,7 @@ Solids solidsOf(const TriangleMesh &mesh, const std::vector<Material> &materials
     });
     std::vector<std::uint32_t> numbers(mesh.triangles.size(), noSolid);
     forGlass([&](std::uint32_t i, const glm::uvec3 &) {
-        std::uint32_t &number = numbers[sets.find(i)];
+        std::uint32_t &number = numbers[sets.rootOf(i)];
         if (number == noSolid)
             number = solids.count++;
         solids.ofTriangles[i] = number;
