@@ -86,12 +86,14 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     }
 
     void addRadiance(const Vec3<Real> &weight, const Vec3<Real> &radiance) {
-        Vec3<Real> added = weight * radiance;
+        Vec3<Real> added = withoutTiny<Real>(weight * radiance);
         if (depth_ > 1)
             added = lesser(added, Vec3<Real>(static_cast<Real>(scene_.frame.radianceLimit)));
         radiance_ = radiance_ + added;
         traceEvent(layout::traceRadiance, 0, radiance_);
     }
+
+    void weaken(const Vec3<Real> &factor) { throughput_ = withoutTiny<Real>(throughput_ * factor); }
 
     /// Adds the emission of the surface that the ray has hit, with the multiple importance weight against sampling that
     /// point as a light.
@@ -234,7 +236,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceRay(ray);
         const Hit<Real> hit = closestHit(scene_, ray, counter_);
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
-        throughput_ = withoutSubnormals<Real>(throughput_ * transmittance(hit.distance));
+        weaken(transmittance(hit.distance));
         if (hit.primitive == layout::noPrimitive) {
             addEnvironment(ray);
             return std::nullopt;
@@ -266,7 +268,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             return std::nullopt;
         if (isGlass(scene_, material))
             return meetGlass(ray, surface, materialIndex, hit.primitive);
-        throughput_ *= mirrorReflectance(scene_, material, abs(dotProduct(ray.direction, surface.normal)));
+        weaken(mirrorReflectance(scene_, material, abs(dotProduct(ray.direction, surface.normal))));
         return reflect(ray, surface, surface.normal, hit.primitive);
     }
 
@@ -312,7 +314,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         mediaInside_ = isBeyond ? crossing.beyond : crossing.before;
         scatterPdf_ = isPossible ? scattered.pdf : Real(0);
         if (isPossible)
-            throughput_ *= scattered.value * (Real(1) / scattered.pdf);
+            weaken(scattered.value * (Real(1) / scattered.pdf));
         return scatter(surface, direction, primitive);
     }
 

@@ -90,7 +90,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         if (hit.primitive == layout::noPrimitive) {
             if (segment.medium != layout::noMaterial)
-                segment.throughput *= Vec3<Real>(scene_.packed.materials[segment.medium].segmentTint);
+                tint(segment, segment.medium);
             radiance_ = radiance_ + segment.throughput * radianceAround(segment.ray.direction);
             traceEvent(layout::traceRadiance, 0, radiance_);
             return;
@@ -102,7 +102,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         const bool isClear = isGlassForWhitted(material);
         const std::uint32_t medium = isClear && !isEntering ? materialIndex : segment.medium;
         if (medium != layout::noMaterial)
-            segment.throughput *= Vec3<Real>(scene_.packed.materials[medium].segmentTint);
+            tint(segment, medium);
 
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
@@ -123,8 +123,15 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             splitAtGlass(segment, surface, material.refractiveIndex, materialIndex, isEntering,
                          hit.primitive);
         else if (segment.depth < scene_.frame.maxDepth)
-            reflect(segment, surface, segment.throughput * mirrorReflectanceForWhitted(scene_, material),
+            reflect(segment, surface,
+                    withoutTiny<Real>(segment.throughput * mirrorReflectanceForWhitted(scene_, material)),
                     segment.medium, hit.primitive);
+    }
+
+    /// Takes from the segment what its glass absorbs.
+    void tint(Segment &segment, std::uint32_t medium) const {
+        segment.throughput = withoutTiny<Real>(segment.throughput *
+                                               Vec3<Real>(scene_.packed.materials[medium].segmentTint));
     }
 
     /// Radiance of rays that leave the scene.

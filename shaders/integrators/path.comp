@@ -42,13 +42,15 @@ void beginSample(uint slot) {
 void endPath(uint slot) { path[slot].stage = stageSampleDone; }
 
 void addRadiance(uint slot, vec3 weight, vec3 radiance) {
-    vec3 added = weight * radiance;
+    vec3 added = withoutTiny(weight * radiance);
     if (path[slot].rayDepth > 1u)
         added = lesser(added, vec3(frame.radianceLimit));
     if (!showsCost)
         path[slot].sampleRadiance = path[slot].sampleRadiance + added;
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
 }
+
+void weaken(uint slot, vec3 factor) { path[slot].throughput = withoutTiny(path[slot].throughput * factor); }
 
 // The surface that the path was on before its ray, as the light tree sees it.
 LitPoint litPoint(uint slot) {
@@ -202,8 +204,7 @@ void shadeHit(uint slot) {
     traceNearestHit(slot);
     endPath(slot);
     if (hasDielectric)
-        path[slot].throughput =
-            withoutSubnormals(path[slot].throughput * transmittance(slot, path[slot].rayLength));
+        weaken(slot, transmittance(slot, path[slot].rayLength));
     if (path[slot].hitPrimitive == noPrimitive) {
         addEnvironment(slot);
         return;
@@ -242,7 +243,7 @@ void shadeHit(uint slot) {
         meetGlass(slot, surface, materialIndex);
     } else {
         if (scattering != 0u)
-            path[slot].throughput *= mirrorReflectance(material, abs(dotProduct(path[slot].rayDirection, surface.normal)));
+            weaken(slot, mirrorReflectance(material, abs(dotProduct(path[slot].rayDirection, surface.normal))));
         reflectRay(slot, surface, surface.normal);
     }
 }
@@ -308,7 +309,7 @@ void aimAtLight(uint slot) {
     path[slot].scatterPdf = isPossible ? scattered.pdf : 0.0;
     if (hasDielectric)
         path[slot].mediaInside = isBeyond ? crossing.beyond : crossing.before;
-    path[slot].throughput *= isPossible ? scattered.value * divide(1.0, scattered.pdf) : vec3(0.0);
+    weaken(slot, isPossible ? scattered.value * divide(1.0, scattered.pdf) : vec3(0.0));
     if (isLit)
         aimAt(slot, emitter, light);
     else

@@ -90,7 +90,8 @@ vec3 radianceAround(vec3 direction) {
 
 void leaveScene(uint slot, vec3 tint) {
     if (!showsCost)
-        path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * tint * radianceAround(path[slot].rayDirection);
+        path[slot].sampleRadiance = path[slot].sampleRadiance + withoutTiny(path[slot].throughput * tint) *
+                                                                    radianceAround(path[slot].rayDirection);
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
     endPath(slot);
 }
@@ -114,7 +115,7 @@ void shadeHit(uint slot) {
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
     bool isClear = hasDielectric && isGlassForWhitted(material);
     if (hasDielectric)
-        path[slot].throughput *= isClear && !isEntering ? material.segmentTint : tint;
+        path[slot].throughput = withoutTiny(path[slot].throughput * (isClear && !isEntering ? material.segmentTint : tint));
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
@@ -143,7 +144,7 @@ void shadeHit(uint slot) {
         if (isClear) {
             splitAtGlass(slot, surface, material, materialIndex, isEntering);
         } else {
-            path[slot].throughput *= mirrorReflectanceForWhitted(material);
+            path[slot].throughput = withoutTiny(path[slot].throughput * mirrorReflectanceForWhitted(material));
             reflectRay(slot, surface, path[slot].rayMedium);
         }
     }

@@ -50,6 +50,12 @@ vec3 withoutSubnormals(vec3 v) {
     return vec3(withoutSubnormals(v.x), withoutSubnormals(v.y), withoutSubnormals(v.z));
 }
 
+// The share of light that a path carries, without components that no picture shows: of those, a few more factors make
+// subnormal numbers, and others large ones again.
+float withoutTiny(float x) { return abs(x) < 1e-30 ? 0.0 : x; }
+
+vec3 withoutTiny(vec3 v) { return vec3(withoutTiny(v.x), withoutTiny(v.y), withoutTiny(v.z)); }
+
 float largestComponent(vec3 v) { return greater(greater(v.x, v.y), v.z); }
 
 float smallestComponent(vec3 v) { return lesser(lesser(v.x, v.y), v.z); }

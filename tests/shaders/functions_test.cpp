@@ -36,5 +36,13 @@ TEST(WithoutSubnormals, IsTheNumberOrZero) {
     EXPECT_TRUE(std::isnan(withoutSubnormals<float>(std::numeric_limits<float>::quiet_NaN())));
 }
 
+TEST(WithoutTiny, KeepsWhatPicturesShow) {
+    for (const float x : {1e-30f, -1e-30f, 1.0f, std::numeric_limits<float>::infinity()})
+        EXPECT_EQ(withoutTiny<float>(x), x);
+    for (const float x : {9e-31f, -9e-31f, std::numeric_limits<float>::min(), 0.0f})
+        EXPECT_EQ(withoutTiny<float>(x), 0.0f);
+    EXPECT_TRUE(std::isnan(withoutTiny<float>(std::numeric_limits<float>::quiet_NaN())));
+}
+
 } // namespace
 } // namespace hyalite::reference
