@@ -2,13 +2,25 @@
 
 #include "host/reference/renderer.h"
 
+#include <algorithm>
 #include <array>
 
 namespace hyalite::testing {
 
+double maxFurnaceRadiance(const PackedScene &packed) {
+    const bool mayBeInGlass =
+        packed.frame.mediaAtEye != 0 || (packed.camera & layout::cameraOriginsMeetGlass) != 0;
+    double index = 1.0;
+    for (const layout::MaterialRecord &material : packed.materials)
+        if (mayBeInGlass)
+            index = std::max(index, static_cast<double>(material.refractiveIndex));
+    return index * index;
+}
+
 bool gains(PackedScene &packed, const RenderSettings &settings, const glm::ivec2 &pixel) {
     constexpr int sampleCount = 2000;
     constexpr std::array weights{0.02, 0.1, 0.3, 0.9};
+    const double limit = maxFurnaceRadiance(packed) * (1.0 + furnaceAllowance);
     RenderSettings single = settings;
     single.samplesPerPixel = 1;
     const std::uint32_t seed = packed.frame.seed;
@@ -26,7 +38,7 @@ bool gains(PackedScene &packed, const RenderSettings &settings, const glm::ivec2
         const double red = static_cast<double>(sample.x);
         double mean = 0.0;
         for (std::size_t k = 0; k < weights.size(); ++k) {
-            products[k] *= 1.0 + weights[k] * (red / (1.0 + furnaceAllowance) - 1.0);
+            products[k] *= 1.0 + weights[k] * (red / limit - 1.0);
             mean += products[k] / weights.size();
         }
         isAbove = mean >= 1.0 / furnaceErrorRate;

@@ -100,6 +100,17 @@ TEST(RandomScenes, AreTheSameOnDeviceAndCpuAndGainNoLight) {
     EXPECT_GT(count, 0u);
 }
 
+// Eyes in glass so dark that paths came to carry subnormal numbers, and an eye that a lens takes through glass.
+TEST(RandomScenes, WithFaultsOnceHaveNoneOnTheCpu) {
+    SceneCheck check({std::string(noKernel)});
+    const std::filesystem::path folder =
+        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-random-of-{}", getpid());
+    for (const std::uint64_t seed : {50168u, 50172u, 78119u})
+        if (const std::optional<Fault> fault = check.faultOf(drawScene(seed), {noKernel}, folder))
+            ADD_FAILURE() << "seed " << seed << ": " << fault->text;
+    std::filesystem::remove_all(folder);
+}
+
 TEST(RandomScenes, AreThoseOfTheirSeeds) {
     EXPECT_EQ(drawScene(5).document, drawScene(5).document);
     EXPECT_NE(drawScene(5).document, drawScene(6).document);

@@ -5,6 +5,7 @@
 #include "host/reference/renderer.h"
 #include "host/render/prepare.h"
 #include "host/scene/names.h"
+#include "tests/fixtures/subnormals.h"
 #include "tests/fixtures/test_device.h"
 #include "tests/random/furnace.h"
 #include "tests/random/scene_document.h"
@@ -46,32 +47,35 @@ std::optional<Fault> gain(const Film &film, PackedScene &packed, const RenderSet
     const auto meanOf = [&](std::size_t i) {
         return film.pixels[i].sum.x / static_cast<float>(film.pixels[i].sampleCount);
     };
+    const double limit = maxFurnaceRadiance(packed) * (1.0 + furnaceAllowance);
     constexpr std::ptrdiff_t triedCount = 2;
     std::ranges::partial_sort(order, order.begin() + triedCount, std::greater(), meanOf);
     for (std::ptrdiff_t i = 0; i < triedCount; ++i) {
         const auto index = order[static_cast<std::size_t>(i)];
         const int at = static_cast<int>(index);
         const int width = film.crop.width();
-        if (meanOf(index) > 1.0f + static_cast<float>(furnaceAllowance) &&
-            gains(packed, settings, {at % width, at / width}))
+        if (static_cast<double>(meanOf(index)) > limit && gains(packed, settings, {at % width, at / width}))
             return Fault{FaultKind::Gains, describe(film, index)};
     }
     return {};
 }
 
-std::optional<Fault> difference(const Film &device, const Film &cpu) {
+std::optional<Fault> difference(const Film &film, const RayCounts &rays, const std::string &whose,
+                                const reference::Result &cpu) {
     std::size_t count = 0;
     std::size_t first = 0;
-    for (std::size_t i = cpu.pixels.size(); i-- > 0;)
-        if (std::memcmp(&device.pixels[i], &cpu.pixels[i], sizeof(cpu.pixels[i])) != 0) {
+    for (std::size_t i = film.pixels.size(); i-- > 0;)
+        if (std::memcmp(&film.pixels[i], &cpu.film.pixels[i], sizeof(film.pixels[i])) != 0) {
             ++count;
             first = i;
         }
-    if (count == 0)
-        return {};
-    return Fault{FaultKind::Differs,
-                 fmt::format("{} of {} pixels differ; the first: device {}, CPU {}", count, cpu.pixels.size(),
-                             describe(device, first), describe(cpu, first))};
+    if (count > 0)
+        return Fault{FaultKind::Differs, fmt::format("{} of {} pixels differ; the first: {} {}, CPU {}",
+                                                     count, film.pixels.size(), whose, describe(film, first),
+                                                     describe(cpu.film, first))};
+    if (rays != cpu.rays)
+        return Fault{FaultKind::Differs, whose + " has other numbers of rays"};
+    return {};
 }
 
 } // namespace
@@ -81,6 +85,8 @@ SceneCheck::SceneCheck(const std::vector<std::string> &kernels) {
         if (std::ranges::count(kernels, name) > 0 ||
             (kernels.empty() && gpu::lackFor(choice.traversal, testDevice()).empty()))
             kernels_.push_back(name);
+    if (std::ranges::count(kernels, noKernel) > 0)
+        kernels_.push_back(noKernel);
     if (kernels_.size() < kernels.size() || kernels_.empty())
         throw Error(ErrorKind::Usage, "a name that is not a kernel, or a device without any");
 }
@@ -88,7 +94,7 @@ SceneCheck::SceneCheck(const std::vector<std::string> &kernels) {
 Way SceneCheck::wayOf(std::uint64_t seed, const std::string &integrator) const {
     const std::uint64_t kind = seed / scenesOfKind;
     Way way{kernels_[kind % kernels_.size()], kind / 4 % 4 == 3, kind % 5 == 4, kind % 7 == 6};
-    if (integrator == nameOf(Integrator::Cost)) // counts a traversal with a stack
+    if (integrator == nameOf(Integrator::Cost) && way.kernel != noKernel) // counts a traversal with a stack
         way.kernel = kind % 2 == 0 ? "stack" : "stack-x2";
     return way;
 }
@@ -137,14 +143,18 @@ std::optional<Fault> SceneCheck::faultOfFile(const RandomScene &drawn, const Way
     if (drawn.isFurnace)
         if (std::optional<Fault> fault = gain(cpu.film, packed, scene.settings))
             return fault;
+    const auto onOneThread = [&] {
+        return reference::render(packed, scene.settings, crop, {.threadCount = 1});
+    };
+    const reference::Result flushed = withSubnormalsFlushed(onOneThread);
+    if (std::optional<Fault> fault = difference(flushed.film, flushed.rays, "CPU without subnormals", cpu))
+        return fault;
+    if (way.kernel == noKernel)
+        return {};
     const gpu::Result device = rendererOf(way).render(packed, scene.settings, crop);
     if (device.failure)
         throw *device.failure;
-    if (std::optional<Fault> fault = difference(device.film, cpu.film))
-        return fault;
-    if (device.rays != cpu.rays)
-        return Fault{FaultKind::Differs, "the numbers of rays differ"};
-    return {};
+    return difference(device.film, device.rays, "device", cpu);
 }
 
 } // namespace hyalite::testing

@@ -1,4 +1,5 @@
-// What a random scene is checked for: both renderers, bit for bit, and radiances that can be.
+// What a random scene is checked for: both renderers, bit for bit, whether subnormal numbers are flushed or not, and radiances
+// that can be.
 #pragma once
 
 #include "host/gpu/renderer.h"
@@ -21,9 +22,12 @@ struct Fault {
     std::string text;
 };
 
+/// In place of a kernel: the CPU alone, which is checked sooner than any driver compiles.
+inline constexpr std::string_view noKernel = "cpu";
+
 /// One way to render: none changes the picture.
 struct Way {
-    std::string_view kernel;  ///< of gpu::namedKernels
+    std::string_view kernel;  ///< of gpu::namedKernels, or noKernel
     bool isHurried = false;   ///< dispatches end after few steps, so that samples wait in between
     bool isEncoded = false;   ///< textures keep their 8-bit levels
     bool isFlattened = false; ///< instances become meshes
@@ -33,7 +37,7 @@ struct Way {
 class SceneCheck {
   public:
     /// `kernels` are those that may be chosen; all that the device has, if there is none. Throws Error{Usage} for a
-    /// name that is not a kernel.
+    /// name that is neither a kernel nor noKernel.
     explicit SceneCheck(const std::vector<std::string> &kernels);
 
     /// The ways in turn, by the seed.
