@@ -1,7 +1,9 @@
 #include "host/gpu/processor_use.h"
 
 #include <cstdlib>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 namespace hyalite::gpu {
 
@@ -28,19 +30,38 @@ bool maySplitDeeply(const ProcessorUse &use) {
            use.maxDepth > (use.hasTriangles ? maxDepthInTree : maxDepthOfSpheres);
 }
 
+constexpr const char *width = "LP_NATIVE_VECTOR_WIDTH";
+
 } // namespace
+
+void keepWidthsApart() {
+    constexpr const char *name = "GALLIVM_PERF";
+    const std::string of128 = "no_aos_sampling";
+    const std::string of512 = "no_quad_lod";
+    const char *given = std::getenv(name);
+    std::istringstream words(given != nullptr ? given : "");
+    std::string flags;
+    for (std::string word; std::getline(words, word, ',');)
+        if (word != of128 && word != of512)
+            flags += word + ',';
+    const char *bits = std::getenv(width);
+    const std::string_view wide = bits != nullptr ? bits : "";
+    flags += wide == "128" ? of128 : wide == "512" ? of512 : "";
+    if (flags.empty())
+        unsetenv(name);
+    else
+        setenv(name, flags.c_str(), 1);
+}
 
 void tellLavapipe(const ProcessorUse &use) {
     if (use.threadCount > 0)
         setenv("LP_NUM_THREADS", std::to_string(use.threadCount).c_str(), 1);
-    constexpr const char *width = "LP_NATIVE_VECTOR_WIDTH";
     static const bool isUsers = std::getenv(width) != nullptr;
-    if (isUsers)
-        return;
-    if (hasWideVectors() && !use.hasStack && !maySplitDeeply(use))
+    if (!isUsers && hasWideVectors() && !use.hasStack && !maySplitDeeply(use))
         setenv(width, "512", 1);
-    else
+    else if (!isUsers)
         unsetenv(width);
+    keepWidthsApart();
 }
 
 } // namespace hyalite::gpu
