@@ -4,7 +4,6 @@
 // one command writes is there for the next. Blocks that open with ```sh no-test are left out. A block that opens with
 // ```json NAME is a file of that folder, for the commands below it.
 #include "tests/cli/command_line.h"
-#include "tests/fixtures/test_extent.h"
 
 #include <gtest/gtest.h>
 
@@ -123,10 +122,6 @@ std::vector<std::string> documents() {
 }
 
 struct EveryDocument : CommandLine, ::testing::WithParamInterface<std::string> {
-    void SetUp() override {
-        CommandLine::SetUp();
-        leaveLavapipe(); // pictures of these sizes take longer than their kernels
-    }
     const Document document = readDocument(source / GetParam());
 };
 
