@@ -69,6 +69,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantTreeSpheres] = scene.treeSpheres;
     constants[layout::constantLightCount] = static_cast<std::uint32_t>(scene.lights.size());
     constants[layout::constantHasTriangles] = scene.hasTriangles;
+    constants[layout::constantHasNormals] = scene.hasNormals;
     constants[layout::constantHasInstances] = !scene.instances.empty();
     constants[layout::constantHasSpecular] = scene.hasSpecular;
     constants[layout::constantHasDielectric] = scene.hasDielectric;

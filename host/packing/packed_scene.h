@@ -59,6 +59,7 @@ struct PackedScene {
 
     // Features of the scene: kernels leave out what it does not use.
     bool hasTriangles = false; ///< in the tree: those of instances, and spheres, included
+    bool hasNormals = false;   ///< corners of triangles have normals
     std::uint32_t treeSpheres = layout::treeHasTriangles; ///< layout::treeHas...
     bool hasPairs = false; ///< leaves of skip lists are told apart by whether they are pairs of triangles
     bool hasSpecular = false;

@@ -40,7 +40,8 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
                    PackedScene &packed) {
     const auto count = static_cast<std::int64_t>(mesh.triangles.size());
     const bool hasSheer = hasSheerColours(mesh);
-#pragma omp parallel for schedule(static) if (isLong(count))
+    bool hasNormals = packed.hasNormals;
+#pragma omp parallel for schedule(static) reduction(|| : hasNormals) if (isLong(count))
     for (std::int64_t i = 0; i < count; ++i) {
         const auto index = static_cast<std::size_t>(i);
         const MeshTriangle &corner = mesh.triangles[index];
@@ -66,9 +67,11 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
             normals.n0 = mesh.normals[corner.normals.x];
             normals.n1 = mesh.normals[corner.normals.y];
             normals.n2 = mesh.normals[corner.normals.z];
+            hasNormals = true;
         }
         packed.normals[record] = normals;
     }
+    packed.hasNormals = hasNormals;
 }
 
 /// Writes the records of spheres in the tree; `recordOf` has the index of each.

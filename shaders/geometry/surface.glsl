@@ -17,7 +17,7 @@ Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord 
 // The point of a hit keeps a distance of about 8 units of rounding of the largest coordinate from the edges of its triangle,
 // so that rounding does not carry it past the next wall of a closed mesh, where a ray would leave through the edge. In a
 // triangle that is narrower than twice that it is in the middle.
-Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, float v) {
+Surface flatSurface(TriangleRecord triangle, float u, float v) {
     vec3 edge1 = triangle.v1 - triangle.v0;
     vec3 edge2 = triangle.v2 - triangle.v0;
     vec3 area = crossProduct(edge1, edge2);
@@ -25,8 +25,6 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
     float largest = largestComponent(abs(area));
     float inverse = divide(1.0, largest);
     vec3 geometric = largest > 0.0 ? unitVector(area * inverse) : vec3(0.0); // no area: no light
-    vec3 blended = trianglePoint(normals.n0, normals.n1, normals.n2, u, v);
-    vec3 normal = dotProduct(blended, blended) > 0.0 ? unitVector(blended) : geometric;
     // Of a weight, which is the height above an edge by that of the opposite corner: the area of both edges' parallelogram
     // by the length of the edge.
     float extent = largestComponent(greater(abs(edge1), abs(edge2)));
@@ -37,8 +35,19 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
     Surface surface;
     surface.position = trianglePoint(triangle.v0, triangle.v1, triangle.v2, first, second);
     surface.error = trianglePointError(triangle.v0, triangle.v1, triangle.v2, first, second);
-    surface.normal = normal;
-    surface.geometricNormal = dotProduct(geometric, normal) < 0.0 ? -geometric : geometric;
+    surface.normal = geometric;
+    surface.geometricNormal = geometric;
+    return surface;
+}
+
+// With the normals of the corners, blended. Those of a corner without one are 0.
+Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, float v) {
+    Surface surface = flatSurface(triangle, u, v);
+    vec3 blended = trianglePoint(normals.n0, normals.n1, normals.n2, u, v);
+    if (dotProduct(blended, blended) > 0.0)
+        surface.normal = unitVector(blended);
+    if (dotProduct(surface.geometricNormal, surface.normal) < 0.0)
+        surface.geometricNormal = -surface.geometricNormal;
     return surface;
 }
 

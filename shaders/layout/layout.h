@@ -741,7 +741,8 @@ const uint constantTrianglePairs = 27u; // skip lists: all triangles in turn, as
 const uint constantSamplesInTurn = 28u; // slots go from sample to sample: samples_in_turn.glsl
 const uint constantBroadcasts = 29u;    // subgroups of broadcastLanes exchange values by broadcasts
 const uint constantHasPairs = 30u;      // skip lists: leaves may be pairs of triangles
-const uint constantCount = 31u;
+const uint constantHasNormals = 31u;    // of corners of triangles
+const uint constantCount = 32u;
 
 const uint broadcastLanes = 16u;
 

@@ -11,6 +11,7 @@ layout(push_constant) uniform DispatchBlock { DispatchConstants dispatchConstant
 
 layout(constant_id = constantSphereCount) const uint sphereCount = 0u; // outside the tree
 layout(constant_id = constantHasTriangles) const bool hasTriangles = true;
+layout(constant_id = constantHasNormals) const bool hasNormals = true;
 layout(constant_id = constantHasInstances) const bool hasInstances = true;
 layout(constant_id = constantTreeSpheres) const uint treeSpheres = treeHasTriangles;
 layout(constant_id = constantHasSpecular) const bool hasSpecular = true;

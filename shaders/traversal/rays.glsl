@@ -141,6 +141,8 @@ Surface smoothSurface(uint slot, out uint materialIndex) {
     if (isTriangle(path[slot].hitPrimitive)) {
         TriangleRecord triangle = hitTriangle(slot);
         materialIndex = triangle.materialIndex;
+        if (!hasNormals)
+            return flatSurface(triangle, path[slot].hitU, path[slot].hitV);
         return triangleSurface(triangle, hitNormals(slot), path[slot].hitU, path[slot].hitV);
     }
     SphereRecord sphere = fetchSphere(path[slot].hitRecord);

@@ -284,6 +284,13 @@ void addGeometry(Rows &rows) {
     addInstances(instances, mesh, placements);
     rows.value("constantHasInstances", 2, instances,
                [](const PackedScene &packed) { return packed.instances.size(); });
+    Scene smooth = base();
+    smooth.lights = {light(LightKind::Directional)};
+    TriangleMesh &curved = smooth.meshes[0];
+    for (const float x : {-0.3f, 0.3f})
+        curved.normals.push_back(glm::normalize(glm::vec3(x, 0.2f, 1.0f)));
+    curved.triangles[0].normals = {0, 1, 0};
+    rows.flag("constantHasNormals", &PackedScene::hasNormals, smooth);
     Scene grid = base();
     grid.meshes[0] = {};
     for (int i = 0; i < 40; ++i)
