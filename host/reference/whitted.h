@@ -130,8 +130,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
 
     /// Takes from the segment what its glass absorbs.
     void tint(Segment &segment, std::uint32_t medium) const {
-        segment.throughput = withoutTiny<Real>(segment.throughput *
-                                               Vec3<Real>(scene_.packed.materials[medium].segmentTint));
+        segment.throughput =
+            withoutTiny<Real>(segment.throughput * Vec3<Real>(scene_.packed.materials[medium].segmentTint));
     }
 
     /// Radiance of rays that leave the scene.
