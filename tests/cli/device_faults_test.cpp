@@ -115,7 +115,7 @@ class DeviceFaults : public FaultyDevice {
                         return;
                 }
             }
-        EXPECT_TRUE(!known.empty() || (recoveredCount > 0) == hasPicture);
+        EXPECT_EQ(recoveredCount > 0, hasPicture);
         for (const auto &[function, count] : calls)
             visited.insert(function);
     }
