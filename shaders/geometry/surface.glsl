@@ -14,9 +14,9 @@ Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord 
     return Surface(position, vec3(0.0), normal, normal);
 }
 
-// The point of a hit keeps a distance of about 8 units of rounding of the largest coordinate from the edges of its triangle,
-// so that rounding does not carry it past the next wall of a closed mesh, where a ray would leave through the edge. In a
-// triangle that is narrower than twice that it is in the middle.
+// A triangle whose corners have no normals. The point of the hit keeps a distance of about 8 units of rounding of the largest
+// coordinate from the edges, so that rounding does not carry it past the next wall of a closed mesh, where a ray would leave
+// through the edge. In a triangle that is narrower than twice that it is in the middle.
 Surface flatSurface(TriangleRecord triangle, float u, float v) {
     vec3 edge1 = triangle.v1 - triangle.v0;
     vec3 edge2 = triangle.v2 - triangle.v0;

@@ -105,14 +105,14 @@ TEST_F(OutputFiles, AFolderThatIsDeletedMeanwhileIsReported) {
         return !fs::exists(folder / "gone");
     };
     const Outcome outcome =
-        runIn(surroundings, "render spheres -o gone/a.png --device cpu --width 96 --height 96 "
+        runIn(surroundings, "render spheres -o gone/a.png --device cpu --width 64 --height 64 "
                             "--spp 256 --checkpoint c --checkpoint-interval 1e-3");
     EXPECT_EQ(outcome.exitCode, 7) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "gone/a.png")) << outcome;
     EXPECT_FALSE(fs::exists(folder / "gone"));
     // What was rendered is not lost with it.
     const Outcome again =
-        run("render spheres -o a.png --device cpu --width 96 --height 96 --spp 256 --checkpoint c "
+        run("render spheres -o a.png --device cpu --width 64 --height 64 --spp 256 --checkpoint c "
             "--resume");
     EXPECT_EQ(again.exitCode, 0) << again;
     EXPECT_TRUE(contains(again.errors, "100.0 %")) << again;
@@ -130,11 +130,11 @@ TEST_F(OutputFiles, AFolderThatIsDeletedMeanwhileDoesNotStopTheCheckpointsOfOthe
         return !fs::exists(folder / "gone");
     };
     const Outcome outcome =
-        runIn(surroundings, "render spheres -o a.pfm --device cpu --width 96 --height 96 --spp 256 "
+        runIn(surroundings, "render spheres -o a.pfm --device cpu --width 64 --height 64 --spp 256 "
                             "--checkpoint gone/c --checkpoint-interval 1e-3");
     EXPECT_EQ(outcome.exitCode, 7) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "gone/c")) << outcome;
-    EXPECT_EQ(load("a.pfm"), renderPfm("spheres --device cpu --width 96 --height 96 --spp 256"));
+    EXPECT_EQ(load("a.pfm"), renderPfm("spheres --device cpu --width 64 --height 64 --spp 256"));
 }
 
 TEST_F(OutputFiles, WhatASceneIsMadeOfIsNotReplaced) {

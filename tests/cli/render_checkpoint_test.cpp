@@ -68,14 +68,14 @@ TEST_F(RenderCheckpoint, IsOfOneRenderAtATime) {
 TEST_F(RenderCheckpoint, AKilledRenderGoesOnToTheSameImage) {
     // A second or so, in which hundreds of checkpoints are written.
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
-        const std::string line = "spheres --width 128 --height 96 --spp 192 --device " + device;
+        const std::string line = "spheres --width 96 --height 64 --spp 192 --device " + device;
         const nlohmann::json whole = renderReport(line);
         const std::string wanted = load("reported.pfm");
         std::int64_t samplesBefore = 0;
         int killCount = 0;
         for (int run = 0;; ++run) {
             // In the end without a kill, as a machine may be too slow for one after the first checkpoint.
-            const Surroundings surroundings = run < 6 ? killedAfter(1 + run % 3) : Surroundings{};
+            const Surroundings surroundings = run < 4 ? killedAfter(1 + run % 3) : Surroundings{};
             const Outcome outcome =
                 runIn(surroundings, "render " + line + files + " --checkpoint-interval 1e-3 --resume");
             killCount += outcome.exitCode == 128 + SIGKILL ? 1 : 0;
@@ -105,7 +105,7 @@ TEST_F(RenderCheckpoint, AKilledRenderGoesOnToTheSameImage) {
 
 TEST_F(RenderCheckpoint, AStoppedRenderGoesOnFromAllThatItHad) {
     for (const int signal : {SIGINT, SIGTERM}) {
-        const std::string line = "render spheres --width 64 --height 64 --spp 65536 --device cpu";
+        const std::string line = "render spheres --width 64 --height 64 --spp 16384 --device cpu";
         Surroundings surroundings;
         surroundings.signalWhen = [this] { return fs::exists(folder / "c"); };
         surroundings.signal = signal;

@@ -34,7 +34,7 @@ int twoArmedCount(const Words &words) {
 TEST(OneArmed, LeavesNoSelectionOfTwoArmsInAKernel) {
     std::mt19937 random(1);
     int before = 0;
-    for (const EmbeddedKernel &kernel : allKernels()) {
+    for (const EmbeddedKernel &kernel : kernelsInTurn(2)) {
         for (int i = 0; i < repetitions(1, 4); ++i) {
             const Words specialised = gpu::specialise(kernel.words, drawnConstants(random));
             const Words words = gpu::makeSelectionsOneArmed(specialised);

@@ -127,7 +127,7 @@ TEST_P(InstanceHits, AreThoseOfTheFlattenedMesh) {
             const Pair pair(mesh, each, random, tree);
             EXPECT_EQ(pair.instances.frame.boundsLower, pair.meshes.frame.boundsLower);
             EXPECT_EQ(pair.instances.frame.boundsUpper, pair.meshes.frame.boundsUpper);
-            for (int i = 0; i < hyalite::testing::repetitions(6'000, 20'000); ++i) {
+            for (int i = 0; i < hyalite::testing::repetitions(3'000, 20'000); ++i) {
                 const Ray<float> ray = randomRay(pair, each, random);
                 const Hit<float> a = closestHit(pair.instances, ray);
                 const Hit<float> b = closestHit(pair.meshes, ray);
