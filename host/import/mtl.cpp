@@ -3,6 +3,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/image/texture_file.h"
+#include "host/import/mtl_material.h"
 #include "host/import/obj_lines.h"
 #include "host/scene/limits.h"
 
@@ -10,10 +11,12 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -24,75 +27,22 @@ namespace hyalite {
 
 namespace {
 
-/// The values of the statements of one material.
-struct MtlStatements {
-    std::string name;
-    std::optional<glm::vec3> diffuse;
-    glm::vec3 specular{0.0f};
-    glm::vec3 emission{0.0f};
-    std::optional<float> exponent;
-    std::optional<float> roughness;
-    float metallic = 0.0f;
-    float opacity = 1.0f;
-    float index = 1.5f;
-    int illumination = 2;
-    TextureSlots textures{};
-    float normalStrength = 1.0f;
-    std::string cutOutName; ///< of a map_Kd with transparent places; empty: it has none
-};
-
 float fraction(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
 glm::vec3 fraction(const glm::vec3 &colour) {
     return {fraction(colour.x), fraction(colour.y), fraction(colour.z)};
 }
 
-float mean(const glm::vec3 &colour) { return (colour.x + colour.y + colour.z) / 3.0f; }
-
-/// The roughness whose microfacets spread like those of this Blinn-Phong exponent: Walter et al., "Microfacet Models
-/// for Refraction through Rough Surfaces", EGSR 2007, section 5.2.
-float roughnessOf(float exponent) { return std::sqrt(std::sqrt(2.0f / (std::max(exponent, 0.0f) + 2.0f))); }
-
-Material materialOf(const MtlStatements &mtl) {
-    Material material;
-    material.name = mtl.name;
-    material.twoSided = true;
-    const bool isMetal = mtl.illumination == 3 || mtl.illumination == 5;
-    const bool isGlass =
-        mtl.illumination == 4 || mtl.illumination == 6 || mtl.illumination == 7 || mtl.illumination == 9;
-    if (isGlass) {
-        material.kind = MaterialKind::Dielectric;
-        material.refractiveIndex = mtl.index;
-        return material;
-    }
-    const auto has = [&](std::uint32_t slot) { return mtl.textures[slot].has_value(); };
-    const glm::vec3 diffuse = mtl.diffuse.value_or(glm::vec3(has(layout::slotBaseColour) ? 1.0f : 0.8f));
-    material.albedo = isMetal ? mtl.specular : diffuse;
-    const bool isDark = mtl.emission == glm::vec3(0.0f);
-    material.emission = has(layout::slotEmission) && isDark ? glm::vec3(1.0f) : mtl.emission;
-    material.textures = mtl.textures;
-    material.normalStrength = mtl.normalStrength;
-    const bool isMatt = !isMetal && !mtl.roughness && mtl.specular == glm::vec3(0.0f) &&
-                        mtl.metallic == 0.0f && mtl.opacity == 1.0f && !has(layout::slotRoughness) &&
-                        !has(layout::slotMetallic);
-    if (isMatt)
-        return material;
-    material.kind = MaterialKind::Principled;
-    material.refractiveIndex = mtl.index;
-    const bool isPhysical = mtl.roughness || has(layout::slotRoughness) || has(layout::slotMetallic);
-    material.roughness = has(layout::slotRoughness) ? 1.0f
-                         : mtl.roughness            ? *mtl.roughness
-                                                    : roughnessOf(mtl.exponent.value_or(0.0f));
-    material.metallic = isMetal || has(layout::slotMetallic) ? 1.0f : mtl.metallic;
-    material.specular = isPhysical ? 0.5f : mean(mtl.specular);
-    material.transmission = 1.0f - mtl.opacity;
-    return material;
-}
+/// A statement whose words have no meaning.
+class UnreadableStatement : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
 
 /// The words of a line.
 class Words {
   public:
-    Words(std::string_view line, const ObjLines &lines) : rest_(line), lines_(lines) {}
+    explicit Words(std::string_view line) : rest_(line) {}
 
     /// Empty at the end of the line, and where a comment begins.
     [[nodiscard]] std::string_view next() {
@@ -148,44 +98,54 @@ class Words {
     }
 
   private:
-    [[nodiscard]] float parse(std::string_view keyword, std::string_view word) const {
+    [[nodiscard]] static float parse(std::string_view keyword, std::string_view word) {
         std::string_view digits = word;
         if (digits.starts_with('+'))
             digits.remove_prefix(1);
         float value = 0.0f;
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-            lines_.fail(fmt::format("{} has {}; allowed are finite decimal numbers", keyword,
-                                    word.empty() ? "fewer numbers than it needs" : quoteInput(word)));
+            throw UnreadableStatement(fmt::format("{} has {}", keyword,
+                                                  word.empty()
+                                                      ? "fewer numbers than it needs"
+                                                      : quoteInput(word) + ", which is no finite number"));
         return value;
     }
 
     std::string_view rest_;
-    const ObjLines &lines_;
 };
 
-/// Texture statements and the slots that they fill.
+/// Texture statements in small letters, and the slots that they fill.
 struct TextureStatement {
     std::string_view keyword;
-    std::optional<std::uint32_t> slot; ///< empty: ignored
+    std::optional<std::uint32_t> slot{}; ///< empty: left out
 };
 
-constexpr TextureStatement textureStatements[] = {{"map_Kd", layout::slotBaseColour},
-                                                  {"map_Ke", layout::slotEmission},
-                                                  {"map_Pr", layout::slotRoughness},
-                                                  {"map_Pm", layout::slotMetallic},
-                                                  {"norm", layout::slotNormal},
-                                                  {"map_Bump", layout::slotNormal},
-                                                  {"map_bump", layout::slotNormal},
-                                                  {"bump", layout::slotNormal},
-                                                  {"map_d", layout::slotOpacity},
-                                                  {"map_Ks", {}},
-                                                  {"map_Ns", {}},
-                                                  {"map_Ps", {}},
-                                                  {"map_Tr", {}},
-                                                  {"disp", {}},
-                                                  {"decal", {}},
-                                                  {"refl", {}}};
+constexpr TextureStatement textureStatements[] = {
+    {"map_kd", layout::slotBaseColour},
+    {"map_ke", layout::slotEmission},
+    {"map_pr", layout::slotRoughness},
+    {"map_pm", layout::slotMetallic},
+    {"norm", layout::slotNormal},
+    {"map_norm", layout::slotNormal},
+    {"map_kn", layout::slotNormal},
+    {"map_bump", layout::slotNormal},
+    {"bump", layout::slotNormal},
+    {"map_d", layout::slotOpacity},
+    {"map_opacity", layout::slotOpacity},
+    {"map_ka"},
+    {"map_ks"},
+    {"map_ns"},
+    {"map_ps"},
+    {"map_pc"},
+    {"map_tr"},
+    {"map_tf"},
+    {"map_refl"},
+    {"map_disp"},
+    {"disp"},
+    {"decal"},
+    {"refl"},
+};
 
 /// Reads the texture statements of one library.
 class TextureReader {
@@ -193,10 +153,9 @@ class TextureReader {
     TextureReader(const std::filesystem::path &library, MtlTextures &textures, const ObjLines &lines)
         : base_(library.parent_path()), textures_(textures), lines_(lines) {}
 
-    /// Returns whether `keyword` is a texture statement, and reads it if so.
-    bool take(MtlStatements &mtl, std::string_view keyword, Words &words) {
-        const auto *const statement =
-            std::ranges::find(textureStatements, keyword, &TextureStatement::keyword);
+    /// Returns whether `small` is a texture statement, and reads it if so. `keyword`: as the file has it.
+    bool take(MtlStatements &mtl, std::string_view small, std::string_view keyword, Words &words) {
+        const auto *const statement = std::ranges::find(textureStatements, small, &TextureStatement::keyword);
         if (statement == std::end(textureStatements))
             return false;
         TextureUse use;
@@ -208,45 +167,61 @@ class TextureReader {
         const auto isPlaced = [](const glm::vec2 &v) {
             return limits::texturePlacement.contains(v.x) && limits::texturePlacement.contains(v.y);
         };
-        if (name.empty())
-            lines_.fail(fmt::format("{} names no file", keyword));
+        if (name.empty()) {
+            lose("no file", [&] { return fmt::format("{} names no file, and is left out", keyword); });
+            return true;
+        }
         if (!isPlaced(use.scale) || !isPlaced(use.offset) || !limits::normalStrength.contains(strength))
-            lines_.fail(fmt::format(
-                "{} has a -s, -o or -bm out of range; allowed are {} for -s and -o, and {} for -bm", keyword,
+            throw UnreadableStatement(fmt::format(
+                "{} has a -s, -o or -bm out of range (allowed are {} for -s and -o, and {} for -bm)", keyword,
                 limits::texturePlacement.text(), limits::normalStrength.text()));
-        if (!statement->slot)
-            warn(fmt::format("{} {} is ignored; textures are read for {}", keyword, quoteInput(name),
-                             "map_Kd, map_Ke, map_Pr, map_Pm, map_d, norm and map_Bump"));
-        else if (const std::optional<std::uint32_t> index =
-                     load(keyword, {name, hasOptions}, *statement->slot)) {
+        if (small == "map_ka") {
+            mtl.ambientName = std::string(name);
+        } else if (!statement->slot) {
+            loseTexture(small, keyword, name);
+        } else {
+            if (*statement->slot == layout::slotBaseColour)
+                mtl.colourName = std::string(name);
+            const std::optional<std::uint32_t> index = load(keyword, {name, hasOptions}, *statement->slot);
+            if (!index)
+                return true;
             use.textureIndex = *index;
             mtl.textures[*statement->slot] = use;
             if (*statement->slot == layout::slotNormal)
                 mtl.normalStrength = strength;
             if (*statement->slot == layout::slotBaseColour)
-                mtl.cutOutName = textures_.library.lookOf(*index).hasCutOuts ? std::string(name) : "";
+                mtl.isCutOut = textures_.library.lookOf(*index).hasCutOuts;
         }
         return true;
     }
 
     /// Cuts out what is transparent in map_Kd, where there is no map_d. Call it when all of a material is read.
-    void cutOut(MtlStatements &mtl) {
-        if (mtl.cutOutName.empty() || mtl.textures[layout::slotOpacity])
+    void finish(MtlStatements &mtl) {
+        // Ambient light is what a path tracer computes, but the picture may be the only one.
+        if (!mtl.ambientName.empty() && mtl.ambientName != mtl.colourName)
+            loseTexture("map_ka", "map_Ka", mtl.ambientName);
+        if (!mtl.isCutOut || mtl.textures[layout::slotOpacity])
             return;
         mtl.textures[layout::slotOpacity] = mtl.textures[layout::slotBaseColour];
-        warn(fmt::format("the material {} is cut out where map_Kd {} is transparent, as there is no map_d",
-                         quoteInput(mtl.name), quoteInput(mtl.cutOutName)));
+        lose("cut out", [&] {
+            return fmt::format(
+                "the material {} is cut out where map_Kd {} is transparent, as there is no map_d",
+                quoteInput(mtl.name), quoteInput(mtl.colourName));
+        });
+    }
+
+    /// Counts what is left out; `text()` says what, and why.
+    template <class Text> void lose(std::string_view kind, const Text &text) {
+        textures_.losses.add(
+            kind, [&] { return fmt::format("{}:{}: {}", lines_.fileName(), lines_.lineNumber(), text()); });
     }
 
   private:
-    void warn(const std::string &text) {
-        constexpr std::size_t most = 32; // of all libraries of a mesh
-        if (textures_.warnings.size() < most)
-            textures_.warnings.push_back(
-                fmt::format("{}:{}: {}", lines_.fileName(), lines_.lineNumber(), text));
-        else if (textures_.warnings.size() == most)
-            textures_.warnings.push_back(
-                fmt::format("{}: further warnings are not shown", lines_.fileName()));
+    void loseTexture(std::string_view kind, std::string_view keyword, std::string_view name) {
+        lose(kind, [&] {
+            return fmt::format("{} {} is left out; textures are read for {}", keyword, quoteInput(name),
+                               "map_Kd, map_Ke, map_Pr, map_Pm, map_d, norm and map_Bump");
+        });
     }
 
     void takeOption(Words &words, TextureUse &use, float &strength) {
@@ -267,15 +242,17 @@ class TextureReader {
                 place[count] = *number;
         }
         if ((isScale || isOffset) && count == 0)
-            lines_.fail(fmt::format("{} has fewer numbers than it needs", option));
+            throw UnreadableStatement(fmt::format("{} has fewer numbers than it needs", option));
         if (isScale || isOffset)
             return;
         const bool hasWord = option == "-blendu" || option == "-blendv" || option == "-cc" ||
                              option == "-clamp" || option == "-imfchan" || option == "-type";
         const std::string_view value = hasWord ? words.next() : std::string_view();
-        warn(fmt::format("the option {}{}{} is ignored; only -s, -o and -bm are read",
-                         excerpt(option, maxExcerptBytes), hasWord ? " " : "",
-                         excerpt(value, maxExcerptBytes)));
+        lose("option", [&] {
+            return fmt::format("the option {}{}{} is left out; only -s, -o and -bm are read",
+                               excerpt(option, maxExcerptBytes), hasWord ? " " : "",
+                               excerpt(value, maxExcerptBytes));
+        });
     }
 
     /// The end of a statement: a file's name, perhaps between what belongs to options.
@@ -297,8 +274,10 @@ class TextureReader {
             !file && options != std::string_view::npos && options > 0) {
             file = textures_.files.find(base_, name.text.substr(0, options));
             if (file)
-                warn(fmt::format("{} is ignored; options stand before the name",
-                                 quoteInput(name.text.substr(options + 1))));
+                lose("late option", [&] {
+                    return fmt::format("{} is left out; options stand before the name",
+                                       quoteInput(name.text.substr(options + 1)));
+                });
         }
         return file;
     }
@@ -306,14 +285,13 @@ class TextureReader {
     std::optional<std::uint32_t> load(std::string_view keyword, const Name &name, std::uint32_t slot) {
         const std::optional<std::filesystem::path> file = find(name);
         const auto ignore = [&](std::string_view reason) {
-            warn(fmt::format("{} {} is ignored: {}", keyword, quoteInput(name.text), reason));
+            lose(reason, [&] {
+                return fmt::format("{} {} is left out: {}", keyword, quoteInput(name.text), reason);
+            });
             return std::nullopt;
         };
-        if (!file) {
-            warn(fmt::format("{} {}: there is no such file in the mesh's folder", keyword,
-                             quoteInput(name.text)));
-            return std::nullopt;
-        }
+        if (!file)
+            return ignore("there is no such file in the mesh's folder");
         try {
             if (!isTextureFile(*file))
                 return ignore("it is not a PNG, JPEG or Radiance (HDR) file");
@@ -321,15 +299,19 @@ class TextureReader {
             if (textures_.library.at(index).isFloat() && slot != layout::slotEmission)
                 return ignore("only map_Ke takes images of floats");
             const TextureLook &look = textures_.library.lookOf(index);
+            const bool isBump = keyword.ends_with("ump");
             if (slot == layout::slotNormal && look.isGrey)
                 return ignore("it is grey, so a height map; only normal maps are read");
-            if (slot == layout::slotNormal && keyword != "norm" && !look.isNormalMap)
+            if (slot == layout::slotNormal && isBump && !look.isNormalMap)
                 return ignore("its colours are not those of a normal map; height maps are not read");
             return index;
         } catch (const Error &error) {
             if (error.kind != ErrorKind::BadInput)
                 throw;
-            return ignore(error.what());
+            lose("damaged texture", [&] {
+                return fmt::format("{} {} is left out: {}", keyword, quoteInput(name.text), error.what());
+            });
+            return std::nullopt;
         }
     }
 
@@ -338,68 +320,158 @@ class TextureReader {
     const ObjLines &lines_;
 };
 
-/// Reads a statement; ignores unknown ones.
-void take(MtlStatements &mtl, std::string_view keyword, Words &words) {
-    if (keyword == "Kd")
-        mtl.diffuse = fraction(words.colour(keyword));
-    else if (keyword == "Ks")
-        mtl.specular = fraction(words.colour(keyword));
-    else if (keyword == "Ke")
-        mtl.emission = glm::max(words.colour(keyword), glm::vec3(0.0f));
-    else if (keyword == "Ns")
-        mtl.exponent = words.number(keyword);
-    else if (keyword == "Pr")
-        mtl.roughness = fraction(words.number(keyword));
-    else if (keyword == "Pm")
-        mtl.metallic = fraction(words.number(keyword));
-    else if (keyword == "d")
-        mtl.opacity = fraction(words.number(keyword));
-    else if (keyword == "Tr")
-        mtl.opacity = 1.0f - fraction(words.number(keyword));
-    else if (keyword == "Ni")
-        mtl.index = std::clamp(words.number(keyword), 1.0f, 10.0f);
-    else if (keyword == "illum")
-        mtl.illumination = static_cast<int>(std::clamp(words.number(keyword), 0.0f, 10.0f));
+/// Statements of numbers, in small letters.
+struct NumberStatement {
+    std::string_view keyword;
+    void (*take)(MtlStatements &mtl, std::string_view keyword, Words &words);
+};
+
+constexpr NumberStatement numberStatements[] = {
+    {"kd", [](auto &mtl, auto keyword, Words &words) { mtl.diffuse = fraction(words.colour(keyword)); }},
+    {"ks", [](auto &mtl, auto keyword, Words &words) { mtl.specular = fraction(words.colour(keyword)); }},
+    {"ke", [](auto &mtl, auto keyword,
+              Words &words) { mtl.emission = glm::max(words.colour(keyword), glm::vec3(0.0f)); }},
+    {"ns", [](auto &mtl, auto keyword, Words &words) { mtl.exponent = words.number(keyword); }},
+    {"pr", [](auto &mtl, auto keyword, Words &words) { mtl.roughness = fraction(words.number(keyword)); }},
+    {"pm", [](auto &mtl, auto keyword, Words &words) { mtl.metallic = fraction(words.number(keyword)); }},
+    {"pc", [](auto &mtl, auto keyword, Words &words) { mtl.clearcoat = fraction(words.number(keyword)); }},
+    {"pcr",
+     [](auto &mtl, auto keyword, Words &words) { mtl.clearcoatRoughness = fraction(words.number(keyword)); }},
+    {"d",
+     [](auto &mtl, auto keyword, Words &words) {
+         if (words.isAtOption())
+             (void)words.next(); // -halo: opaque only where it is seen head on
+         mtl.dissolve = fraction(words.number(keyword));
+     }},
+    {"tr", [](auto &mtl, auto keyword, Words &words) { mtl.transparency = fraction(words.number(keyword)); }},
+    {"ni", [](auto &mtl, auto keyword,
+              Words &words) { mtl.index = std::clamp(words.number(keyword), 1.0f, 10.0f); }},
+    {"illum",
+     [](auto &mtl, auto keyword, Words &words) {
+         mtl.illumination = static_cast<int>(std::clamp(words.number(keyword), 0.0f, 10.0f));
+     }},
+};
+
+/// Statements that are left out, and the numbers of theirs that change nothing.
+struct UnusedStatement {
+    std::string_view keyword;
+    std::array<float, 2> harmless{};
+    std::string_view reason{};
+};
+
+constexpr UnusedStatement unusedStatements[] = {
+    {"tf", {0.0f, 1.0f}, "glass is not tinted"},
+    {"ps", {0.0f, 0.0f}, "there is no sheen"},
+    {"aniso", {0.0f, 0.0f}, "there is no anisotropy"},
+    {"anisor", {0.0f, 0.0f}, "there is no anisotropy"},
+};
+
+/// Ambient light is what a path tracer computes; the others say how other programs filter and mirror.
+constexpr std::string_view needlessStatements[] = {"ka", "sharpness", "map_aat"};
+
+std::string lowerCase(std::string_view word) {
+    std::string small(word);
+    std::ranges::transform(small, small.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return small;
 }
 
-bool knows(std::string_view keyword) {
-    constexpr std::string_view keywords[] = {"Kd", "Ks", "Ke", "Ns", "Pr", "Pm", "d", "Tr", "Ni", "illum"};
-    return std::find(std::begin(keywords), std::end(keywords), keyword) != std::end(keywords);
-}
+/// Reads the statements of one library.
+class MtlReader {
+  public:
+    MtlReader(const std::filesystem::path &file, MtlTextures textures)
+        : lines_(file), textures_(textures), textureReader_(file, textures_, lines_) {}
+
+    [[nodiscard]] std::vector<Material> read() {
+        while (const std::optional<std::span<char>> line = lines_.next()) {
+            Words words({line->data(), line->size()});
+            const std::string_view keyword = words.next();
+            const std::string small = lowerCase(keyword);
+            try {
+                take(small, keyword, words);
+            } catch (const UnreadableStatement &unreadable) {
+                textureReader_.lose(
+                    small, [&] { return fmt::format("{}; the statement is left out", unreadable.what()); });
+            }
+        }
+        finish();
+        return std::move(materials_);
+    }
+
+  private:
+    void take(const std::string &small, std::string_view keyword, Words &words) {
+        if (keyword.empty())
+            return;
+        if (small == "newmtl") {
+            finish();
+            current_.emplace();
+            current_->name = std::string(words.remainder());
+            return;
+        }
+        if (!current_) {
+            textureReader_.lose("no material", [&] {
+                return fmt::format("{} comes before the first newmtl, and is left out",
+                                   excerpt(keyword, maxExcerptBytes));
+            });
+            return;
+        }
+        if (textureReader_.take(*current_, small, keyword, words))
+            return;
+        if (const auto *row = std::ranges::find(numberStatements, small, &NumberStatement::keyword);
+            row != std::end(numberStatements))
+            row->take(*current_, keyword, words);
+        else if (const auto *unused = std::ranges::find(unusedStatements, small, &UnusedStatement::keyword);
+                 unused != std::end(unusedStatements))
+            leaveOut(*unused, keyword, words);
+        else if (std::ranges::find(needlessStatements, small) == std::end(needlessStatements))
+            textureReader_.lose("unknown", [&] {
+                return fmt::format("the statement {} is unknown, and left out", quoteInput(keyword));
+            });
+    }
+
+    void leaveOut(const UnusedStatement &unused, std::string_view keyword, Words &words) {
+        while (const std::optional<float> number = words.tryNumber())
+            if (std::ranges::find(unused.harmless, *number) == unused.harmless.end()) {
+                textureReader_.lose(unused.keyword, [&] {
+                    return fmt::format("{} {} is left out: {}", keyword, *number, unused.reason);
+                });
+                return;
+            }
+    }
+
+    void finish() {
+        if (current_ && names_.insert(current_->name).second) {
+            textureReader_.finish(*current_);
+            if (!current_->dissolve && current_->transparency == 1.0f)
+                textureReader_.lose("tr 1", [&] {
+                    return fmt::format(
+                        "the material {} has Tr 1 without d: it is taken for opaque, as programs mean "
+                        "it that write so",
+                        quoteInput(current_->name));
+                });
+            if (current_->clearcoat > 0.0f && opacityOf(*current_) < 1.0f)
+                textureReader_.lose("coat of glass", [&] {
+                    return fmt::format("Pc of the material {} is left out: what is transparent has no coat",
+                                       quoteInput(current_->name));
+                });
+            materials_.push_back(materialOf(*current_));
+        }
+        if (materials_.size() > limits::materialCount)
+            lines_.fail(fmt::format("there are more than {} materials", limits::materialCount));
+    }
+
+    ObjLines lines_;
+    MtlTextures textures_;
+    TextureReader textureReader_;
+    std::vector<Material> materials_;
+    std::unordered_set<std::string> names_;
+    std::optional<MtlStatements> current_;
+};
 
 } // namespace
 
 std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures textures) {
-    ObjLines lines(file);
-    TextureReader textureReader(file, textures, lines);
-    std::vector<Material> materials;
-    std::unordered_set<std::string> names;
-    std::optional<MtlStatements> current;
-    const auto finish = [&] {
-        if (current && names.insert(current->name).second) {
-            textureReader.cutOut(*current);
-            materials.push_back(materialOf(*current));
-        }
-        if (materials.size() > limits::materialCount)
-            lines.fail(fmt::format("there are more than {} materials", limits::materialCount));
-    };
-    while (const std::optional<std::span<char>> line = lines.next()) {
-        Words words({line->data(), line->size()}, lines);
-        const std::string_view keyword = words.next();
-        if (keyword == "newmtl") {
-            finish();
-            current.emplace();
-            current->name = std::string(words.remainder());
-        } else if (current && textureReader.take(*current, keyword, words)) {
-            continue;
-        } else if (knows(keyword)) {
-            if (!current)
-                lines.fail(fmt::format("{} comes before the first newmtl", keyword));
-            take(*current, keyword, words);
-        }
-    }
-    finish();
-    return materials;
+    return MtlReader(file, textures).read();
 }
 
 } // namespace hyalite

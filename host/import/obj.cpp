@@ -57,6 +57,7 @@ class ObjMaterials {
     /// Warns of what is lost, and of names of another computer.
     void warn(const std::string &mesh) const {
         MeshReport &report = builder.report();
+        std::ranges::move(losses.warnings(), std::back_inserter(report.warnings));
         if (!report.lostLibraries.empty())
             report.warnings.push_back(fmt::format(
                 "{}: there is no material library {}{} in the mesh's folder: its materials are neutral", mesh,
@@ -121,7 +122,7 @@ class ObjMaterials {
         if (!libraries.insert(*library).second)
             return true;
         builder.report().files.push_back(*library);
-        for (Material &material : loadMtl(*library, {finder, *textures, builder.report().warnings}))
+        for (Material &material : loadMtl(*library, {finder, *textures, losses}))
             if (indices.emplace(material.name, static_cast<std::uint32_t>(materials.size() + 1)).second)
                 materials.push_back(std::move(material));
         return true;
@@ -146,6 +147,7 @@ class ObjMaterials {
     std::map<std::string, std::uint32_t, std::less<>> indices; ///< of the materials, by name
     std::set<std::string, std::less<>> names;                  ///< names of requested libraries
     std::set<std::filesystem::path> libraries;                 ///< files of libraries that were read
+    Losses losses;                                             ///< of the libraries
 };
 
 // A filter between the file and tinyobjloader, which knows no line numbers and trusts its input. It passes on one
