@@ -38,11 +38,18 @@ constexpr Signature signatures[] = {
 
 } // namespace
 
-std::string guessContent(std::span<const char> head) {
+std::string guessBySignature(std::span<const char> head) {
     const std::string_view text(head.data(), head.size());
     for (const auto &[bytes, meaning] : signatures)
         if (text.starts_with(bytes))
             return std::string(meaning);
+    return {};
+}
+
+std::string guessContent(std::span<const char> head) {
+    if (std::string known = guessBySignature(head); !known.empty())
+        return known;
+    const std::string_view text(head.data(), head.size());
     const auto isZero = [](char c) { return c == '\0'; };
     const auto isControl = [](char c) {
         const auto code = static_cast<unsigned char>(c);

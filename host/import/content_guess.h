@@ -11,6 +11,9 @@ namespace hyalite {
 /// text, which has hardly any control characters.
 [[nodiscard]] std::string guessContent(std::span<const char> head);
 
+/// The same by the first bytes of known formats alone; empty for all else.
+[[nodiscard]] std::string guessBySignature(std::span<const char> head);
+
 /// How much of a file guessContent() wants to see.
 inline constexpr std::size_t guessedBytes = 512;
 

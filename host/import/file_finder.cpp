@@ -79,6 +79,12 @@ std::optional<std::filesystem::path> FileFinder::findInAnyCase(const std::filesy
     return findExactly(file);
 }
 
+std::filesystem::path folderOf(const std::filesystem::path &file) {
+    std::error_code error;
+    const std::filesystem::path folder = file.parent_path();
+    return std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+}
+
 std::optional<std::filesystem::path> FileFinder::find(const std::filesystem::path &base,
                                                       std::string_view name) {
     const auto [known, isNew] = known_.try_emplace(base.string() + '\0' + std::string(name));

@@ -10,6 +10,9 @@
 
 namespace hyalite {
 
+/// The folder of a file, canonical.
+[[nodiscard]] std::filesystem::path folderOf(const std::filesystem::path &file);
+
 /// Finds files inside one folder alone. Lists each folder once, so that thousands of lost names cost little.
 class FileFinder {
   public:

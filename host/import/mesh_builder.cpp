@@ -1,13 +1,16 @@
 #include "host/import/mesh_builder.h"
 
 #include "host/base/error.h"
-#include "host/import/obj_lines.h"
+#include "host/base/quantities.h"
 #include "host/scene/origin.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -48,6 +51,13 @@ glm::dmat3 rotationMatrix(const glm::dvec3 &degrees) {
     return aboutZ * aboutY * aboutX;
 }
 
+constexpr double maxFloat = std::numeric_limits<float>::max();
+
+// Written so that a NaN is not.
+bool isWithin(const glm::dvec3 &v, double limit) {
+    return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+}
+
 double largestMagnitude(const glm::dvec3 &v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -71,10 +81,12 @@ bool isDegenerate(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c)
 
 } // namespace
 
+std::string placeText(const std::string &file, PlaceUnit unit, std::size_t place) {
+    return file + (unit == PlaceUnit::Line ? ":" : ": byte ") + std::to_string(place) + ": ";
+}
+
 void failAtPlace(const std::string &file, PlaceUnit unit, std::size_t place, std::string_view message) {
-    if (unit == PlaceUnit::Line)
-        failAtLine(file, place, message);
-    throw Error(ErrorKind::BadInput, file + ": byte " + std::to_string(place) + ": " + std::string(message));
+    throw Error(ErrorKind::BadInput, placeText(file, unit, place) + std::string(message));
 }
 
 MeshBuilder::MeshBuilder(std::string file, const MeshTransform &transform, const glm::dvec3 &origin,
@@ -92,19 +104,47 @@ void MeshBuilder::reserve(std::size_t vertexCount, std::size_t triangleCount) {
 }
 
 void MeshBuilder::addPosition(const glm::dvec3 &positionObject, std::size_t place) {
-    constexpr double maxFloat = std::numeric_limits<float>::max();
-    // written so that a NaN fails, too
-    const auto isWithin = [](const glm::dvec3 &v, double limit) {
-        return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
-    };
-    if (!isWithin(positionObject, maxFloat))
-        fail(place, "vertex " + describe(positionObject) +
-                        " is no finite float; allowed are magnitudes up to " + decimal(maxFloat));
     const glm::dvec3 world = rotation * (scale * positionObject) + translate;
-    if (!isWithin(world, maxCoordinate))
-        fail(place, "the vertex is at " + describe(world) +
-                        " after the transform; allowed are magnitudes up to 1e15");
-    result.mesh.positions.emplace_back(world - result.mesh.origin);
+    if (isWithin(positionObject, maxFloat) && isWithin(world, maxCoordinate)) {
+        result.mesh.positions.emplace_back(world - result.mesh.origin);
+        return;
+    }
+    lostPositions.emplace(static_cast<std::uint32_t>(result.mesh.positions.size()),
+                          LostPosition{positionObject, place});
+    result.mesh.positions.emplace_back(0.0f);
+}
+
+void MeshBuilder::failLost(const LostPosition &lost) const {
+    if (!isWithin(lost.object, maxFloat))
+        fail(lost.place, "vertex " + describe(lost.object) +
+                             " is no finite float; allowed are magnitudes up to " + decimal(maxFloat));
+    fail(lost.place, "the vertex is at " + describe(rotation * (scale * lost.object) + translate) +
+                         " after the transform; allowed are magnitudes up to 1e15");
+}
+
+/// Vertices that no face uses must not change where the mesh is.
+void MeshBuilder::replaceLostPositions() {
+    if (lostPositions.empty())
+        return;
+    const std::vector<MeshTriangle> &triangles = result.mesh.triangles;
+    const glm::vec3 known =
+        triangles.empty() ? glm::vec3(0.0f) : result.mesh.positions[triangles.front().positions.x];
+    for (const auto &[index, lost] : lostPositions)
+        result.mesh.positions[index] = known;
+    const auto &first =
+        *std::ranges::min_element(lostPositions, {}, [](const auto &lost) { return lost.first; });
+    result.report.warnings.push_back(
+        fmt::format("{}: {} that no face uses {} no finite place, such as {}", result.mesh.name,
+                    countText(lostPositions.size(), "vertex", "vertices"),
+                    lostPositions.size() == 1 ? "has" : "have", describe(first.second.object)));
+}
+
+void MeshBuilder::setFaceColour(const glm::vec3 &linear) {
+    if (faceColours.empty())
+        colourCorners.assign(result.mesh.triangles.size(), glm::uvec3(0));
+    if (faceColours.empty() || glm::vec3(faceColours.back()) != linear)
+        faceColours.emplace_back(linear, 1.0f);
+    faceColour = static_cast<std::uint32_t>(faceColours.size() - 1);
 }
 
 void MeshBuilder::setColour(const glm::vec3 &colour) {
@@ -144,6 +184,14 @@ void MeshBuilder::setMaterial(std::uint32_t index) {
 }
 
 void MeshBuilder::addFace(std::span<const FaceCorner> corners, std::size_t place) {
+    if (corners.size() < 3) {
+        ++result.report.unusedStatementCount;
+        dropped.add("few corners", [&] {
+            return placeText(result.mesh.name, unit, place) +
+                   "a face with fewer than three corners is left out";
+        });
+        return;
+    }
     ++result.report.faceCount;
     face.clear();
     bool isCuttable = waitingFaces.empty();
@@ -161,8 +209,8 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, std::size_t place
         cutFace(face);
         return;
     }
-    waitingFaces.push_back(
-        {static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(waitingCorners.size()), material});
+    waitingFaces.push_back({static_cast<std::uint32_t>(place),
+                            static_cast<std::uint32_t>(waitingCorners.size()), material, faceColour});
     waitingCorners.insert(waitingCorners.end(), face.begin(), face.end());
 }
 
@@ -200,6 +248,10 @@ void MeshBuilder::requirePosition(const Corner &corner, std::size_t place) const
 }
 
 void MeshBuilder::cutFace(std::span<const Corner> corners) {
+    if (!lostPositions.empty())
+        for (const Corner &corner : corners)
+            if (const auto lost = lostPositions.find(corner.position); lost != lostPositions.end())
+                failLost(lost->second);
     FaceNormals normals{true, false};
     for (const Corner &corner : corners) {
         const bool hasNormal = corner.normal != MeshTriangle::noNormal;
@@ -250,6 +302,8 @@ void MeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner &c,
     result.mesh.triangles.push_back(triangle);
     if (hasMaterials)
         result.mesh.triangleMaterials.push_back(material);
+    if (!faceColours.empty())
+        colourCorners.emplace_back(faceColour);
 }
 
 void MeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
@@ -264,8 +318,14 @@ void MeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
 
 void MeshBuilder::addColours() {
     CornerValues<glm::vec4> &colours = result.mesh.colours;
-    if (colours.values.empty())
+    if (colours.values.empty()) {
+        colours = {std::move(faceColours), std::move(colourCorners)};
         return;
+    }
+    if (!faceColours.empty())
+        dropped.add("colours of faces", [&] {
+            return result.mesh.name + ": colours of faces are left out, as vertices have some, too";
+        });
     colours.values.resize(result.mesh.positions.size(), glm::vec4(1.0f));
     colours.corners.reserve(result.mesh.triangles.size());
     for (const MeshTriangle &triangle : result.mesh.triangles)
@@ -282,6 +342,7 @@ ObjMesh MeshBuilder::finish() {
         for (const Corner &corner : corners)
             requirePosition(corner, waitingFaces[i].place);
         material = waitingFaces[i].material;
+        faceColour = waitingFaces[i].colour;
         cutFace(corners);
     }
     const auto mayBeTooSmall = [this] {
@@ -292,7 +353,9 @@ ObjMesh MeshBuilder::finish() {
                                              std::to_string(report.faceCount) + " faces (" +
                                              std::to_string(report.degenerateTriangleCount) +
                                              " dropped for having no area); at least one is needed");
+    replaceLostPositions();
     addColours();
+    std::ranges::move(dropped.warnings(), std::back_inserter(report.warnings));
     // No triangle uses a lost normal, but its place must hold a unit vector.
     std::replace(result.mesh.normals.begin(), result.mesh.normals.end(), lostNormal,
                  glm::vec3(0.0f, 0.0f, 1.0f));
@@ -301,6 +364,24 @@ ObjMesh MeshBuilder::finish() {
     report.vertexCount = result.mesh.positions.size();
     report.normalCount = result.mesh.normals.size();
     return std::move(result);
+}
+
+void leaveOutUselessTextures(ObjMesh &loaded) {
+    const auto hasTextures = [](const Material &material) {
+        return std::ranges::any_of(material.textures, [](const auto &use) { return use.has_value(); });
+    };
+    if (std::ranges::none_of(loaded.materials, hasTextures))
+        return;
+    if (loaded.mesh.triangleUvs.empty()) {
+        for (Material &material : loaded.materials)
+            material.textures = {};
+        loaded.report.warnings.push_back(loaded.mesh.name +
+                                         ": its textures are ignored, as it has no texture coordinates");
+    } else if (loaded.report.uvLessCount > 0) {
+        loaded.report.warnings.push_back(fmt::format(
+            "{}: {} triangles have no texture coordinates; textures show their bottom left corner there",
+            loaded.mesh.name, loaded.report.uvLessCount));
+    }
 }
 
 } // namespace hyalite

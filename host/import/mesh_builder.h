@@ -1,6 +1,7 @@
 // Mesh builder: vertices, normals and faces of an OBJ, PLY or STL file become one triangle mesh in world space.
 #pragma once
 
+#include "host/import/losses.h"
 #include "host/import/obj.h"
 #include "host/import/triangulate.h"
 
@@ -11,12 +12,19 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace hyalite {
 
+/// Removes textures that the mesh cannot use, as it has no texture coordinates, with a warning.
+void leaveOutUselessTextures(ObjMesh &loaded);
+
 /// How messages name a place in the file.
 enum class PlaceUnit { Line, Byte };
+
+/// "FILE:LINE: " or "FILE: byte OFFSET: ".
+[[nodiscard]] std::string placeText(const std::string &file, PlaceUnit unit, std::size_t place);
 
 /// Throws Error{BadInput} "FILE:LINE: message" or "FILE: byte OFFSET: message".
 [[noreturn]] void failAtPlace(const std::string &file, PlaceUnit unit, std::size_t place,
@@ -40,8 +48,8 @@ class MeshBuilder {
     /// Takes memory for so many vertices and triangles, where a reader knows their number.
     void reserve(std::size_t vertexCount, std::size_t triangleCount);
 
-    /// Adds a vertex. Throws Error{BadInput} if it is not a finite float, or if its magnitude exceeds 1e15 in any
-    /// coordinate after the transform.
+    /// Adds a vertex. One that is not a finite float, or whose magnitude exceeds 1e15 in any coordinate after the
+    /// transform, is kept as lost: no face may use it.
     void addPosition(const glm::dvec3 &positionObject, std::size_t place);
 
     /// Gives the last vertex a colour, linear, in [0, 1]. Vertices without one are white, if any has one.
@@ -58,14 +66,21 @@ class MeshBuilder {
     /// Sets the material of the following faces: an index from 1, or 0 for none.
     void setMaterial(std::uint32_t index);
 
+    /// Sets the colour of the following faces, linear, in [0, 1]; it counts where vertices have none.
+    void setFaceColour(const glm::vec3 &colour);
+
     [[nodiscard]] MeshReport &report() { return result.report; }
 
-    /// Adds a face of three corners or more. Throws Error{BadInput} if a relative index points before the first vertex.
+    /// What is left out, which finish() puts into the report.
+    [[nodiscard]] Losses &losses() { return dropped; }
+
+    /// Adds a face, or leaves it out if it has fewer than three corners. Throws Error{BadInput} if a relative index points
+    /// before the first vertex, and where a vertex is lost.
     void addFace(std::span<const FaceCorner> corners, std::size_t place);
 
     /// Moves the mesh out. Normals and texture coordinates that the file does not define are left out. Throws
-    /// Error{BadInput} for indices past the last vertex of the file, and if no triangle is left; not of a far mesh
-    /// relative to zero (origin.h), whose triangles may be too small there.
+    /// Error{BadInput} for indices past the last vertex of the file, for faces with a lost vertex, and if no triangle is
+    /// left; not of a far mesh relative to zero (origin.h), whose triangles may be too small there.
     [[nodiscard]] ObjMesh finish();
 
   private:
@@ -79,6 +94,12 @@ class MeshBuilder {
         std::uint32_t place;
         std::uint32_t cornerBegin;
         std::uint32_t material;
+        std::uint32_t colour;
+    };
+
+    struct LostPosition {
+        glm::dvec3 object;
+        std::size_t place;
     };
 
     struct FaceNormals {
@@ -92,6 +113,8 @@ class MeshBuilder {
     [[nodiscard]] std::uint32_t resolveNormal(std::int32_t index) const;
     [[nodiscard]] bool isDefined(const Corner &corner) const;
     void requirePosition(const Corner &corner, std::size_t place) const;
+    [[noreturn]] void failLost(const LostPosition &lost) const;
+    void replaceLostPositions();
     void cutFace(std::span<const Corner> corners);
     void addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals);
     void addTriangleUvs(glm::uvec3 uvs);
@@ -103,6 +126,11 @@ class MeshBuilder {
     glm::dvec3 translate;
     std::uint32_t material = 0; ///< of the faces being triangulated
     bool hasMaterials = false;
+    std::uint32_t faceColour = 0;          ///< of the faces being triangulated: in faceColours
+    std::vector<glm::vec4> faceColours;    ///< empty: faces have none
+    std::vector<glm::uvec3> colourCorners; ///< of triangles, in faceColours
+    std::unordered_map<std::uint32_t, LostPosition> lostPositions; ///< by the index of the vertex
+    Losses dropped;
     std::vector<Corner> face; ///< the face being added
     std::vector<Corner> waitingCorners;
     std::vector<Face> waitingFaces;

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <functional>
 #include <istream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -57,7 +58,6 @@ class ObjMaterials {
     /// Warns of what is lost, and of names of another computer.
     void warn(const std::string &mesh) const {
         MeshReport &report = builder.report();
-        std::ranges::move(losses.warnings(), std::back_inserter(report.warnings));
         if (!report.lostLibraries.empty())
             report.warnings.push_back(fmt::format(
                 "{}: there is no material library {}{} in the mesh's folder: its materials are neutral", mesh,
@@ -91,13 +91,6 @@ class ObjMaterials {
         return statement.substr(0, statement.find_last_not_of(blanks) + 1);
     }
 
-    /// Canonical.
-    static std::filesystem::path folderOf(const std::filesystem::path &file) {
-        std::error_code error;
-        const std::filesystem::path folder = file.parent_path();
-        return std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-    }
-
     /// Reads a library, or several. A missing one is not an error: many meshes have lost theirs. A library outside the
     /// folder is not read, because a mesh may come from a stranger. Each is read once, or a small file could request a
     /// large one again and again.
@@ -122,7 +115,7 @@ class ObjMaterials {
         if (!libraries.insert(*library).second)
             return true;
         builder.report().files.push_back(*library);
-        for (Material &material : loadMtl(*library, {finder, *textures, losses}))
+        for (Material &material : loadMtl(*library, {finder, *textures, builder.losses()}))
             if (indices.emplace(material.name, static_cast<std::uint32_t>(materials.size() + 1)).second)
                 materials.push_back(std::move(material));
         return true;
@@ -147,7 +140,6 @@ class ObjMaterials {
     std::map<std::string, std::uint32_t, std::less<>> indices; ///< of the materials, by name
     std::set<std::string, std::less<>> names;                  ///< names of requested libraries
     std::set<std::filesystem::path> libraries;                 ///< files of libraries that were read
-    Losses losses;                                             ///< of the libraries
 };
 
 // A filter between the file and tinyobjloader, which knows no line numbers and trusts its input. It passes on one
@@ -157,12 +149,11 @@ class CheckedObjSource : public std::streambuf {
   public:
     /// `objMaterials` may be null: then materials are ignored.
     CheckedObjSource(ObjLines &objLines, MeshBuilder &meshBuilder, ObjMaterials *objMaterials,
-                     std::size_t &unusedCount, const OnReading &listener)
-        : lines(objLines), builder(meshBuilder), materials(objMaterials), unusedStatementCount(unusedCount),
-          onReading(listener) {}
+                     const OnReading &listener)
+        : lines(objLines), builder(meshBuilder), materials(objMaterials), onReading(listener) {}
 
-    /// The colour of the vertex that was passed on last, which tinyobjloader does not pass on.
-    [[nodiscard]] const std::optional<glm::vec3> &colour() const { return vertexColour; }
+    /// The statement that was passed on last, of which tinyobjloader knows a part.
+    [[nodiscard]] const CheckedStatement &current() const { return statement; }
 
   protected:
     int_type underflow() override {
@@ -176,19 +167,34 @@ class CheckedObjSource : public std::streambuf {
             reportProgress();
             if (materials != nullptr)
                 materials->take({line->data(), line->size()});
-            const CheckedStatement statement = checkStatement(*line, lines);
+            statement = checkStatement(*line, lines);
             if (statement.kind == ObjStatement::Geometry) {
-                vertexColour = statement.colour;
                 char *const begin = statement.text.data();
                 setg(begin, begin, begin + statement.text.size());
                 return traits_type::to_int_type(*begin);
             }
-            unusedStatementCount += statement.kind == ObjStatement::Unused;
+            if (statement.kind == ObjStatement::SmallFace)
+                builder.addFace({}, lines.lineNumber());
+            else if (statement.kind == ObjStatement::Unused)
+                leaveOut({line->data(), line->size()});
         }
     }
 
   private:
     static constexpr std::size_t stepBytes = std::size_t{1} << 22;
+
+    void leaveOut(std::string_view line) {
+        ++builder.report().unusedStatementCount;
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        const std::string_view keyword = line.substr(0, line.find_first_of(" \t\n"));
+        const bool isDrawing = keyword == "l" || keyword == "p";
+        builder.losses().add(isDrawing ? keyword : "unused", [&] {
+            return fmt::format("{}:{}: {} left out: {}", lines.fileName(), lines.lineNumber(),
+                               isDrawing ? keyword == "l" ? "a line is" : "points are"
+                                         : quoteInput(keyword) + " is",
+                               isDrawing ? "surfaces are rendered" : "it is no statement that is read");
+        });
+    }
 
     void reportProgress() {
         if (!onReading || lines.bytesRead() < nextReportBytes)
@@ -200,17 +206,16 @@ class CheckedObjSource : public std::streambuf {
     ObjLines &lines;
     MeshBuilder &builder;
     ObjMaterials *materials;
-    std::size_t &unusedStatementCount;
     const OnReading &onReading;
-    std::optional<glm::vec3> vertexColour;
+    CheckedStatement statement{};
     std::size_t nextReportBytes = stepBytes;
 };
 
 struct CallbackData {
     const ObjLines &lines;
     MeshBuilder &builder;
-    const std::optional<glm::vec3> &colour; ///< of the current vertex
-    std::vector<FaceCorner> corners{};      ///< of the current face
+    const CheckedStatement &statement; ///< the current one
+    std::vector<FaceCorner> corners{}; ///< of the current face
 };
 
 CallbackData &callbackData(void *userData) { return *static_cast<CallbackData *>(userData); }
@@ -219,9 +224,11 @@ tinyobj::callback_t makeCallbacks() {
     tinyobj::callback_t callbacks;
     callbacks.vertex_cb = [](void *userData, double x, double y, double z, double) {
         const CallbackData &data = callbackData(userData);
-        data.builder.addPosition({x, y, z}, data.lines.lineNumber());
-        if (data.colour)
-            data.builder.setColour(*data.colour);
+        constexpr double lost = std::numeric_limits<double>::quiet_NaN();
+        data.builder.addPosition(data.statement.isLost ? glm::dvec3(lost) : glm::dvec3(x, y, z),
+                                 data.lines.lineNumber());
+        if (data.statement.colour)
+            data.builder.setColour(*data.statement.colour);
     };
     callbacks.normal_cb = [](void *userData, double x, double y, double z) {
         callbackData(userData).builder.addNormal({x, y, z});
@@ -248,43 +255,21 @@ void requireText(const ObjLines &lines) {
                     fmt::format("{}: this is not OBJ text; it looks like {}", lines.fileName(), guess));
 }
 
-/// Removes textures that the mesh cannot use.
-void leaveOutUselessTextures(ObjMesh &loaded) {
-    const auto hasTextures = [](const Material &material) {
-        return std::ranges::any_of(material.textures, [](const auto &use) { return use.has_value(); });
-    };
-    if (std::ranges::none_of(loaded.materials, hasTextures))
-        return;
-    if (loaded.mesh.triangleUvs.empty()) {
-        for (Material &material : loaded.materials)
-            material.textures = {};
-        loaded.report.warnings.push_back(loaded.mesh.name +
-                                         ": its textures are ignored, as it has no texture coordinates (vt)");
-    } else if (loaded.report.uvLessCount > 0) {
-        loaded.report.warnings.push_back(fmt::format(
-            "{}: {} triangles have no texture coordinates (vt); textures show their bottom left corner there",
-            loaded.mesh.name, loaded.report.uvLessCount));
-    }
-}
-
 ObjMesh readObj(const std::filesystem::path &file, const MeshTransform &transform, const glm::dvec3 &origin,
                 const OnReading &onReading, TextureLibrary *textures) {
     ObjLines lines(file);
     requireText(lines);
     MeshBuilder builder(lines.fileName(), transform, origin);
     builder.report().files.push_back(file);
-    std::size_t unusedStatementCount = 0;
     ObjMaterials materials(file, builder, textures);
-    CheckedObjSource source(lines, builder, textures != nullptr ? &materials : nullptr, unusedStatementCount,
-                            onReading);
+    CheckedObjSource source(lines, builder, textures != nullptr ? &materials : nullptr, onReading);
     std::istream stream(&source);
     stream.exceptions(std::ios::badbit); // so that an Error of the source passes through the stream
-    CallbackData data{lines, builder, source.colour()};
+    CallbackData data{lines, builder, source.current()};
     tinyobj::LoadObjWithCallback(stream, makeCallbacks(), &data);
     if (textures != nullptr)
         materials.warn(lines.fileName());
     ObjMesh loaded = builder.finish();
-    loaded.report.unusedStatementCount = unusedStatementCount;
     if (!loaded.mesh.triangleMaterials.empty())
         loaded.materials = materials.give();
     leaveOutUselessTextures(loaded);

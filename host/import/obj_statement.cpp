@@ -89,14 +89,21 @@ bool isNotFinite(std::string_view token) {
                "; allowed are finite decimal numbers of up to 128 characters, such as -1.5e-3");
 }
 
-std::span<char> checkVertex(char *keyword, const ObjLines &lines) {
+/// `isLost` becomes whether a number is not finite.
+std::span<char> checkVertex(char *keyword, const ObjLines &lines, bool &isLost) {
+    constexpr std::string_view zeroVertex = "v 0 0 0";
     char *at = keyword + 1;
     for (int i = 0; i < 3; ++i) {
         char *begin = skipBlanks(at);
         at = scanNumber(begin);
-        if (!at)
+        if (!at && !isNotFinite(tokenAt(begin)))
             failNumber("v", begin, lines);
+        isLost = isLost || !at;
+        if (!at)
+            at = begin + tokenAt(begin).size();
     }
+    if (isLost)
+        at = std::copy(zeroVertex.begin(), zeroVertex.end(), keyword); // the shortest v of three tokens
     return {keyword, at};
 }
 
@@ -173,6 +180,7 @@ char *scanCorner(char *at) {
     return at;
 }
 
+/// Empty: of fewer than three corners.
 std::span<char> checkFace(char *keyword, const ObjLines &lines) {
     std::size_t cornerCount = 0;
     char *at = skipBlanks(keyword + 1);
@@ -185,7 +193,9 @@ std::span<char> checkFace(char *keyword, const ObjLines &lines) {
                 " is none of v, v/vt, v//vn, v/vt/vn with indices in [-2147483648, 2147483647], not 0");
         ++cornerCount;
     }
-    if (cornerCount < 3 || cornerCount > maxFaceCorners)
+    if (cornerCount < 3)
+        return {};
+    if (cornerCount > maxFaceCorners)
         lines.fail("the face has " + std::to_string(cornerCount) + " corners; allowed are 3 to " +
                    std::to_string(maxFaceCorners));
     return {keyword, at};
@@ -202,22 +212,28 @@ CheckedStatement checkStatement(std::span<char> statement, const ObjLines &lines
 
     std::span<char> text;
     std::optional<glm::vec3> colour;
+    bool isLost = false;
     if (keyword[0] == 'v' && endsToken(keyword[1])) {
-        text = checkVertex(keyword, lines);
-        colour = readVertexColour(text.data() + text.size());
+        text = checkVertex(keyword, lines, isLost);
+        if (!isLost)
+            colour = readVertexColour(text.data() + text.size());
     } else if (keyword[0] == 'v' && keyword[1] == 'n' && endsToken(keyword[2]))
         text = checkNormal(keyword, lines);
     else if (keyword[0] == 'v' && keyword[1] == 't' && endsToken(keyword[2]))
         text = checkUv(keyword, lines);
-    else if (keyword[0] == 'f' && endsToken(keyword[1]))
+    else if (keyword[0] == 'f' && endsToken(keyword[1])) {
         text = checkFace(keyword, lines);
+        if (text.empty())
+            return {ObjStatement::SmallFace, {}};
+    }
     if (text.empty()) {
-        constexpr std::array<std::string_view, 5> known{"g", "o", "s", "usemtl", "mtllib"};
+        constexpr std::array<std::string_view, 10> known{"g",   "o",        "s",        "mg",    "usemtl",
+                                                         "lod", "c_interp", "d_interp", "bevel", "mtllib"};
         const bool isKnown = std::find(known.begin(), known.end(), tokenAt(keyword)) != known.end();
         return {isKnown ? ObjStatement::Skipped : ObjStatement::Unused, {}};
     }
     text.data()[text.size()] = '\n';
-    return {ObjStatement::Geometry, std::span<char>(text.data(), text.size() + 1), colour};
+    return {ObjStatement::Geometry, std::span<char>(text.data(), text.size() + 1), colour, isLost};
 }
 
 } // namespace hyalite

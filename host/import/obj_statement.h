@@ -15,9 +15,10 @@ namespace hyalite {
 inline constexpr std::size_t maxFaceCorners = 65'536;
 
 enum class ObjStatement {
-    Geometry, ///< v, vn, vt or f
-    Skipped,  ///< blank, comment, or about names, groups, materials
-    Unused,   ///< anything else: l, p, free-form geometry, unknown keywords
+    Geometry,  ///< v, vn, vt or f
+    Skipped,   ///< blank, comment, or about names, groups, materials, levels of detail
+    SmallFace, ///< an f of fewer than three corners
+    Unused,    ///< anything else: l, p, free-form geometry, unknown keywords
 };
 
 /// The kind of a statement and, for Geometry, the part to pass on, from its keyword.
@@ -25,12 +26,14 @@ struct CheckedStatement {
     ObjStatement kind;
     std::span<char> text;
     std::optional<glm::vec3> colour{}; ///< of a v
+    bool isLost = false;               ///< a v with nan or inf
 };
 
 /// Checks and cleans one line in place; the character after its end becomes a line feed. The text to pass on has one of
 /// these forms, separated by blanks or tabs:
 ///
-///     v  number number number     decimals that the parser of tinyobjloader reads without overflow or lost digits
+///     v  number number number     decimals that the parser of tinyobjloader reads without overflow or lost digits; 0 0 0
+///                                 if the file has nan or inf
 ///     vn number number number     0 0 0 if the file has nan or inf
 ///     vt number number            or one number; likewise
 ///     f  corner corner corner...  corner = i | i/i | i//i | i/i/i, integers of 32 bits; v and vn not 0

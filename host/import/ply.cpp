@@ -2,6 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/image/tone_curve.h"
+#include "host/import/file_finder.h"
 #include "host/import/mesh_builder.h"
 #include "host/import/obj_lines.h"
 #include "host/import/obj_statement.h"
@@ -26,7 +27,7 @@ namespace hyalite {
 namespace {
 
 /// Uses of a vertex's values. Each set is wanted as a whole.
-enum Role : std::size_t { X, Y, Z, NormalX, NormalY, NormalZ, U, V, Red, Green, Blue, roleCount };
+enum Role : std::size_t { X, Y, Z, NormalX, NormalY, NormalZ, U, V, Red, Green, Blue, Alpha, roleCount };
 constexpr std::size_t unusedRole = roleCount;
 
 struct RoleName {
@@ -55,20 +56,25 @@ constexpr RoleName roleNames[] = {{"x", X},
                                   {"b", Blue},
                                   {"diffuse_red", Red},
                                   {"diffuse_green", Green},
-                                  {"diffuse_blue", Blue}};
+                                  {"diffuse_blue", Blue},
+                                  {"alpha", Alpha},
+                                  {"a", Alpha},
+                                  {"diffuse_alpha", Alpha}};
 
-/// How the values of a vertex are used.
-struct VertexPlan {
+/// How the values of a row, of a vertex or a face, are used.
+struct RowPlan {
     std::vector<std::size_t> roles; ///< of each property
+    bool hasPosition = false;
     bool hasNormal = false;
     bool hasUv = false;
     bool hasColour = false;
+    bool hasAlpha = false;
     double colourScale = 1.0; ///< to [0, 1]
     bool isSrgb = false;
 };
 
-VertexPlan planVertices(const PlyElement &element, const std::string &fileName) {
-    VertexPlan plan;
+RowPlan planRow(const PlyElement &element) {
+    RowPlan plan;
     std::array<const PlyProperty *, roleCount> given{};
     for (const PlyProperty &property : element.properties) {
         const auto *const found = std::ranges::find(roleNames, property.name, &RoleName::name);
@@ -81,11 +87,11 @@ VertexPlan planVertices(const PlyElement &element, const std::string &fileName) 
         return std::all_of(given.begin() + first, given.begin() + last + 1,
                            [](const PlyProperty *property) { return property != nullptr; });
     };
-    if (!hasAll(X, Z))
-        throw Error(ErrorKind::BadInput, fileName + ": vertices lack one of the properties x, y and z");
+    plan.hasPosition = hasAll(X, Z);
     plan.hasNormal = hasAll(NormalX, NormalZ);
     plan.hasUv = hasAll(U, V);
     plan.hasColour = hasAll(Red, Blue);
+    plan.hasAlpha = plan.hasColour && hasAll(Alpha, Alpha);
     if (plan.hasColour && isWhole(given[Red]->type)) {
         constexpr double largest[] = {127.0, 255.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0};
         plan.isSrgb = true;
@@ -105,7 +111,7 @@ const std::array<float, 256> &srgbTable() {
     return table;
 }
 
-float linearColour(double value, const VertexPlan &plan) {
+float linearColour(double value, const RowPlan &plan) {
     const double share = std::clamp(value * plan.colourScale, 0.0, 1.0);
     if (!plan.isSrgb)
         return share > 0.0 ? static_cast<float>(share) : 0.0f; // and NaN is 0
@@ -126,26 +132,62 @@ template <class Values> class PlyReader {
         for (const PlyElement &element : header_.elements)
             if (element.name == "vertex") {
                 vertexCount_ = element.count;
-                plan_ = planVertices(element, fileName_);
+                plan_ = planRow(element);
+                if (!plan_.hasPosition)
+                    throw Error(ErrorKind::BadInput,
+                                fileName_ + ": vertices lack one of the properties x, y and z");
             }
         for (const PlyElement &element : header_.elements) {
             if (element.properties.empty())
                 continue; // it has no bytes
-            requireRoom(element);
-            if (element.name == "vertex")
+            tellUnused(element);
+            if (element.name == "vertex") {
+                requireRoom(element);
                 readVertices(element);
-            else if (element.name == "face")
-                readFaces(element);
-            else if (element.name == "tristrips")
-                readStrips(element);
-            else
-                skip(element);
+                continue;
+            }
+            try {
+                if (element.name == "face")
+                    readFaces(element);
+                else if (element.name == "tristrips")
+                    readStrips(element);
+                else
+                    skip(element);
+            } catch (const PlyCutShort &cut) {
+                if (!hasVertices_ || builder_.report().faceCount == 0)
+                    throw;
+                builder_.losses().add("cut", [&] {
+                    return fmt::format("{}; what is there is rendered, {} of {} rows", cut.what(), rowCount_,
+                                       element.count);
+                });
+                return;
+            }
         }
     }
 
-    [[nodiscard]] std::size_t smallFaceCount() const { return smallFaceCount_; }
-
   private:
+    /// Warns of elements and properties that are not used.
+    void tellUnused(const PlyElement &element) {
+        const bool isRead = element.name == "vertex" || element.name == "face" || element.name == "tristrips";
+        if (!isRead && element.count > 0)
+            builder_.losses().add("element", [&] {
+                return fmt::format("{}: the element {} is left out", fileName_, quoteInput(element.name));
+            });
+        constexpr std::string_view usedOfFaces[] = {
+            "vertex_indices", "vertex_index", "texcoord", "texnumber", "red", "green", "blue", "alpha"};
+        for (const PlyProperty &property : element.properties) {
+            const bool isUsed =
+                element.name == "vertex"
+                    ? std::ranges::find(roleNames, property.name, &RoleName::name) != std::end(roleNames)
+                    : std::ranges::find(usedOfFaces, property.name) != std::end(usedOfFaces);
+            if (isRead && !isUsed)
+                builder_.losses().add("property", [&] {
+                    return fmt::format("{}: the property {} of the element {} is left out", fileName_,
+                                       quoteInput(property.name), quoteInput(element.name));
+                });
+        }
+    }
+
     /// Refuses a count that the file cannot hold, before anything is allocated.
     void requireRoom(const PlyElement &element) const {
         const std::size_t rowBytes = Values::minRowBytes(element);
@@ -161,7 +203,7 @@ template <class Values> class PlyReader {
 
     template <class Read> void forEachRow(const PlyElement &element, const Read &read) {
         constexpr std::uint64_t stepRows = 65536;
-        for (std::uint64_t row = 0; row < element.count; ++row) {
+        for (std::uint64_t &row = rowCount_ = 0; row < element.count; ++row) {
             if (onReading_ && row % stepRows == stepRows - 1)
                 onReading_(static_cast<double>(values_.bytesRead()) /
                            static_cast<double>(values_.bytesRead() + values_.bytesLeft()));
@@ -205,11 +247,25 @@ template <class Values> class PlyReader {
                 builder_.addNormal({found[NormalX], found[NormalY], found[NormalZ]});
             if (plan_.hasUv)
                 builder_.addUv({found[U], found[V]});
-            if (plan_.hasColour)
-                builder_.setColour({linearColour(found[Red], plan_), linearColour(found[Green], plan_),
-                                    linearColour(found[Blue], plan_)});
+            if (plan_.hasColour && header_.textureFiles.empty())
+                builder_.setColour(colourOf(found, plan_));
         });
+        if (plan_.hasColour && !header_.textureFiles.empty())
+            builder_.losses().add("colours", [&] {
+                return fileName_ + ": colours of vertices are left out, as the mesh has a texture";
+            });
         hasVertices_ = true;
+    }
+
+    /// Linear. Warns of transparency.
+    glm::vec3 colourOf(const std::array<double, roleCount + 1> &found, const RowPlan &plan) {
+        if (plan.hasAlpha && found[Alpha] * plan.colourScale < 1.0)
+            builder_.losses().add("alpha", [&] {
+                return fmt::format("{}alpha is left out: colours are opaque",
+                                   placeText(fileName_, Values::unit, values_.place()));
+            });
+        return {linearColour(found[Red], plan), linearColour(found[Green], plan),
+                linearColour(found[Blue], plan)};
     }
 
     /// Of a face or a strip, the property with the corners. Throws Error{BadInput} if there is none.
@@ -234,14 +290,17 @@ template <class Values> class PlyReader {
         const OnReading nobody; // outlives the reader, which refers to it
         PlyReader ahead(header_, values_, builder_, fileName_, nobody);
         std::size_t count = 0;
-        ahead.forEachRow(element, [&] {
-            for (const PlyProperty &property : element.properties) {
-                const std::size_t length = property.isList ? ahead.readLength(property) : 1;
-                ahead.values_.skip(property.type, length);
-                if (&property == &indices && length > 2)
-                    count += length - 2;
-            }
-        });
+        try {
+            ahead.forEachRow(element, [&] {
+                for (const PlyProperty &property : element.properties) {
+                    const std::size_t length = property.isList ? ahead.readLength(property) : 1;
+                    ahead.values_.skip(property.type, length);
+                    if (&property == &indices && length > 2)
+                        count += length - 2;
+                }
+            });
+        } catch (const PlyCutShort &) { // as will be seen once more
+        }
         return count;
     }
 
@@ -256,23 +315,36 @@ template <class Values> class PlyReader {
     void readFaces(const PlyElement &element) {
         const PlyProperty &indices = indicesOf(element);
         builder_.reserve(0, countTriangles(element, indices));
+        const RowPlan plan = planRow(element);
+        std::array<double, roleCount + 1> found{};
         std::vector<FaceCorner> corners;
         std::vector<double> uvs;
+        builder_.setMaterial(header_.textureFiles.empty() ? 0 : 1);
         forEachRow(element, [&] {
             uvs.clear();
-            for (const PlyProperty &property : element.properties)
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                const PlyProperty &property = element.properties[i];
                 if (&property == &indices)
                     readCorners(property, corners);
                 else if (property.isList && property.name == "texcoord")
                     readNumbers(property, uvs);
-                else
+                else if (property.isList)
                     skipValue(property);
-            if (corners.size() < 3)
-                ++smallFaceCount_;
-            else
-                addFace(corners, uvs);
+                else if (property.name == "texnumber")
+                    useTexture(values_.next(property.type));
+                else
+                    found[plan.roles[i]] = values_.next(property.type);
+            }
+            if (plan.hasColour)
+                builder_.setFaceColour(colourOf(found, plan));
+            addFace(corners, uvs);
         });
-        builder_.report().unusedStatementCount += smallFaceCount_;
+    }
+
+    /// -1 and other numbers without a texture: none.
+    void useTexture(double number) {
+        const bool isKnown = number >= 0.0 && number < static_cast<double>(header_.textureFiles.size());
+        builder_.setMaterial(isKnown ? static_cast<std::uint32_t>(number) + 1 : 0);
     }
 
     void readCorners(const PlyProperty &property, std::vector<FaceCorner> &corners) {
@@ -343,9 +415,9 @@ template <class Values> class PlyReader {
     const std::string &fileName_;
     const OnReading &onReading_;
     std::uint64_t vertexCount_ = 0;
-    bool hasVertices_ = false; ///< they are read
-    VertexPlan plan_;
-    std::size_t smallFaceCount_ = 0;
+    bool hasVertices_ = false;   ///< they are read
+    RowPlan plan_;               ///< of vertices
+    std::uint64_t rowCount_ = 0; ///< of the element that is read
 };
 
 bool isPointCloud(const PlyHeader &header) {
@@ -369,10 +441,45 @@ void requireFaces(const PlyHeader &header, const std::string &fileName) {
                         fileName, vertices->count));
 }
 
+/// A material for each texture of the header. One whose picture cannot be had is neutral.
+std::vector<Material> texturedMaterials(const PlyHeader &header, const std::filesystem::path &file,
+                                        TextureLibrary *textures, Losses &losses) {
+    std::vector<Material> materials;
+    if (textures == nullptr)
+        return materials;
+    FileFinder files(folderOf(file));
+    for (const std::string &name : header.textureFiles) {
+        Material &material = materials.emplace_back();
+        material.name = name;
+        material.twoSided = true;
+        material.albedo = glm::vec3(0.8f);
+        const auto lose = [&](std::string_view kind, std::string_view reason) {
+            losses.add(kind, [&] {
+                return fmt::format("{}: TextureFile {} is left out: {}", file.string(), quoteInput(name),
+                                   reason);
+            });
+        };
+        const std::optional<std::filesystem::path> found = files.find(files.folder(), name);
+        if (!found) {
+            lose("no texture", "there is no such file in the mesh's folder");
+            continue;
+        }
+        try {
+            material.textures[layout::slotBaseColour] = TextureUse{.textureIndex = textures->load(*found)};
+            material.albedo = glm::vec3(1.0f);
+        } catch (const Error &error) {
+            if (error.kind != ErrorKind::BadInput)
+                throw;
+            lose("damaged texture", error.what());
+        }
+    }
+    return materials;
+}
+
 } // namespace
 
-ObjMesh loadPly(const std::filesystem::path &file, const MeshTransform &transform,
-                const OnReading &onReading) {
+ObjMesh loadPly(const std::filesystem::path &file, const MeshTransform &transform, const OnReading &onReading,
+                TextureLibrary *textures) {
     const std::string fileName = file.string();
     const std::vector<char> bytes = readWholeFile(file);
     const PlyHeader header = readPlyHeader(bytes, fileName);
@@ -382,25 +489,25 @@ ObjMesh loadPly(const std::filesystem::path &file, const MeshTransform &transfor
     return readNear([&](const glm::dvec3 &origin) {
         MeshBuilder builder(fileName, transform, origin, isText ? PlaceUnit::Line : PlaceUnit::Byte);
         builder.report().files.push_back(file);
-        std::size_t smallFaceCount = 0;
         const auto read = [&](auto values) {
-            PlyReader reader(header, std::move(values), builder, fileName, onReading);
-            reader.read();
-            smallFaceCount = reader.smallFaceCount();
+            PlyReader(header, std::move(values), builder, fileName, onReading).read();
         };
         if (isText)
             read(PlyTextValues(body, header.bodyLine, fileName));
         else
             read(PlyByteValues(body, header.bodyOffset, header.format == PlyFormat::BigEndian, fileName));
-        if (smallFaceCount > 0)
-            builder.report().warnings.push_back(fmt::format(
-                "{}: {} faces with fewer than three corners are passed over", fileName, smallFaceCount));
-        return builder.finish();
+        std::vector<Material> materials = texturedMaterials(header, file, textures, builder.losses());
+        ObjMesh loaded = builder.finish();
+        loaded.materials = std::move(materials);
+        if (loaded.materials.empty())
+            loaded.mesh.triangleMaterials.clear();
+        leaveOutUselessTextures(loaded);
+        return loaded;
     });
 }
 
 MeshFile readPlyMeshes(const std::filesystem::path &file, const MeshOptions &options) {
-    return meshFileOf(loadPly(file, options.transform, options.onReading));
+    return meshFileOf(loadPly(file, options.transform, options.onReading, options.textures));
 }
 
 } // namespace hyalite

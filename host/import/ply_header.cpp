@@ -27,7 +27,10 @@ constexpr std::pair<std::string_view, PlyType> typeNames[] = {
 class HeaderReader {
   public:
     HeaderReader(std::span<const char> file, const std::string &fileName)
-        : text_(file.data(), file.size()), fileName_(fileName) {}
+        : text_(file.data(), file.size()), fileName_(fileName) {
+        if (text_.starts_with("\xEF\xBB\xBF"))
+            at_ = 3;
+    }
 
     /// Goes to the next line. False at the end of the file.
     bool next() {
@@ -50,6 +53,13 @@ class HeaderReader {
         const std::string_view found = line_.substr(0, line_.find_first_of(blanks));
         line_.remove_prefix(found.size());
         return found;
+    }
+
+    /// The rest of the line, without blanks around it.
+    std::string_view remainder() {
+        constexpr std::string_view blanks = " \t";
+        line_.remove_prefix(std::min(line_.find_first_not_of(blanks), line_.size()));
+        return line_.substr(0, line_.find_last_not_of(blanks) + 1);
     }
 
     PlyType type() {
@@ -142,7 +152,10 @@ PlyHeader readPlyHeader(std::span<const char> file, const std::string &fileName)
             reader.fail("a property comes before the first element");
         else if (keyword == "property")
             header.elements.back().properties.push_back(readProperty(reader));
-        else if (keyword == "end_header") {
+        else if (keyword == "comment") {
+            if (reader.word() == "TextureFile" && header.textureFiles.size() < maxElements)
+                header.textureFiles.emplace_back(reader.remainder());
+        } else if (keyword == "end_header") {
             if (!format)
                 reader.fail("the header names no format; allowed are ascii, binary_little_endian and "
                             "binary_big_endian");

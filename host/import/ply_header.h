@@ -36,12 +36,14 @@ enum class PlyFormat { Text, LittleEndian, BigEndian };
 struct PlyHeader {
     PlyFormat format{};
     std::vector<PlyElement> elements; ///< in the order of the file; names are distinct
-    std::size_t bodyOffset = 0;       ///< of the first value, in bytes
-    std::size_t bodyLine = 0;         ///< the line of the first value, from 1
+    std::vector<std::string>
+        textureFiles;           ///< of the comments `TextureFile NAME`, as MeshLab and scanners write them
+    std::size_t bodyOffset = 0; ///< of the first value, in bytes
+    std::size_t bodyLine = 0;   ///< the line of the first value, from 1
 };
 
 /// Reads the header of a PLY file after G. Turk, "The PLY Polygon File Format" (1994), whose lines end in LF, CR or
-/// CRLF. Comments, obj_info and unknown lines are passed over. Throws Error{BadInput} "FILE:LINE: ..." for what is
+/// CRLF, after a byte order mark or not. Other comments, obj_info and unknown lines are passed over. Throws Error{BadInput} "FILE:LINE: ..." for what is
 /// wrong.
 [[nodiscard]] PlyHeader readPlyHeader(std::span<const char> file, const std::string &fileName);
 

@@ -33,8 +33,10 @@ void PlyTextValues::beginRow(const PlyElement &element) {
         if (*at_ == '\n' || (*at_ == '\r' && (at_ + 1 == end_ || at_[1] != '\n')))
             ++line_;
     if (at_ == end_)
-        fail(fmt::format("the file ends before all of its {} rows of the element {}: it is cut short",
-                         element.count, quoteInput(element.name)));
+        throw PlyCutShort(
+            ErrorKind::BadInput,
+            fmt::format("{}the file ends before all of its {} rows of the element {}: it is cut short",
+                        placeText(fileName_, unit, line_), element.count, quoteInput(element.name)));
 }
 
 double PlyTextValues::next(PlyType type) {
@@ -72,10 +74,11 @@ double PlyTextValues::next(PlyType type) {
 // ---- Bytes
 
 void PlyByteValues::failCut() const {
-    fail(fmt::format(
-        "the file ends within the element {}, or a list is longer than the file: it is damaged or "
-        "cut short",
-        quoteInput(element_->name)));
+    throw PlyCutShort(
+        ErrorKind::BadInput,
+        fmt::format("{}the file ends within the element {}, or a list is longer than the file: it is "
+                    "damaged or cut short",
+                    placeText(fileName_, unit, place()), quoteInput(element_->name)));
 }
 
 template <class T> T PlyByteValues::load() {

@@ -2,6 +2,7 @@
 // that what reads elements is written once.
 #pragma once
 
+#include "host/base/error.h"
 #include "host/import/mesh_builder.h"
 #include "host/import/ply_header.h"
 
@@ -12,6 +13,12 @@
 #include <string_view>
 
 namespace hyalite {
+
+/// The file ends before its values do.
+class PlyCutShort : public Error {
+  public:
+    using Error::Error;
+};
 
 /// Values as text: one row of an element a line. Errors name lines.
 class PlyTextValues {
@@ -28,7 +35,7 @@ class PlyTextValues {
         return 2 * element.properties.size();
     }
 
-    /// Begins a row of `element`, on the next line that is not empty.
+    /// Begins a row of `element`, on the next line that is not empty. Throws PlyCutShort at the end of the file.
     void beginRow(const PlyElement &element);
     /// The next value of the row. Throws Error{BadInput} for a value that is no number, and at the end of the line.
     [[nodiscard]] double next(PlyType type);
@@ -74,6 +81,7 @@ class PlyByteValues {
         element_ = &element;
         row_ = at_;
     }
+    /// Throws PlyCutShort at the end of the file, as skip() does.
     [[nodiscard]] double next(PlyType type);
     void skip(PlyType type, std::size_t count) {
         if (bytesLeft() / sizeOf(type) < count)

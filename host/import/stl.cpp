@@ -14,6 +14,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -40,7 +41,8 @@ class VertexMerger {
 
     /// The number of the vertex, which is added to the builder the first time.
     std::uint32_t add(const glm::dvec3 &position, std::size_t place) {
-        finder_.add(position);
+        if (std::isfinite(position.x + position.y + position.z))
+            finder_.add(position);
         if (isExact_ && keys_.empty())
             first_ = position;
         const Key key = keyOf(glm::vec3(position - first_));
@@ -110,17 +112,23 @@ template <class T> T littleEndian(const char *at) {
 void readBinary(std::span<const char> bytes, const std::string &fileName, VertexMerger &merger,
                 const OnReading &onReading) {
     MeshBuilder &builder = merger.builder();
-    const auto count = littleEndian<std::uint32_t>(bytes.data() + 80);
-    if ((bytes.size() - headBytes) / triangleBytes < count) {
-        const std::string guess = guessContent(bytes.first(std::min(bytes.size(), guessedBytes)));
+    const auto announced = littleEndian<std::uint32_t>(bytes.data() + 80);
+    const std::size_t present = (bytes.size() - headBytes) / triangleBytes;
+    const std::string guess = guessBySignature(bytes);
+    if (announced > present && (present == 0 || !guess.empty()))
         throw Error(
             ErrorKind::BadInput,
             fmt::format("{}: it announces {} triangles, and has bytes for {}: it is cut short, or is not "
                         "STL{}{}",
-                        fileName, count, (bytes.size() - headBytes) / triangleBytes,
-                        guess.empty() || guess == "binary data" ? "" : "; it looks like ",
-                        guess == "binary data" ? "" : guess));
-    }
+                        fileName, announced, present, guess.empty() ? "" : "; it looks like ", guess));
+    // Programs that write as they go leave 0, or the largest number.
+    const auto count = static_cast<std::uint32_t>(announced == 0 ? std::min<std::size_t>(present, 0xFFFF'FFFF)
+                                                                 : std::min<std::size_t>(announced, present));
+    if (count != announced || count < present)
+        builder.losses().add("count", [&] {
+            return fmt::format("{}: it announces {} triangles, and has bytes for {}: {} are read", fileName,
+                               announced, present, count);
+        });
     builder.reserve(0, count);
     for (std::uint32_t triangle = 0; triangle < count; ++triangle) {
         if (onReading && triangle % stepTriangles == stepTriangles - 1)
@@ -133,7 +141,18 @@ void readBinary(std::span<const char> bytes, const std::string &fileName, Vertex
                 {littleEndian<float>(at), littleEndian<float>(at + 4), littleEndian<float>(at + 8)}, offset));
         }
         builder.addFace(corners, offset);
+        if (littleEndian<std::uint16_t>(bytes.data() + offset + 48) != 0)
+            builder.losses().add("colours", [&] {
+                return placeText(fileName, PlaceUnit::Byte, offset + 48) +
+                       "what stands behind a triangle, a colour perhaps, is left out";
+            });
     }
+}
+
+bool isWord(std::string_view found, std::string_view lower) {
+    return std::ranges::equal(found, lower, [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+    });
 }
 
 /// The words of text, whose case does not matter, with their lines.
@@ -153,10 +172,20 @@ class StlWords {
         return {begin, at_};
     }
 
-    /// Passes over the rest of the line.
-    void skipLine() {
-        while (at_ != end_ && *at_ != '\n' && *at_ != '\r')
+    /// The next word, without consuming it.
+    [[nodiscard]] std::string_view peek() const { return StlWords(*this).next(); }
+
+    /// Whether the next words are "facet normal".
+    [[nodiscard]] bool isAtFacet() const {
+        StlWords ahead(*this);
+        return isWord(ahead.next(), "facet") && isWord(ahead.next(), "normal");
+    }
+
+    /// Whether no word is left on this line.
+    [[nodiscard]] bool isLineOver() {
+        while (at_ != end_ && (*at_ == ' ' || *at_ == '\t'))
             ++at_;
+        return at_ == end_ || isBlank(*at_);
     }
 
     double number() {
@@ -187,16 +216,21 @@ class StlWords {
     const std::string &fileName_;
 };
 
-bool isWord(std::string_view found, std::string_view lower) {
-    return std::ranges::equal(found, lower, [](char a, char b) {
-        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-    });
+/// Passes over as many words that are no keywords.
+void skipArguments(StlWords &words, int most) {
+    constexpr std::string_view keywords[] = {"facet",    "outer", "vertex",   "endloop",
+                                             "endfacet", "solid", "endsolid", "color"};
+    for (int i = 0; i < most; ++i) {
+        const std::string_view word = words.peek();
+        if (std::ranges::any_of(keywords, [&](std::string_view keyword) { return isWord(word, keyword); }))
+            return;
+        (void)words.next();
+    }
 }
 
 void readText(std::span<const char> bytes, const std::string &fileName, VertexMerger &merger,
               const OnReading &onReading) {
     MeshBuilder &builder = merger.builder();
-    constexpr std::string_view ignored[] = {"facet", "outer", "endfacet", "solid", "endsolid", "color"};
     StlWords words(bytes, fileName);
     std::vector<FaceCorner> corners;
     std::uint64_t faceCount = 0;
@@ -209,16 +243,23 @@ void readText(std::span<const char> bytes, const std::string &fileName, VertexMe
             if (corners.size() > maxFaceCorners)
                 words.fail(fmt::format("the facet has more than {} vertices", maxFaceCorners));
         } else if (isWord(word, "endloop")) {
-            if (corners.size() < 3)
-                words.fail(fmt::format("the facet has {} vertices; allowed are 3", corners.size()));
             builder.addFace(corners, words.line());
             corners.clear();
             if (onReading && ++faceCount % stepTriangles == 0)
                 onReading(words.shareRead());
-        } else if (std::ranges::any_of(ignored,
-                                       [&](std::string_view known) { return isWord(word, known); })) {
-            words.skipLine(); // with the normal, or the name of the solid
-        } else {
+        } else if (isWord(word, "solid") || isWord(word, "endsolid")) {
+            while (!words.isLineOver() && !words.isAtFacet()) // its name
+                (void)words.next();
+        } else if (isWord(word, "facet")) {
+            skipArguments(words, 4); // "normal" and its numbers
+        } else if (isWord(word, "outer")) {
+            skipArguments(words, 1); // "loop"
+        } else if (isWord(word, "color")) {
+            skipArguments(words, 3);
+            builder.losses().add("colours", [&] {
+                return placeText(fileName, PlaceUnit::Line, words.line()) + "a colour is left out";
+            });
+        } else if (!isWord(word, "endfacet")) {
             words.fail(
                 fmt::format("{} is no word of STL; allowed are solid, facet, outer loop, vertex, endloop, "
                             "endfacet and endsolid",
@@ -226,7 +267,10 @@ void readText(std::span<const char> bytes, const std::string &fileName, VertexMe
         }
     }
     if (!corners.empty())
-        words.fail("the file ends within a facet: it is cut short");
+        builder.losses().add("cut", [&] {
+            return placeText(fileName, PlaceUnit::Line, words.line()) +
+                   "the file ends within a facet, which is left out: it is cut short";
+        });
 }
 
 bool isBinary(std::span<const char> bytes) {
@@ -236,8 +280,8 @@ bool isBinary(std::span<const char> bytes) {
     if (bytes.size() == headBytes + count * triangleBytes)
         return true;
     const std::string noName;
-    StlWords words(bytes.first(headBytes), noName);
-    return !isWord(words.next(), "solid");
+    const bool hasMark = std::string_view(bytes.data(), bytes.size()).starts_with("\xEF\xBB\xBF");
+    return !isWord(StlWords(bytes.subspan(hasMark ? 3 : 0, headBytes - 3), noName).next(), "solid");
 }
 
 } // namespace
@@ -245,8 +289,11 @@ bool isBinary(std::span<const char> bytes) {
 ObjMesh loadStl(const std::filesystem::path &file, const MeshTransform &transform,
                 const OnReading &onReading) {
     const std::string fileName = file.string();
-    const std::vector<char> bytes = readWholeFile(file);
-    const bool isInBinary = isBinary(bytes);
+    const std::vector<char> whole = readWholeFile(file);
+    const bool isInBinary = isBinary(whole);
+    const bool hasMark =
+        !isInBinary && std::string_view(whole.data(), whole.size()).starts_with("\xEF\xBB\xBF");
+    const std::span<const char> bytes = std::span(whole).subspan(hasMark ? 3 : 0);
     bool areFar = false;
     const auto read = [&](const glm::dvec3 &origin) {
         MeshBuilder builder(fileName, transform, origin, isInBinary ? PlaceUnit::Byte : PlaceUnit::Line);

@@ -356,8 +356,6 @@ TEST(Obj, ErrorsNameTheLineWhatWasFoundAndWhatIsAllowed) {
     expectError("vn 1 #2 3\n", ":1: vn has fewer than three numbers");
     expectError("v 1 2 x\n", ":1: v has \"x\"", "finite decimal numbers");
     expectError("vn 1 2 3x\n", ":1: vn has \"3x\"", "finite decimal numbers");
-    expectError(threeVertices + "f 1 2\n", ":4: the face has 2 corners", "3 to 65536");
-    expectError(threeVertices + "f\n", ":4: the face has 0 corners");
     expectError(threeVertices + "f 1 2 0\n", ":4: the face's corner \"0\"", "not 0");
     expectError(threeVertices + "f 1 2 3//0\n", ":4: the face's corner \"3//0\"");
     expectError(threeVertices + "f 1 2 4\n", ":4: the face has the vertex index 4", "the file has 3");
@@ -371,6 +369,41 @@ TEST(Obj, ErrorsNameTheLineWhatWasFoundAndWhatIsAllowed) {
     for (int i = 0; i < 65'537; ++i)
         manyCorners += " 1";
     expectError(threeVertices + manyCorners, ":4: the face has 65537 corners", "65536");
+}
+
+TEST(Obj, WhatIsLeftOutIsOneWarningAKind) {
+    const ObjMesh loaded =
+        loadText(threeVertices + "f 1 2 3\nf 1 2\nf\nf 2\nl 1 2 3\n l 1 2\np 1\nusemap x\ncurv 0 1\n"
+                                 "s 1\nlod 2\n");
+    EXPECT_EQ(loaded.mesh.triangles.size(), 1u);
+    EXPECT_EQ(loaded.report.unusedStatementCount, 8u);
+    const char *const parts[] = {":5: a face with fewer than three corners is left out (and 2 more)",
+                                 ":8: a line is left out: surfaces are rendered (and 1 more)",
+                                 ":10: points are left out",
+                                 ":11: \"usemap\" is left out: it is no statement that is read (and 1 more)"};
+    ASSERT_EQ(loaded.report.warnings.size(), std::size(parts))
+        << ::testing::PrintToString(loaded.report.warnings);
+    for (std::size_t i = 0; i < std::size(parts); ++i)
+        EXPECT_NE(loaded.report.warnings[i].find(parts[i]), std::string::npos) << loaded.report.warnings[i];
+}
+
+TEST(Obj, VerticesThatNoFaceUsesMayHaveNoPlace) {
+    const ObjMesh plain = loadText(threeVertices + "f 1 2 3\n");
+    for (const std::string number : {"nan", "NaN", "-nan", "inf", "-Infinity", "1.#INF", "1e39", "1e20"})
+        for (const char *indent : {"", " "}) {
+            const std::string lost = std::string(indent) + "v 0 " + number + " 0\n";
+            const ObjMesh loaded = loadText(threeVertices + lost + "f 1 2 3\n" + lost);
+            EXPECT_EQ(loaded.mesh.triangles.size(), 1u);
+            EXPECT_EQ(loaded.mesh.positions.size(), 5u);
+            EXPECT_EQ(loaded.mesh.positions[4], plain.mesh.positions[0]) << "where the mesh is";
+            ASSERT_EQ(loaded.report.warnings.size(), 1u);
+            EXPECT_NE(loaded.report.warnings[0].find(": 2 vertices that no face uses have no finite place"),
+                      std::string::npos)
+                << loaded.report.warnings[0];
+            expectError(threeVertices + lost + "f 1 2 3\nf 1 2 4\n",
+                        ":4: ", number == "1e20" ? "1e15" : "no finite float");
+            expectError("f 1 2 4\n" + threeVertices + lost, ":5: ");
+        }
 }
 
 TEST(Obj, MessagesShowNothingUnprintableAndStayShort) {
@@ -401,32 +434,15 @@ TEST(Obj, NumbersAreReadAsTheDecimalsThatTheyAre) {
 }
 
 TEST(Obj, NumbersThatAreNoFiniteFloatsAreErrors) {
-    for (const std::string number : {"nan",
-                                     "NaN",
-                                     "-nan",
-                                     "inf",
-                                     "-Infinity",
-                                     "1.#INF",
-                                     "1e99999999999",
-                                     "1e-99999999999",
-                                     "1e2147483649",
-                                     "0x10",
-                                     "1,5",
-                                     "1e",
-                                     "1e+",
-                                     ".",
-                                     "-",
-                                     "+-1",
-                                     "--1",
-                                     "1.2.3",
-                                     "e5",
-                                     "1f",
-                                     "1e1e1"})
+    for (const std::string number : {"1e99999999999", "1e-99999999999", "1e2147483649", "0x10", "1,5", "1e",
+                                     "1e+", ".", "-", "+-1", "--1", "1.2.3", "e5", "1f", "1e1e1"})
         expectError("v 0 0 0\nv 0 " + number + " 0\n", ":2: v has \"" + number + "\"");
     expectError("v 0 " + std::string(129, '1') + " 0\n", ":1: v has \"1111", "128 characters");
     for (const std::string number : {"1e39", "-1e39", "1e308", "1e309", "1e999", "3.5e38"})
-        expectError("v 0 0 " + number + "\n", ":1: vertex (", "is no finite float");
-    expectError("v 0 1e38 0\n", ":1: the vertex is at (0, 1e+38, 0) after the transform", "1e15");
+        expectError("v 0 0 " + number + "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ":1: vertex (",
+                    "is no finite float");
+    expectError("v 0 1e38 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                ":1: the vertex is at (0, 1e+38, 0) after the transform", "1e15");
 }
 
 TEST(Obj, ACommaLocaleHasNoEffect) {
@@ -441,7 +457,7 @@ TEST(Obj, ACommaLocaleHasNoEffect) {
             break;
     const ObjMesh loaded = loadText("v 0.5 1234.25 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
     const std::string message = errorOf("v 1,5 0 0\n");
-    const std::string decimals = errorOf("v 1.5e39 0.25 0\n");
+    const std::string decimals = errorOf("v 1.5e39 0.25 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     std::setlocale(LC_ALL, "C");
     std::locale::global(before);
     EXPECT_EQ(loaded.mesh.positions[0], glm::vec3(0.5f, 1234.25f, 0.0f));

@@ -1,6 +1,7 @@
 // PLY meshes: every way of writing one square, and what is refused.
 #include "host/import/ply.h"
 
+#include "host/image/png.h"
 #include "host/import/load.h"
 #include "tests/fixtures/scene_json_fixture.h"
 
@@ -179,7 +180,102 @@ TEST_F(Ply, FacesOfFewCornersArePassedOverWithAWarning) {
              square + "2 0 1\n0\n");
     expectSquare(loaded);
     ASSERT_EQ(loaded.report.warnings.size(), 1u);
-    EXPECT_NE(loaded.report.warnings[0].find("2 faces with fewer than three corners"), std::string::npos);
+    EXPECT_NE(
+        loaded.report.warnings[0].find(":15: a face with fewer than three corners is left out (and 1 more)"),
+        std::string::npos)
+        << loaded.report.warnings[0];
+}
+
+TEST_F(Ply, AFileThatEndsWithinItsFacesIsReadAsFarAsItGoes) {
+    const std::string faces = "element face 3\nproperty list uchar int vertex_indices\nend_header\n";
+    const ObjMesh text = read(textHead + vertexHead + faces + square);
+    expectSquare(text);
+    ASSERT_EQ(text.report.warnings.size(), 1u);
+    EXPECT_NE(text.report.warnings[0].find("cut short; what is there is rendered, 1 of 3 rows"),
+              std::string::npos)
+        << text.report.warnings[0];
+    std::string bytes = "ply\nformat binary_little_endian 1.0\n" + vertexHead + faces;
+    for (const float number : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
+        bytes += bytesOf(number, false);
+    bytes += '\x04';
+    for (const std::int32_t index : {0, 1, 2, 3})
+        bytes += bytesOf(index, false);
+    const ObjMesh binary = read(bytes + std::string("\4\0\0", 3));
+    expectSquare(binary);
+    EXPECT_EQ(binary.report.warnings.size(), 1u);
+    expectRefusal(bytes.substr(0, bytes.size() - 1), {"cut short"});
+}
+
+TEST_F(Ply, WhatIsNotUsedIsOneWarningAKind) {
+    const ObjMesh loaded = read(
+        "\xEF\xBB\xBF" + textHead +
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
+        "element face 1\nproperty list uchar int vertex_indices\nproperty int flags\n"
+        "element edge 1\nproperty int vertex1\nend_header\n"
+        "0 0 0 1 255 0 0 255\n1 0 0 1 0 0 0 9\n0 1 0 1 0 0 255 0\n3 0 1 2 7\n1\n");
+    const char *const parts[] = {
+        "the property \"quality\" of the element \"vertex\" is left out (and 1 more)",
+        ":19: alpha is left out: colours are opaque (and 1 more)", "the element \"edge\" is left out"};
+    ASSERT_EQ(loaded.report.warnings.size(), std::size(parts))
+        << ::testing::PrintToString(loaded.report.warnings);
+    for (std::size_t i = 0; i < std::size(parts); ++i)
+        EXPECT_NE(loaded.report.warnings[i].find(parts[i]), std::string::npos) << loaded.report.warnings[i];
+}
+
+TEST_F(Ply, FacesMayHaveColours) {
+    const std::string faces = "element face 3\nproperty list uchar int vertex_indices\nproperty uchar red\n"
+                              "property uchar green\nproperty uchar blue\n";
+    const std::string rows = "3 0 1 2 255 0 0\n4 0 1 2 3 0 255 0\n3 0 2 3 0 255 0\n";
+    const std::string corners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    for (const bool areFirst : {false, true}) {
+        const ObjMesh loaded = read(textHead + (areFirst ? faces + vertexHead : vertexHead + faces) +
+                                    "end_header\n" + (areFirst ? rows + corners : corners + rows));
+        ASSERT_EQ(loaded.mesh.triangles.size(), 4u);
+        ASSERT_EQ(loaded.mesh.colours.corners.size(), 4u);
+        EXPECT_TRUE(loaded.report.warnings.empty());
+        const auto colourOf = [&](std::size_t triangle) {
+            return loaded.mesh.colours.values.at(loaded.mesh.colours.corners[triangle].z);
+        };
+        EXPECT_EQ(colourOf(0), glm::vec4(1, 0, 0, 1));
+        for (std::size_t triangle = 1; triangle < 4; ++triangle)
+            EXPECT_EQ(colourOf(triangle), glm::vec4(0, 1, 0, 1));
+    }
+}
+
+TEST_F(Ply, HasTheTexturesOfItsHeader) {
+    const std::uint8_t rgb[] = {200, 100, 50};
+    const std::vector<std::byte> bytes = encodePng(1, 1, rgb);
+    static_cast<void>(
+        write("my scan.png", std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size())));
+    const std::string vertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                                 "property float s\nproperty float t\n";
+    const std::string rows = "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n";
+    const LoadedScene one = loadScene(write("a.ply", textHead + "comment TextureFile  my scan.png \n" +
+                                                         vertices + faceHead + rows + "4 0 1 2 3\n")
+                                          .string());
+    ASSERT_EQ(one.scene.materials.size(), 2u);
+    EXPECT_EQ(one.scene.materials[1].albedo, glm::vec3(1.0f));
+    EXPECT_TRUE(one.scene.materials[1].textures[layout::slotBaseColour]);
+    EXPECT_TRUE(one.scene.materials[1].twoSided);
+    EXPECT_EQ(one.scene.meshes.at(0).triangleMaterials, (std::vector<std::uint32_t>{1, 1}));
+    EXPECT_TRUE(one.meshReports.at(0).warnings.empty());
+    const LoadedScene several = loadScene(
+        write("b.ply", textHead +
+                           "comment TextureFile C:\\scans\\lost.png\ncomment TextureFile my scan.png\n" +
+                           vertices +
+                           "element face 3\nproperty list uchar int vertex_indices\nproperty int "
+                           "texnumber\nend_header\n" +
+                           rows + "3 0 1 2 1\n3 0 2 3 0\n3 0 1 3 -1\n")
+            .string());
+    ASSERT_EQ(several.scene.materials.size(), 3u);
+    EXPECT_FALSE(several.scene.materials[1].textures[layout::slotBaseColour]);
+    EXPECT_TRUE(several.scene.materials[2].textures[layout::slotBaseColour]);
+    EXPECT_EQ(several.scene.meshes.at(0).triangleMaterials, (std::vector<std::uint32_t>{2, 1, 0}));
+    ASSERT_EQ(several.meshReports.at(0).warnings.size(), 1u);
+    EXPECT_NE(several.meshReports[0].warnings[0].find("lost.png\" is left out: there is no such file"),
+              std::string::npos)
+        << several.meshReports[0].warnings[0];
 }
 
 TEST_F(Ply, PointCloudsAreRefusedAsWhatTheyAre) {
@@ -239,10 +335,11 @@ TEST_F(Ply, CountsThatTheFileCannotHoldAreRefusedAtOnce) {
                       "element vertex 3000000000\nproperty float x\nproperty float y\nproperty float z\n" +
                       faceHead + square,
                   {"3000000000 vertices"});
-    expectRefusal(textHead + vertexHead +
-                      "element face 99999999999\nproperty list uchar int vertex_indices\n" + "end_header\n" +
-                      square,
-                  {"99999999999 rows"});
+    const ObjMesh loaded =
+        read(textHead + vertexHead +
+             "element face 99999999999\nproperty list uchar int vertex_indices\nend_header\n" + square);
+    expectSquare(loaded);
+    EXPECT_EQ(loaded.report.warnings.size(), 1u) << "faces are read as far as they go";
 }
 
 TEST_F(Ply, ABareMeshIsOfItsColours) {

@@ -28,7 +28,7 @@ std::string binaryStl(const std::string &title, const std::vector<Triangle> &tri
     text.resize(80, ' ');
     text += raw(static_cast<std::uint32_t>(triangles.size()));
     for (const Triangle &triangle : triangles)
-        text += std::string(12, '\0') + raw(triangle) + std::string("\xff\x7f");
+        text += std::string(12, '\0') + raw(triangle) + std::string(2, '\0');
     return text;
 }
 
@@ -98,20 +98,59 @@ TEST_F(Stl, FaultsAreRefusedWithTheirPlace) {
     expectRefusal("", {"no triangle"});
     expectRefusal("solid\nendsolid\n", {"no triangle"});
     expectRefusal("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n", {":4: ", "\"x\""});
-    expectRefusal("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\n", {":4: ", "no finite float"});
-    expectRefusal("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 0 1\nendloop\n",
-                  {":6: ", "2 vertices"});
-    expectRefusal("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", {"within a facet", "cut short"});
+    expectRefusal(
+        "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\nvertex 0 0 0\nvertex 1 0 0\nendloop\n",
+        {":4: ", "no finite float"});
+    expectRefusal("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", {"no triangle"});
     expectRefusal("solid\nv 1 2 3\n", {":2: ", "\"v\"", "endsolid"});
     const std::string whole = binaryStl("of some program", square);
-    expectRefusal(whole.substr(0, whole.size() - 1), {"announces 2 triangles, and has bytes for 1"});
+    expectRefusal(whole.substr(0, 84 + 49), {"announces 2 triangles, and has bytes for 0"});
     std::vector<Triangle> infinite = square;
     infinite[1][0][0] = std::numeric_limits<float>::infinity();
     expectRefusal(binaryStl("of some program", infinite), {": byte 134: ", "no finite float"});
-    std::string many = whole;
-    many.replace(80, 4, "\xff\xff\xff\x7f");
-    expectRefusal(many, {"announces 2147483647 triangles, and has bytes for 2"});
     expectRefusal("\x1f\x8b" + std::string(100, '\1'), {"gzip"});
+}
+
+TEST_F(Stl, BlanksOfAnyKindSeparateWords) {
+    std::string oneLine;
+    for (const char c : textStl)
+        oneLine += c == '\n' ? '\t' : c;
+    expectSquare(read(oneLine));
+    std::string manyLines = "\xEF\xBB\xBF"; // and a byte order mark
+    for (const char c : "solid\n" + textStl.substr(textStl.find('\n') + 1,
+                                                   textStl.rfind(" a name") - textStl.find('\n') - 1))
+        manyLines += c == ' ' ? std::string("\r\n\v") : std::string(1, c);
+    expectSquare(read(manyLines));
+    expectSquare(read("solid a facet holder, vertex by vertex\n" + textStl.substr(textStl.find('\n') + 1)));
+}
+
+TEST_F(Stl, DamageAtTheEndIsOneWarning) {
+    const std::string whole = binaryStl("of some program", square);
+    const auto expectWarning = [&](const std::string &text, std::size_t triangleCount,
+                                   const std::string &part) {
+        const ObjMesh loaded = read(text);
+        EXPECT_EQ(loaded.mesh.triangles.size(), triangleCount);
+        ASSERT_EQ(loaded.report.warnings.size(), 1u) << part;
+        EXPECT_NE(loaded.report.warnings[0].find(part), std::string::npos) << loaded.report.warnings[0];
+    };
+    expectWarning(whole.substr(0, whole.size() - 1), 1,
+                  "announces 2 triangles, and has bytes for 1: 1 are read");
+    for (const char *count : {"\xff\xff\xff\xff", "\xff\xff\xff\x7f"}) {
+        std::string many = whole;
+        many.replace(80, 4, count, 4);
+        expectWarning(many, 2, "and has bytes for 2: 2 are read");
+    }
+    std::string none = whole;
+    none.replace(80, 4, 4, '\0');
+    expectWarning(none, 2, "announces 0 triangles, and has bytes for 2");
+    expectWarning(whole + whole, 2, "and has bytes for 5: 2 are read");
+    std::string coloured = whole;
+    coloured[coloured.size() - 1] = '\x7f';
+    expectWarning(coloured, 2, "what stands behind a triangle, a colour perhaps, is left out");
+    expectWarning(textStl + "facet normal 0 0 1 outer loop vertex 0 0 0", 2, "ends within a facet");
+    expectWarning(textStl + "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 0 0 1 endloop endfacet", 2,
+                  "fewer than three corners");
+    expectWarning(textStl + "color 0.5 1 nan\n", 2, "a colour is left out");
 }
 
 TEST_F(Stl, MayBeBareOrPlacedByAScene) {
