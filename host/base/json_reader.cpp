@@ -135,7 +135,7 @@ void JsonObject::allowOnly(std::span<const std::string_view> keys) const {
 
 std::optional<JsonNode> JsonObject::find(std::string_view key) const {
     const auto member = node_.value->find(key);
-    if (member == node_.value->end())
+    if (member == node_.value->end() || member->is_null())
         return {};
     return JsonNode{&*member, node_.fileName, node_.path / std::string(key)};
 }

@@ -44,7 +44,8 @@ struct JsonNode {
     [[nodiscard]] std::size_t indexOfName(std::span<const std::string_view> names) const; ///< in `names`
 };
 
-/// An object's members by key. A getter without a fallback demands the key.
+/// An object's members by key. A getter without a fallback demands the key. null is as good as no key, as programs
+/// write it.
 class JsonObject {
   public:
     /// Throws unless the value is an object.

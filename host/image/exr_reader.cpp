@@ -329,21 +329,44 @@ Image readPixels(const InputFile &file, Reader &reader, const Imf::Header &heade
     return image;
 }
 
-Image readLayer(const InputFile &file, const std::string &layer) {
+/// The picture of the display window, from that of the data window.
+Image displayed(const InputFile &file, const Imf::Header &header, Image &&stored) {
+    const Imath::Box2i &data = header.dataWindow();
+    const Imath::Box2i &display = header.displayWindow();
+    if (data == display)
+        return std::move(stored);
+    const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1;
+    const std::int64_t height = std::int64_t{display.max.y} - display.min.y + 1;
+    requireImageSize(file, width, height);
+    requireReadingMemory(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
+                         static_cast<std::uint64_t>(width * height) * sizeof(glm::vec3) +
+                             stored.pixels().size() * sizeof(glm::vec3));
+    Image image(static_cast<int>(width), static_cast<int>(height));
+    for (int y = std::max(data.min.y, display.min.y); y <= std::min(data.max.y, display.max.y); ++y)
+        for (int x = std::max(data.min.x, display.min.x); x <= std::min(data.max.x, display.max.x); ++x)
+            image.at(x - display.min.x, y - display.min.y) = stored.at(x - data.min.x, y - data.min.y);
+    return image;
+}
+
+Image readLayer(const InputFile &file, const std::string &layer, ExrWindow window) {
     const SafeHeader safeHeader(file);
     ExrInput input(file, safeHeader);
     const std::vector<Imf::Header> headers = readHeaders(file, safeHeader, input);
     const std::optional<FoundLayer> found = findLayer(headers, layer);
     if (!found)
         refuseChannels(file, headers.front().channels(), layer);
+    const auto shown = [&](Image &&stored) {
+        return window == ExrWindow::Data ? std::move(stored)
+                                         : displayed(file, headers[found->part], std::move(stored));
+    };
     input.seekg(0);
     if (!safeHeader.hasParts()) {
         Imf::InputFile reader(input, 0);
-        return readPixels(file, reader, headers.front(), found->channels);
+        return shown(readPixels(file, reader, headers.front(), found->channels));
     }
     Imf::MultiPartInputFile parts(input, 0);
     Imf::InputPart reader(parts, static_cast<int>(found->part));
-    return readPixels(file, reader, headers[found->part], found->channels);
+    return shown(readPixels(file, reader, headers[found->part], found->channels));
 }
 
 } // namespace
@@ -371,8 +394,8 @@ template <class Read> auto asked(const InputFile &file, const Read &read) {
 
 } // namespace
 
-Image readExr(const InputFile &file, const std::string &layer) {
-    return asked(file, [&] { return readLayer(file, layer); });
+Image readExr(const InputFile &file, const std::string &layer, ExrWindow window) {
+    return asked(file, [&] { return readLayer(file, layer, window); });
 }
 
 bool hasExrLayer(const InputFile &file, const std::string &layer) {

@@ -138,39 +138,62 @@ std::string nextLine(const InputFile &file, ByteStream &stream, std::size_t &hea
     return line;
 }
 
-/// Reads the header and returns an image of its size.
-Image readHeader(const InputFile &file, ByteStream &stream) {
+/// A size and an orientation. Rows are as the file has them: lines of the picture, or its columns where `isTurned`.
+struct Layout {
+    int rowCount = 0;
+    int rowLength = 0;
+    bool isTurned = false;
+    bool isRowReversed = false;    ///< the first row is the last line or column
+    bool isWithinReversed = false; ///< the first pixel of a row is its last
+
+    [[nodiscard]] int width() const { return isTurned ? rowCount : rowLength; }
+    [[nodiscard]] int height() const { return isTurned ? rowLength : rowCount; }
+};
+
+/// From `-Y HEIGHT +X WIDTH`, or any other order and signs: what stands first counts rows; Y goes up, X to the right.
+Layout parseLayout(const InputFile &file, const std::string &line) {
+    static_assert(imageSideMax < 999999, "six digits are read");
+    Layout layout;
+    std::array<char, 2> sign{};
+    std::array<char, 2> axis{};
+    int length = 0;
+    if (std::sscanf(line.c_str(), "%c%c %6d %c%c %6d%n", &sign[0], &axis[0], &layout.rowCount, &sign[1],
+                    &axis[1], &layout.rowLength, &length) != 6 ||
+        static_cast<std::size_t>(length) != line.size() || (axis[0] == 'Y') == (axis[1] == 'Y') ||
+        (axis[0] != 'Y' && axis[0] != 'X') || (axis[1] != 'Y' && axis[1] != 'X') ||
+        std::ranges::any_of(sign, [](char c) { return c != '+' && c != '-'; }))
+        throw file.bad(
+            fmt::format("its size is given as '{}'; allowed: -Y HEIGHT +X WIDTH, in any order and with any "
+                        "signs",
+                        excerpt(line, 40)));
+    const auto isReversed = [&](std::size_t i) { return (axis[i] == 'Y') == (sign[i] == '+'); };
+    layout.isTurned = axis[0] == 'X';
+    layout.isRowReversed = isReversed(0);
+    layout.isWithinReversed = isReversed(1);
+    return layout;
+}
+
+/// Reads the header, and checks that there is memory for the picture.
+Layout readHeader(const InputFile &file, ByteStream &stream) {
     std::size_t headerBytes = 0;
     std::string line = nextLine(file, stream, headerBytes); // #?RADIANCE
-    bool hasFormat = false;
     for (line = nextLine(file, stream, headerBytes); !line.empty();
-         line = nextLine(file, stream, headerBytes)) {
-        if (!line.starts_with("FORMAT="))
-            continue;
-        if (line != "FORMAT=32-bit_rle_rgbe")
+         line = nextLine(file, stream, headerBytes))
+        if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
             throw file.bad(
                 fmt::format("its header says {}; FORMAT=32-bit_rle_rgbe is read", excerpt(line, 40)));
-        hasFormat = true;
-    }
-    if (!hasFormat)
-        throw file.bad("its header has no line FORMAT=32-bit_rle_rgbe");
-    line = nextLine(file, stream, headerBytes);
-    int width = 0;
-    int height = 0;
-    int length = 0;
-    static_assert(imageSideMax < 999999, "six digits are read");
-    if (std::sscanf(line.c_str(), "-Y %6d +X %6d%n", &height, &width, &length) != 2 ||
-        static_cast<std::size_t>(length) != line.size())
-        throw file.bad(
-            fmt::format("its size is given as '{}'; allowed: -Y HEIGHT +X WIDTH", excerpt(line, 40)));
-    const auto pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    requireImageSize(file, width, height);
-    if (stream.remaining() < 4 * static_cast<std::uint64_t>(height)) // a row has a pixel or a run-length head
+    const Layout layout = parseLayout(file, nextLine(file, stream, headerBytes));
+    requireImageSize(file, layout.width(), layout.height());
+    if (stream.remaining() <
+        4 * static_cast<std::uint64_t>(layout.rowCount)) // a row has a pixel or a run-length head
         throw file.bad("it is cut short");
+    const auto pixelCount =
+        static_cast<std::uint64_t>(layout.rowCount) * static_cast<std::uint64_t>(layout.rowLength);
     constexpr std::uint64_t besideBytes = std::uint64_t{4} << 20; // a row and the file's buffer
-    requireReadingMemory(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
+    requireReadingMemory(file, static_cast<std::uint64_t>(layout.width()),
+                         static_cast<std::uint64_t>(layout.height()),
                          pixelCount * sizeof(glm::vec3) + besideBytes);
-    return {width, height};
+    return layout;
 }
 
 [[noreturn]] void refuseRow(const InputFile &file, int y) {
@@ -243,15 +266,19 @@ bool isHdr(std::span<const std::byte> head) {
 
 Image readHdr(const InputFile &file) {
     ByteStream stream(file);
-    Image image = readHeader(file, stream);
-    std::vector<Rgbe> row(static_cast<std::size_t>(image.width()));
-    for (int y = 0; y < image.height(); ++y) {
-        readRow(file, stream, y, row);
-        std::transform(row.begin(), row.end(), &image.at(0, y), decode);
+    const Layout layout = readHeader(file, stream);
+    Image image(layout.width(), layout.height());
+    std::vector<Rgbe> row(static_cast<std::size_t>(layout.rowLength));
+    for (int i = 0; i < layout.rowCount; ++i) {
+        readRow(file, stream, i, row);
+        const int major = layout.isRowReversed ? layout.rowCount - 1 - i : i;
+        for (int j = 0; j < layout.rowLength; ++j) {
+            const int minor = layout.isWithinReversed ? layout.rowLength - 1 - j : j;
+            (layout.isTurned ? image.at(major, minor) : image.at(minor, major)) =
+                decode(row[static_cast<std::size_t>(j)]);
+        }
     }
-    if (stream.remaining() != 0)
-        throw file.bad(fmt::format("{} bytes follow the last row", stream.remaining()));
-    return image;
+    return image; // what follows is padding
 }
 
 void writeHdr(AtomicFile &file, const Image &image) {

@@ -1,5 +1,6 @@
 #include "host/image/image_file.h"
 
+#include "host/base/content_guess.h"
 #include "host/base/error.h"
 #include "host/base/input_file.h"
 #include "host/image/exr.h"
@@ -77,8 +78,7 @@ LoadedImage readImage(const std::filesystem::path &path) {
     if (isHdr(head)) {
         return {readHdr(file), Encoding::Linear};
     }
-    throw file.bad(file.sizeBytes() == 0 ? "it is empty"
-                                         : "it is no PNG, OpenEXR, Radiance (HDR) or PFM file");
+    throw file.bad(foreignContent(file, "it is no PNG, OpenEXR, Radiance (HDR) or PFM file"));
 }
 
 bool isImageWith(const std::filesystem::path &path, const std::string &text) {

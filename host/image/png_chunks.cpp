@@ -124,7 +124,8 @@ std::uint64_t rowDataBytesOf(const Header &header) {
     return total;
 }
 
-/// Reads the chunks one after the other and collects the palette and the pixels.
+/// Reads the chunks one after the other and collects the palette, its transparency and the pixels. What follows the last
+/// chunk is padding.
 class ChunkReader {
   public:
     explicit ChunkReader(const InputFile &file) : file_(file) {}
@@ -133,10 +134,6 @@ class ChunkReader {
         readHeaderChunk();
         while (!atEnd_) {
             readNextChunk();
-        }
-        if (file_.sizeBytes() != offsetBytes_) {
-            throw file_.bad(
-                fmt::format("{} bytes follow the end of the PNG", file_.sizeBytes() - offsetBytes_));
         }
         if (compressed_.empty()) {
             throw file_.bad("it has no pixel data");
@@ -215,7 +212,7 @@ class ChunkReader {
         constexpr std::uint64_t besideBytes = std::uint64_t{16}
                                               << 20; // the compressed pixels and the other chunks
         const std::uint64_t levelBytes = header_.bitDepth == 16 ? 2 : 1;
-        const std::uint64_t pixelBytes = sizeof(glm::vec3) + levelBytes * (header_.interlaced ? 8 : 3);
+        const std::uint64_t pixelBytes = sizeof(glm::vec3) + levelBytes * (header_.interlaced ? 8 : 4);
         requireReadingMemory(file_, header_.width, header_.height,
                              std::uint64_t{header_.width} * header_.height * pixelBytes + besideBytes);
     }
@@ -231,6 +228,8 @@ class ChunkReader {
                     fmt::format("its palette of {} bytes is misplaced or of no legal size", frame.sizeBytes));
             }
             palette_ = readData(frame);
+        } else if (frame.name() == "tRNS") {
+            readTransparency(frame);
         } else if (frame.name() == "IEND") {
             if (frame.sizeBytes != 0) {
                 throw file_.bad("its end chunk is not empty");
@@ -245,6 +244,16 @@ class ChunkReader {
         }
         lastWasPixels_ = frame.name() == "IDAT";
         offsetBytes_ += chunkFrameBytes + frame.sizeBytes;
+    }
+
+    /// Of a palette the alpha of each colour, else the one colour that is transparent. One that is misplaced is no use.
+    void readTransparency(const Frame &frame) {
+        const bool isUsable = header_.colourType == palette
+                                  ? !palette_.empty() && frame.sizeBytes <= palette_.size() / 3
+                                  : (header_.colourType == grey && frame.sizeBytes == 2) ||
+                                        (header_.colourType == rgb && frame.sizeBytes == 6);
+        if (isUsable && compressed_.empty() && transparency_.empty())
+            transparency_ = readData(frame);
     }
 
     void readPixels(const Frame &frame) {
@@ -277,6 +286,8 @@ class ChunkReader {
             palette_.resize(768, std::byte{0});
             appendChunk(chunks.minimal, "PLTE", palette_);
         }
+        if (!transparency_.empty())
+            appendChunk(chunks.minimal, "tRNS", transparency_);
         chunks.compressedOffset = chunks.minimal.size() + 8;
         chunks.compressedBytes = compressed_.size();
         appendChunk(chunks.minimal, "IDAT", compressed_);
@@ -292,6 +303,7 @@ class ChunkReader {
     std::uint64_t rowDataBytes_ = 0;
     std::vector<std::byte> headerData_;
     std::vector<std::byte> palette_;
+    std::vector<std::byte> transparency_;
     std::vector<std::byte> compressed_;
 };
 

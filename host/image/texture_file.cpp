@@ -1,5 +1,6 @@
 #include "host/image/texture_file.h"
 
+#include "host/base/content_guess.h"
 #include "host/image/hdr.h"
 #include "host/image/jpeg.h"
 #include "host/image/png.h"
@@ -43,9 +44,8 @@ Texture readTexture(const InputFile &file) {
         return readWebp(file);
     if (isHdr(head))
         return readHdrTexture(file);
-    throw file.bad(file.sizeBytes() == 0
-                       ? "it is empty"
-                       : "it is no PNG, JPEG, WebP or Radiance (HDR) file, which textures are read from");
+    throw file.bad(foreignContent(
+        file, "it is no PNG, JPEG, WebP or Radiance (HDR) file, which textures are read from"));
 }
 
 } // namespace hyalite

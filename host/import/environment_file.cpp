@@ -1,5 +1,6 @@
 #include "host/import/environment_file.h"
 
+#include "host/image/exr.h"
 #include "host/image/image_file.h"
 #include "host/image/texture_file.h"
 #include "host/image/tone_curve.h"
@@ -19,6 +20,7 @@ namespace hyalite {
 namespace {
 
 constexpr float largestHalf = 65504.0f;
+constexpr std::size_t exrHeadBytes = 4;
 
 /// The colours of an 8-bit image in sRGB.
 Image linearised(const Texture &texture) {
@@ -83,6 +85,8 @@ EnvironmentImage readEnvironmentImage(const std::filesystem::path &file) {
     if (isTextureFile(file)) {
         Texture texture = readTexture(file);
         environment.radiance = texture.isFloat() ? imageOf(std::move(texture)) : linearised(texture);
+    } else if (const InputFile input(file); isExr(input.head(exrHeadBytes))) {
+        environment.radiance = readExr(input, "", ExrWindow::Display);
     } else {
         environment.radiance = readImage(file).image;
     }

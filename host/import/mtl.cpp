@@ -1,6 +1,7 @@
 #include "host/import/mtl.h"
 
 #include "host/base/clean_text.h"
+#include "host/base/content_guess.h"
 #include "host/base/error.h"
 #include "host/image/texture_file.h"
 #include "host/import/mtl_material.h"
@@ -294,7 +295,8 @@ class TextureReader {
             return ignore("there is no such file in the mesh's folder");
         try {
             if (!isTextureFile(*file))
-                return ignore("it is not a PNG, JPEG or Radiance (HDR) file");
+                return ignore(
+                    foreignContent(InputFile(*file), "it is not a PNG, JPEG or Radiance (HDR) file"));
             const std::uint32_t index = textures_.library.load(*file);
             if (textures_.library.at(index).isFloat() && slot != layout::slotEmission)
                 return ignore("only map_Ke takes images of floats");

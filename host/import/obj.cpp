@@ -1,8 +1,8 @@
 #include "host/import/obj.h"
 
+#include "host/base/content_guess.h"
 #include "host/base/error.h"
 #include "host/base/quantities.h"
-#include "host/import/content_guess.h"
 #include "host/import/file_finder.h"
 #include "host/import/mesh_builder.h"
 #include "host/import/mtl.h"

@@ -1,7 +1,7 @@
 #include "host/import/ply_header.h"
 
+#include "host/base/content_guess.h"
 #include "host/base/error.h"
-#include "host/import/content_guess.h"
 #include "host/import/obj_lines.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "host/import/stl.h"
 
+#include "host/base/content_guess.h"
 #include "host/base/error.h"
-#include "host/import/content_guess.h"
 #include "host/import/mesh_builder.h"
 #include "host/import/obj_lines.h"
 #include "host/import/obj_statement.h"

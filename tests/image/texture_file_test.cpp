@@ -10,6 +10,7 @@
 #include "tests/fixtures/scene_json_fixture.h"
 
 #include <cstdio> // jpeglib.h needs it
+#include <cstring>
 #include <functional>
 
 #include <jpeglib.h>
@@ -105,6 +106,48 @@ TEST_F(TextureFile, ReadsTheAlphaOfPngs) {
     EXPECT_EQ(grey.levels, std::vector<std::uint32_t>{0x4D090909u});
     EXPECT_TRUE(lookAt(grey).isGrey);
     EXPECT_FALSE(lookAt(colour).isGrey);
+}
+
+TEST_F(TextureFile, ReadsTheTransparencyOfPalettesAndOfOneColour) {
+    // A chunk behind the header, which ends at byte 33.
+    const auto with = [](std::string png,
+                         const std::vector<std::pair<const char *, std::vector<std::uint8_t>>> &chunks) {
+        std::vector<std::byte> added;
+        for (const auto &[type, bytes] : chunks)
+            appendChunk(added, type, std::as_bytes(std::span(bytes)));
+        return png.insert(33, reinterpret_cast<const char *>(added.data()), added.size());
+    };
+    std::string indices = storedPng(0, {0, 1, 2}, 3);
+    std::vector<std::byte> header(indices.size());
+    std::memcpy(header.data(), indices.data(), indices.size());
+    std::vector<std::byte> palette(header.begin() + 16, header.begin() + 29);
+    palette[9] = std::byte{3}; // the colour type
+    std::vector<std::byte> chunk;
+    appendChunk(chunk, "IHDR", palette);
+    indices.replace(8, 25, reinterpret_cast<const char *>(chunk.data()), chunk.size());
+    const std::vector<std::uint8_t> colours{10, 20, 30, 40, 50, 60, 70, 80, 90};
+    const Texture some = read("a.png", with(indices, {{"PLTE", colours}, {"tRNS", {0, 127}}}));
+    EXPECT_TRUE(some.hasAlpha);
+    EXPECT_EQ(some.levels, (std::vector<std::uint32_t>{0x001E140Au, 0x7F3C3228u, 0xFF5A5046u}));
+    EXPECT_FALSE(read("b.png", with(indices, {{"PLTE", colours}})).hasAlpha);
+    EXPECT_FALSE(read("c.png", with(indices, {{"tRNS", {0}}, {"PLTE", colours}})).hasAlpha) << "misplaced";
+    const Texture keyed = read("d.png", with(storedPng(0, {9, 8}, 2), {{"tRNS", {0, 8}}}));
+    EXPECT_TRUE(keyed.hasAlpha);
+    EXPECT_EQ(keyed.levels, (std::vector<std::uint32_t>{0xFF090909u, 0x00080808u}));
+}
+
+TEST_F(TextureFile, SaysWhatItLooksLike) {
+    const auto refusalOfFile = [&](const std::string &bytes) -> std::string {
+        try {
+            (void)read("a.png", bytes);
+        } catch (const Error &error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_NE(refusalOfFile("version https://git-lfs.github.com/spec/v1\n").find("a pointer of Git LFS"),
+              std::string::npos);
+    EXPECT_NE(refusalOfFile("<!DOCTYPE html>\n").find("a web page"), std::string::npos);
 }
 
 TEST_F(TextureFile, ReadsJpegs) {

@@ -2,6 +2,7 @@
 #include "host/import/environment_file.h"
 
 #include "host/base/atomic_file.h"
+#include "host/image/exr.h"
 #include "host/image/image_file.h"
 #include "tests/fixtures/scene_json_fixture.h"
 
@@ -41,6 +42,26 @@ TEST_F(EnvironmentFile, IsReadAsItIs) {
             << name;
         EXPECT_TRUE(sky.warnings.empty());
     }
+}
+
+TEST_F(EnvironmentFile, IsTheDisplayWindowOfAnExr) {
+    Image stored(2, 2);
+    stored.pixels() = {glm::vec3(1), glm::vec3(2), glm::vec3(3), glm::vec3(4)};
+    Picture picture(stored);
+    picture.wholeWidth = 4;
+    picture.wholeHeight = 3;
+    picture.crop = {1, 3, 1, 3};
+    AtomicFile file(folder / "window.exr");
+    writeExr(file, picture);
+    file.commit();
+    const Image sky = readEnvironmentImage(folder / "window.exr").radiance;
+    ASSERT_EQ(sky.width(), 4);
+    ASSERT_EQ(sky.height(), 3);
+    const float expected[3][4] = {{0, 0, 0, 0}, {0, 1, 2, 0}, {0, 3, 4, 0}};
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 4; ++x)
+            EXPECT_EQ(sky.at(x, y), glm::vec3(expected[y][x])) << x << ' ' << y;
+    EXPECT_EQ(readImage(folder / "window.exr").image.width(), 2) << "what is stored";
 }
 
 TEST_F(EnvironmentFile, OfLevelsIsDecodedFromSrgb) {

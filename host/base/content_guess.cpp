@@ -1,7 +1,8 @@
-#include "host/import/content_guess.h"
+#include "host/base/content_guess.h"
 
 #include <algorithm>
 #include <string_view>
+#include <vector>
 
 namespace hyalite {
 namespace {
@@ -65,6 +66,14 @@ std::string guessContent(std::span<const char> head) {
     if (controlCount >= someBytes && controlCount * 10 > static_cast<std::ptrdiff_t>(text.size()))
         return "binary data";
     return {};
+}
+
+std::string foreignContent(const InputFile &file, const std::string &message) {
+    const std::vector<std::byte> head = file.head(guessedBytes);
+    if (head.empty())
+        return "it is empty";
+    const std::string guess = guessBySignature({reinterpret_cast<const char *>(head.data()), head.size()});
+    return guess.empty() ? message : message + "; it looks like " + guess;
 }
 
 } // namespace hyalite

@@ -1,6 +1,8 @@
 // Content guess: what a file looks like that is not what its name says.
 #pragma once
 
+#include "host/base/input_file.h"
+
 #include <cstddef>
 #include <span>
 #include <string>
@@ -13,6 +15,9 @@ namespace hyalite {
 
 /// The same by the first bytes of known formats alone; empty for all else.
 [[nodiscard]] std::string guessBySignature(std::span<const char> head);
+
+/// What to say of a file that is of no format that is read: that it is empty, or `message` and what it looks like.
+[[nodiscard]] std::string foreignContent(const InputFile &file, const std::string &message);
 
 /// How much of a file guessContent() wants to see.
 inline constexpr std::size_t guessedBytes = 512;
