@@ -3,7 +3,12 @@
 
 #include "host/image/image.h"
 
+#include <string_view>
+
 namespace hyalite {
+
+/// Its name among files of environments; "./neutral" is a file of that name.
+inline constexpr std::string_view neutralEnvironmentName = "neutral";
 
 /// A soft, colourless studio, linear radiance by longitude and latitude (Environment): walls that grow brighter from
 /// the floor, 0.25, to the ceiling, 0.75, and three soft boxes, large ones in front to the left and to the right and a

@@ -6,6 +6,7 @@
 #include "host/bvh/tree_statistics.h"
 #include "host/import/environment_file.h"
 #include "host/import/load.h"
+#include "host/import/neutral_environment.h"
 #include "host/render/diagnosis.h"
 #include "host/report/progress.h"
 #include "host/scene/contacts.h"
@@ -85,9 +86,18 @@ void requireEffect(const SettingChanges &changes, Integrator integrator) {
     }
 }
 
+/// What is around the scene: the environment or the background of the command line replaces both of the scene's.
 void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
     Environment &environment = loaded.scene.environment;
-    if (!options.environment.empty()) {
+    if (!options.background.empty()) {
+        if (!options.environment.empty())
+            throw OverrideError("background", "found beside --environment; allowed: one of the two");
+        loaded.scene.background = glm::vec3(toVector(options.background));
+        environment = {};
+    }
+    if (options.environment == neutralEnvironmentName) {
+        environment = {.radiance = neutralEnvironment()};
+    } else if (!options.environment.empty()) {
         EnvironmentImage image = readEnvironmentImage(options.environment);
         environment = {.radiance = std::move(image.radiance)};
         loaded.inputFiles.push_back(options.environment);
@@ -119,8 +129,6 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
         throw OverrideError("filter", fmt::format("found {} with all samples at the pixel's centre; allowed: "
                                                   "with the sampler sobol, or the filter box",
                                                   nameOf(settings.filter)));
-    if (!options.background.empty())
-        scene.background = glm::vec3(toVector(options.background));
     overrideEnvironment(options, loaded);
 
     Camera &camera = scene.camera;

@@ -29,7 +29,7 @@ struct SceneOptions {
     std::vector<double> lookAt;
     std::vector<double> up;
     std::vector<double> background;
-    std::string environment; ///< a file; empty: the scene's own
+    std::string environment; ///< a file, or neutralEnvironmentName; empty: the scene's own
     std::optional<double> environmentScale;
     std::optional<double> environmentRotateDegrees;
     std::vector<int> crop;

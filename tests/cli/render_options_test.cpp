@@ -272,6 +272,52 @@ TEST_F(RenderEnvironment, ReplacesThatOfTheScene) {
     expectFailure("render empty.json -o a.png --environment square.obj", 3, {"square.obj"});
 }
 
+/// A triangle of glTF that its camera does not see, with a lamp or without lights.
+std::string unseenTriangleGltf(bool hasLamp) {
+    std::string text = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, -5])";
+    text += hasLamp ? R"(, "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},)"
+                    : "}],";
+    return text + R"("cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri":
+            "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+
+TEST_F(RenderEnvironment, NeutralIsAskedForByName) {
+    store("lamp.gltf", unseenTriangleGltf(true));
+    store("dark.gltf", unseenTriangleGltf(false));
+    store("empty.json", R"({"camera": {"direction": [0, 0, -1], "horizontalFov": 57.29577951308232}})");
+    const std::string small = " --integrator path --width 6 --height 6 --spp 1 --device cpu";
+    const std::string own = renderPfm("dark.gltf" + small);
+    EXPECT_EQ(renderPfm("lamp.gltf --environment neutral" + small), own);
+    EXPECT_EQ(renderPfm("empty.json --environment neutral" + small), own);
+    EXPECT_NE(renderPfm("lamp.gltf" + small), own);
+    EXPECT_NE(renderPfm("lamp.gltf --environment neutral --environment-scale 2" + small), own);
+    expectFailure("render lamp.gltf -o a.png --environment ./neutral", 3, {"neutral"});
+}
+
+TEST_F(RenderEnvironment, IsReplacedByABackground) {
+    store("own.json", R"({"environment": {"file": "sky.pfm"}})");
+    store("dark.gltf", unseenTriangleGltf(false));
+    store("square.obj", squareObj());
+    const std::string red =
+        " --background 1,.5,.25 --integrator path --width 6 --height 6 --spp 1 --device cpu";
+    for (const std::string scene :
+         {"own.json", "dark.gltf", "square.obj --camera-position 0,0,9 --look-at 0,0,99"}) {
+        const Image seen = renderImage(scene + red);
+        for (const glm::vec3 &pixel : seen.pixels())
+            EXPECT_EQ(pixel, glm::vec3(1.0f, 0.5f, 0.25f)) << scene;
+    }
+    expectFailure("render own.json -o a.png --background 1,1,1 --environment sky.pfm", 2,
+                  {"--background", "--environment"});
+    expectFailure("render dark.gltf -o a.png --background 1,1,1 --environment-scale 2", 2,
+                  {"--environment-scale"});
+}
+
 TEST_F(RenderOptions, ExposureBrightensAPngAndNotAPfm) {
     EXPECT_EQ(renderPfm("spheres --exposure 3" + smallWithOptions), renderPfm("spheres" + smallWithOptions));
     const auto grey = [&](const std::string &exposure) {
