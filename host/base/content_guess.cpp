@@ -1,6 +1,7 @@
 #include "host/base/content_guess.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <vector>
 
@@ -32,15 +33,25 @@ constexpr Signature signatures[] = {
     {"BLENDER"sv, "a Blender file: export it"},
     {"Kaydara FBX"sv, "FBX: export it as glTF or OBJ"},
     {"%PDF"sv, "a PDF document"},
-    {"<!DOCTYPE"sv, "a web page: download the file itself"},
-    {"<html"sv, "a web page: download the file itself"},
     {"version https://git-lfs"sv, "a pointer of Git LFS: fetch the file itself (git lfs pull)"},
 };
+
+bool isWebPage(std::string_view text) {
+    text.remove_prefix(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    const auto begins = [&](std::string_view tag) {
+        return std::ranges::equal(text.substr(0, tag.size()), tag, {},
+                                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    };
+    return begins("<!doctype html") || begins("<html");
+}
 
 } // namespace
 
 std::string guessBySignature(std::span<const char> head) {
     const std::string_view text(head.data(), head.size());
+    if (isWebPage(text))
+        return "a web page: download the file itself";
     for (const auto &[bytes, meaning] : signatures)
         if (text.starts_with(bytes))
             return std::string(meaning);

@@ -52,11 +52,9 @@ Key Keys::of(const BuildTriangle &triangle) const {
             {},
             0};
     const Material &material = scene_.materials[key.material];
-    const bool isSheer =
-        material.alphaMode != AlphaMode::Opaque &&
-        (material.opacity < 1.0f || material.textures[layout::slotOpacity] || !mesh.colours.corners.empty());
-    if (isSheer && (material.alphaMode == AlphaMode::Blend || !mesh.colours.corners.empty() ||
-                    !mesh.secondUvs.corners.empty()))
+    if (isSheer(material, !mesh.colours.corners.empty()) &&
+        (material.alphaMode == AlphaMode::Blend || !mesh.colours.corners.empty() ||
+         !mesh.secondUvs.corners.empty()))
         key.number = triangle.inputIndex + 1;
     const bool hasUvs = !mesh.triangleUvs.empty() && mesh.triangleUvs[index].x != TriangleMesh::noUv;
     if (hasUvs && material.textures[layout::slotOpacity])

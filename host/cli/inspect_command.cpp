@@ -144,6 +144,7 @@ ExitCode runInspect(const InspectOptions &options) {
                countText(scene.spheres.size(), "sphere"), countText(scene.lights.size(), "light"),
                countText(scene.materials.size(), "material"));
     printScene(prepared);
+    printOutline(prepared.loaded.file, options.scene.load.gltfScene);
     printMeshes(prepared);
     std::vector<BuildTriangle> distinct = buildTriangles(scene);
     dropDuplicates(scene, distinct);

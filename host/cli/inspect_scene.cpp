@@ -2,6 +2,8 @@
 
 #include "host/base/clean_text.h"
 #include "host/base/quantities.h"
+#include "host/import/formats.h"
+#include "host/import/gltf/outline.h"
 #include "host/scene/instances.h"
 #include "host/scene/names.h"
 
@@ -203,6 +205,26 @@ void printScene(const PreparedScene &prepared) {
     if (!scene.instances.empty())
         fmt::print("instances    {} of {}\n", countText(scene.instances.size(), "place"),
                    countText(scene.prototypes.size(), "mesh", "meshes"));
+}
+
+void printOutline(const std::filesystem::path &file, const std::string &gltfScene) {
+    const Format *const format = formatOf(file);
+    if (format == nullptr || !format->hasChoices)
+        return;
+    const GltfOutline outline = outlineGltf(file, gltfScene, maxRows);
+    const auto named = [](const std::string &name) {
+        return name.empty() ? "" : fmt::format(" \"{}\"", excerpt(name));
+    };
+    printRows(outline.cameraCount, "cameras of the file", [&](std::size_t i) {
+        const GltfOutline::CameraRow &camera = outline.cameras[i];
+        fmt::print("of the file  camera {}{}: {}\n", i, named(camera.name), excerpt(camera.type));
+    });
+    printRows(outline.nodeCount, "nodes of the file", [&](std::size_t i) {
+        const GltfOutline::NodeRow &node = outline.nodes[i];
+        constexpr std::size_t maxIndent = 16; // levels; a hostile tree is a million deep
+        fmt::print("of the file  {:{}}node {}{}{}\n", "", 2 * std::min(node.depth, maxIndent), node.index,
+                   named(node.name), node.contents.empty() ? "" : ": " + excerpt(node.contents));
+    });
 }
 
 } // namespace hyalite

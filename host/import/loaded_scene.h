@@ -57,6 +57,8 @@ struct LoadedScene {
     std::vector<MeshReport> meshReports; ///< one for each mesh of the input
     /// Of the camera, where the file gives this one: the horizontal one follows from the size of the image.
     std::optional<double> verticalFovDegrees{};
+    std::optional<double> aspectRatio{}; ///< width / height of the image, where the file gives its camera one
+    std::optional<glm::dvec3> worldUp{}; ///< of formats that know it; else the camera's own counts
     bool autoFramed =
         false; ///< no camera in the file: where the image size is overridden, call frameCamera again
     bool isAutoLit = false; ///< no lights in the file: where the camera is overridden, call frameLights

@@ -49,12 +49,10 @@ bool hasSheerColours(const TriangleMesh &mesh) {
 }
 
 std::uint32_t passingOf(const Material &material, bool hasSheerColours) {
-    const bool isSheer =
-        material.alphaMode != AlphaMode::Opaque &&
-        (material.opacity < 1.0f || hasSheerColours || material.textures[layout::slotOpacity].has_value());
     const std::uint32_t sheer =
         material.alphaMode == AlphaMode::Blend ? layout::passesBlended : layout::passesCutOut;
-    return (isSheer ? sheer : 0u) | (material.isCulled ? layout::passesCulled : 0u);
+    return (isSheer(material, hasSheerColours) ? sheer : 0u) |
+           (material.isCulled ? layout::passesCulled : 0u);
 }
 
 } // namespace hyalite

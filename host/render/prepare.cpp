@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -120,6 +121,26 @@ void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
     }
 }
 
+/// The size of the image: of the options, or the scene's. Where the file gives the shape, a side that no option gives
+/// follows from the other one; without options the longer side is that of the scene.
+void overrideSize(const SceneOptions &options, const std::optional<double> &aspectRatio, Camera &camera) {
+    const auto toPixels = [](double side) {
+        return static_cast<int>(std::clamp(std::round(side), limits::imageSize.low, limits::imageSize.high));
+    };
+    if (!aspectRatio) {
+        camera.width = options.width.value_or(camera.width);
+        camera.height = options.height.value_or(camera.height);
+        return;
+    }
+    const double ratio = *aspectRatio;
+    const int width =
+        toPixels(options.height ? *options.height * ratio : camera.width * std::min(ratio, 1.0));
+    const int height =
+        toPixels(options.width ? *options.width / ratio : camera.height / std::max(ratio, 1.0));
+    camera.width = options.width.value_or(width);
+    camera.height = options.height.value_or(height);
+}
+
 void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     RenderSettings &settings = scene.settings;
@@ -132,8 +153,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     overrideEnvironment(options, loaded);
 
     Camera &camera = scene.camera;
-    camera.width = options.width.value_or(camera.width);
-    camera.height = options.height.value_or(camera.height);
+    overrideSize(options, loaded.aspectRatio, camera);
     if (options.fovDegrees && camera.kind != CameraKind::Perspective)
         throw OverrideError("fov", fmt::format("found a camera of the type {}, which has no field of "
                                                "view; allowed: with a perspective one",

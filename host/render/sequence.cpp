@@ -104,7 +104,9 @@ void Sequence::prepare(RenderSession &session) {
     PreparedScene &scene = session.scene();
     const Camera &camera = scene.loaded.scene.camera;
     if (turntable_) {
-        path_ = turntable(camera, pivotOf(camera, centreOf(scene.packed)), *turntable_);
+        const glm::dvec3 axis =
+            request.scene.up.empty() ? scene.loaded.worldUp.value_or(camera.up) : camera.up;
+        path_ = turntable(camera, pivotOf(camera, centreOf(scene.packed)), axis, *turntable_);
         return;
     }
     path_ = std::exchange(scene.loaded.cameraPath, {});

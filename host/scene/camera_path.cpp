@@ -146,15 +146,17 @@ CameraPath pathThrough(std::span<const CameraKey> keys, KeyInterpolation interpo
     return path;
 }
 
-CameraPath turntable(const Camera &camera, const glm::dvec3 &pivot, int frameCount) {
-    const glm::dvec3 axis = glm::normalize(camera.up);
+CameraPath turntable(const Camera &camera, const glm::dvec3 &pivot, const glm::dvec3 &axis, int frameCount) {
+    const glm::dvec3 unitAxis = glm::normalize(axis);
     CameraPath path{poseOf(camera)};
     path.reserve(static_cast<std::size_t>(frameCount));
     for (int frame = 1; frame < frameCount; ++frame) {
         const double radians = 2.0 * std::numbers::pi * frame / frameCount;
         CameraPose pose = path.front();
-        pose.position = pivot + turned(pose.position - pivot, axis, radians);
-        pose.direction = turned(pose.direction, axis, radians);
+        pose.position = pivot + turned(pose.position - pivot, unitAxis, radians);
+        pose.direction = turned(pose.direction, unitAxis, radians);
+        if (axis != pose.up)
+            pose.up = turned(pose.up, unitAxis, radians);
         path.push_back(pose);
     }
     return path;

@@ -42,9 +42,10 @@ enum class KeyInterpolation { Smooth, Linear };
 /// for unequal intervals), at the ends that to the neighbour.
 [[nodiscard]] CameraPath pathThrough(std::span<const CameraKey> keys, KeyInterpolation interpolation);
 
-/// `frameCount` poses on a full circle around an axis through `pivot` along the camera's up vector, counter-clockwise
-/// seen from above: frame 0 is the camera itself.
-[[nodiscard]] CameraPath turntable(const Camera &camera, const glm::dvec3 &pivot, int frameCount);
+/// `frameCount` poses on a full circle around an axis through `pivot`, counter-clockwise seen from where the axis points:
+/// frame 0 is the camera itself. The axis has any length but zero; it may be the camera's up vector, which then stays.
+[[nodiscard]] CameraPath turntable(const Camera &camera, const glm::dvec3 &pivot, const glm::dvec3 &axis,
+                                   int frameCount);
 
 /// The point of the view ray that is nearest to `centre`, or the centre if it lies behind the camera: what a turntable
 /// turns around.

@@ -107,6 +107,15 @@ struct Material {
     float normalStrength = 1.0f; ///< how far a normal map turns normals; in [0, 100]
 };
 
+/// Whether a triangle of the material is absent in places, by its own opacity or by that of its texture or its colours.
+/// A cutoff above 1 hides what is opaque, too.
+[[nodiscard]] inline bool isSheer(const Material &material, bool hasSheerColours) {
+    const bool hidesAll = material.alphaMode == AlphaMode::CutOut && material.alphaCutoff > 1.0f;
+    return material.alphaMode != AlphaMode::Opaque &&
+           (hidesAll || material.opacity < 1.0f || hasSheerColours ||
+            material.textures[layout::slotOpacity].has_value());
+}
+
 /// Whether light passes the material, and is refracted.
 [[nodiscard]] inline bool isGlass(const Material &material) {
     return material.kind == MaterialKind::Dielectric ||

@@ -28,7 +28,7 @@ TEST_F(GltfMalformed, ContainersAreRefused) {
     EXPECT_NE(refusalOf(write("a.glb", version)).find("GLB of version 1"), std::string::npos);
     std::string chunk = glb;
     chunk[15] = 'x';
-    EXPECT_NE(refusalOf(write("a.glb", chunk)).find("chunk 0"), std::string::npos);
+    EXPECT_NE(refusalOf(write("a.glb", chunk)).find("the chunk at byte 12"), std::string::npos);
     try {
         static_cast<void>(loadGltf(write("a.gltf", "{\"asset\": }"), {}));
         FAIL();

@@ -183,8 +183,8 @@ TEST_F(GltfMaterial, ReadsSpecularGlossiness) {
     EXPECT_TRUE(textured.textures[layout::slotDielectricColour] && textured.textures[layout::slotBaseColour]);
 }
 
-TEST_F(GltfMaterial, OutOfRangeIsRefused) {
-    EXPECT_TRUE(refusalOfMaterial(R"({"pbrMetallicRoughness": {"metallicFactor": 2}})")
+TEST_F(GltfMaterial, WhatHasNoSingleMeaningIsRefused) {
+    EXPECT_TRUE(refusalOfMaterial(R"({"pbrMetallicRoughness": {"metallicFactor": "2"}})")
                     .starts_with("/materials/0/pbrMetallicRoughness/metallicFactor: "));
     EXPECT_TRUE(
         refusalOfMaterial(R"({"emissiveFactor": [1, 2]})").starts_with("/materials/0/emissiveFactor: "));

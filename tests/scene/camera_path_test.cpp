@@ -78,7 +78,7 @@ TEST(Turntable, IsACircleAroundThePivot) {
     const glm::dvec3 pivot = pivotOf(camera, {0.1, 2.0, -0.2});
     expectNear(glm::cross(glm::normalize(pivot - camera.position), glm::normalize(camera.direction)),
                glm::dvec3(0.0));
-    const CameraPath path = turntable(camera, pivot, 8);
+    const CameraPath path = turntable(camera, pivot, camera.up, 8);
     ASSERT_EQ(path.size(), 8u);
     EXPECT_EQ(path[0].position, camera.position);
     EXPECT_EQ(path[0].direction, camera.direction);
@@ -92,6 +92,22 @@ TEST(Turntable, IsACircleAroundThePivot) {
     // A quarter of the way round, counter-clockwise seen from above: +z goes to +x.
     const glm::dvec3 from = path[0].position - pivot;
     expectNear(path[2].position - pivot, {from.z, from.y, -from.x});
+}
+
+TEST(Turntable, TurnsATiltedCameraAboutTheAxis) {
+    Camera camera;
+    camera.position = {3.0, 4.0, 5.0};
+    camera.direction = {-3.0, -4.0, -5.0};
+    camera.up = glm::normalize(glm::dvec3(0.5, 1.0, -0.25));
+    const CameraPath path = turntable(camera, {0.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, 4);
+    ASSERT_EQ(path.size(), 4u);
+    EXPECT_EQ(path[0].up, camera.up);
+    const auto quarter = [](const glm::dvec3 &v) { return glm::dvec3(v.z, v.y, -v.x); };
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        expectNear(path[i].position, quarter(path[i - 1].position));
+        expectNear(path[i].direction, quarter(path[i - 1].direction));
+        expectNear(path[i].up, quarter(path[i - 1].up));
+    }
 }
 
 TEST(Turntable, TurnsAroundTheCentreOfWhatLiesBehindTheCamera) {

@@ -113,8 +113,7 @@ void Accessor::readHeader(const Buffers &buffers) {
 }
 
 std::span<const std::byte> Accessor::elementsIn(Buffers &buffers, const JsonObject &object, std::size_t count,
-                                                std::size_t elementBytes, std::size_t componentBytes,
-                                                std::size_t &stride) {
+                                                std::size_t elementBytes, std::size_t &stride) {
     const JsonNode viewNode = object.at("bufferView");
     const BufferView view = buffers.view(buffers.document().reference(viewNode, "bufferViews"));
     stride = view.stride != 0 ? view.stride : elementBytes;
@@ -126,9 +125,6 @@ std::span<const std::byte> Accessor::elementsIn(Buffers &buffers, const JsonObje
         viewNode.fail(fmt::format("{} elements of {} bytes, {} apart from byte {} on, do not fit in the {} "
                                   "bytes of the view",
                                   count, elementBytes, stride, offset, view.bytes.size()));
-    if (offset % componentBytes != 0 || stride % componentBytes != 0)
-        viewNode.fail(fmt::format("elements begin at byte {}, {} apart; allowed: multiples of {}", offset,
-                                  stride, componentBytes));
     return view.bytes.subspan(offset);
 }
 
@@ -142,7 +138,7 @@ void Accessor::readSparse(Buffers &buffers, const JsonObject &sparse) {
         indices.at("componentType").refuse("5121, 5123 or 5125");
     const std::size_t indexBytes = bytesOf(indexType);
     std::size_t stride = 0;
-    const auto indexData = elementsIn(buffers, indices, count, indexBytes, indexBytes, stride);
+    const auto indexData = elementsIn(buffers, indices, count, indexBytes, stride);
     buffers.allowance().take(count * sizeof(std::uint32_t), node_);
     Sparse read;
     read.indices.reserve(count);
@@ -155,8 +151,7 @@ void Accessor::readSparse(Buffers &buffers, const JsonObject &sparse) {
     }
     std::size_t valueStride = 0;
     const std::size_t elementBytes = columnBytes_ * (componentCount_ / rowCount_);
-    read.values = elementsIn(buffers, JsonObject(sparse.at("values")), count, elementBytes, componentBytes_,
-                             valueStride);
+    read.values = elementsIn(buffers, JsonObject(sparse.at("values")), count, elementBytes, valueStride);
     sparse_ = std::move(read);
 }
 
@@ -165,7 +160,7 @@ Accessor::Accessor(Buffers &buffers, std::size_t index) : node_(buffers.document
     const JsonObject object(node_);
     const std::size_t elementBytes = columnBytes_ * (componentCount_ / rowCount_);
     if (object.find("bufferView"))
-        bytes_ = elementsIn(buffers, object, count_, elementBytes, componentBytes_, stride_);
+        bytes_ = elementsIn(buffers, object, count_, elementBytes, stride_);
     if (const std::optional<JsonNode> sparse = object.find("sparse"))
         readSparse(buffers, JsonObject(*sparse));
 }

@@ -69,9 +69,9 @@ class Accessor {
     };
 
     void readHeader(const Buffers &buffers);
+    /// Elements need not be aligned.
     [[nodiscard]] static std::span<const std::byte> elementsIn(Buffers &buffers, const JsonObject &object,
                                                                std::size_t count, std::size_t elementBytes,
-                                                               std::size_t componentBytes,
                                                                std::size_t &stride);
     void readSparse(Buffers &buffers, const JsonObject &sparse);
     [[nodiscard]] const std::byte *at(std::size_t element, std::size_t component) const;

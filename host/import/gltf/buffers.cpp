@@ -27,6 +27,12 @@ std::span<const std::byte> partOf(std::span<const std::byte> whole, const JsonOb
     return whole.subspan(offset, sizeBytes);
 }
 
+/// 0, as some programs write it, means the same as none: elements are packed.
+std::size_t strideOf(const JsonObject &object) {
+    const std::optional<JsonNode> stride = object.find("byteStride");
+    return !stride || *stride->value == 0 ? 0 : static_cast<std::size_t>(stride->wholeNumber(strideRange));
+}
+
 } // namespace
 
 std::vector<std::byte> Buffers::readBuffer(const JsonNode &uri) {
@@ -70,8 +76,7 @@ BufferView Buffers::plainView(const JsonNode &node) {
     const JsonObject object(node);
     const std::size_t index = document_.reference(object.at("buffer"), "buffers");
     BufferView view{partOf(buffer(index), object)};
-    if (const std::optional<JsonNode> stride = object.find("byteStride"))
-        view.stride = static_cast<std::size_t>(stride->wholeNumber(strideRange));
+    view.stride = strideOf(object);
     return view;
 }
 
@@ -84,8 +89,7 @@ BufferView Buffers::decompressedView(const JsonNode &node, const JsonObject &com
     const JsonNode length = JsonObject(node).at("byteLength");
     if (length.wholeNumber(byteCount) != static_cast<double>(view.bytes.size()))
         length.refuse(fmt::format("{}, the size of the decompressed elements", view.bytes.size()));
-    if (const std::optional<JsonNode> stride = JsonObject(node).find("byteStride"))
-        view.stride = static_cast<std::size_t>(stride->wholeNumber(strideRange));
+    view.stride = strideOf(JsonObject(node));
     return view;
 }
 

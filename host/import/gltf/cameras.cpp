@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <cmath>
 #include <numbers>
 #include <string_view>
 
@@ -21,7 +22,18 @@ template <class Aimed> void aim(const glm::dmat4x3 &toWorld, Aimed &aimed) {
     aimed.up = glm::normalize(toWorld[1]);
 }
 
-PlacedCamera placed(const JsonNode &node, const glm::dmat4x3 &toWorld) {
+/// Nothing for a shape that no image has. `node` says it.
+std::optional<double> aspectRatio(const Document &document, const JsonNode &node, double found) {
+    if (found > 0.0 && std::isfinite(found))
+        return found;
+    document.losses().add("aspect ratio", [&] {
+        return fmt::format("{}: {}: {} is passed over, as no image has that shape", document.fileName(),
+                           node.path.to_string(), node.value->get<double>());
+    });
+    return std::nullopt;
+}
+
+PlacedCamera placed(const Document &document, const JsonNode &node, const glm::dmat4x3 &toWorld) {
     const JsonObject object(node);
     PlacedCamera found;
     Camera &camera = found.camera;
@@ -33,10 +45,15 @@ PlacedCamera placed(const JsonNode &node, const glm::dmat4x3 &toWorld) {
             glm::degrees(perspective.number("yfov", {0.0, std::numbers::pi, false, false}));
         camera.horizontalFovDegrees =
             horizontalFovDegrees(*found.verticalFovDegrees, camera.width, camera.height);
+        if (const std::optional<JsonNode> ratio = perspective.find("aspectRatio"))
+            found.aspectRatio = aspectRatio(document, *ratio, ratio->number(anyNumber));
     } else if (type == "orthographic") {
         const JsonObject orthographic(object.at("orthographic"));
         camera.kind = CameraKind::Orthographic;
         camera.viewWidth = 2.0 * orthographic.number("xmag", {0.0, 0.5 * limits::viewWidth.high, false});
+        if (const std::optional<JsonNode> height = orthographic.find("ymag"))
+            found.aspectRatio =
+                aspectRatio(document, *height, 0.5 * camera.viewWidth / height->number(anyNumber));
     } else {
         object.at("type").refuse("\"perspective\" or \"orthographic\"");
     }
@@ -62,7 +79,7 @@ std::optional<PlacedCamera> readCamera(const Document &document, const std::vect
         if (!camera || !(glm::length(map[2]) > 0.0 && glm::length(map[1]) > 0.0))
             continue;
         if (choice.empty() || isCalled(choice, document, *camera, node)) {
-            PlacedCamera found = placed(document.at("cameras", *camera), map);
+            PlacedCamera found = placed(document, document.at("cameras", *camera), map);
             found.node = index;
             return found;
         }
@@ -78,10 +95,9 @@ std::optional<PlacedCamera> readCamera(const Document &document, const std::vect
                             names.empty() ? "none" : quotedList(views)));
 }
 
-CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const PlacedCamera &camera,
-                          const SequenceTimes &sequence) {
+CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const std::vector<Pose> &rest,
+                          const PlacedCamera &camera, const SequenceTimes &sequence) {
     const Document &document = buffers.document();
-    const std::vector<Pose> rest = readPoses(document);
     CameraPath path(static_cast<std::size_t>(sequence.firstFrame), poseOf(camera.camera));
     for (int frame = sequence.firstFrame; frame <= sequence.lastFrame; ++frame) {
         std::vector<Pose> poses = rest;

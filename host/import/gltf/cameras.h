@@ -20,8 +20,9 @@ namespace hyalite::gltf {
 struct PlacedCamera {
     Camera camera;
     std::optional<double>
-        verticalFovDegrees{}; ///< of a perspective one: the image's shape gives the horizontal one
-    std::size_t node = 0;     ///< that has it
+        verticalFovDegrees{};            ///< of a perspective one: the image's shape gives the horizontal one
+    std::optional<double> aspectRatio{}; ///< width / height of what it sees, if the file says it
+    std::size_t node = 0;                ///< that has it
 };
 
 /// The camera that a user means by its name, the name of its node, or its index in /cameras; with an empty choice the
@@ -33,7 +34,8 @@ struct PlacedCamera {
                                                      const std::string &choice);
 
 /// The path of the camera as the animations move it and the nodes above it, from the sequence's first frame to its last.
-[[nodiscard]] CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const PlacedCamera &camera,
-                                        const SequenceTimes &sequence);
+/// `rest` are the poses that the file gives its nodes.
+[[nodiscard]] CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const std::vector<Pose> &rest,
+                                        const PlacedCamera &camera, const SequenceTimes &sequence);
 
 } // namespace hyalite::gltf

@@ -18,6 +18,7 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -102,10 +103,10 @@ std::vector<glm::dmat4x3> placesOf(Buffers &buffers, const JsonObject &node, con
 }
 
 /// The origin of the scene at rest; nothing if the file states no bounds.
-std::optional<glm::dvec3> restOriginOf(Buffers &buffers, const NodeTree &tree,
+std::optional<glm::dvec3> restOriginOf(Buffers &buffers, const NodeTree &tree, const std::vector<Pose> &rest,
                                        const std::vector<std::size_t> &nodes, StatedBounds &bounds) {
     const Document &document = buffers.document();
-    const std::vector<glm::dmat4x3> toWorld = tree.toWorld(readPoses(document));
+    const std::vector<glm::dmat4x3> toWorld = tree.toWorld(rest);
     OriginFinder finder;
     const auto add = [&](std::size_t index) {
         const JsonObject node(document.at("nodes", index));
@@ -125,8 +126,8 @@ std::optional<glm::dvec3> restOriginOf(Buffers &buffers, const NodeTree &tree,
 class MeshUses {
   public:
     MeshUses(Buffers &buffers, const std::vector<Pose> &poses, const std::vector<glm::dmat4x3> &toWorld,
-             StatedBounds &bounds, std::vector<std::string> &warnings)
-        : buffers_(buffers), poses_(poses), toWorld_(toWorld), bounds_(bounds), warnings_(warnings) {}
+             StatedBounds &bounds)
+        : buffers_(buffers), poses_(poses), toWorld_(toWorld), bounds_(bounds) {}
 
     void add(std::size_t index) {
         const Document &document = buffers_.document();
@@ -144,10 +145,11 @@ class MeshUses {
             requireInRange(place, node);
         const std::size_t flatCount = std::erase_if(places, isFlat);
         if (flatCount > 0)
-            warnings_.push_back(
-                fmt::format("{}: {}: the mesh is flattened to a plane, a line or a point by its "
-                            "transform, and is left out",
-                            document.fileName(), node.path.to_string()));
+            document.losses().add("flattened mesh", [&] {
+                return fmt::format("{}: {}: the mesh is flattened to a plane, a line or a point by its "
+                                   "transform, and is left out",
+                                   document.fileName(), node.path.to_string());
+            });
         if (places.empty())
             return;
         const auto [known, isNew] = known_.try_emplace({*mesh, poses_[index].weights}, uses_.size());
@@ -174,7 +176,6 @@ class MeshUses {
     const std::vector<Pose> &poses_;
     const std::vector<glm::dmat4x3> &toWorld_;
     StatedBounds &bounds_;
-    std::vector<std::string> &warnings_;
     std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> known_;
     std::vector<MeshUse> uses_;
 };
@@ -240,34 +241,35 @@ Contents readContents(const std::filesystem::path &path, const FileReach &reach,
     if (const std::size_t count = document.count("nodes"); count > 0)
         allowance.take(count * NodeTree::bytesEach, document.top().at("nodes"));
     const NodeTree tree(document);
-    std::vector<Pose> poses = readPoses(document);
+    const std::vector<Pose> rest = readPoses(document);
+    std::vector<Pose> poses = rest;
     if (options.timeSeconds)
         animate(buffers, *options.timeSeconds, poses);
     const std::vector<glm::dmat4x3> toWorld = tree.toWorld(poses);
     const std::vector<std::size_t> nodes = tree.nodesOfScene(document, options.scene);
 
-    TextureReader textureReader(buffers, near, textures, report.warnings);
-    contents.file.materials = readMaterials(document, textureReader, report.warnings);
+    TextureReader textureReader(buffers, near, textures);
+    contents.file.materials = readMaterials(document, textureReader);
     StatedBounds bounds(document);
-    MeshUses uses(buffers, poses, toWorld, bounds, report.warnings);
+    MeshUses uses(buffers, poses, toWorld, bounds);
     for (const std::size_t node : nodes) {
         uses.add(node);
-        if (const auto light =
-                readLight(document, JsonObject(document.at("nodes", node)), toWorld[node], report.warnings))
+        if (const auto light = readLight(document, JsonObject(document.at("nodes", node)), toWorld[node]))
             contents.lights.push_back(*light);
     }
     readMeshes(buffers, uses.uses(), options.onReading, contents.file);
     contents.camera = readCamera(document, nodes, toWorld, options.camera);
     if (document.count("animations") > 0)
-        contents.restOrigin = restOriginOf(buffers, tree, nodes, bounds);
+        contents.restOrigin = restOriginOf(buffers, tree, rest, nodes, bounds);
     if (options.sequence) {
         const std::vector<bool> animated = animatedNodes(document);
         const std::vector<bool> moving = tree.below(animated);
         contents.movesByTime = std::ranges::find(animated, true) != animated.end() &&
                                moveMoreThanCameras(document, nodes, moving);
         if (contents.camera && moving[contents.camera->node] && !contents.movesByTime)
-            contents.cameraPath = readCameraPath(buffers, tree, *contents.camera, *options.sequence);
+            contents.cameraPath = readCameraPath(buffers, tree, rest, *contents.camera, *options.sequence);
     }
+    std::ranges::move(document.losses().warnings(), std::back_inserter(report.warnings));
     report.files = buffers.files();
     report.files.insert(report.files.begin(), path);
     return contents;

@@ -71,6 +71,8 @@ glm::dmat4x3 blended(const std::vector<Influences> &sets, const std::vector<glm:
     for (const Influences &set : sets)
         for (std::size_t i = 0; i < 4; ++i) {
             const double weight = static_cast<double>(set.weights->number(vertex, i));
+            if (weight == 0.0)
+                continue; // whatever the joint
             const std::uint32_t joint = set.joints->whole(vertex, i);
             if (joint >= joints.size())
                 set.joints->node().fail(

@@ -2,11 +2,13 @@
 
 #include "host/base/input_file.h"
 #include "host/base/json_document.h"
+#include "host/import/content_guess.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace hyalite::gltf {
 namespace {
@@ -40,33 +42,69 @@ struct Chunk {
     std::uint64_t offset = 0;
     std::uint64_t sizeBytes = 0;
     std::uint32_t type = 0;
+
+    [[nodiscard]] std::uint64_t end() const { return offset + sizeBytes; }
 };
 
-/// The chunks of a .glb: JSON first, then binary data, then others.
-std::vector<Chunk> chunksOf(const InputFile &file) {
+/// The chunk whose header begins there. Without its padding, of 3 bytes at most, it is whole, too.
+Chunk chunkAt(const InputFile &file, std::uint64_t offset) {
+    if (file.sizeBytes() < offset + chunkHeaderBytes)
+        throw file.bad(fmt::format("ends within the header of the chunk at byte {}", offset));
+    Chunk chunk{offset + chunkHeaderBytes, wordAt(file, offset), wordAt(file, offset + 4)};
+    if (chunk.end() > file.sizeBytes() + 3)
+        throw file.bad(
+            fmt::format("its header says {} bytes, but it has {}: the chunk at byte {}, of {} bytes, "
+                        "ends behind the file",
+                        wordAt(file, 8), file.sizeBytes(), offset, chunk.sizeBytes));
+    chunk.sizeBytes = std::min(chunk.sizeBytes, file.sizeBytes() - chunk.offset);
+    return chunk;
+}
+
+struct Chunks {
+    Chunk json;
+    std::optional<Chunk> binary;
+};
+
+/// The JSON of a .glb and its binary data, by the lengths of chunks. These should be multiples of 4; behind another one
+/// the next chunk follows at once or at a multiple of 4, wherever binary data begins.
+Chunks chunksOf(const InputFile &file, Losses &losses) {
     if (const std::uint32_t version = wordAt(file, 4); version != 2)
         throw file.bad(fmt::format("is a GLB of version {}; allowed: 2", version));
-    const std::uint64_t sizeBytes = wordAt(file, 8);
-    if (sizeBytes != file.sizeBytes())
-        throw file.bad(fmt::format("its header says {} bytes, but it has {}", sizeBytes, file.sizeBytes()));
-    std::vector<Chunk> chunks;
-    std::uint64_t offset = headerBytes;
-    while (offset < sizeBytes) {
-        if (sizeBytes - offset < chunkHeaderBytes)
-            throw file.bad(fmt::format("ends within the header of chunk {}", chunks.size()));
-        const Chunk chunk{offset + chunkHeaderBytes, wordAt(file, offset), wordAt(file, offset + 4)};
-        if (chunk.sizeBytes > sizeBytes - chunk.offset)
-            throw file.bad(
-                fmt::format("its chunk {} of {} bytes ends behind the file", chunks.size(), chunk.sizeBytes));
-        if (chunk.sizeBytes % 4 != 0)
-            throw file.bad(fmt::format("its chunk {} has {} bytes; allowed: a multiple of 4", chunks.size(),
-                                       chunk.sizeBytes));
-        chunks.push_back(chunk);
-        offset = chunk.offset + chunk.sizeBytes;
-    }
-    if (chunks.empty() || chunks[0].type != jsonType)
+    Chunks chunks{chunkAt(file, headerBytes), {}};
+    if (chunks.json.type != jsonType)
         throw file.bad("its first chunk is not JSON");
+    const auto isBinaryAt = [&](std::uint64_t offset) {
+        return offset + chunkHeaderBytes <= file.sizeBytes() && wordAt(file, offset + 4) == binaryType;
+    };
+    const std::uint64_t statedBytes = wordAt(file, 8);
+    std::uint64_t offset = chunks.json.end();
+    while (offset < file.sizeBytes() && !chunks.binary) {
+        if (!isBinaryAt(offset))
+            offset = (offset + 3) / 4 * 4;
+        if (offset + chunkHeaderBytes > file.sizeBytes() || (offset >= statedBytes && !isBinaryAt(offset)))
+            break; // padding, or bytes behind the end
+        const Chunk chunk = chunkAt(file, offset);
+        if (chunk.type == binaryType)
+            chunks.binary = chunk;
+        offset = chunk.end();
+    }
+    if (statedBytes != file.sizeBytes())
+        losses.add("length of the file", [&] {
+            return fmt::format(
+                "{}: its header says {} bytes, but it has {}; its chunks are read by their own "
+                "lengths",
+                file.path().string(), statedBytes, file.sizeBytes());
+        });
     return chunks;
+}
+
+/// A member that is null counts as absent.
+void dropNulls(nlohmann::json &value) {
+    if (value.is_object())
+        for (auto member = value.begin(); member != value.end();)
+            member = member->is_null() ? value.erase(member) : std::next(member);
+    if (value.is_structured())
+        std::ranges::for_each(value, dropNulls);
 }
 
 /// What all elements of the arrays of the top level are.
@@ -94,16 +132,22 @@ Document::Document(const std::filesystem::path &file) : path_(file), fileName_(f
     sizeBytes_ = input.sizeBytes();
     std::string text;
     if (isBinary(input)) {
-        const std::vector<Chunk> chunks = chunksOf(input);
-        text = textAt(input, chunks[0].offset, chunks[0].sizeBytes);
-        if (chunks.size() > 1 && chunks[1].type == binaryType) {
-            binaryChunk_.resize(static_cast<std::size_t>(chunks[1].sizeBytes));
-            input.read(chunks[1].offset, binaryChunk_);
+        const Chunks chunks = chunksOf(input, *losses_);
+        text = textAt(input, chunks.json.offset, chunks.json.sizeBytes);
+        if (chunks.binary) {
+            binaryChunk_.resize(static_cast<std::size_t>(chunks.binary->sizeBytes));
+            input.read(chunks.binary->offset, binaryChunk_);
         }
     } else {
+        const std::vector<std::byte> head = input.head(guessedBytes);
+        const std::string guess = guessContent({reinterpret_cast<const char *>(head.data()), head.size()});
+        if (!guess.empty())
+            throw input.bad(fmt::format("this is neither JSON nor a GLB; it looks like {}", guess));
         text = textAt(input, 0, sizeBytes_);
     }
+    text.resize(text.find_last_not_of('\0') + 1); // padding
     json_ = parseJson(text, fileName_);
+    dropNulls(json_);
     checkVersion(top());
     checkObjects(top());
 }
@@ -151,6 +195,31 @@ std::vector<double> numbersOf(const JsonNode &node, std::size_t count, const Int
     numbers.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
         numbers.push_back(JsonNode{&(*node.value)[i], node.fileName, node.path / i}.number(allowed));
+    return numbers;
+}
+
+double clampedNumber(const Document &document, const JsonNode &node, const Interval &allowed) {
+    const double found = node.number(anyNumber);
+    const double clamped = std::clamp(found, allowed.low, allowed.high);
+    if (clamped != found)
+        document.losses().add("number beyond its range", [&] {
+            return fmt::format("{}: {}: {} counts as {}; allowed: {}", document.fileName(),
+                               node.path.to_string(), found, clamped, allowed.text());
+        });
+    return clamped;
+}
+
+double clampedNumber(const Document &document, const JsonObject &object, std::string_view key,
+                     const Interval &allowed, double fallback) {
+    const std::optional<JsonNode> node = object.find(key);
+    return node ? clampedNumber(document, *node, allowed) : fallback;
+}
+
+std::vector<double> clampedNumbers(const Document &document, const JsonNode &node, std::size_t count,
+                                   const Interval &allowed) {
+    std::vector<double> numbers = numbersOf(node, count);
+    for (std::size_t i = 0; i < count; ++i)
+        numbers[i] = clampedNumber(document, {&(*node.value)[i], node.fileName, node.path / i}, allowed);
     return numbers;
 }
 

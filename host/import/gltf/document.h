@@ -5,12 +5,14 @@
 
 #include "host/base/interval.h"
 #include "host/base/json_reader.h"
+#include "host/import/losses.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,7 +29,8 @@ inline constexpr Interval anyNumber{-3.4028234663852886e38, 3.4028234663852886e3
 class Document {
   public:
     /// Reads a .gltf or a .glb, told apart by its first bytes, without the files that it names. Versions other than 2
-    /// are refused.
+    /// are refused. A member that is null counts as absent, and lengths of a .glb that are wrong count as what the file
+    /// has, if chunks are whole.
     explicit Document(const std::filesystem::path &file);
 
     [[nodiscard]] const std::filesystem::path &path() const { return path_; }
@@ -38,6 +41,9 @@ class Document {
 
     [[nodiscard]] JsonObject top() const { return JsonObject(topNode()); }
     [[nodiscard]] JsonNode topNode() const { return {&json_, &fileName_}; }
+
+    /// What readers change or leave out, for warnings.
+    [[nodiscard]] Losses &losses() const { return *losses_; }
 
     /// How many elements an array of the top level has; 0 without it.
     [[nodiscard]] std::size_t count(std::string_view array) const;
@@ -55,6 +61,7 @@ class Document {
     nlohmann::json json_;
     std::vector<std::byte> binaryChunk_;
     std::uint64_t sizeBytes_ = 0;
+    std::unique_ptr<Losses> losses_ = std::make_unique<Losses>();
 };
 
 /// The elements of an array, each made when it is asked for: all of them, with their paths, would take many times the
@@ -97,6 +104,15 @@ class Elements {
 /// The numbers of an array, exactly `count` of them.
 [[nodiscard]] std::vector<double> numbersOf(const JsonNode &node, std::size_t count,
                                             const Interval &allowed = anyNumber);
+
+/// A number, or the nearest one in the range, which includes its ends, with a warning.
+[[nodiscard]] double clampedNumber(const Document &document, const JsonNode &node, const Interval &allowed);
+/// The same of a member; `fallback` without it.
+[[nodiscard]] double clampedNumber(const Document &document, const JsonObject &object, std::string_view key,
+                                   const Interval &allowed, double fallback);
+/// The same of an array of `count` numbers.
+[[nodiscard]] std::vector<double> clampedNumbers(const Document &document, const JsonNode &node,
+                                                 std::size_t count, const Interval &allowed);
 
 /// The object of an extension, if this object has it.
 [[nodiscard]] std::optional<JsonObject> extensionOf(const JsonObject &object, std::string_view name);

@@ -38,6 +38,7 @@ void setCamera(const std::optional<gltf::PlacedCamera> &camera, LoadedScene &loa
     if (camera) {
         scene.camera = camera->camera;
         loaded.verticalFovDegrees = camera->verticalFovDegrees;
+        loaded.aspectRatio = camera->aspectRatio;
     } else if (scene.meshes.empty() && scene.instances.empty()) {
         loaded.warnings.push_back(fmt::format(
             "{}: the scene has no triangle and no camera: there is nothing to see", loaded.file.string()));
@@ -72,6 +73,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     scene.lights = std::move(contents.lights);
     addMeshes(std::move(contents.file.meshes), scene);
     setCamera(contents.camera, loaded);
+    loaded.worldUp = {0.0, 1.0, 0.0};
     loaded.cameraPath = std::move(contents.cameraPath);
     loaded.movesByTime = contents.movesByTime;
     loaded.restOrigin = contents.restOrigin;

@@ -10,6 +10,7 @@
 #include <array>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace hyalite::gltf {
 namespace {
@@ -17,21 +18,23 @@ namespace {
 constexpr auto kinds = std::to_array<std::pair<std::string_view, LightKind>>(
     {{"point", LightKind::Point}, {"spot", LightKind::Spot}, {"directional", LightKind::Directional}});
 
-void readSpot(const JsonObject &object, Light &light) {
+void readSpot(const Document &document, const JsonObject &object, Light &light) {
     constexpr double right = std::numbers::pi / 2.0;
     const JsonObject spot(object.at("spot"));
-    const double outer = spot.number("outerConeAngle", {0.0, right + 1e-6, false}, std::numbers::pi / 4.0);
-    const double inner = spot.number("innerConeAngle", {0.0, right}, 0.0);
-    if (!(inner < outer))
-        spot.at("innerConeAngle").refuse(fmt::format("less than the outer angle {}", outer));
+    const double outer =
+        clampedNumber(document, spot, "outerConeAngle", {0.0, right}, std::numbers::pi / 4.0);
+    if (outer == 0.0)
+        spot.at("outerConeAngle").refuse("more than 0");
+    // Where the angles are equal the edge is hard: then the formula divides by nothing.
+    const double inner = clampedNumber(document, spot, "innerConeAngle", {0.0, outer}, 0.0);
     light.angleDegrees = glm::degrees(outer);
     light.blend = (outer - inner) / outer;
 }
 
 } // namespace
 
-std::optional<Light> readLight(const Document &document, const JsonObject &node, const glm::dmat4x3 &toWorld,
-                               std::vector<std::string> &warnings) {
+std::optional<Light> readLight(const Document &document, const JsonObject &node,
+                               const glm::dmat4x3 &toWorld) {
     const std::optional<JsonObject> use = extensionOf(node, "KHR_lights_punctual");
     if (!use)
         return std::nullopt;
@@ -45,29 +48,34 @@ std::optional<Light> readLight(const Document &document, const JsonObject &node,
     const JsonObject object(lightNode);
     Light light;
     light.kind = object.choice("type", kinds);
-    const double intensity = object.number("intensity", limits::power, 1.0);
+    const double intensity = clampedNumber(document, object, "intensity", limits::power, 1.0);
     const bool isDirectional = light.kind == LightKind::Directional;
     const double factor = isDirectional ? 1.0 : 4.0 * std::numbers::pi;
     const std::optional<JsonNode> colour = object.find("color");
-    light.power = factor * intensity * (colour ? colour->vector(limits::power) : glm::dvec3(1.0));
+    const std::vector<double> rgb =
+        colour ? clampedNumbers(document, *colour, 3, limits::power) : std::vector<double>(3, 1.0);
+    light.power = factor * intensity * glm::dvec3(rgb[0], rgb[1], rgb[2]);
     light.position = isDirectional ? glm::dvec3(0.0) : toWorld[3];
     light.direction = -toWorld[2];
     if (light.kind == LightKind::Spot)
-        readSpot(object, light);
+        readSpot(document, object, light);
     if (!(glm::length(light.direction) > 0.0)) {
         if (light.kind != LightKind::Point) {
-            warnings.push_back(fmt::format("{}: {}: the light has no direction, and is left out",
-                                           document.fileName(), lightNode.path.to_string()));
+            document.losses().add("light without direction", [&] {
+                return fmt::format("{}: {}: the light has no direction, and is left out", document.fileName(),
+                                   lightNode.path.to_string());
+            });
             return std::nullopt;
         }
         light.direction = {0.0, -1.0, 0.0};
     }
     light.direction = glm::normalize(light.direction);
     if (object.find("range"))
-        warnings.push_back(
-            fmt::format("{}: {}/range: passed over: light falls off by the square of the distance "
-                        "alone",
-                        document.fileName(), lightNode.path.to_string()));
+        document.losses().add("range", [&] {
+            return fmt::format(
+                "{}: {}/range: passed over: light falls off by the square of the distance alone",
+                document.fileName(), lightNode.path.to_string());
+        });
     return light;
 }
 

@@ -7,15 +7,12 @@
 #include <glm/mat4x3.hpp>
 
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace hyalite::gltf {
 
 /// The light of a node, where its map to the world brings it; nothing for a node without one. Candela and lux count as
-/// watts per steradian and per square metre. A range is passed over with a warning, and a spot fades from its inner to
-/// its outer angle by the curve of scenes.
+/// watts per steradian and per square metre. A range is passed over with a warning.
 [[nodiscard]] std::optional<Light> readLight(const Document &document, const JsonObject &node,
-                                             const glm::dmat4x3 &toWorld, std::vector<std::string> &warnings);
+                                             const glm::dmat4x3 &toWorld);
 
 } // namespace hyalite::gltf

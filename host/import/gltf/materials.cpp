@@ -17,20 +17,11 @@ namespace {
 constexpr auto alphaModes = std::to_array<std::pair<std::string_view, AlphaMode>>(
     {{"OPAQUE", AlphaMode::Opaque}, {"MASK", AlphaMode::CutOut}, {"BLEND", AlphaMode::Blend}});
 
-float number(const JsonObject &object, std::string_view key, const Interval &allowed, double fallback) {
-    return static_cast<float>(object.number(key, allowed, fallback));
-}
-
-glm::vec3 colour(const JsonObject &object, std::string_view key, const Interval &allowed, double fallback) {
-    const std::optional<JsonNode> node = object.find(key);
-    return node ? glm::vec3(node->vector(allowed)) : glm::vec3(static_cast<float>(fallback));
-}
-
 /// Reads one material.
 class MaterialReader {
   public:
-    MaterialReader(const JsonNode &node, TextureReader &textures, std::vector<std::string> &warnings)
-        : node_(node), object_(node), textures_(textures), warnings_(warnings) {
+    MaterialReader(const Document &document, const JsonNode &node, TextureReader &textures)
+        : document_(document), node_(node), object_(node), textures_(textures) {
         material_.kind = MaterialKind::Gltf;
     }
 
@@ -56,6 +47,20 @@ class MaterialReader {
     }
 
   private:
+    [[nodiscard]] float number(const JsonObject &object, std::string_view key, const Interval &allowed,
+                               double fallback) const {
+        return static_cast<float>(clampedNumber(document_, object, key, allowed, fallback));
+    }
+
+    [[nodiscard]] glm::vec3 colour(const JsonObject &object, std::string_view key, const Interval &allowed,
+                                   double fallback) const {
+        const std::optional<JsonNode> node = object.find(key);
+        if (!node)
+            return glm::vec3(static_cast<float>(fallback));
+        const std::vector<double> numbers = clampedNumbers(document_, *node, 3, allowed);
+        return glm::vec3(glm::dvec3(numbers[0], numbers[1], numbers[2]));
+    }
+
     /// Puts the texture of a member into a slot.
     void wear(std::uint32_t slot, const JsonObject &object, std::string_view key,
               Channel channel = Channel::Red) {
@@ -72,7 +77,7 @@ class MaterialReader {
     void readFactors(const JsonObject &object, std::string_view factorKey) {
         const std::optional<JsonNode> factor = object.find(factorKey);
         const std::vector<double> numbers =
-            factor ? numbersOf(*factor, 4, limits::fraction) : std::vector<double>(4, 1.0);
+            factor ? clampedNumbers(document_, *factor, 4, limits::fraction) : std::vector<double>(4, 1.0);
         material_.albedo = glm::vec3(glm::dvec3(numbers[0], numbers[1], numbers[2]));
         material_.opacity = static_cast<float>(numbers[3]);
     }
@@ -126,7 +131,7 @@ class MaterialReader {
             material_.normalStrength = readStrength(object_, "normalTexture");
         double strength = 1.0;
         if (const auto emissive = extensionOf(object_, "KHR_materials_emissive_strength"))
-            strength = emissive->number("emissiveStrength", limits::radiance, 1.0);
+            strength = clampedNumber(document_, *emissive, "emissiveStrength", limits::radiance, 1.0);
         material_.emission =
             colour(object_, "emissiveFactor", limits::fraction, 0.0) * static_cast<float>(strength);
         if (material_.emission != glm::vec3(0.0f))
@@ -137,10 +142,11 @@ class MaterialReader {
         const double most = limits::normalStrength.high;
         const float strength = number(JsonObject(object.at(key)), "scale", {-most, most}, 1.0);
         if (strength < 0.0f)
-            warnings_.push_back(
-                fmt::format("{}: {}: its normal map turns normals the wrong way by a scale of "
-                            "{}, which counts as {}",
-                            *node_.fileName, node_.path.to_string(), strength, -strength));
+            document_.losses().add("negative scale", [&] {
+                return fmt::format("{}: {}: its normal map turns normals the wrong way by a scale of {}, "
+                                   "which counts as {}",
+                                   *node_.fileName, node_.path.to_string(), strength, -strength);
+            });
         return std::abs(strength);
     }
 
@@ -155,16 +161,21 @@ class MaterialReader {
         const auto ior = extensionOf(object_, "KHR_materials_ior");
         if (!ior)
             return;
-        const double index = ior->number("ior", {0.0, 1e6}, 1.5);
-        if (index > 0.0 && index < 1.0)
+        double index = ior->number("ior", {0.0, 1e6}, 1.5);
+        constexpr double nearlyOne = 0.999; // what is less is no rounding of an index from 1 on
+        if (index > 0.0 && index < nearlyOne)
             ior->at("ior").refuse("0, or a number from 1 on");
+        if (index > 0.0)
+            index = std::max(index, 1.0);
         const double most = limits::refractiveIndex.high;
         material_.refractiveIndex = static_cast<float>(index == 0.0 ? most : std::min(index, most));
         if (index == 0.0 && !material_.isSpecularGlossy) // by definition everything is reflected head on
             material_.dielectricColour *= static_cast<float>(std::pow((most + 1.0) / (most - 1.0), 2.0));
         if (index > most)
-            warnings_.push_back(fmt::format("{}: {}: its refractive index of {} counts as {}",
-                                            *node_.fileName, node_.path.to_string(), index, most));
+            document_.losses().add("refractive index", [&] {
+                return fmt::format("{}: {}: its refractive index of {} counts as {}", *node_.fileName,
+                                   node_.path.to_string(), index, most);
+            });
     }
 
     void readTransmission() {
@@ -176,7 +187,8 @@ class MaterialReader {
         const auto volume = extensionOf(object_, "KHR_materials_volume");
         if (!volume)
             return;
-        material_.isThin = !(volume->number("thicknessFactor", limits::radiance, 0.0) > 0.0);
+        material_.isThin =
+            !(clampedNumber(document_, *volume, "thicknessFactor", limits::radiance, 0.0) > 0.0);
         const std::optional<JsonNode> distance = volume->find("attenuationDistance");
         if (!distance || material_.isThin)
             return;
@@ -229,10 +241,10 @@ class MaterialReader {
             wear(layout::slotAnisotropy, *anisotropy, "anisotropyTexture", Channel::Blue);
     }
 
+    const Document &document_;
     JsonNode node_;
     JsonObject object_;
     TextureReader &textures_;
-    std::vector<std::string> &warnings_;
     Material material_;
 };
 
@@ -251,8 +263,7 @@ Material defaultMaterial() {
 }
 
 /// Makes glass thin beyond as many volumes as `path` tells apart.
-void limitVolumes(std::vector<Material> &materials, const std::string &fileName,
-                  std::vector<std::string> &warnings) {
+void limitVolumes(const Document &document, std::vector<Material> &materials) {
     std::size_t count = 0;
     for (Material &material : materials)
         if (isGlass(material) && ++count > limits::mediumCount) {
@@ -260,21 +271,21 @@ void limitVolumes(std::vector<Material> &materials, const std::string &fileName,
             material.absorption = glm::vec3(0.0f);
         }
     if (count > limits::mediumCount)
-        warnings.push_back(
-            fmt::format("{}: {} materials are glass with a volume; those after the first {} count "
-                        "as thin glass",
-                        fileName, count, limits::mediumCount));
+        document.losses().add("volumes", [&] {
+            return fmt::format("{}: {} materials are glass with a volume; those after the first {} count as "
+                               "thin glass",
+                               document.fileName(), count, limits::mediumCount);
+        });
 }
 
 } // namespace
 
-std::vector<Material> readMaterials(const Document &document, TextureReader &textures,
-                                    std::vector<std::string> &warnings) {
+std::vector<Material> readMaterials(const Document &document, TextureReader &textures) {
     std::vector<Material> materials;
     for (const JsonNode &node : document.top().elements("materials", limits::materialCount - 2))
-        materials.push_back(MaterialReader(node, textures, warnings).read());
+        materials.push_back(MaterialReader(document, node, textures).read());
     materials.push_back(defaultMaterial());
-    limitVolumes(materials, document.fileName(), warnings);
+    limitVolumes(document, materials);
     return materials;
 }
 

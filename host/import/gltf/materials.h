@@ -8,9 +8,8 @@
 
 namespace hyalite::gltf {
 
-/// The materials of the file in its order, and the default one for primitives that name none. Throws Error{BadInput}
-/// for numbers out of range.
-[[nodiscard]] std::vector<Material> readMaterials(const Document &document, TextureReader &textures,
-                                                  std::vector<std::string> &warnings);
+/// The materials of the file in its order, and the default one for primitives that name none. Factors out of range are
+/// clamped, with a warning.
+[[nodiscard]] std::vector<Material> readMaterials(const Document &document, TextureReader &textures);
 
 } // namespace hyalite::gltf

@@ -9,14 +9,20 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace hyalite::gltf {
 namespace {
 
+constexpr double maxRounding = 1e-3; ///< of numbers that should be 0, 1 or of length 1
+
 /// Columns of four numbers; the last row is 0, 0, 0, 1.
 glm::dmat4x3 readMatrix(const JsonNode &node) {
     const std::vector<double> numbers = numbersOf(node, 16, limits::coordinate);
-    if (numbers[3] != 0.0 || numbers[7] != 0.0 || numbers[11] != 0.0 || numbers[15] != 1.0)
+    const auto isNear = [&](std::size_t i, double wanted) {
+        return std::abs(numbers[i] - wanted) <= maxRounding;
+    };
+    if (!isNear(3, 0.0) || !isNear(7, 0.0) || !isNear(11, 0.0) || !isNear(15, 1.0))
         node.refuse("a matrix whose last row, every fourth number, is 0, 0, 0, 1");
     glm::dmat4x3 matrix;
     for (glm::length_t column = 0; column < 4; ++column)
@@ -25,20 +31,27 @@ glm::dmat4x3 readMatrix(const JsonNode &node) {
     return matrix;
 }
 
-Trs readTrs(const JsonObject &object) {
+Trs readTrs(const Document &document, const JsonObject &object) {
     Trs trs;
     trs.translation = object.vector("translation", limits::coordinate, trs.translation);
     trs.scale = object.vector("scale", limits::coordinate, trs.scale);
     if (const std::optional<JsonNode> rotation = object.find("rotation")) {
-        const std::vector<double> q = numbersOf(*rotation, 4, {-1.0, 1.0});
+        const std::vector<double> q = numbersOf(*rotation, 4);
         trs.rotation = {q[0], q[1], q[2], q[3]};
-        if (!(glm::length(trs.rotation) > 1e-3))
+        const double length = glm::length(trs.rotation);
+        if (!(length > 1e-3))
             rotation->refuse("a unit quaternion");
+        if (std::ranges::any_of(q, [](double number) { return std::abs(number) > 1.0; }) ||
+            std::abs(length - 1.0) > maxRounding)
+            document.losses().add("rotation", [&] {
+                return fmt::format("{}: {}: a rotation of length {} is normalised", document.fileName(),
+                                   rotation->path.to_string(), length);
+            });
     }
     return trs;
 }
 
-Pose readPose(const JsonObject &object) {
+Pose readPose(const Document &document, const JsonObject &object) {
     Pose pose;
     if (const std::optional<JsonNode> matrix = object.find("matrix")) {
         for (const std::string_view key : {"translation", "rotation", "scale"})
@@ -46,7 +59,7 @@ Pose readPose(const JsonObject &object) {
                 other->fail("found beside \"matrix\"; allowed: one of the two");
         pose.place = readMatrix(*matrix);
     } else {
-        pose.place = readTrs(object);
+        pose.place = readTrs(document, object);
     }
     if (const std::optional<JsonNode> weights = object.find("weights"))
         pose.weights = numbersOf(*weights, weights->value->size());
@@ -81,7 +94,7 @@ std::vector<Pose> readPoses(const Document &document) {
     std::vector<Pose> poses;
     poses.reserve(nodes.size());
     for (const JsonNode &node : nodes)
-        poses.push_back(readPose(JsonObject(node)));
+        poses.push_back(readPose(document, JsonObject(node)));
     return poses;
 }
 
@@ -146,6 +159,13 @@ std::vector<bool> NodeTree::below(std::vector<bool> marked) const {
         if (parents_[node] != noParent && marked[parents_[node]])
             marked[node] = true;
     return marked;
+}
+
+std::size_t NodeTree::depthOf(std::size_t node) const {
+    std::size_t depth = 0;
+    for (Index parent = parents_[node]; parent != noParent; parent = parents_[parent])
+        ++depth;
+    return depth;
 }
 
 std::vector<std::size_t> NodeTree::nodesOfScene(const Document &document, const std::string &choice) const {

@@ -41,7 +41,7 @@ struct Pose {
 class NodeTree {
   public:
     /// Memory of a node with its JSON, its pose and its map to the world.
-    static constexpr std::size_t bytesEach = 320;
+    static constexpr std::size_t bytesEach = 480;
 
     /// Throws Error{BadInput} for a node with two parents, and for one that is its own ancestor.
     explicit NodeTree(const Document &document);
@@ -51,6 +51,9 @@ class NodeTree {
 
     /// The marked nodes and all below them.
     [[nodiscard]] std::vector<bool> below(std::vector<bool> marked) const;
+
+    /// How many ancestors a node has.
+    [[nodiscard]] std::size_t depthOf(std::size_t node) const;
 
     /// The nodes of a scene, parents before their children. `choice` is the name or the index of a scene; empty: the
     /// file's default one, or the first; all nodes where the file has no scenes. Throws Error{Usage} for a choice that

@@ -71,17 +71,20 @@ std::optional<TextureUse> TextureReader::read(const JsonNode &textureInfo) {
     if (const auto sampler = document.reference(texture, "sampler", "samplers"))
         readSampler(JsonObject(document.at("samplers", *sampler)), use);
     if (uvSet > 1) {
-        warnings_.push_back(fmt::format("{}: {}: the texture is left out, as it wants TEXCOORD_{}; two sets "
-                                        "are read",
-                                        document.fileName(), textureInfo.path.to_string(), uvSet));
+        losses().add("texture coordinates", [&] {
+            return fmt::format("{}: {}: the texture is left out, as it wants TEXCOORD_{}; two sets are read",
+                               document.fileName(), textureInfo.path.to_string(), uvSet);
+        });
         return std::nullopt;
     }
     std::optional<std::size_t> source = document.reference(texture, "source", "images");
     if (const std::optional<JsonObject> webp = extensionOf(texture, "EXT_texture_webp"))
         source = document.reference(webp->at("source"), "images");
     if (!source) {
-        warnings_.push_back(fmt::format("{}: /textures/{}: it has no image that is read, and is left out",
-                                        document.fileName(), index));
+        losses().add("texture without image", [&] {
+            return fmt::format("{}: /textures/{}: it has no image that is read, and is left out",
+                               document.fileName(), index);
+        });
         return std::nullopt;
     }
     const std::optional<std::uint32_t> loaded = image(*source);
@@ -101,14 +104,17 @@ std::optional<std::uint32_t> TextureReader::image(std::size_t index) {
     try {
         loaded = load(node, object, name);
         if (library_.at(*loaded).isFloat()) {
-            warnings_.push_back(
-                fmt::format("{}: it is left out: an image of floats; PNG, JPEG and WebP are read", name));
+            losses().add("image of floats", [&] {
+                return fmt::format("{}: it is left out: an image of floats; PNG, JPEG and WebP are read",
+                                   name);
+            });
             loaded.reset();
         }
     } catch (const Error &error) {
         if (error.kind != ErrorKind::BadInput && error.kind != ErrorKind::LimitExceeded)
             throw;
-        warnings_.push_back(fmt::format("the texture {} is left out: {}", name, error.what()));
+        losses().add("image",
+                     [&] { return fmt::format("the texture {} is left out: {}", name, error.what()); });
     }
     images_.emplace(index, loaded);
     return loaded;

@@ -26,9 +26,8 @@ void place(TextureUse &use, const UvTransform &transform);
 class TextureReader {
   public:
     /// All outlive the object.
-    TextureReader(Buffers &buffers, const FileReach &reach, TextureLibrary &library,
-                  std::vector<std::string> &warnings)
-        : buffers_(buffers), reach_(reach), library_(library), warnings_(warnings) {}
+    TextureReader(Buffers &buffers, const FileReach &reach, TextureLibrary &library)
+        : buffers_(buffers), reach_(reach), library_(library) {}
 
     /// The texture of a textureInfo object, such as "baseColorTexture". Nothing, and a warning, for an image that is
     /// missing, damaged or of a format that is not read. Throws Error{BadInput} for a malformed document.
@@ -39,13 +38,13 @@ class TextureReader {
     }
 
   private:
+    [[nodiscard]] Losses &losses() const { return buffers_.document().losses(); }
     std::optional<std::uint32_t> image(std::size_t index);
     std::uint32_t load(const JsonNode &node, const JsonObject &object, const std::string &name);
 
     Buffers &buffers_;
     const FileReach &reach_;
     TextureLibrary &library_;
-    std::vector<std::string> &warnings_;
     std::map<std::size_t, std::optional<std::uint32_t>> images_; ///< those that were asked for
 };
 

@@ -1,0 +1,124 @@
+// glTF files as users give them: the shape of the picture, turntables, what inspect lists.
+#include "host/image/image.h"
+#include "tests/cli/command_line.h"
+#include "tests/fixtures/gltf_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace hyalite::testing {
+namespace {
+
+class GltfFiles : public CommandLine {
+  protected:
+    /// A triangle, and a camera of that shape at (0, 0, 5).
+    void storeSeen(const std::string &name, const nlohmann::json &perspective) const {
+        GltfMaker maker = oneTriangle();
+        maker.json["cameras"] = {{{"type", "perspective"}, {"perspective", perspective}}};
+        maker.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 5}}});
+        maker.json["scenes"][0]["nodes"] = {0, 1};
+        store(name, maker.glb());
+    }
+    /// "WIDTHxHEIGHT" of a picture.
+    [[nodiscard]] std::string sizeOf(const std::string &line) const {
+        const Image image = renderImage(line + " --spp 1 --device cpu --integrator albedo");
+        return fmt::format("{}x{}", image.width(), image.height());
+    }
+};
+
+TEST_F(GltfFiles, CamerasDecideTheShapeOfThePicture) {
+    storeSeen("wide.glb", {{"yfov", 0.5}, {"znear", 0.1}, {"aspectRatio", 2}});
+    storeSeen("high.glb", {{"yfov", 0.5}, {"znear", 0.1}, {"aspectRatio", 0.25}});
+    storeSeen("thin.glb", {{"yfov", 0.5}, {"znear", 0.1}, {"aspectRatio", 1e30}});
+    storeSeen("none.glb", {{"yfov", 0.5}, {"znear", 0.1}});
+    EXPECT_EQ(sizeOf("wide.glb"), "512x256");
+    EXPECT_EQ(sizeOf("high.glb"), "128x512");
+    EXPECT_EQ(sizeOf("thin.glb"), "512x1");
+    EXPECT_EQ(sizeOf("none.glb"), "512x512");
+    EXPECT_EQ(sizeOf("wide.glb --width 30"), "30x15");
+    EXPECT_EQ(sizeOf("wide.glb --height 30"), "60x30");
+    EXPECT_EQ(sizeOf("wide.glb --width 30 --height 40"), "30x40");
+    EXPECT_EQ(sizeOf("none.glb --width 30 --height 40"), "30x40");
+}
+
+TEST_F(GltfFiles, TurntablesTurnTiltedCamerasAboutY) {
+    // A camera at (0, 3, 4) that looks down to the origin and is rolled; half a turn later it is at (0, 3, -4).
+    const auto storeAt = [&](const std::string &name, bool isBehind) {
+        GltfMaker maker;
+        const std::size_t positions =
+            maker.addVec3({-1, 0, -1, 1, 0, -1, 0, 0, 1, 0.5, 1, 0.5, -1, -1, 1, 0.5, 0, 0});
+        maker.json["meshes"] = {
+            {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"material", 0}}}}}};
+        maker.json["materials"] = {{{"doubleSided", true}}};
+        maker.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 0.1}}}}};
+        const double half = 0.5 * std::atan2(3.0, 4.0);
+        maker.json["nodes"].push_back(
+            {{"rotation", {0, isBehind ? 1 : 0, 0, isBehind ? 0 : 1}}, {"children", {2}}});
+        maker.json["nodes"].push_back({{"translation", {0, 3, 4}},
+                                       {"rotation", {-std::sin(half), 0, 0, std::cos(half)}},
+                                       {"children", {3}}});
+        maker.json["nodes"].push_back({{"rotation", {0, 0, std::sin(0.3), std::cos(0.3)}}, {"camera", 0}});
+        maker.json["scenes"][0]["nodes"] = {0, 1};
+        store(name, maker.glb());
+    };
+    storeAt("front.glb", false);
+    storeAt("behind.glb", true);
+    const std::string options = " --width 48 --height 48 --spp 4 --device cpu --integrator normal";
+    ASSERT_EQ(run("render front.glb --turntable 2 -o t.#.pfm --quiet" + options).exitCode, 0);
+    EXPECT_EQ(load("t.0.pfm"), renderPfm("front.glb" + options));
+    static_cast<void>(renderImage("behind.glb" + options));
+    const Outcome diff = run("diff t.1.pfm rendered.pfm --min-psnr 45");
+    EXPECT_EQ(diff.exitCode, 0) << diff;
+    EXPECT_EQ(run("diff t.0.pfm t.1.pfm --min-psnr 45").exitCode, 1);
+}
+
+TEST_F(GltfFiles, CutoffsAboveOneHide) {
+    GltfMaker maker = oneTriangle();
+    maker.json["meshes"][0]["primitives"][0]["material"] = 0;
+    maker.json["materials"] = {{{"alphaMode", "MASK"}, {"alphaCutoff", 1}, {"doubleSided", true}}};
+    const auto brightest = [&] {
+        store("cut.glb", maker.glb());
+        const Image image = renderImage("cut.glb --integrator albedo --width 16 --height 16 --spp 1");
+        float most = 0.0f;
+        for (const glm::vec3 &pixel : image.pixels())
+            most = std::max(most, pixel.x);
+        return most;
+    };
+    EXPECT_GT(brightest(), 0.5f);
+    maker.json["materials"][0]["alphaCutoff"] = 1.01;
+    EXPECT_EQ(brightest(), 0.0f);
+    maker.json["materials"][0]["alphaMode"] = "OPAQUE";
+    EXPECT_GT(brightest(), 0.5f);
+}
+
+TEST_F(GltfFiles, InspectListsCamerasAndNodes) {
+    GltfMaker maker = oneTriangle();
+    maker.json["cameras"] = {
+        {{"type", "perspective"}, {"name", "left\u001b[31m\n"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}},
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    maker.json["meshes"][0]["name"] = "lid";
+    maker.json["nodes"][0]["name"] = "pot";
+    maker.json["nodes"][0]["children"] = {1};
+    maker.json["nodes"].push_back({{"name", "eye"}, {"camera", 1}, {"translation", {0, 0, 5}}});
+    store("pot.glb", maker.glb());
+    const std::string text = run("inspect pot.glb").output;
+    for (const char *line :
+         {"of the file  camera 0 \"left", "of the file  camera 1: perspective\n",
+          "of the file  node 0 \"pot\": mesh 0 \"lid\"\n", "of the file    node 1 \"eye\": camera 1\n"})
+        EXPECT_TRUE(contains(text, line)) << line << '\n' << text;
+    EXPECT_FALSE(contains(text, "\u001b")) << text;
+    for (int i = 0; i < 100; ++i) // a chain
+        maker.json["nodes"].push_back({{"children", {i + 3}}});
+    maker.json["nodes"].push_back({{"name", "deepest"}});
+    maker.json["nodes"][1]["children"] = {2};
+    store("deep.glb", maker.glb());
+    const std::string deep = run("inspect deep.glb").output;
+    EXPECT_TRUE(contains(deep, "and 71 more nodes of the file")) << deep;
+    EXPECT_FALSE(contains(deep, "deepest"));
+    EXPECT_FALSE(contains(run("inspect cat").output, "of the file"));
+}
+
+} // namespace
+} // namespace hyalite::testing
