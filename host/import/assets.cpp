@@ -1,6 +1,7 @@
 #include "host/import/assets.h"
 
 #include "host/base/error.h"
+#include "host/import/foreign_format.h"
 #include "host/import/formats.h"
 
 #include <fmt/format.h>
@@ -53,6 +54,7 @@ std::vector<std::string> availableScenes() {
 }
 
 std::filesystem::path resolveScene(const std::string &argument) {
+    refuseForeignFormat(argument);
     if (formatOf(argument) != nullptr)
         return argument;
     if (argument.empty() || argument.find_first_of("./") != std::string::npos)

@@ -17,7 +17,7 @@ namespace hyalite {
 
 /// The file of a SCENE argument. An argument with the extension of a format (formats.h) is a path, which need not
 /// exist; a bare word is the name of a shipped scene. Throws Error{BadInput} for an unknown name, with the folders
-/// searched and the names that exist.
+/// searched and the names that exist, and for a file of a format that is not read (foreign_format.h).
 [[nodiscard]] std::filesystem::path resolveScene(const std::string &argument);
 
 /// Whether the file name ends in `extension` (".obj", in lower case), ignoring case.

@@ -1,5 +1,6 @@
 #include "host/import/scene_objects.h"
 
+#include "host/import/foreign_format.h"
 #include "host/import/formats.h"
 #include "host/import/obj.h"
 #include "host/import/transform_json.h"
@@ -85,7 +86,9 @@ MeshFile readMeshes(const JsonObject &object, const std::vector<Material> &mater
     const JsonNode fileNode = object.at("file");
     const std::filesystem::path path = source.reach.resolve(fileNode);
     const Format *const format = formatOf(path);
-    if (format != nullptr && format->readMeshes == nullptr)
+    if (format == nullptr)
+        refuseForeignFormat(path);
+    else if (format->readMeshes == nullptr)
         fileNode.refuse("a file of meshes");
     // A file of another extension is OBJ by tradition.
     const auto read = format != nullptr ? format->readMeshes : readObjMeshes;

@@ -1,4 +1,4 @@
-// glTF files as users give them: the shape of the picture, turntables, what inspect lists.
+// glTF files as users give them: the shape of the picture, turntables, what inspect lists; and files of other formats.
 #include "host/image/image.h"
 #include "tests/cli/command_line.h"
 #include "tests/fixtures/gltf_fixture.h"
@@ -118,6 +118,75 @@ TEST_F(GltfFiles, InspectListsCamerasAndNodes) {
     EXPECT_TRUE(contains(deep, "and 71 more nodes of the file")) << deep;
     EXPECT_FALSE(contains(deep, "deepest"));
     EXPECT_FALSE(contains(run("inspect cat").output, "of the file"));
+}
+
+/// A square of COLLADA over [-1, 1]^2.
+std::string squareDae() {
+    return R"(<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><up_axis>Y_UP</up_axis></asset>
+  <library_geometries><geometry id="square"><mesh>
+    <source id="places"><float_array id="numbers" count="12">-1 -1 0 1 -1 0 1 1 0 -1 1 0</float_array>
+      <technique_common><accessor source="#numbers" count="4" stride="3">
+        <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+      </accessor></technique_common></source>
+    <vertices id="corners"><input semantic="POSITION" source="#places"/></vertices>
+    <triangles count="2"><input semantic="VERTEX" source="#corners" offset="0"/><p>0 1 2 0 2 3</p></triangles>
+  </mesh></geometry></library_geometries>
+  <library_visual_scenes><visual_scene id="scene">
+    <node id="node"><instance_geometry url="#square"/></node>
+  </visual_scene></library_visual_scenes>
+  <scene><instance_visual_scene url="#scene"/></scene>
+</COLLADA>)";
+}
+
+TEST_F(GltfFiles, TheCommandForAnotherFormatMakesAFileThatIsRead) {
+    store("square.dae", squareDae());
+    const std::string error =
+        expectFailure("render square.dae -o a.png", 3, {"it is COLLADA, which is not read"});
+    const std::string command = "assimp export square.dae square.glb";
+    ASSERT_TRUE(contains(error, ": " + command + " (Debian: assimp-utils)")) << error;
+    ASSERT_EQ(std::system("command -v assimp >/dev/null"), 0)
+        << "this test needs assimp: install assimp-utils (cmake/run.sh test does)";
+    ASSERT_EQ(std::system(("cd '" + folder.string() + "' && " + command + " >log.txt 2>&1").c_str()), 0)
+        << load("log.txt");
+    const std::string text = run("inspect square.glb").output;
+    EXPECT_TRUE(contains(text, "2 triangles in 1 mesh")) << text;
+    EXPECT_TRUE(contains(text, "bounds       (-1, -1, 0) to (1, 1, 0)")) << text;
+    const Image image =
+        renderImage("square.glb --integrator albedo --width 16 --height 16 --spp 1 --device cpu");
+    EXPECT_GT(image.at(8, 8).x, 0.0f);
+}
+
+TEST_F(GltfFiles, OtherFormatsAreKnownByNameAndByContent) {
+    const std::string usdz = std::string("PK\x03\x04", 4) + std::string(22, '\0') +
+                             std::string("\x08\0\0\0", 4) + "cube.usd" + "PXR-USDC";
+    const std::string threeMf = std::string("PK\x03\x04", 4) + std::string(40, '\0') + "3D/3dmodel.model";
+    const struct {
+        std::string name;
+        std::string content;
+        std::vector<std::string> parts;
+    } files[] = {
+        {"a.fbx", "", {"FBX", "assimp export a.fbx a.glb"}},
+        {"A B.FBX", "", {"FBX", "assimp export 'A B.FBX' 'A B.glb'"}},
+        {"a.glb", "Kaydara FBX Binary  ", {"FBX", "assimp export a.glb a.converted.glb"}},
+        {"b.obj", "; FBX 7.4.0 project file\n", {"FBX", "assimp export b.obj b.glb"}},
+        {"a.3mf", threeMf, {"3MF", "assimp export a.3mf a.glb"}},
+        {"b.xyz", threeMf, {"3MF", "assimp export b.xyz b.glb"}},
+        {"a.json", "#usda 1.0\n", {"USD", "usd_import", "-- a.json a.glb"}},
+        {"a.usdz", "", {"USD", "usd_import", "-- a.usdz a.glb"}},
+        {"usd.stl", usdz, {"USD", "-- usd.stl usd.glb"}},
+        {"c.usdc", "PXR-USDC", {"USD", "-- c.usdc c.glb"}},
+        {"a.abc", "Ogawa", {"Alembic", "alembic_import", "-- a.abc a.glb"}},
+        {"b.blend", "", {"a Blender file", "blender -b b.blend", "-- b.glb"}},
+        {"b.ply", "BLENDER-v303", {"a Blender file", "blender -b b.ply"}},
+    };
+    for (const auto &[name, content, parts] : files) {
+        store(name, content);
+        expectFailure("render '" + name + "' -o o.png", 3, parts);
+    }
+    store("scene.json", R"({"meshes": [{"file": "a.fbx"}]})");
+    expectFailure("render scene.json -o o.png", 3, {"a.fbx: it is FBX", "assimp export"});
 }
 
 } // namespace
