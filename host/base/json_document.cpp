@@ -1,6 +1,7 @@
 #include "host/base/json_document.h"
 
 #include "host/base/clean_text.h"
+#include "host/base/content_guess.h"
 #include "host/base/error.h"
 #include "host/base/input_file.h"
 
@@ -50,6 +51,9 @@ class DocumentCheck : public json::json_sax_t {
 
     /// `position` counts the bytes read, the last of which is at fault.
     bool parse_error(std::size_t position, const std::string &, const json::exception &error) override {
+        if (const std::string guess = guessBySignature(text_); !guess.empty())
+            throw Error(ErrorKind::BadInput,
+                        fmt::format("{}: this is not JSON; it looks like {}", fileName_, guess));
         // "[json.exception.parse_error.101] parse error at line 1, column 2: what" -> "what"
         std::string what = error.what();
         what.erase(0, what.find("] ") + 2);

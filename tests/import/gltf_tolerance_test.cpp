@@ -64,7 +64,7 @@ TEST_F(GltfTolerance, LengthsOfFilesMayBeWrongIfChunksAreWhole) {
         EXPECT_EQ(loaded.scene.meshes.size(), 1u);
         expectWarning(loaded, {"chunks are read by their own lengths"});
     }
-    for (const std::string behind : {std::string(1, '\n'), std::string(100, 'x')}) {
+    for (const std::string &behind : {std::string(1, '\n'), std::string(100, 'x')}) {
         const LoadedScene loaded =
             loadText(glbOf(json, "", maker.bytes, behind, -static_cast<int>(behind.size())));
         EXPECT_EQ(loaded.scene.meshes.size(), 1u);

@@ -1,8 +1,8 @@
 #include "host/import/gltf/document.h"
 
+#include "host/base/content_guess.h"
 #include "host/base/input_file.h"
 #include "host/base/json_document.h"
-#include "host/import/content_guess.h"
 
 #include <fmt/format.h>
 

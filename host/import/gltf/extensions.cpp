@@ -23,6 +23,11 @@ bool isKnown(std::string_view name) { return std::ranges::find(known, name) != k
 std::span<const std::string_view> knownExtensions() { return known; }
 
 void checkExtensions(const Document &document, std::vector<std::string> &warnings) {
+    if (const std::optional<JsonObject> variants = extensionOf(document.top(), "KHR_materials_variants"))
+        document.losses().add("variants", [&] {
+            return fmt::format("{}: /extensions/KHR_materials_variants: the default ones are shown",
+                               document.fileName());
+        });
     std::vector<std::string> unknown;
     for (const JsonNode &node : elementsOf(document.top(), "extensionsRequired"))
         if (!isKnown(node.text()))

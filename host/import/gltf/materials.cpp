@@ -125,7 +125,16 @@ class MaterialReader {
         }
     }
 
+    /// Textures that the format knows and that nothing is made of.
+    void tellUnused(const JsonObject &object, std::string_view key, std::string_view reason) {
+        if (const std::optional<JsonNode> node = object.find(key))
+            document_.losses().add(key, [&] {
+                return fmt::format("{}: {}: left out: {}", *node->fileName, node->path.to_string(), reason);
+            });
+    }
+
     void readSurface() {
+        tellUnused(object_, "occlusionTexture", "how much light reaches a place is computed");
         wear(layout::slotNormal, object_, "normalTexture");
         if (material_.textures[layout::slotNormal])
             material_.normalStrength = readStrength(object_, "normalTexture");
@@ -187,6 +196,7 @@ class MaterialReader {
         const auto volume = extensionOf(object_, "KHR_materials_volume");
         if (!volume)
             return;
+        tellUnused(*volume, "thicknessTexture", "light goes as far through glass as the mesh is thick");
         material_.isThin =
             !(clampedNumber(document_, *volume, "thicknessFactor", limits::radiance, 0.0) > 0.0);
         const std::optional<JsonNode> distance = volume->find("attenuationDistance");

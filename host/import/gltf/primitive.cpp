@@ -16,6 +16,13 @@ namespace {
 
 enum class Mode { Points = 0, Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan };
 
+bool isRead(std::string_view attribute) {
+    constexpr std::string_view names[] = {"POSITION",   "NORMAL",     "TANGENT",
+                                          "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+    return std::ranges::find(names, attribute) != std::end(names) || attribute.starts_with("JOINTS_") ||
+           attribute.starts_with("WEIGHTS_");
+}
+
 const Accessor *find(const Attributes &attributes, std::string_view name) {
     const auto found = attributes.find(name);
     return found == attributes.end() ? nullptr : &found->second;
@@ -149,8 +156,14 @@ Vertices readVertices(const Attributes &attributes, std::vector<std::uint32_t> s
 
 Attributes readAttributes(Buffers &buffers, const JsonNode &node) {
     Attributes attributes;
-    for (const auto &[name, member] : JsonObject(node).members(1024))
+    for (const auto &[name, member] : JsonObject(node).members(1024)) {
+        // Of programs' own, whose names begin with _, nobody else knows the meaning.
+        if (!isRead(name) && !name.starts_with('_'))
+            buffers.document().losses().add("attribute", [&] {
+                return fmt::format("{}: {}: left out", *member.fileName, member.path.to_string());
+            });
         attributes.emplace(name, Accessor(buffers, buffers.document().reference(member, "accessors")));
+    }
     for (const auto &[name, accessor] : attributes)
         accessor.requireCount(attributes.begin()->second.count());
     return attributes;
