@@ -111,6 +111,7 @@ Light readLight(const JsonNode &node) {
         light.direction = readDirection(object, "direction", light.direction);
         light.angleDegrees = object.number("angle", limits::spotAngle, light.angleDegrees);
         light.blend = object.number("blend", limits::fraction, light.blend);
+        light.fade = object.choice("fade", spotFadeNames, light.fade);
         break;
     case LightKind::Directional:
         object.allowOnly(scene_keys::directionalLight);

@@ -111,7 +111,7 @@ inline constexpr auto cameraKey =
                                      "aperture", "focusDistance", "viewWidth"});
 inline constexpr auto pointLight = std::to_array<std::string_view>({"type", "position", "power"});
 inline constexpr auto spotLight =
-    std::to_array<std::string_view>({"type", "position", "power", "direction", "angle", "blend"});
+    std::to_array<std::string_view>({"type", "position", "power", "direction", "angle", "blend", "fade"});
 inline constexpr auto directionalLight = std::to_array<std::string_view>({"type", "direction", "irradiance"});
 inline constexpr auto texture = std::to_array<std::string_view>({"file", "scale", "offset"});
 inline constexpr auto normalMap = std::to_array<std::string_view>({"file", "scale", "offset", "strength"});

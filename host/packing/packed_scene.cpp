@@ -98,7 +98,8 @@ layout::LightRecord packLight(const Light &light) {
     const double inner = std::cos(glm::radians(light.angleDegrees * (1.0 - light.blend)));
     constexpr double minDifference = 1e-6; // a spot without a soft edge
     record.cosineOuter = static_cast<float>(outer);
-    record.falloffScale = static_cast<float>(1.0 / std::max(inner - outer, minDifference));
+    const double sign = light.fade == SpotFade::Square ? -1.0 : 1.0;
+    record.falloffScale = static_cast<float>(sign / std::max(inner - outer, minDifference));
     return record;
 }
 

@@ -33,6 +33,8 @@ inline constexpr std::array<Name<KeyInterpolation>, 2> interpolationNames{
     {{"smooth", KeyInterpolation::Smooth}, {"linear", KeyInterpolation::Linear}}};
 inline constexpr std::array<Name<LightKind>, 3> lightNames{
     {{"point", LightKind::Point}, {"spot", LightKind::Spot}, {"directional", LightKind::Directional}}};
+inline constexpr std::array<Name<SpotFade>, 2> spotFadeNames{
+    {{"smooth", SpotFade::Smooth}, {"square", SpotFade::Square}}};
 inline constexpr std::array<Name<ShapeKind>, 4> shapeNames{{{"quad", ShapeKind::Quad},
                                                             {"box", ShapeKind::Box},
                                                             {"disk", ShapeKind::Disk},

@@ -41,6 +41,10 @@ struct Camera {
 
 enum class LightKind : std::uint32_t { Point = 0, Spot = 1, Directional = 2 };
 
+/// How a spot fades from the dark, t = 0, to its full light, t = 1, t being linear in the cosine of the angle. Smooth:
+/// 3 t^2 - 2 t^3. Square: t^2, as glTF's lights do (KHR_lights_punctual).
+enum class SpotFade { Smooth, Square };
+
 /// A light without size.
 struct Light {
     glm::dvec3 position{0.0}; ///< Point, Spot
@@ -51,6 +55,7 @@ struct Light {
     glm::dvec3 direction{0.0, -1.0, 0.0}; ///< Spot, Directional: in which light leaves; any length but zero
     double angleDegrees = 30.0;           ///< Spot: from its axis to the dark; in (0, 180]
     double blend = 0.2;                   ///< Spot: share of the angle in which it fades, from 0 to 1
+    SpotFade fade = SpotFade::Smooth;     ///< Spot
 };
 
 /// Light from all around: an image by longitude and latitude, whose middle is -z, whose top row is +y.

@@ -93,6 +93,30 @@ TEST_F(GltfFiles, CutoffsAboveOneHide) {
     EXPECT_GT(brightest(), 0.5f);
 }
 
+TEST_F(GltfFiles, SpotsFallOffAsTheSpecificationSays) {
+    // A spot 2 above a floor that is seen from straight above, a pixel each 0.1; the same place under a point light.
+    GltfMaker maker;
+    const std::size_t positions = maker.addVec3({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0});
+    maker.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}}};
+    maker.json["cameras"] = {{{"type", "orthographic"},
+                              {"orthographic", {{"xmag", 0.65}, {"ymag", 0.65}, {"znear", 0}, {"zfar", 9}}}}};
+    maker.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 5}}});
+    maker.json["nodes"].push_back(
+        {{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    maker.json["scenes"][0]["nodes"] = {0, 1, 2};
+    nlohmann::json &light = maker.json["extensions"]["KHR_lights_punctual"]["lights"][0];
+    const auto picture = [&](const nlohmann::json &value) {
+        light = value;
+        store("light.glb", maker.glb());
+        return renderImage("light.glb --width 13 --height 13 --spp 1 --sampler centre");
+    };
+    const Image point = picture({{"type", "point"}});
+    const Image spot = picture({{"type", "spot"}, {"spot", {{"outerConeAngle", 0.35}}}});
+    for (const auto &[offset, share] : {std::pair{0, 1.0}, {2, 0.8430}, {4, 0.4620}, {6, 0.0926}})
+        EXPECT_NEAR(spot.at(6 + offset, 6).x / point.at(6 + offset, 6).x, share, 1e-3) << offset;
+    EXPECT_EQ(spot.at(12, 0).x, 0.0f);
+}
+
 TEST_F(GltfFiles, InspectListsCamerasAndNodes) {
     GltfMaker maker = oneTriangle();
     maker.json["cameras"] = {

@@ -31,6 +31,7 @@ Scene lampShop(std::uint64_t seed, bool isRough) {
         light.position = random.inCube(6.0);
         light.direction = random.direction();
         light.angleDegrees = random.uniform(10.0, 170.0);
+        light.fade = i % 4 == 1 ? SpotFade::Square : SpotFade::Smooth;
         light.power = glm::dvec3(random.uniform(1.0, 20.0));
         scene.lights.push_back(light);
     }

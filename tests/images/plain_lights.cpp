@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Share of a spot's intensity: the cubic of the cosine that is even where it begins and where it ends.
+/// Share of a spot's intensity: the cubic of the cosine that is even where it begins and where it ends, or a square.
 double falloff(const Light &spot, double cosine) {
     const double outer = std::cos(glm::radians(spot.angleDegrees));
     const double inner = std::cos(glm::radians(spot.angleDegrees * (1.0 - spot.blend)));
@@ -23,7 +23,7 @@ double falloff(const Light &spot, double cosine) {
     if (cosine >= inner)
         return 1.0;
     const double t = (cosine - outer) / (inner - outer);
-    return 3.0 * t * t - 2.0 * t * t * t;
+    return spot.fade == SpotFade::Square ? t * t : 3.0 * t * t - 2.0 * t * t * t;
 }
 
 } // namespace

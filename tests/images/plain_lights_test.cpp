@@ -44,6 +44,10 @@ std::vector<Lighting> lightings() {
                        scene.lights.push_back({{-1.0, 2.0, 2.0}, {50.0, 60.0, 70.0}});
                    }});
     all.push_back({"Spot", [spot](Scene &scene) { scene.lights.push_back(spot); }});
+    all.push_back({"SquareSpot", [spot](Scene &scene) {
+                       scene.lights.push_back(spot);
+                       scene.lights.back().fade = SpotFade::Square;
+                   }});
     all.push_back({"SharpSpot", [spot](Scene &scene) {
                        scene.lights.push_back(spot);
                        scene.lights.back().blend = 0.0;

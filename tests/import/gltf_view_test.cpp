@@ -91,6 +91,7 @@ TEST_F(GltfView, LightsHaveTheirUnits) {
     EXPECT_EQ(lights[1].direction, glm::dvec3(0, 0, -1));
     EXPECT_NEAR(lights[1].angleDegrees, 0.5 * 180.0 / std::numbers::pi, 1e-9);
     EXPECT_NEAR(lights[1].blend, 0.5, 1e-9);
+    EXPECT_EQ(lights[1].fade, SpotFade::Square);
     EXPECT_EQ(lights[2].kind, LightKind::Directional);
     EXPECT_EQ(lights[2].power, glm::dvec3(3.0));
     EXPECT_TRUE(loaded.scene.environment.radiance.pixels().empty());

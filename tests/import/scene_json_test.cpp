@@ -39,6 +39,7 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(scene.lights[1].direction, glm::dvec3(0, 0, 2));
     EXPECT_EQ(scene.lights[1].angleDegrees, 40.0);
     EXPECT_EQ(scene.lights[1].blend, 0.5);
+    EXPECT_EQ(scene.lights[1].fade, SpotFade::Square);
     EXPECT_EQ(scene.lights[2].kind, LightKind::Directional);
     EXPECT_EQ(scene.lights[2].direction, glm::dvec3(1, -1, 0));
     EXPECT_EQ(scene.lights[2].power, glm::dvec3(3, 2, 1));

@@ -820,7 +820,7 @@ const LeafTwin leafTwins[] = {
          const vec3 axis = draw.direction();
          const vec3 toSpot = draw.chance(4) ? -axis : draw.direction();
          const float cosineOuter = draw.unit() * 2.0f - 1.0f;
-         const float scale = 1.0f / (draw.unit() + 1e-6f);
+         const float scale = (draw.chance(2) ? -1.0f : 1.0f) / (draw.unit() + 1e-6f);
          input << toSpot << axis << cosineOuter << scale;
          expected << reference::spotFalloff(toSpot, axis, cosineOuter, scale);
      }},

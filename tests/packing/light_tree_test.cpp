@@ -29,6 +29,7 @@ Scene manyLights(std::uint64_t seed, int count) {
         light.position = random.inCube(8.0);
         light.direction = random.direction();
         light.angleDegrees = random.uniform(1.0, 180.0);
+        light.fade = random.coin() ? SpotFade::Square : SpotFade::Smooth;
         light.power = glm::dvec3(random.logUniform(1e-2, 1e3));
         scene.lights.push_back(light);
     }

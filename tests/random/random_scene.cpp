@@ -99,6 +99,7 @@ class SceneDrawer {
         if (kind == LightKind::Spot) {
             light["angle"] = draws_.number(limits::spotAngle);
             light["blend"] = draws_.number(limits::fraction);
+            light["fade"] = draws_.oneOf(spotFadeNames).first;
         }
         return light;
     }

@@ -57,7 +57,10 @@ TEST(DirectionalLight, CastsShadowsHoweverFar) {
     expectDark(scene);
 }
 
-TEST(SpotLight, FadesBetweenItsAngles) {
+class SpotLight : public ::testing::TestWithParam<SpotFade> {};
+INSTANTIATE_TEST_SUITE_P(Fades, SpotLight, ::testing::Values(SpotFade::Smooth, SpotFade::Square));
+
+TEST_P(SpotLight, FadesBetweenItsAngles) {
     // Straight above the origin, turned away from it by some degrees; it fades from 20 to 40.
     for (const double turned : {0.0, 19.9, 25.0, 30.0, 37.0, 40.1, 90.0}) {
         Scene scene = floorScene(grey(0.5f), 1);
@@ -67,11 +70,12 @@ TEST(SpotLight, FadesBetweenItsAngles) {
                          .kind = LightKind::Spot,
                          .direction = {std::sin(angle), 0, -std::cos(angle)},
                          .angleDegrees = 40.0,
-                         .blend = 0.5}};
+                         .blend = 0.5,
+                         .fade = GetParam()}};
         const double inner = std::cos(20.0 * pi / 180.0);
         const double outer = std::cos(40.0 * pi / 180.0);
         const double t = std::clamp((std::cos(angle) - outer) / (inner - outer), 0.0, 1.0);
-        const double share = t * t * (3.0 - 2.0 * t);
+        const double share = t * t * (GetParam() == SpotFade::Square ? 1.0 : 3.0 - 2.0 * t);
         const double expected = 0.5 / pi * 100.0 / (4.0 * pi) / 4.0 * share;
         if (share > 0.0)
             expectBoth(scene, expected);

@@ -29,6 +29,7 @@ void readSpot(const Document &document, const JsonObject &object, Light &light) 
     const double inner = clampedNumber(document, spot, "innerConeAngle", {0.0, outer}, 0.0);
     light.angleDegrees = glm::degrees(outer);
     light.blend = (outer - inner) / outer;
+    light.fade = SpotFade::Square;
 }
 
 } // namespace
