@@ -170,7 +170,8 @@ std::vector<std::pair<std::string, JsonNode>> JsonObject::members(std::size_t ma
         node_.fail(fmt::format("found {} keys; at most {} are allowed", node_.value->size(), maxCount));
     std::vector<std::pair<std::string, JsonNode>> members;
     for (const auto &[key, value] : node_.value->items())
-        members.push_back({key, {&value, node_.fileName, node_.path / key}});
+        if (!value.is_null())
+            members.push_back({key, {&value, node_.fileName, node_.path / key}});
     return members;
 }
 

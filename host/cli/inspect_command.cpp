@@ -144,7 +144,8 @@ ExitCode runInspect(const InspectOptions &options) {
                countText(scene.spheres.size(), "sphere"), countText(scene.lights.size(), "light"),
                countText(scene.materials.size(), "material"));
     printScene(prepared);
-    printOutline(prepared.loaded.file, options.scene.load.gltfScene);
+    if (prepared.loaded.outline)
+        printOutline(*prepared.loaded.outline);
     printMeshes(prepared);
     std::vector<BuildTriangle> distinct = buildTriangles(scene);
     dropDuplicates(scene, distinct);

@@ -2,8 +2,6 @@
 
 #include "host/base/clean_text.h"
 #include "host/base/quantities.h"
-#include "host/import/formats.h"
-#include "host/import/gltf/outline.h"
 #include "host/scene/instances.h"
 #include "host/scene/names.h"
 
@@ -21,7 +19,7 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::size_t maxRows = 32;
+constexpr std::size_t maxRows = GltfOutline::maxRows;
 
 template <class Vector> std::string vectorText(const Vector &v) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
@@ -207,11 +205,7 @@ void printScene(const PreparedScene &prepared) {
                    countText(scene.prototypes.size(), "mesh", "meshes"));
 }
 
-void printOutline(const std::filesystem::path &file, const std::string &gltfScene) {
-    const Format *const format = formatOf(file);
-    if (format == nullptr || !format->hasChoices)
-        return;
-    const GltfOutline outline = outlineGltf(file, gltfScene, maxRows);
+void printOutline(const GltfOutline &outline) {
     const auto named = [](const std::string &name) {
         return name.empty() ? "" : fmt::format(" \"{}\"", excerpt(name));
     };

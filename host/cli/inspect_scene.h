@@ -3,15 +3,13 @@
 
 #include "host/render/prepare.h"
 
-#include <filesystem>
-#include <string>
 
 namespace hyalite {
 
 /// On standard output. Of lists at most 32 rows.
 void printScene(const PreparedScene &prepared);
 
-/// The cameras and nodes that a glTF file has, likewise; nothing for other files. `gltfScene` chooses one of its scenes.
-void printOutline(const std::filesystem::path &file, const std::string &gltfScene);
+/// The cameras and nodes that a glTF file has.
+void printOutline(const GltfOutline &outline);
 
 } // namespace hyalite

@@ -75,8 +75,9 @@ std::string commandOf(Converter converter, const std::string &file, const std::s
                            operation);
     };
     const auto blender = [&](const std::string &code) {
-        return shellLine(
-            std::array{"blender", "-b", "--python-expr", code.c_str(), "--", file.c_str(), glb.c_str()});
+        return shellLine(std::array{"blender", "-b", "--python-expr", code.c_str(), "--", file.c_str(),
+                                    glb.c_str()}) +
+               " (Blender of blender.org, as Debian's reads neither USD nor Alembic)";
     };
     switch (converter) {
     case Converter::Assimp:

@@ -1,6 +1,7 @@
 // A loaded scene: what every reader of scenes takes and gives, whatever the format.
 #pragma once
 
+#include "host/import/gltf/outline.h"
 #include "host/import/mesh_file.h"
 #include "host/scene/camera_path.h"
 #include "host/scene/scene.h"
@@ -52,9 +53,10 @@ struct LoadedScene {
     std::optional<glm::dvec3> restOrigin{}; ///< of a file with animations: its origin at all times (origin.h)
     bool movesByTime = false; ///< other frames of a sequence show other meshes or lights: load it for each
     std::filesystem::path file;
-    std::vector<std::string> inputFiles; ///< all that were read, this one and those that it names
-    std::vector<std::string> warnings;   ///< of what is not a mesh
-    std::vector<MeshReport> meshReports; ///< one for each mesh of the input
+    std::vector<std::string> inputFiles;  ///< all that were read, this one and those that it names
+    std::optional<GltfOutline> outline{}; ///< of a glTF file
+    std::vector<std::string> warnings;    ///< of what is not a mesh
+    std::vector<MeshReport> meshReports;  ///< one for each mesh of the input
     /// Of the camera, where the file gives this one: the horizontal one follows from the size of the image.
     std::optional<double> verticalFovDegrees{};
     std::optional<double> aspectRatio{}; ///< width / height of the image, where the file gives its camera one

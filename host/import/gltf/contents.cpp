@@ -224,6 +224,39 @@ bool moveMoreThanCameras(const Document &document, const std::vector<std::size_t
     });
 }
 
+/// What a node places, as people read it.
+std::string contentsOf(const Document &document, const JsonObject &node) {
+    std::string contents;
+    const auto add = [&](std::string_view what, std::string_view name, const JsonNode &index) {
+        contents += fmt::format("{}{} {}", contents.empty() ? "" : ", ", what, index.wholeNumber(byteCount));
+        if (!name.empty())
+            contents += fmt::format(" \"{}\"", name);
+    };
+    for (const auto &[key, array] :
+         {std::pair{"mesh", "meshes"}, std::pair{"camera", "cameras"}, std::pair{"skin", "skins"}})
+        if (const auto index = document.reference(node, key, array))
+            add(key, nameOf(JsonObject(document.at(array, *index))), node.at(key));
+    if (const auto light = extensionOf(node, "KHR_lights_punctual"))
+        add("light", "", light->at("light"));
+    return contents;
+}
+
+/// `nodes` are those of the scene that is loaded.
+GltfOutline outlineOf(const Document &document, const NodeTree &tree, const std::vector<std::size_t> &nodes) {
+    GltfOutline outline;
+    outline.cameraCount = document.count("cameras");
+    for (std::size_t i = 0; i < std::min(outline.cameraCount, GltfOutline::maxRows); ++i) {
+        const JsonObject camera(document.at("cameras", i));
+        outline.cameras.push_back({nameOf(camera), camera.text("type")});
+    }
+    outline.nodeCount = nodes.size();
+    for (const std::size_t index : std::span(nodes).first(std::min(nodes.size(), GltfOutline::maxRows))) {
+        const JsonObject node(document.at("nodes", index));
+        outline.nodes.push_back({index, tree.depthOf(index), nameOf(node), contentsOf(document, node)});
+    }
+    return outline;
+}
+
 } // namespace
 
 Contents readContents(const std::filesystem::path &path, const FileReach &reach, TextureLibrary &textures,
@@ -242,9 +275,10 @@ Contents readContents(const std::filesystem::path &path, const FileReach &reach,
         allowance.take(count * NodeTree::bytesEach, document.top().at("nodes"));
     const NodeTree tree(document);
     const std::vector<Pose> rest = readPoses(document);
-    std::vector<Pose> poses = rest;
+    std::optional<std::vector<Pose>> moved;
     if (options.timeSeconds)
-        animate(buffers, *options.timeSeconds, poses);
+        animate(buffers, *options.timeSeconds, moved.emplace(rest));
+    const std::vector<Pose> &poses = moved ? *moved : rest;
     const std::vector<glm::dmat4x3> toWorld = tree.toWorld(poses);
     const std::vector<std::size_t> nodes = tree.nodesOfScene(document, options.scene);
 
@@ -258,6 +292,7 @@ Contents readContents(const std::filesystem::path &path, const FileReach &reach,
             contents.lights.push_back(*light);
     }
     readMeshes(buffers, uses.uses(), options.onReading, contents.file);
+    contents.outline = outlineOf(document, tree, nodes);
     contents.camera = readCamera(document, nodes, toWorld, options.camera);
     if (document.count("animations") > 0)
         contents.restOrigin = restOriginOf(buffers, tree, rest, nodes, bounds);

@@ -25,6 +25,7 @@ struct ContentOptions {
 };
 
 struct Contents {
+    GltfOutline outline{};
     MeshFile file; ///< names its buffers, too, in its report
     std::vector<Light> lights;
     std::optional<PlacedCamera> camera;

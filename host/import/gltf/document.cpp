@@ -98,15 +98,6 @@ Chunks chunksOf(const InputFile &file, Losses &losses) {
     return chunks;
 }
 
-/// A member that is null counts as absent.
-void dropNulls(nlohmann::json &value) {
-    if (value.is_object())
-        for (auto member = value.begin(); member != value.end();)
-            member = member->is_null() ? value.erase(member) : std::next(member);
-    if (value.is_structured())
-        std::ranges::for_each(value, dropNulls);
-}
-
 /// What all elements of the arrays of the top level are.
 void checkObjects(const JsonObject &top) {
     for (const std::string_view array :
@@ -147,7 +138,6 @@ Document::Document(const std::filesystem::path &file) : path_(file), fileName_(f
     }
     text.resize(text.find_last_not_of('\0') + 1); // padding
     json_ = parseJson(text, fileName_);
-    dropNulls(json_);
     checkVersion(top());
     checkObjects(top());
 }

@@ -75,6 +75,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     setCamera(contents.camera, loaded);
     loaded.worldUp = {0.0, 1.0, 0.0};
     loaded.cameraPath = std::move(contents.cameraPath);
+    loaded.outline = std::move(contents.outline);
     loaded.movesByTime = contents.movesByTime;
     loaded.restOrigin = contents.restOrigin;
     if (scene.lights.empty())

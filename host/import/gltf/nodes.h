@@ -41,7 +41,7 @@ struct Pose {
 class NodeTree {
   public:
     /// Memory of a node with its JSON, its pose and its map to the world.
-    static constexpr std::size_t bytesEach = 480;
+    static constexpr std::size_t bytesEach = 320;
 
     /// Throws Error{BadInput} for a node with two parents, and for one that is its own ancestor.
     explicit NodeTree(const Document &document);

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace hyalite {
 
+/// The first rows of each list, and how many there are. Names are as the file has them.
 struct GltfOutline {
+    static constexpr std::size_t maxRows = 32;
+
     struct CameraRow {
         std::string name;
         std::string type; ///< "perspective" or "orthographic"
@@ -24,10 +26,5 @@ struct GltfOutline {
     std::vector<NodeRow> nodes; ///< of the scene, parents before their children
     std::size_t nodeCount = 0;
 };
-
-/// `scene` is the name or the index of one; empty: the default one. Of each list there are the first rows, and the count
-/// of all. Names are as the file has them. Throws as loadGltf does.
-[[nodiscard]] GltfOutline outlineGltf(const std::filesystem::path &file, const std::string &scene,
-                                      std::size_t maxRows);
 
 } // namespace hyalite
