@@ -28,14 +28,14 @@ double percentOf(std::uint64_t sampleCount, std::uint64_t pixelCount, const Rend
 }
 
 std::vector<NamedFile> outputsOf(const RenderRequest &request) {
-    const std::string olderGeneration =
-        request.checkpoint.empty() ? "" : olderCheckpoint(request.checkpoint).string();
-    const std::string lock = request.checkpoint.empty() ? "" : lockOfCheckpoint(request.checkpoint).string();
-    return {{"--output", request.output},
-            {"--report", request.report},
-            {"--checkpoint", request.checkpoint},
-            {"--checkpoint", olderGeneration},
-            {"--checkpoint", lock}};
+    std::vector<NamedFile> outputs = {
+        {"--output", request.output}, {"--report", request.report}, {"--checkpoint", request.checkpoint}};
+    const std::string option = request.part ? "--output" : "--checkpoint"; // a part is a checkpoint
+    if (const std::string checkpoint = request.part ? request.output : request.checkpoint;
+        !checkpoint.empty())
+        outputs.insert(outputs.end(), {{option, olderCheckpoint(checkpoint).string()},
+                                       {option, lockOfCheckpoint(checkpoint).string()}});
+    return outputs;
 }
 
 bool isOnOracle(const RenderRequest &request) {

@@ -194,6 +194,20 @@ void requireWritableCheckpoint(const std::filesystem::path &path) {
     const AtomicFile older(olderCheckpoint(path));
 }
 
+void requireOwnCheckpoint(const std::filesystem::path &path) {
+    for (const std::filesystem::path &file : {followLinks(path), olderCheckpoint(path)}) {
+        if (!std::filesystem::exists(file))
+            continue;
+        const std::vector<std::byte> head = InputFile(file).head(magic.size()); // shorter if the file is
+        if (std::memcmp(head.data(), magic.data(), head.size()) != 0)
+            throw Error(
+                ErrorKind::OutputNotWritten,
+                fmt::format("cannot write '{}': it exists, and is not a checkpoint of Hyalite; remove "
+                            "it, or name another file",
+                            file.string()));
+    }
+}
+
 CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, const RenderIdentity &identity,
                                    CheckpointSubject subject, bool isNewestWhole)
     : path_(followLinks(path)), identity_(identityText(identity)), subject_(std::move(subject)),
@@ -205,6 +219,7 @@ CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, const Rend
                         "are allowed: the command line is too long",
                         path_.string(), std::max(identity_.size(), subject_.origin.size()), maxTextBytes));
     requireWritableCheckpoint(path_);
+    requireOwnCheckpoint(path_);
 }
 
 void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<const Film *const> layers) {

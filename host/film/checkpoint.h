@@ -69,11 +69,15 @@ struct CheckpointSubject {
 /// Throws Error{OutputNotWritten} if no checkpoint can be written there.
 void requireWritableCheckpoint(const std::filesystem::path &path);
 
+/// Throws Error{OutputNotWritten} if a generation would replace a file that is neither a checkpoint, damaged or not, nor
+/// empty.
+void requireOwnCheckpoint(const std::filesystem::path &path);
+
 /// Writes checkpoints of one render.
 class CheckpointWriter {
   public:
     /// `isNewestWhole`: `path` is a readable checkpoint of this render, which then becomes the older generation. Throws
-    /// Error{OutputNotWritten} if `path` cannot be written.
+    /// Error{OutputNotWritten} if `path` cannot be written, or is not a checkpoint.
     CheckpointWriter(const std::filesystem::path &path, const RenderIdentity &identity,
                      CheckpointSubject subject, bool isNewestWhole);
 

@@ -44,6 +44,8 @@ RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLin
         reportFile_.emplace(request_.report);
     if (!request_.checkpoint.empty()) {
         requireWritableCheckpoint(request_.checkpoint);
+        if (!request_.isResuming) // else reading it says what it is
+            requireOwnCheckpoint(request_.checkpoint);
         checkpointLock_.emplace(request_.checkpoint);
     }
     report_.origin.commandLine = commandLine;

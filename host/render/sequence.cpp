@@ -1,6 +1,8 @@
 #include "host/render/sequence.h"
 
 #include "host/base/error.h"
+#include "host/film/checkpoint.h"
+#include "host/film/checkpoint_lock.h"
 #include "host/scene/validate.h"
 
 #include <fmt/format.h>
@@ -76,7 +78,11 @@ Sequence::Sequence(RenderRequest request, const SequenceOptions &options)
     std::set<std::string> names;
     for (const int frame : frames_) {
         const RenderRequest ofFrame = requestOf(frame);
-        for (const std::string &name : {ofFrame.output, ofFrame.report, ofFrame.checkpoint})
+        std::vector<std::string> files = {ofFrame.output, ofFrame.report, ofFrame.checkpoint};
+        if (!ofFrame.checkpoint.empty())
+            files.insert(files.end(), {olderCheckpoint(ofFrame.checkpoint).string(),
+                                       lockOfCheckpoint(ofFrame.checkpoint).string()});
+        for (const std::string &name : files)
             if (!name.empty() && !names.insert(name).second)
                 throw Error(
                     ErrorKind::Usage,

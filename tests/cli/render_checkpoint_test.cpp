@@ -50,11 +50,12 @@ const std::string atOnce = " --time-limit 1e-6";
 
 TEST_F(RenderCheckpoint, IsOfOneRenderAtATime) {
     const std::string line = "render spheres" + smallResumed + files + " --device cpu";
-    store("c.lock", "4711\n"); // left over: its process is gone
+    const std::string lock = "hyalite checkpoint lock of process 4711\n";
+    store("c.lock", lock); // left over: its process is gone
     EXPECT_EQ(run(line).exitCode, 0);
     EXPECT_FALSE(entries().contains("c.lock"));
     const std::string before = load("c");
-    store("c.lock", "4711\n");
+    store("c.lock", lock);
     const int descriptor = open((folder / "c.lock").c_str(), O_RDWR | O_CLOEXEC);
     ASSERT_EQ(flock(descriptor, LOCK_EX | LOCK_NB), 0);
     expectFailure(line, 7, {"c: another render (process 4711) writes this checkpoint", "name another one"});
@@ -63,6 +64,38 @@ TEST_F(RenderCheckpoint, IsOfOneRenderAtATime) {
     EXPECT_EQ(run(line + " --resume").exitCode, 0);
     expectFailure("render spheres -o c.lock.pfm --report c.lock --checkpoint c" + smallResumed, 2,
                   {"name the same file"});
+    for (const char *report : {"c.part.lock", "c.part.1"})
+        expectFailure("render spheres -o c.part --part 1/2 --report " + std::string(report) + smallResumed, 2,
+                      {"name the same file"});
+}
+
+TEST_F(RenderCheckpoint, LeavesFilesOfOthersAlone) {
+    const std::string line = "render spheres -o a.pfm --device cpu" + smallResumed;
+    for (const std::string &text :
+         {std::string("content-hash = 1\n"), std::string("4711\n"), std::string()}) {
+        store("poetry.lock", text);
+        expectFailure(line + " --checkpoint poetry", 7,
+                      {"'poetry.lock'", "no render made it", "name another"});
+        EXPECT_EQ(load("poetry.lock"), text);
+    }
+    store("precious", "hyalite checkpoint lock of process 4711\n");
+    fs::create_hard_link(folder / "precious", folder / "hard.lock");
+    fs::create_symlink("precious", folder / "soft.lock");
+    fs::create_symlink("nowhere", folder / "loose.lock");
+    fs::create_directory(folder / "folder.lock");
+    for (const std::string name : {"hard", "soft", "loose", "folder"})
+        expectFailure(line + " --checkpoint " + name, 7, {name + ".lock", "name another"});
+    EXPECT_EQ(load("precious"), "hyalite checkpoint lock of process 4711\n");
+    for (const std::string name : {"d", "d.1"}) {
+        store(name, "mine");
+        expectFailure(line + " --checkpoint d", 7, {"'" + name + "'", "not a checkpoint"});
+        EXPECT_EQ(load(name), "mine");
+        fs::remove(folder / name);
+    }
+    store("d.part", "mine");
+    expectFailure("render spheres --part 1/1 -o d.part" + smallResumed, 7, {"'d.part'", "not a checkpoint"});
+    EXPECT_EQ(load("d.part"), "mine");
+    EXPECT_FALSE(entries().contains("a.pfm"));
 }
 
 TEST_F(RenderCheckpoint, AKilledRenderGoesOnToTheSameImage) {
@@ -238,7 +271,7 @@ TEST_F(RenderCheckpoint, WhatCannotBeWrittenIsRefusedBeforeRendering) {
 }
 
 TEST_F(RenderCheckpoint, ADiskThatIsFullStopsNoRender) {
-    store("c", "old");
+    store("c", "hyalite checkpoint\n, an old one");
     Surroundings full;
     full.fileSizeLimitBytes = 8000; // room for the picture, not for the film
     const Outcome outcome =
@@ -246,7 +279,7 @@ TEST_F(RenderCheckpoint, ADiskThatIsFullStopsNoRender) {
     EXPECT_EQ(outcome.exitCode, 7) << outcome;
     EXPECT_TRUE(contains(outcome.errors, "'c'")) << outcome;
     EXPECT_EQ(load("a.pfm"), renderPfm("spheres --device cpu" + smallResumed));
-    EXPECT_EQ(load("c"), "old");
+    EXPECT_EQ(load("c"), "hyalite checkpoint\n, an old one");
     EXPECT_EQ(report().at("finished").at("isComplete"), true);
 }
 
