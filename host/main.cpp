@@ -16,6 +16,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <span>
@@ -23,6 +24,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <omp.h>
 #include <unistd.h>
 
 namespace {
@@ -35,6 +37,27 @@ void openMissingStreams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDWR) != descriptor)
             std::_Exit(static_cast<int>(ExitCode::OutputNotWritten)); // and there is nowhere to say why
+}
+
+bool hasEnded = false;
+
+/// Libraries may end the program on their own: OpenMP does, with the code of a wrong answer, where it cannot start its
+/// threads.
+void explainEndByLibrary() {
+    if (hasEnded)
+        return;
+    printMessage("hyalite: a library ended the program, as OpenMP does if it cannot start its threads; lower "
+                 "OMP_NUM_THREADS and OMP_STACKSIZE, or raise the limits (ulimit -u, ulimit -v)\n");
+    std::_Exit(static_cast<int>(ExitCode::LimitExceeded));
+}
+
+/// Throws Error{Usage} for more threads than OpenMP survives: it keeps them on the stack.
+void requireThreadCount() {
+    constexpr int maxThreads = 4096;
+    if (const int found = omp_get_max_threads(); found > maxThreads)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("OMP_NUM_THREADS: found {}; allowed: a whole number from 1 to {}", found,
+                                maxThreads));
 }
 
 /// What is buffered is written at last; results that are lost are no success.
@@ -153,6 +176,7 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
                           })
         ->trigger_on_parse() // before CLI11 2.5 and later asks for a command
         ->group("");
+    app.parse_complete_callback(requireThreadCount); // of a command that runs
     try {
         std::vector<char *> words = withoutHelpCommand(arguments, app);
         app.parse(static_cast<int>(words.size()), words.data());
@@ -191,6 +215,8 @@ int main(int argumentCount, char **arguments) {
     openMissingStreams();
     // A file beyond the shell's limit is an error of its own, as one on a full disk is.
     std::signal(SIGXFSZ, SIG_IGN);
-    const ExitCode code = runAndReport({arguments, static_cast<std::size_t>(argumentCount)});
-    return static_cast<int>(finishOutput(code));
+    std::atexit(explainEndByLibrary);
+    const ExitCode code = finishOutput(runAndReport({arguments, static_cast<std::size_t>(argumentCount)}));
+    hasEnded = true;
+    return static_cast<int>(code);
 }

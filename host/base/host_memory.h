@@ -9,6 +9,9 @@ namespace hyalite {
 /// Bytes available without swapping out other programs; empty if the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> availableHostBytes();
 
+/// Bytes of address space that a limit (ulimit -v) leaves; empty without a limit.
+[[nodiscard]] std::optional<std::uint64_t> addressSpaceLeft();
+
 /// Makes all threads use one heap. glibc has several, and each keeps its freed memory: a process with many renders,
 /// whose driver starts threads each time, would grow by 17 KB a render, to twice the memory that it needs.
 void useOneHeap();

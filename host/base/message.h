@@ -1,4 +1,4 @@
-// Messages on standard error.
+// Messages on standard error, and results on standard output.
 #pragma once
 
 #include "host/base/clean_text.h"
@@ -7,6 +7,8 @@
 
 #include <cstdio>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace hyalite {
@@ -23,6 +25,23 @@ void printMessage(fmt::format_string<Arguments...> format, Arguments &&...argume
 template <class... Arguments>
 void printWarning(fmt::format_string<Arguments...> format, Arguments &&...arguments) {
     printMessage("hyalite: warning: {}\n", fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// An argument of printResult(): texts on one line, without control characters.
+template <class Argument> auto shownArgument(const Argument &argument) {
+    if constexpr (std::is_convertible_v<const Argument &, std::string_view>) {
+        const std::string_view text = argument;
+        return excerpt(text, text.size());
+    } else {
+        return argument;
+    }
+}
+
+/// Prints on standard output. Texts among the arguments may be names from files: each stays on its line.
+template <class... Arguments>
+void printResult(fmt::format_string<decltype(shownArgument(std::declval<const Arguments &>()))...> format,
+                 const Arguments &...arguments) {
+    fmt::print("{}", fmt::format(format, shownArgument(arguments)...));
 }
 
 } // namespace hyalite

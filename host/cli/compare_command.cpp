@@ -1,3 +1,4 @@
+#include "host/base/message.h"
 #include "host/cli/commands.h"
 #include "host/cli/compare_options.h"
 #include "host/cli/device_options.h"
@@ -30,13 +31,13 @@ void addStatisticalOptions(CLI::App &command, CompareOptions &options) {
 } // namespace
 
 void printContestants(const PreparedScene &scene, const Contestants &contestants) {
-    fmt::print("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
-               scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
-    fmt::print("first        {}\nsecond       {}\n", contestants.first->description(),
-               contestants.second->description());
+    printResult("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
+                scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
+    printResult("first        {}\nsecond       {}\n", contestants.first->description(),
+                contestants.second->description());
     for (const Backend *backend : {contestants.first.get(), contestants.second.get()})
         if (const gpu::BitGuarantee bits = backend->bits(); bits.degree != gpu::BitDegree::Promised)
-            fmt::print("note         equal bits are not promised by {}: {}\n", backend->name(), bits.reason);
+            printResult("note         equal bits are not promised by {}: {}\n", backend->name(), bits.reason);
 }
 
 void addCompareCommand(CLI::App &app, CommandContext &context) {

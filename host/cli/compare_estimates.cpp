@@ -1,5 +1,6 @@
 #include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
+#include "host/base/message.h"
 #include "host/cli/compare_options.h"
 #include "host/cli/options.h"
 #include "host/cli/statistical.h"
@@ -39,7 +40,7 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     const Contestants contestants = openContestants(options.contest, scene);
     if (!options.isQuiet) {
         printContestants(scene, contestants);
-        fmt::print("seeds        {} and {}\n", firstSeed, secondSeed);
+        printResult("seeds        {} and {}\n", firstSeed, secondSeed);
     }
     const auto render = [&](Backend &backend, std::uint32_t seed) {
         settings.seed = scene.packed.frame.seed = seed;

@@ -1,5 +1,6 @@
 #include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
+#include "host/base/message.h"
 #include "host/cli/compare_options.h"
 #include "host/cli/explanations.h"
 #include "host/cli/options.h"
@@ -44,18 +45,18 @@ bool isDefault(const Tolerance &tolerance) { return tolerance.absolute == 0.0 &&
 
 void printMetrics(const ImageComparison &comparison, const Image &a, const Image &b) {
     const PixelMetrics &pixels = comparison.pixels;
-    fmt::print("pixels       {} of {} differ\n", pixels.differingPixelCount, pixels.pixelCount);
+    printResult("pixels       {} of {} differ\n", pixels.differingPixelCount, pixels.pixelCount);
     if (!pixels.identical()) {
         const glm::ivec2 worst = worstPixel(a, b, pixels);
         const glm::vec3 &x = a.at(worst.x, worst.y);
         const glm::vec3 &y = b.at(worst.x, worst.y);
-        fmt::print(
+        printResult(
             "largest      {} ULP; {:.6g} at ({}, {}): ({:.9g} {:.9g} {:.9g}) and ({:.9g} {:.9g} {:.9g})\n",
             pixels.maxUlpDistance, pixels.maxAbsoluteDifference, worst.x, worst.y, x.x, x.y, x.z, y.x, y.y,
             y.z);
     }
-    fmt::print("PSNR         {:.2f} dB\n", pixels.psnrDecibels());
-    fmt::print("HDR-FLIP     mean {:.6f}, max {:.6f}\n", comparison.flip.mean, comparison.flip.max);
+    printResult("PSNR         {:.2f} dB\n", pixels.psnrDecibels());
+    printResult("HDR-FLIP     mean {:.6f}, max {:.6f}\n", comparison.flip.mean, comparison.flip.max);
 }
 
 /// The requested files, opened before the work begins.
@@ -122,9 +123,9 @@ Verdict judgeOutliers(const PreparedScene &scene, const Compared &compared, bool
     const std::size_t unexplained = explainOutliers(scene, compared.outliers);
     verdict.reasons["unexplainedOutliers"] = unexplained;
     verdict.isPassed = isWithinShare || unexplained == 0;
-    fmt::print("{}\n", compared.outliers.empty() ? "no outliers"
-                       : unexplained == 0        ? "every outlier is explained"
-                                                 : fmt::format("{} outliers are not explained", unexplained));
+    printResult("{}\n", compared.outliers.empty() ? "no outliers"
+                        : unexplained == 0        ? "every outlier is explained"
+                                           : fmt::format("{} outliers are not explained", unexplained));
     return verdict;
 }
 
@@ -143,21 +144,21 @@ Verdict judgeBits(const Contestants &contestants, const PreparedScene &scene, co
         verdict.reasons["divergence"] = divergenceToJson(pixel, divergence);
     }
     if (compared.raysA != compared.raysB)
-        fmt::print("rays         {} and {}: the counts differ\n", compared.raysA.total(),
-                   compared.raysB.total());
-    fmt::print("{}\n", areEqual        ? "equal, bit for bit"
-                       : isWithinShare ? "equal within the tolerance"
-                                       : "NOT equal");
+        printResult("rays         {} and {}: the counts differ\n", compared.raysA.total(),
+                    compared.raysB.total());
+    printResult("{}\n", areEqual        ? "equal, bit for bit"
+                        : isWithinShare ? "equal within the tolerance"
+                                        : "NOT equal");
     return verdict;
 }
 
 void printOutliers(const CompareOptions &options, const Tolerance &tolerance, const Compared &compared) {
     if (!isAgainstOracle(options) && isDefault(tolerance))
         return;
-    fmt::print("outliers     {} pixels ({:.4f} %) {}\n", compared.outliers.size(),
-               compared.outlierShare() * 100.0,
-               isAgainstOracle(options) && isDefault(tolerance) ? "by more than 2/255 as a PNG shows them"
-                                                                : "beyond the tolerance");
+    printResult("outliers     {} pixels ({:.4f} %) {}\n", compared.outliers.size(),
+                compared.outlierShare() * 100.0,
+                isAgainstOracle(options) && isDefault(tolerance) ? "by more than 2/255 as a PNG shows them"
+                                                                 : "beyond the tolerance");
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
+#include "host/base/message.h"
 #include "host/base/version.h"
 #include "host/cli/commands.h"
 #include "host/gpu/arithmetic.h"
@@ -43,9 +44,9 @@ void printKernels(const gpu::DeviceInfo &device) {
     std::string text;
     for (const auto &[workload, kernel] : chosenKernels(device, tuning))
         text += fmt::format("{}{} for {}", text.empty() ? "" : ", ", kernel, workload);
-    fmt::print("   kernel      {}: {}\n", text,
-               tuning.isMeasured() ? "as measured on " + tuning.date
-                                   : "by its type; `hyalite devices --tune` measures");
+    printResult("   kernel      {}: {}\n", text,
+                tuning.isMeasured() ? "as measured on " + tuning.date
+                                    : "by its type; `hyalite devices --tune` measures");
 }
 
 /// Opens the device if it promises nothing.
@@ -60,23 +61,23 @@ std::string equalBitsOf(const gpu::DeviceInfo &device) {
 
 void printTable(const std::vector<gpu::DeviceInfo> &devices) {
     for (const gpu::DeviceInfo &device : devices) {
-        fmt::print("{}  {}\n", device.index, device.name);
-        fmt::print("   type        {}\n", gpu::deviceTypeName(device.type));
-        fmt::print("   driver      {}, Vulkan {}\n", device.driver, device.apiVersion);
-        fmt::print("   memory      {:.0f} MiB, at most {:.0f} MiB in a storage buffer\n",
-                   static_cast<double>(device.deviceMemoryBytes) / bytesPerMebibyte,
-                   static_cast<double>(device.maxStorageBufferBytes) / bytesPerMebibyte);
-        fmt::print("   kernels     subgroups of {}, workgroups of up to {}, timestamps: {}\n",
-                   device.subgroupSize, device.maxWorkgroupInvocations, device.hasTimestamps ? "yes" : "no");
-        fmt::print("   float32     round to nearest even: {}, signed zero, infinity and NaN kept: {}\n",
-                   device.canRoundToNearestEven ? "yes" : "not offered",
-                   device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
-        fmt::print("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
+        printResult("{}  {}\n", device.index, device.name);
+        printResult("   type        {}\n", gpu::deviceTypeName(device.type));
+        printResult("   driver      {}, Vulkan {}\n", device.driver, device.apiVersion);
+        printResult("   memory      {:.0f} MiB, at most {:.0f} MiB in a storage buffer\n",
+                    static_cast<double>(device.deviceMemoryBytes) / bytesPerMebibyte,
+                    static_cast<double>(device.maxStorageBufferBytes) / bytesPerMebibyte);
+        printResult("   kernels     subgroups of {}, workgroups of up to {}, timestamps: {}\n",
+                    device.subgroupSize, device.maxWorkgroupInvocations, device.hasTimestamps ? "yes" : "no");
+        printResult("   float32     round to nearest even: {}, signed zero, infinity and NaN kept: {}\n",
+                    device.canRoundToNearestEven ? "yes" : "not offered",
+                    device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
+        printResult("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
         printKernels(device);
-        fmt::print("   equal bits  {}\n", equalBitsOf(device));
-        fmt::print("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
+        printResult("   equal bits  {}\n", equalBitsOf(device));
+        printResult("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
     }
-    fmt::print("cpu  the reference renderer, without Vulkan\n");
+    printResult("cpu  the reference renderer, without Vulkan\n");
 }
 
 void printJson(const std::vector<gpu::DeviceInfo> &devices) {
@@ -119,7 +120,7 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
     reference["equalBits"] = "promised";
     reference["isUsable"] = true;
     list.push_back(reference);
-    fmt::print("{}", jsonText(list));
+    fmt::print("{}", cleanText(jsonText(list)));
 }
 
 /// Measures the kernels on one device and stores the fastest ones.
@@ -130,22 +131,22 @@ void tune(const std::string &deviceName) {
         static_cast<void>(AtomicFile(file)); // fails now if it cannot be written half a minute later
     const std::vector<KernelRates> all = measureKernels(deviceName);
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
-    fmt::print("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");
+    printResult("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");
     for (const auto &[kernel, choice] : gpu::namedKernels)
-        fmt::print(" {:>12}", kernel);
-    fmt::print("   auto\n");
+        printResult(" {:>12}", kernel);
+    printResult("   auto\n");
     Tuning tuning = readTuning(device);
     tuning.date = today();
     for (const KernelRates &rates : all) {
-        fmt::print("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);
+        printResult("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);
         for (const double rate : rates.megaraysPerSecond)
-            fmt::print(" {:>12.3g}", rate);
+            printResult(" {:>12.3g}", rate);
         const auto &[kernel, choice] = gpu::namedKernels[rates.best];
-        fmt::print("   {}\n", kernel);
+        printResult("   {}\n", kernel);
         tuning.kernels[static_cast<std::size_t>(rates.workload)] = choice;
     }
     storeTuning(device, tuning);
-    fmt::print("\nkept in {}\n", file.string());
+    printResult("\nkept in {}\n", file.string());
 }
 
 struct DevicesOptions {

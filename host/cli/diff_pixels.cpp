@@ -1,5 +1,6 @@
 #include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
+#include "host/base/message.h"
 #include "host/cli/diff_options.h"
 #include "host/cli/options.h"
 #include "host/image/comparison_json.h"
@@ -109,46 +110,47 @@ std::string share(std::uint64_t count, std::uint64_t total) {
 void printTable(const DiffOptions &options, const Inputs &inputs, const ImageComparison &comparison) {
     const PixelMetrics &pixels = comparison.pixels;
     const bool isLinear = comparison.encoding == Encoding::Linear;
-    fmt::print("reference    {}: {} x {}, {}\n", options.reference, inputs.reference.width(),
-               inputs.reference.height(), isLinear ? "linear" : "display-encoded");
-    fmt::print("test         {}\n", options.test);
+    printResult("reference    {}: {} x {}, {}\n", options.reference, inputs.reference.width(),
+                inputs.reference.height(), isLinear ? "linear" : "display-encoded");
+    printResult("test         {}\n", options.test);
     if (!inputs.toneMapped.empty())
-        fmt::print("             {} is linear and was tone-mapped to 8 bits to be compared\n",
-                   inputs.toneMapped);
+        printResult("             {} is linear and was tone-mapped to 8 bits to be compared\n",
+                    inputs.toneMapped);
     if (!options.mask.empty())
-        fmt::print("mask         {}: {} pixels compared\n", options.mask, pixels.pixelCount);
-    fmt::print("differing    {} pixels\n", share(pixels.differingPixelCount, pixels.pixelCount));
+        printResult("mask         {}: {} pixels compared\n", options.mask, pixels.pixelCount);
+    printResult("differing    {} pixels\n", share(pixels.differingPixelCount, pixels.pixelCount));
     if (options.outlierThreshold > 0.0)
-        fmt::print("outliers     {} pixels by more than {:g}\n",
-                   share(pixels.outlierCount, pixels.pixelCount), options.outlierThreshold);
+        printResult("outliers     {} pixels by more than {:g}\n",
+                    share(pixels.outlierCount, pixels.pixelCount), options.outlierThreshold);
     if (pixels.nonFiniteCount > 0)
-        fmt::print("not finite   {} pixels\n", share(pixels.nonFiniteCount, pixels.pixelCount));
+        printResult("not finite   {} pixels\n", share(pixels.nonFiniteCount, pixels.pixelCount));
     if (!pixels.identical()) {
         const glm::vec3 &a = inputs.reference.at(pixels.worstX, pixels.worstY);
         const glm::vec3 &b = inputs.test.at(pixels.worstX, pixels.worstY);
-        fmt::print("largest      {:.6g} at ({}, {}): ({:.9g} {:.9g} {:.9g}) and ({:.9g} {:.9g} {:.9g})\n",
-                   pixels.maxAbsoluteDifference, pixels.worstX, pixels.worstY, a.x, a.y, a.z, b.x, b.y, b.z);
+        printResult("largest      {:.6g} at ({}, {}): ({:.9g} {:.9g} {:.9g}) and ({:.9g} {:.9g} {:.9g})\n",
+                    pixels.maxAbsoluteDifference, pixels.worstX, pixels.worstY, a.x, a.y, a.z, b.x, b.y, b.z);
     }
     if (isLinear)
-        fmt::print("ULP          {} at most\n", pixels.maxUlpDistance);
-    fmt::print("mean         {:.6g} absolute, {:.6g} signed\n", pixels.meanAbsoluteDifference,
-               pixels.meanDifference);
-    fmt::print("MSE          {:.6g}\n", pixels.meanSquaredError);
-    fmt::print("PSNR         {:.4f} dB\n", pixels.psnrDecibels());
-    fmt::print("SSIM         {}\n",
-               comparison.ssim ? fmt::format("{:.6f}", *comparison.ssim) : "not available");
-    fmt::print("{}     mean {:.6f}, weighted median {:.6f}, max {:.6f}\n", isLinear ? "HDR-FLIP" : "FLIP    ",
-               comparison.flip.mean, comparison.flip.weightedMedian, comparison.flip.max);
+        printResult("ULP          {} at most\n", pixels.maxUlpDistance);
+    printResult("mean         {:.6g} absolute, {:.6g} signed\n", pixels.meanAbsoluteDifference,
+                pixels.meanDifference);
+    printResult("MSE          {:.6g}\n", pixels.meanSquaredError);
+    printResult("PSNR         {:.4f} dB\n", pixels.psnrDecibels());
+    printResult("SSIM         {}\n",
+                comparison.ssim ? fmt::format("{:.6f}", *comparison.ssim) : "not available");
+    printResult("{}     mean {:.6f}, weighted median {:.6f}, max {:.6f}\n",
+                isLinear ? "HDR-FLIP" : "FLIP    ", comparison.flip.mean, comparison.flip.weightedMedian,
+                comparison.flip.max);
 }
 
 void printVerdict(const std::vector<Gate> &gates, bool isPassed) {
     for (const Gate &gate : gates)
-        fmt::print("{:<15}{:g}: {}, {:.6g}\n", gate.option, gate.limit, gate.isPassed ? "passed" : "FAILED",
-                   gate.value);
+        printResult("{:<15}{:g}: {}, {:.6g}\n", gate.option, gate.limit, gate.isPassed ? "passed" : "FAILED",
+                    gate.value);
     if (gates.empty())
-        fmt::print("{}\n", isPassed ? "identical" : "not identical");
+        printResult("{}\n", isPassed ? "identical" : "not identical");
     else
-        fmt::print("{}\n", isPassed ? "passed" : "FAILED");
+        printResult("{}\n", isPassed ? "passed" : "FAILED");
 }
 
 std::string formatReport(const DiffOptions &options, const std::string &commandLine, const Inputs &inputs,

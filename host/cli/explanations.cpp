@@ -1,5 +1,6 @@
 #include "host/cli/explanations.h"
 
+#include "host/base/message.h"
 #include "host/reference/explain.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@ namespace hyalite {
 namespace {
 
 void printExplanation(const glm::uvec2 &pixel, const reference::Explanation &why) {
-    fmt::print(
+    printResult(
         "  ({}, {})  {}{}\n", pixel.x, pixel.y, reference::causeName(why.cause),
         why.marginPixels
             ? fmt::format(
@@ -29,15 +30,15 @@ glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel) {
 
 void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &divergence) {
     if (!divergence) {
-        fmt::print(
+        printResult(
             "divergence   pixel ({}, {}): the paths agree in every step; what differs is how work is cut or "
             "summed\n",
             pixel.x, pixel.y);
         return;
     }
-    fmt::print("divergence   pixel ({}, {}), sample {}, bounce {}: {}\n", pixel.x, pixel.y,
-               divergence->sampleIndex, divergence->rayDepth - 1, divergence->quantity);
-    fmt::print("  first      {}\n  second     {}\n", divergence->valueA, divergence->valueB);
+    printResult("divergence   pixel ({}, {}), sample {}, bounce {}: {}\n", pixel.x, pixel.y,
+                divergence->sampleIndex, divergence->rayDepth - 1, divergence->quantity);
+    printResult("  first      {}\n  second     {}\n", divergence->valueA, divergence->valueB);
 }
 
 nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
@@ -70,11 +71,11 @@ std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers) 
             printExplanation(pixel, why);
     }
     if (outliers.size() > maxPrinted)
-        fmt::print("  ...\n");
+        printResult("  ...\n");
     for (std::size_t cause = 0; cause < counts.size(); ++cause)
         if (counts[cause] > 0)
-            fmt::print("  {:<22} {}\n", reference::causeName(static_cast<reference::Cause>(cause)),
-                       counts[cause]);
+            printResult("  {:<22} {}\n", reference::causeName(static_cast<reference::Cause>(cause)),
+                        counts[cause]);
     return unexplained;
 }
 

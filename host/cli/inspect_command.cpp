@@ -1,5 +1,6 @@
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
+#include "host/base/message.h"
 #include "host/base/quantities.h"
 #include "host/bvh/duplicates.h"
 #include "host/bvh/tree_statistics.h"
@@ -30,37 +31,37 @@ using Clock = std::chrono::steady_clock;
 
 void printMeshes(const PreparedScene &prepared) {
     for (const MeshReport &report : prepared.loaded.meshReports) {
-        fmt::print("mesh         {}: {}, {}, {}\n", report.name, countText(report.triangleCount, "triangle"),
-                   countText(report.vertexCount, "vertex", "vertices"),
-                   countText(report.normalCount, "normal"));
+        printResult("mesh         {}: {}, {}, {}\n", report.name, countText(report.triangleCount, "triangle"),
+                    countText(report.vertexCount, "vertex", "vertices"),
+                    countText(report.normalCount, "normal"));
         if (report.instanceCount > 0)
-            fmt::print("  placed     {}\n", countText(report.instanceCount, "time"));
-        fmt::print("  faces      {}, {} of them polygons of more than three corners\n", report.faceCount,
-                   report.polygonCount);
-        fmt::print("  dropped    {}, {}\n", countText(report.degenerateTriangleCount, "degenerate triangle"),
-                   countText(report.unusedStatementCount, "statement that is not geometry",
-                             "statements that are not geometry"));
+            printResult("  placed     {}\n", countText(report.instanceCount, "time"));
+        printResult("  faces      {}, {} of them polygons of more than three corners\n", report.faceCount,
+                    report.polygonCount);
+        printResult("  dropped    {}, {}\n", countText(report.degenerateTriangleCount, "degenerate triangle"),
+                    countText(report.unusedStatementCount, "statement that is not geometry",
+                              "statements that are not geometry"));
         for (const std::string &library : report.lostLibraries)
-            fmt::print("  not read   {}: no such material library in the mesh's folder\n",
-                       cleanText(library));
+            printResult("  not read   {}: no such material library in the mesh's folder\n",
+                        cleanText(library));
         if (report.unknownMaterialCount > 0)
-            fmt::print("  neutral    {}\n",
-                       countText(report.unknownMaterialCount, "material that no library has",
-                                 "materials that no library has"));
-        fmt::print("  repaired   {}\n",
-                   countText(report.lostNormalCount, "triangle without usable normals gets the geometric one",
-                             "triangles without usable normals get the geometric one"));
+            printResult("  neutral    {}\n",
+                        countText(report.unknownMaterialCount, "material that no library has",
+                                  "materials that no library has"));
+        printResult("  repaired   {}\n", countText(report.lostNormalCount,
+                                                   "triangle without usable normals gets the geometric one",
+                                                   "triangles without usable normals get the geometric one"));
     }
 }
 
 void printTree(const PreparedScene &prepared, std::size_t droppedCount, const std::string &fault) {
     const RenderSettings &settings = prepared.loaded.scene.settings;
     const BvhStatistics statistics = measureBvh(prepared.bvh);
-    fmt::print("tree         {}, leaf size {}\n", nameOf(settings.tree), settings.leafSize);
-    fmt::print("  nodes      {} inner, {}, depth {}\n", statistics.innerCount,
-               countText(statistics.leafCount, "leaf", "leaves"), statistics.depth);
-    fmt::print("  leaves     mean {:.2f}, largest {}\n", statistics.meanLeaf,
-               countText(statistics.largestLeaf, "triangle"));
+    printResult("tree         {}, leaf size {}\n", nameOf(settings.tree), settings.leafSize);
+    printResult("  nodes      {} inner, {}, depth {}\n", statistics.innerCount,
+                countText(statistics.leafCount, "leaf", "leaves"), statistics.depth);
+    printResult("  leaves     mean {:.2f}, largest {}\n", statistics.meanLeaf,
+                countText(statistics.largestLeaf, "triangle"));
     std::string histogram;
     for (std::size_t i = 0; i < statistics.leafHistogram.size(); ++i) {
         const bool isLast = i + 1 == statistics.leafHistogram.size();
@@ -68,22 +69,22 @@ void printTree(const PreparedScene &prepared, std::size_t droppedCount, const st
             histogram += fmt::format("  {}{}: {}", isLast ? ">" : "<=", 1u << (isLast ? i - 1 : i),
                                      statistics.leafHistogram[i]);
     }
-    fmt::print("  histogram{}\n", histogram);
+    printResult("  histogram{}\n", histogram);
     if (droppedCount > 0)
-        fmt::print("  dropped    {} with the corners and the material of one before\n",
-                   countText(droppedCount, "triangle"));
-    fmt::print("  SAH cost   {:.2f}\n", statistics.sahCost);
-    fmt::print("  check      {}\n",
-               fault.empty() ? "every triangle in one leaf, every box encloses its subtree" : fault);
+        printResult("  dropped    {} with the corners and the material of one before\n",
+                    countText(droppedCount, "triangle"));
+    printResult("  SAH cost   {:.2f}\n", statistics.sahCost);
+    printResult("  check      {}\n",
+                fault.empty() ? "every triangle in one leaf, every box encloses its subtree" : fault);
 }
 
 void printCosts(const PreparedScene &prepared) {
-    fmt::print("memory       {} bytes of nodes, {} of triangles, {} of normals, {} of the scene in all\n",
-               prepared.packed.nodes.size() * sizeof(layout::NodePair),
-               prepared.packed.triangles.size() * sizeof(layout::TriangleRecord),
-               prepared.packed.normals.size() * sizeof(layout::NormalRecord), prepared.packed.sizeBytes());
-    fmt::print("time         {:.3f} s to load, {:.3f} s to build and pack\n", prepared.loadSeconds,
-               prepared.buildSeconds);
+    printResult("memory       {} bytes of nodes, {} of triangles, {} of normals, {} of the scene in all\n",
+                prepared.packed.nodes.size() * sizeof(layout::NodePair),
+                prepared.packed.triangles.size() * sizeof(layout::TriangleRecord),
+                prepared.packed.normals.size() * sizeof(layout::NormalRecord), prepared.packed.sizeBytes());
+    printResult("time         {:.3f} s to load, {:.3f} s to build and pack\n", prepared.loadSeconds,
+                prepared.buildSeconds);
 }
 
 /// Traces primary rays spread over the image. Returns the hits; `seconds` gets the time.
@@ -124,25 +125,25 @@ bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
     for (std::size_t i = 0; i < treeHits.size(); ++i)
         differenceCount += isSame(treeHits[i], bruteHits[i]) ? 0u : 1u;
     const double rays = rayCount;
-    fmt::print("rays         {} on one thread of the reference renderer\n",
-               countText(static_cast<std::uint64_t>(rayCount), "primary ray"));
+    printResult("rays         {} on one thread of the reference renderer\n",
+                countText(static_cast<std::uint64_t>(rayCount), "primary ray"));
     const bool hasTree = prepared.bvh.depth > 0; // without a tree both are the same
     if (hasTree)
-        fmt::print("  tree       {:.3f} us a ray\n", treeSeconds / rays * 1e6);
-    fmt::print("  brute      {:.3f} us a ray{}\n", bruteSeconds / rays * 1e6,
-               hasTree ? fmt::format(": the tree is {:.1f} times as fast", bruteSeconds / treeSeconds) : "");
-    fmt::print("  hits       {} of {} differ\n", differenceCount, rayCount);
+        printResult("  tree       {:.3f} us a ray\n", treeSeconds / rays * 1e6);
+    printResult("  brute      {:.3f} us a ray{}\n", bruteSeconds / rays * 1e6,
+                hasTree ? fmt::format(": the tree is {:.1f} times as fast", bruteSeconds / treeSeconds) : "");
+    printResult("  hits       {} of {} differ\n", differenceCount, rayCount);
     return differenceCount == 0;
 }
 
 ExitCode runInspect(const InspectOptions &options) {
     const PreparedScene prepared = prepareScene(options.scene, Source::Kept, false);
     const Scene &scene = prepared.loaded.scene;
-    fmt::print("scene        {}\n", prepared.loaded.file.string());
-    fmt::print("contents     {} in {}, {}, {}, {}\n", countText(inputOrder(scene).triangleCount, "triangle"),
-               countText(prepared.loaded.meshReports.size(), "mesh", "meshes"),
-               countText(scene.spheres.size(), "sphere"), countText(scene.lights.size(), "light"),
-               countText(scene.materials.size(), "material"));
+    printResult("scene        {}\n", prepared.loaded.file.string());
+    printResult("contents     {} in {}, {}, {}, {}\n", countText(inputOrder(scene).triangleCount, "triangle"),
+                countText(prepared.loaded.meshReports.size(), "mesh", "meshes"),
+                countText(scene.spheres.size(), "sphere"), countText(scene.lights.size(), "light"),
+                countText(scene.materials.size(), "material"));
     printScene(prepared);
     if (prepared.loaded.outline)
         printOutline(*prepared.loaded.outline);

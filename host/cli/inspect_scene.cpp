@@ -1,6 +1,7 @@
 #include "host/cli/inspect_scene.h"
 
 #include "host/base/clean_text.h"
+#include "host/base/message.h"
 #include "host/base/quantities.h"
 #include "host/scene/instances.h"
 #include "host/scene/names.h"
@@ -36,7 +37,7 @@ template <class Print> void printRows(std::size_t count, const std::string &what
     for (std::size_t i = 0; i < std::min(count, maxRows); ++i)
         print(i);
     if (count > maxRows)
-        fmt::print("             and {} more {}\n", count - maxRows, what);
+        printResult("             and {} more {}\n", count - maxRows, what);
 }
 
 /// A point of the scene in the coordinates of its file.
@@ -70,10 +71,10 @@ void printBounds(const Scene &scene) {
         addMesh(scene.prototypes[instance.prototype],
                 [&](const glm::vec3 &position) { return placedPoint(instance.toWorld, position); });
     if (low.x <= high.x)
-        fmt::print("bounds       {} to {}\n", pointText(scene, low), pointText(scene, high));
+        printResult("bounds       {} to {}\n", pointText(scene, low), pointText(scene, high));
     if (scene.origin != glm::dvec3(0.0))
-        fmt::print("origin       {}: far from zero, so that coordinates are read relative to it\n",
-                   pointText(scene, glm::dvec3(0.0)));
+        printResult("origin       {}: far from zero, so that coordinates are read relative to it\n",
+                    pointText(scene, glm::dvec3(0.0)));
 }
 
 void printCamera(const Scene &scene) {
@@ -85,23 +86,23 @@ void printCamera(const Scene &scene) {
         lens = fmt::format(", {:.6g} wide", camera.viewWidth);
     if (camera.kind == CameraKind::Perspective && camera.aperture > 0.0)
         lens += fmt::format(", aperture {:.6g} in focus at {:.6g}", camera.aperture, camera.focusDistance);
-    fmt::print("camera       {} at {}, looks along {}, up is {}{}; {}x{} pixels\n",
-               nameIn(cameraNames, camera.kind), pointText(scene, camera.position),
-               vectorText(camera.direction), vectorText(camera.up), lens, camera.width, camera.height);
+    printResult("camera       {} at {}, looks along {}, up is {}{}; {}x{} pixels\n",
+                nameIn(cameraNames, camera.kind), pointText(scene, camera.position),
+                vectorText(camera.direction), vectorText(camera.up), lens, camera.width, camera.height);
 }
 
 void printLight(const Scene &scene, const Light &light) {
     const std::string_view kind = nameIn(lightNames, light.kind);
     if (light.kind == LightKind::Directional)
-        fmt::print("light        {} along {}, irradiance {}\n", kind, vectorText(light.direction),
-                   colourText(light.power));
+        printResult("light        {} along {}, irradiance {}\n", kind, vectorText(light.direction),
+                    colourText(light.power));
     else if (light.kind == LightKind::Spot)
-        fmt::print("light        {} at {} along {}, {:.6g} degrees, power {}\n", kind,
-                   pointText(scene, light.position), vectorText(light.direction), light.angleDegrees,
-                   colourText(light.power));
+        printResult("light        {} at {} along {}, {:.6g} degrees, power {}\n", kind,
+                    pointText(scene, light.position), vectorText(light.direction), light.angleDegrees,
+                    colourText(light.power));
     else
-        fmt::print("light        {} at {}, power {}\n", kind, pointText(scene, light.position),
-                   colourText(light.power));
+        printResult("light        {} at {}, power {}\n", kind, pointText(scene, light.position),
+                    colourText(light.power));
 }
 
 /// How many spheres and triangles wear a material.
@@ -145,9 +146,9 @@ void printMaterial(const Scene &scene, const Material &material, const Wearers &
         if (const std::optional<TextureUse> &use = material.textures[slot])
             textures += fmt::format("{}{} {}", textures.empty() ? "; textures: " : ", ", key,
                                     scene.textures[use->textureIndex].name);
-    fmt::print("material     {}\n",
-               cleanText(fmt::format("\"{}\": {}, on {}{}", material.name,
-                                     nameIn(materialNames, material.kind), wearersText(wearers), textures)));
+    printResult("material     {}\n",
+                cleanText(fmt::format("\"{}\": {}, on {}{}", material.name,
+                                      nameIn(materialNames, material.kind), wearersText(wearers), textures)));
 }
 
 void printEmitters(const Scene &scene, const std::vector<Wearers> &wearers) {
@@ -158,10 +159,10 @@ void printEmitters(const Scene &scene, const std::vector<Wearers> &wearers) {
             emitters.push_back(i);
     printRows(emitters.size(), "emitters", [&](std::size_t i) {
         const Material &material = scene.materials[emitters[i]];
-        fmt::print("emitter      {}\n",
-                   cleanText(fmt::format("\"{}\": {} of radiance {}{}", material.name,
-                                         wearersText(wearers[emitters[i]]), colourText(material.emission),
-                                         material.twoSided ? ", on both sides" : "")));
+        printResult("emitter      {}\n",
+                    cleanText(fmt::format("\"{}\": {} of radiance {}{}", material.name,
+                                          wearersText(wearers[emitters[i]]), colourText(material.emission),
+                                          material.twoSided ? ", on both sides" : "")));
     });
 }
 
@@ -180,7 +181,7 @@ void printShapes(const Scene &scene) {
     for (const auto &[name, count] : shapes)
         text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", name, count);
     if (!text.empty())
-        fmt::print("shapes       {}\n", text);
+        printResult("shapes       {}\n", text);
 }
 
 } // namespace
@@ -193,16 +194,16 @@ void printScene(const PreparedScene &prepared) {
     printRows(scene.lights.size(), "lights", [&](std::size_t i) { printLight(scene, scene.lights[i]); });
     printEmitters(scene, wearers);
     if (const Image &sky = scene.environment.radiance; !sky.pixels().empty())
-        fmt::print("environment  {}x{} pixels, scale {:.6g}, turned {:.6g} degrees\n", sky.width(),
-                   sky.height(), scene.environment.scale, scene.environment.rotateDegrees);
+        printResult("environment  {}x{} pixels, scale {:.6g}, turned {:.6g} degrees\n", sky.width(),
+                    sky.height(), scene.environment.scale, scene.environment.rotateDegrees);
     else
-        fmt::print("background   {}\n", colourText(scene.background));
+        printResult("background   {}\n", colourText(scene.background));
     printRows(scene.materials.size(), "materials",
               [&](std::size_t i) { printMaterial(scene, scene.materials[i], wearers[i]); });
     printShapes(scene);
     if (!scene.instances.empty())
-        fmt::print("instances    {} of {}\n", countText(scene.instances.size(), "place"),
-                   countText(scene.prototypes.size(), "mesh", "meshes"));
+        printResult("instances    {} of {}\n", countText(scene.instances.size(), "place"),
+                    countText(scene.prototypes.size(), "mesh", "meshes"));
 }
 
 void printOutline(const GltfOutline &outline) {

@@ -4,6 +4,8 @@
 #include "host/cli/options.h"
 #include "host/cli/render_request.h"
 #include "host/image/png.h"
+#include "host/import/assets.h"
+#include "host/import/file_reach.h"
 #include "host/render/audit.h"
 #include "host/render/film_picture.h"
 #include "host/render/identity.h"
@@ -14,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +33,7 @@ struct MergeOptions {
     std::optional<double> auditPercent;
     std::optional<std::uint32_t> auditSeed;
     RendererNames devices{"auto"};
+    std::vector<std::filesystem::path> allowedPaths;
     bool isQuiet = false;
 };
 
@@ -84,10 +88,25 @@ void requireParts(const Merger &merger, ImageFormat format, const MergeOptions &
                         lack, unusable, listOf(commandsFor(merger, missing))));
 }
 
+/// Throws Error{BadInput} for files of a part's command that the user of `merge` did not allow.
+void requireAllowed(const SceneOptions &scene, const std::vector<std::filesystem::path> &allowedPaths) {
+    const FileReach reach("./part", allowedPaths); // of the working folder
+    for (const std::filesystem::path &file :
+         {resolveScene(scene.scene), std::filesystem::path(scene.environment)})
+        if (!file.empty() && !reach.allows(file))
+            throw Error(
+                ErrorKind::BadInput,
+                fmt::format("--audit: a part names '{}'; allowed: files in the working folder and in the "
+                            "shipped assets",
+                            file.string()),
+                Remedy::AllowPath);
+}
+
 /// Whether all tiles that are drawn have the bits that this machine computes.
 bool passesAudit(const Merger &merger, const MergeOptions &options) {
     RenderRequest request = readRenderRequest(merger.origin().words);
-    request.scene.load.allowedPaths.clear(); // what a file says opens no files beside the scene's
+    request.scene.load.allowedPaths = options.allowedPaths; // what a part says opens no others
+    requireAllowed(request.scene, options.allowedPaths);
     OpenedRenderers opened = openRenderers(options.devices);
     for (const std::string &note : opened.notes)
         printMessage("note: {}\n", note);
@@ -113,14 +132,14 @@ bool passesAudit(const Merger &merger, const MergeOptions &options) {
     const AuditResult result =
         audit(merger, *backend, scene, *options.auditPercent / 100.0, seed, options.isQuiet);
     for (const AuditFinding &finding : result.findings)
-        fmt::print(
+        printResult(
             "part {} of {} has other pixels than this machine computes, {} of the tile at {},{}, first "
             "{},{}: {}\n",
             finding.part, merger.partition().partCount(), finding.differingPixels, finding.tile.x0,
             finding.tile.y0, finding.x, finding.y, merger.describe(finding.part));
     if (!options.isQuiet)
-        fmt::print("audit: {} of {} tiles, rendered again on {}, have other pixels\n", result.findings.size(),
-                   result.tileCount, backend->description());
+        printResult("audit: {} of {} tiles, rendered again on {}, have other pixels\n",
+                    result.findings.size(), result.tileCount, backend->description());
     return result.findings.empty();
 }
 
@@ -129,10 +148,10 @@ nlohmann::ordered_json provenanceOf(const Merger &merger, const std::string &com
     nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(merger.origin().provenance);
     provenance["commandLine"] = commandLine;
     provenance["parts"] = {{"count", merger.partition().partCount()}, {"merged", merger.partCount()}};
-    nlohmann::ordered_json &makers = provenance["parts"]["makers"];
-    makers = nlohmann::ordered_json::object();
+    nlohmann::ordered_json &makers = provenance["parts"]["makers"]; // a list: their names are no keys
+    makers = nlohmann::ordered_json::array();
     for (const auto &[maker, count] : merger.makers())
-        makers[maker] = count;
+        makers.push_back({{"maker", maker}, {"parts", count}});
     return provenance;
 }
 
@@ -170,21 +189,21 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
     requireParts(merger, format, options);
     const std::vector<std::string> &differences = merger.faults().differences;
     for (const std::string &difference : differences)
-        fmt::print("{}\n", difference);
+        printResult("{}\n", difference);
     if (!differences.empty() || (options.auditPercent && !passesAudit(merger, options))) {
-        fmt::print("{} is not written\n", options.output);
+        printResult("{} is not written\n", options.output);
         return ExitCode::AnswerIsNo;
     }
     if (!merger.layers().empty() && format != ImageFormat::Exr)
         printMessage("note: {} has no layers: those of the parts are for .exr files\n", options.output);
     writePicture(file, format, merger, options, commandLine);
     if (!options.isQuiet)
-        fmt::print("{}: {}x{}, {} spp, {} of {} parts, made by {}, {}\n", options.output,
-                   merger.film().crop.width(), merger.film().crop.height(), merger.samplesPerPixel(),
-                   merger.partCount(), merger.partition().partCount(),
-                   merger.makers().size() == 1 ? merger.makers().begin()->first
-                                               : fmt::format("{} makers", merger.makers().size()),
-                   roundedText(merger.rays().total(), "rays"));
+        printResult("{}: {}x{}, {} spp, {} of {} parts, made by {}, {}\n", options.output,
+                    merger.film().crop.width(), merger.film().crop.height(), merger.samplesPerPixel(),
+                    merger.partCount(), merger.partition().partCount(),
+                    merger.makers().size() == 1 ? merger.makers().begin()->first
+                                                : fmt::format("{} makers", merger.makers().size()),
+                    roundedText(merger.rays().total(), "rays"));
     return ExitCode::Ok;
 }
 
@@ -220,6 +239,8 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->capture_default_str();
+    addPaths(*command, "--allow-path", options->allowedPaths,
+             "for --audit: also read this file, or files in this folder; repeatable");
     addToneOption(*command, options->tone);
     command->add_flag("--quiet", options->isQuiet, "print errors, and what differs, only");
     command->callback([options, &context] { context.exitCode = runMerge(*options, context.commandLine); });

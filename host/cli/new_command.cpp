@@ -1,4 +1,5 @@
 #include "host/base/error.h"
+#include "host/base/message.h"
 #include "host/base/shell.h"
 #include "host/cli/commands.h"
 #include "host/cli/first_scene.h"
@@ -54,9 +55,9 @@ void runNew(const std::string &path) {
                     fmt::format("{}: the name of a scene ends in .json; name it {}.json", path, path));
     writeNewFile(path, firstScene);
     const char *const words[] = {path.c_str()};
-    fmt::print("{}: a floor, three objects, a lamp and a sky, to change as you like. Next:\n"
-               "  hyalite render {} -o first.png --tone agx\n",
-               path, shellLine(words));
+    printResult("{}: a floor, three objects, a lamp and a sky, to change as you like. Next:\n"
+                "  hyalite render {} -o first.png --tone agx\n",
+                path, shellLine(words));
 }
 
 } // namespace

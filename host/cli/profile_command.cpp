@@ -1,3 +1,4 @@
+#include "host/base/message.h"
 #include "host/base/quantities.h"
 #include "host/cli/commands.h"
 #include "host/cli/device_options.h"
@@ -45,34 +46,34 @@ double parsePercent(const std::string &option, const std::string &text) {
 
 void printHead(const Profile &profile, const Backend &backend) {
     const Provenance &origin = profile.origin;
-    fmt::print("scene        {}: {}x{}, {} spp, {}, {} of scene data\n", origin.scene, origin.width,
-               origin.height, origin.settings.samplesPerPixel, countText(origin.triangleCount, "triangle"),
-               sizeText(profile.sceneBytes));
-    fmt::print("device       {}\n", backend.description());
+    printResult("scene        {}: {}x{}, {} spp, {}, {} of scene data\n", origin.scene, origin.width,
+                origin.height, origin.settings.samplesPerPixel, countText(origin.triangleCount, "triangle"),
+                sizeText(profile.sceneBytes));
+    printResult("device       {}\n", backend.description());
 }
 
 void printMeasured(const Profile &profile) {
     std::size_t measured = 0;
     for (const Frame &frame : profile.frames)
         measured += frame.isMeasured ? 1u : 0u;
-    fmt::print("verified     {}\n", profile.verification);
-    fmt::print("clock        {}\n", profile.frames.back().timeline.clock);
-    fmt::print("measured     {}, after {} that {} not\n", countText(measured, "frame"),
-               profile.frames.size() - measured, profile.frames.size() - measured == 1 ? "is" : "are");
+    printResult("verified     {}\n", profile.verification);
+    printResult("clock        {}\n", profile.frames.back().timeline.clock);
+    printResult("measured     {}, after {} that {} not\n", countText(measured, "frame"),
+                profile.frames.size() - measured, profile.frames.size() - measured == 1 ? "is" : "are");
     if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
-        fmt::print("memory       {} in buffers on the device\n", sizeText(bytes));
+        printResult("memory       {} in buffers on the device\n", sizeText(bytes));
     for (const std::string &omission : profile.leftOut)
-        fmt::print("left out     by the time limit: {}\n", omission);
-    fmt::print("\n{}", profileTable(profile));
+        printResult("left out     by the time limit: {}\n", omission);
+    fmt::print("\n{}", cleanText(profileTable(profile)));
 }
 
 void printFault(const std::string &fault, const Backend &backend) {
-    fmt::print("NOT verified: {}. Nothing was measured: `hyalite compare` says more, --no-verify measures "
-               "anyway{}\n",
-               fault,
-               backend.bits().degree == gpu::BitDegree::Promised
-                   ? ""
-                   : fmt::format(" (equal bits are not promised here: {})", backend.bits().reason));
+    printResult("NOT verified: {}. Nothing was measured: `hyalite compare` says more, --no-verify measures "
+                "anyway{}\n",
+                fault,
+                backend.bits().degree == gpu::BitDegree::Promised
+                    ? ""
+                    : fmt::format(" (equal bits are not promised here: {})", backend.bits().reason));
 }
 
 /// The baseline's figures and the allowed regression.
@@ -98,13 +99,13 @@ ExitCode judge(const Measurement &measurement, const Baseline &baseline) {
     if (!baseline.figures)
         return ExitCode::Ok;
     if (measurement.isCut()) {
-        fmt::print("\nNOT compared with the baseline: the time limit ended what it is compared with\n");
+        printResult("\nNOT compared with the baseline: the time limit ended what it is compared with\n");
         return ExitCode::AnswerIsNo;
     }
     const Profile &profile = measurement.profile();
     const BaselineComparison comparison =
         compareWithBaseline(*baseline.figures, figuresOf(profile), baseline.maxRegression, baseline.gate);
-    fmt::print("\n{}", comparisonTable(comparison, baseline.maxRegression, baseline.gate));
+    fmt::print("\n{}", cleanText(comparisonTable(comparison, baseline.maxRegression, baseline.gate)));
     return comparison.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 

@@ -130,12 +130,12 @@ void tellSpeed(const RenderReport &report, const std::optional<Part> &part) {
     const std::uint64_t rayCount = report.rays.total() - (report.resumed ? report.resumed->rays.total() : 0);
     const double megaraysPerSecond =
         rayCount > 0 ? static_cast<double>(rayCount) / 1e6 / report.timing.renderSeconds : 0.0;
-    fmt::print("{}: {}{}x{}, {}{} spp, {}{} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
-               part ? fmt::format("part {} of {} of ", part->index, part->count) : "", report.origin.width,
-               report.origin.height, report.finished.isComplete ? "" : "up to ",
-               report.origin.settings.samplesPerPixel, report.resumed ? "resumed, " : "",
-               roundedText(rayCount, "rays"), report.timing.renderSeconds, megaraysPerSecond,
-               megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
+    printResult("{}: {}{}x{}, {}{} spp, {}{} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
+                part ? fmt::format("part {} of {} of ", part->index, part->count) : "", report.origin.width,
+                report.origin.height, report.finished.isComplete ? "" : "up to ",
+                report.origin.settings.samplesPerPixel, report.resumed ? "resumed, " : "",
+                roundedText(rayCount, "rays"), report.timing.renderSeconds, megaraysPerSecond,
+                megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
 }
 
 /// Who of several renderers did how much.
@@ -191,9 +191,9 @@ ExitCode renderOne(const RenderRequest &request, const std::string &commandLine,
     job.resume();
     if (job.isFinishedBefore()) {
         if (!request.isQuiet)
-            fmt::print("{}: {} is finished\n", request.output,
-                       request.part ? fmt::format("part {} of {}", request.part->index, request.part->count)
-                                    : fmt::format("frame {}", *request.frame));
+            printResult("{}: {} is finished\n", request.output,
+                        request.part ? fmt::format("part {} of {}", request.part->index, request.part->count)
+                                     : fmt::format("frame {}", *request.frame));
         return ExitCode::Ok;
     }
     tellWhatIsResumed(job, request);
@@ -245,7 +245,7 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
     Sequence sequence(request, options);
     if (sequence.frames().empty()) {
         if (!request.isQuiet)
-            fmt::print("part {} of {} has no frame\n", request.part->index, request.part->count);
+            printResult("part {} of {} has no frame\n", request.part->index, request.part->count);
         return ExitCode::Ok;
     }
     requireOptionsThatGoTogether(sequence.requestOf(sequence.frames().front()));

@@ -1,5 +1,6 @@
 #include "host/cli/statistical.h"
 
+#include "host/base/message.h"
 #include "host/cli/options.h"
 #include "host/image/exr.h"
 
@@ -32,20 +33,20 @@ WelchResult testAndPrint(const Estimate &a, const Estimate &b, const WelchOption
         throw Error(ErrorKind::BadInput,
                     fmt::format("{}: no pixel can be tested: each needs a variance, of {} samples at least",
                                 names, options.minSampleCount));
-    fmt::print("tests        {} of channels of pixels and of the image, {} untested; significance {:g}\n",
-               result.testCount, result.untestedCount, options.significance);
+    printResult("tests        {} of channels of pixels and of the image, {} untested; significance {:g}\n",
+                result.testCount, result.untestedCount, options.significance);
     const glm::vec3 &meanA = a.mean.at(result.x, result.y);
     const glm::vec3 &meanB = b.mean.at(result.x, result.y);
     const auto deviation = [&](const Estimate &estimate) {
         return std::sqrt(static_cast<double>(estimate.variance.at(result.x, result.y)[result.channel]));
     };
-    fmt::print("largest      |z| = {:.2f} at ({}, {}), {}: {:.6g} +- {:.2g} and {:.6g} +- {:.2g}\n",
-               result.largest, result.x, result.y, "RGB"[result.channel], meanA[result.channel], deviation(a),
-               meanB[result.channel], deviation(b));
-    fmt::print("image        z = {:.2f}, {:.2f}, {:.2f} of the means of R, G, B\n", result.ofImage[0],
-               result.ofImage[1], result.ofImage[2]);
-    fmt::print("failing      {} with |z| above {:.2f}\n", result.failureCount, result.threshold);
-    fmt::print("{}\n", result.isPassed() ? "no difference is significant" : "NOT estimates of one picture");
+    printResult("largest      |z| = {:.2f} at ({}, {}), {}: {:.6g} +- {:.2g} and {:.6g} +- {:.2g}\n",
+                result.largest, result.x, result.y, "RGB"[result.channel], meanA[result.channel],
+                deviation(a), meanB[result.channel], deviation(b));
+    printResult("image        z = {:.2f}, {:.2f}, {:.2f} of the means of R, G, B\n", result.ofImage[0],
+                result.ofImage[1], result.ofImage[2]);
+    printResult("failing      {} with |z| above {:.2f}\n", result.failureCount, result.threshold);
+    printResult("{}\n", result.isPassed() ? "no difference is significant" : "NOT estimates of one picture");
     return result;
 }
 

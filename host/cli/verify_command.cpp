@@ -100,7 +100,7 @@ struct Tally {
 };
 
 void print(const DeviceVerdict &verdict) {
-    fmt::print("{}\n", verdict.description);
+    printResult("{}\n", verdict.description);
     std::vector<std::pair<std::string, Tally>> kernels;
     for (const FilmVerdict &film : verdict.films) {
         if (kernels.empty() || std::ranges::find(kernels, film.kernel, [](const auto &entry) {
@@ -113,16 +113,16 @@ void print(const DeviceVerdict &verdict) {
     }
     for (const auto &[kernel, tally] : kernels) {
         if (tally.rendered > 0)
-            fmt::print("  {:<13} {} of {} films equal, {:.1f} s\n", kernel.empty() ? "cpu" : kernel,
-                       tally.equal, tally.rendered, tally.seconds);
+            printResult("  {:<13} {} of {} films equal, {:.1f} s\n", kernel.empty() ? "cpu" : kernel,
+                        tally.equal, tally.rendered, tally.seconds);
         if (!tally.lack.empty())
-            fmt::print("  {:<13} {}not run: {}\n", kernel, tally.rendered > 0 ? "the others were " : "",
-                       tally.lack);
+            printResult("  {:<13} {}not run: {}\n", kernel, tally.rendered > 0 ? "the others were " : "",
+                        tally.lack);
     }
     for (const FilmVerdict &film : verdict.films)
         if (film.isFaulty())
-            fmt::print("  {}{}: {}\n", nameOf(film.film), film.kernel.empty() ? "" : ", " + film.kernel,
-                       film.difference ? describe(*film.difference) : film.failure);
+            printResult("  {}{}: {}\n", nameOf(film.film), film.kernel.empty() ? "" : ", " + film.kernel,
+                        film.difference ? describe(*film.difference) : film.failure);
 }
 
 /// Throws Error{Usage} for a word that is none of a kernel.
@@ -172,8 +172,8 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
         std::ranges::none_of(subjects, [](const Subject &one) { return one.device.has_value(); }))
         throw Error(ErrorKind::Usage, "--kernels: found --device cpu, which has none to choose from");
     if (!options.isQuiet)
-        fmt::print("{} films of {}, version {}\n", shipped.films.size(),
-                   fmt::join(shipped.sceneNames(), ", "), shipped.version);
+        printResult("{} films of {}, version {}\n", shipped.films.size(),
+                    fmt::join(shipped.sceneNames(), ", "), shipped.version);
 
     std::vector<DeviceVerdict> verdicts;
     for (const Subject &subject : subjects) {
@@ -194,7 +194,7 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
         report->commit();
     }
     const bool isPassed = std::ranges::all_of(verdicts, &DeviceVerdict::isPassed);
-    fmt::print("{}\n", isPassed ? "equal, bit for bit" : "NOT equal");
+    printResult("{}\n", isPassed ? "equal, bit for bit" : "NOT equal");
     return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 

@@ -1,5 +1,10 @@
 #include "host/gpu/processor_use.h"
 
+#include "host/base/clean_text.h"
+#include "host/base/error.h"
+
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -33,6 +38,14 @@ bool maySplitDeeply(const ProcessorUse &use) {
 constexpr const char *width = "LP_NATIVE_VECTOR_WIDTH";
 
 } // namespace
+
+void requireVectorWidth() {
+    const char *const bits = std::getenv(width);
+    const std::string_view found = bits != nullptr ? bits : "";
+    if (!found.empty() && found != "128" && found != "256" && found != "512")
+        throw Error(ErrorKind::Usage, fmt::format("{}: found \"{}\"; allowed: 128, 256 or 512, or unset it",
+                                                  width, excerpt(found)));
+}
 
 void keepWidthsApart() {
     constexpr const char *name = "GALLIVM_PERF";

@@ -16,6 +16,9 @@ struct ProcessorUse {
 /// Whether the processor has vectors of 512 bits.
 [[nodiscard]] bool hasWideVectors();
 
+/// Throws Error{Usage} for a vector width in the environment that lavapipe does not have: Mesa crashes with less than 128.
+void requireVectorWidth();
+
 /// Sets a flag of GALLIVM_PERF by the vector width in the environment. Mesa 25 keeps compiled functions that read textures
 /// in its disk cache without their width, and a kernel of 512 bits that calls those of 256 misses half of its lanes. Flags
 /// are part of the cache's key, and these are about sampling, which kernels here do not use.

@@ -81,15 +81,15 @@ LoadedImage readImage(const std::filesystem::path &path) {
     throw file.bad(foreignContent(file, "it is no PNG, OpenEXR, Radiance (HDR) or PFM file"));
 }
 
-bool isImageWith(const std::filesystem::path &path, const std::string &text) {
+bool isImageWith(const std::filesystem::path &path, const std::string &text, int width, int height) {
     constexpr std::size_t mostBytes = std::size_t{1} << 20;
     try {
         const std::vector<std::byte> head = InputFile(path).head(mostBytes);
         const std::span<const std::byte> wanted = std::as_bytes(std::span(text));
         if (std::search(head.begin(), head.end(), wanted.begin(), wanted.end()) == head.end())
             return false;
-        static_cast<void>(readImage(path));
-        return true;
+        const Image image = readImage(path).image;
+        return image.width() == width && image.height() == height;
     } catch (const Error &) {
         return false;
     }

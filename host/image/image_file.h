@@ -48,8 +48,9 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 /// readingBytesMax.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 
-/// Whether this is a whole image with an attribute of this text, in printable ASCII, which is found in the first MiB. Reads
-/// all of the file: it may have been cut short on its way from another machine.
-[[nodiscard]] bool isImageWith(const std::filesystem::path &path, const std::string &text);
+/// Whether this is a whole image of this size, with an attribute of this text, in printable ASCII, which is found in the
+/// first MiB. Reads all of the file: it may have been cut short on its way from another machine.
+[[nodiscard]] bool isImageWith(const std::filesystem::path &path, const std::string &text, int width,
+                               int height);
 
 } // namespace hyalite

@@ -44,6 +44,14 @@ FileReach FileReach::from(const std::filesystem::path &file) const {
     return reach;
 }
 
+bool FileReach::allows(const std::filesystem::path &file) const {
+    std::error_code error;
+    const std::filesystem::path canonical =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    return !error &&
+           std::ranges::any_of(reachable_, [&](const auto &folder) { return isWithin(canonical, folder); });
+}
+
 std::filesystem::path FileReach::resolve(const JsonNode &node) const { return resolve(node, node.text()); }
 
 std::filesystem::path FileReach::resolve(const JsonNode &node, const std::string &name) const {
@@ -57,9 +65,7 @@ std::filesystem::path FileReach::resolve(const JsonNode &node, const std::string
     const std::filesystem::path canonical = std::filesystem::weakly_canonical(absolute, error);
     if (error)
         node.fail(fmt::format("{}: {}", shown(file), error.message()));
-    const bool isReachable =
-        std::ranges::any_of(reachable_, [&](const auto &folder) { return isWithin(canonical, folder); });
-    if (!isReachable)
+    if (!allows(canonical))
         node.fail(
             fmt::format("{} leads to {}; allowed: files in the scene's folder {} and in the shipped assets",
                         shown(file), shown(canonical), shown(reachable_.front())),

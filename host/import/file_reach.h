@@ -23,6 +23,9 @@ class FileReach {
     /// The same for a name that the node's text stands for.
     [[nodiscard]] std::filesystem::path resolve(const JsonNode &node, const std::string &name) const;
 
+    /// Whether a file is within reach after symbolic links and `..` are resolved; it need not exist.
+    [[nodiscard]] bool allows(const std::filesystem::path &file) const;
+
     /// The same reach for names in a file that the scene names: relative to the folder of that file.
     [[nodiscard]] FileReach from(const std::filesystem::path &file) const;
 

@@ -3,6 +3,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/base/shell.h"
+#include "host/report/provenance.h"
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
@@ -127,6 +128,8 @@ PartOrigin readPartOrigin(std::string_view text) {
         origin.wholeWidth = sideOf(json.at("wholeWidth"));
         origin.wholeHeight = sideOf(json.at("wholeHeight"));
         const nlohmann::ordered_json &provenance = json.at("provenance");
+        if (!hasKnownAttributes(provenance))
+            throw Error(ErrorKind::BadInput, "it says of itself what no render says");
         origin.provenance = provenance.dump();
         const auto integratorOf = [](const nlohmann::ordered_json &word) {
             const auto named = std::ranges::find(integratorNames, word.get<std::string>(),

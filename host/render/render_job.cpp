@@ -101,7 +101,8 @@ void RenderJob::lookForFrame() {
                     settings.samplesPerPixel, settings.exposureStops,
                     static_cast<int>(request_.tone.value_or(ToneCurve::Gamma)));
     frameIdentity_ = hashText(hashBytes(std::as_bytes(std::span(whole))));
-    isFrameThere_ = !image_ && isImageWith(request_.output, frameIdentity_);
+    const Crop &crop = session_.scene().crop;
+    isFrameThere_ = !image_ && isImageWith(request_.output, frameIdentity_, crop.width(), crop.height());
     if (!isFrameThere_ && !image_)
         image_.emplace(request_.output);
 }

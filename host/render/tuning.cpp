@@ -36,8 +36,9 @@ std::optional<fs::path> findFile() {
     };
     if (const std::string folder = valueOf("HYALITE_CACHE"); !folder.empty())
         return fs::path(folder) / "tuning.json";
-    if (const std::string folder = valueOf("XDG_CACHE_HOME"); !folder.empty())
-        return fs::path(folder) / "hyalite/tuning.json";
+    // A relative one is to be passed over (XDG Base Directory Specification 0.8).
+    if (const fs::path folder = valueOf("XDG_CACHE_HOME"); folder.is_absolute())
+        return folder / "hyalite/tuning.json";
     if (const std::string folder = valueOf("HOME"); !folder.empty())
         return fs::path(folder) / ".cache/hyalite/tuning.json";
     return std::nullopt;

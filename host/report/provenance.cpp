@@ -4,6 +4,8 @@
 #include "host/base/version.h"
 #include "host/scene/settings_table.h"
 
+#include <algorithm>
+
 namespace hyalite {
 
 namespace {
@@ -57,6 +59,17 @@ std::vector<Attribute> attributesOf(const nlohmann::ordered_json &provenance) {
     std::vector<Attribute> attributes;
     appendAttributes(attributes, "", provenance);
     return attributes;
+}
+
+bool hasKnownAttributes(const nlohmann::ordered_json &provenance) {
+    Provenance all;
+    all.coordinateOrigin = glm::dvec3(1.0);
+    RendererIdentity renderer;
+    renderer.kernel = "any";
+    const std::vector<Attribute> known = attributesOf(provenanceToJson(all, renderer));
+    return std::ranges::all_of(attributesOf(provenance), [&](const Attribute &attribute) {
+        return std::ranges::find(known, attribute.first, &Attribute::first) != known.end();
+    });
 }
 
 } // namespace hyalite

@@ -45,4 +45,8 @@ struct Provenance {
 /// The same as attributes of an image file: each value by its path, as "device.driver", and the program as "software".
 [[nodiscard]] std::vector<Attribute> attributesOf(const nlohmann::ordered_json &provenance);
 
+/// Whether a provenance, as a file has it, has no other attributes than those above: files would take some names for
+/// their own, such as "tiles" in OpenEXR.
+[[nodiscard]] bool hasKnownAttributes(const nlohmann::ordered_json &provenance);
+
 } // namespace hyalite

@@ -41,6 +41,14 @@ std::map<std::string, std::vector<float>> channelsOf(const std::filesystem::path
     return channels;
 }
 
+/// Of the texts of a PNG.
+std::vector<std::string> keywordsOf(const std::string &png) {
+    std::vector<std::string> keywords;
+    for (std::size_t at = png.find("iTXt"); at != std::string::npos; at = png.find("iTXt", at + 1))
+        keywords.emplace_back(png.c_str() + at + 4);
+    return keywords;
+}
+
 bool areSame(const std::map<std::string, std::vector<float>> &a,
              const std::map<std::string, std::vector<float>> &b) {
     return std::ranges::equal(a, b, [](const auto &one, const auto &other) {
@@ -212,6 +220,47 @@ TEST_F(Parts, AreToldOfInCleanText) {
     });
     const std::string refusal = expectFailure("merge p1.part -o a.pfm", 3, {"'p1.part'", "how it was made"});
     EXPECT_FALSE(contains(refusal, "\x7f")) << refusal;
+}
+
+TEST_F(Parts, NameNoAttributesOfTheirOwn) {
+    renderParts(1);
+    const std::string whole = load("p1.part");
+    const std::string known = "\"triangles\":";
+    for (const std::string name : {"\"tiles\"    :", "\"\"         :", "\"triangle\" :"}) {
+        store("p1.part", whole);
+        change("p1.part", [&](std::string &bytes, std::size_t originBegin, std::size_t) {
+            bytes.replace(bytes.find(known, originBegin), known.size(), name);
+        });
+        expectFailure("merge p1.part -o a.exr", 3, {"p1.part", "what no render says"});
+    }
+    store("p1.part", whole);
+    EXPECT_EQ(run("merge p1.part -o a.png").exitCode, 0);
+    for (const std::string &keyword : keywordsOf(load("a.png")))
+        EXPECT_LE(keyword.size(), 79u) << keyword;
+}
+
+TEST_F(Parts, AreAuditedWithFilesOfTheirUserAlone) {
+    std::filesystem::create_directory(folder / "here");
+    for (const char *file : {"sheet.obj", "sheet.json"})
+        std::filesystem::copy(folder / file, folder / "here");
+    for (const std::string scene : {"../sheet.json", "link.json"}) {
+        std::filesystem::remove(folder / "here/link.json");
+        std::filesystem::create_symlink("../sheet.json", folder / "here/link.json");
+        const auto runInside = [&](const std::string &command) {
+            Surroundings inside;
+            inside.folder = folder / "here";
+            return runProgram(splitWords(command), inside);
+        };
+        const std::string line = " --device cpu" + smallPicture;
+        ASSERT_EQ(runInside("render " + scene + line + " --part 1/1 -o p.part").exitCode, 0);
+        const std::string audit = "merge p.part -o a.pfm --audit 100 --device cpu";
+        const Outcome refused = runInside(audit);
+        EXPECT_EQ(refused.exitCode, 3) << refused;
+        EXPECT_TRUE(contains(refused.errors, "'" + scene + "'") && contains(refused.errors, "--allow-path"))
+            << refused;
+        EXPECT_EQ(runInside(audit + " --allow-path ..").exitCode, 0);
+        std::filesystem::remove(folder / "here/p.part");
+    }
 }
 
 TEST_F(Parts, RefuseWhatIsNotForThem) {

@@ -111,6 +111,22 @@ TEST_F(SequenceFrames, ThatAreMissingOrOtherAreRendered) {
     EXPECT_TRUE(contains(run(line + " --spp 3").output, "f.1.exr: 24x16, 3 spp")); // another picture
 }
 
+TEST_F(SequenceFrames, OfAnotherSizeAreNotTakenForFinished) {
+    store("moving.json", movingScene());
+    const std::string line =
+        "render moving.json --frames 1 -o f.#.png --width 24 --height 16 --spp 2 --resume";
+    ASSERT_EQ(run(line).exitCode, 0);
+    const std::string whole = load("f.1.png");
+    ASSERT_EQ(run("render moving.json -o small.png --width 8 --height 8 --spp 1").exitCode, 0);
+    const std::string small = load("small.png");
+    constexpr std::size_t textsBegin = 8 + 12 + 13; // behind the header
+    const std::size_t textsEnd = whole.find("IDAT") - 4;
+    store("f.1.png", small.substr(0, textsBegin) + whole.substr(textsBegin, textsEnd - textsBegin) +
+                         small.substr(textsBegin));
+    EXPECT_TRUE(contains(run(line).output, "f.1.png: 24x16, 2 spp"));
+    EXPECT_TRUE(load("f.1.png") == whole);
+}
+
 TEST_F(SequenceFrames, AreDealtToParts) {
     store("moving.json", movingScene());
     for (const char *part : {"1/3", "2/3", "3/3"})

@@ -1,6 +1,12 @@
 #include "host/gpu/vk/check.h"
 
+#include "host/base/host_memory.h"
+#include "host/base/quantities.h"
+
 #include <fmt/format.h>
+
+#include <cstdint>
+#include <optional>
 
 namespace hyalite::gpu {
 
@@ -43,6 +49,9 @@ std::string resultName(VkResult result) {
     }
 }
 
+/// Drivers report a lack of address space as any error.
+constexpr std::uint64_t scarceBytes = std::uint64_t{1} << 30;
+
 void check(VkResult result, const std::string &action) {
     switch (result) {
     case VK_SUCCESS:
@@ -57,6 +66,11 @@ void check(VkResult result, const std::string &action) {
     case VK_ERROR_MEMORY_MAP_FAILED:
         throw DeviceFault(ErrorKind::LimitExceeded, fmt::format("{}: {}", action, resultName(result)));
     default:
+        if (const std::optional<std::uint64_t> left = addressSpaceLeft(); left && *left < scarceBytes)
+            throw DeviceFault(
+                ErrorKind::LimitExceeded,
+                fmt::format("{}: {}, where the limit on address space (ulimit -v) leaves {}; raise it",
+                            action, resultName(result), sizeText(*left)));
         throw DeviceFault(ErrorKind::NoDevice, fmt::format("{}: {}", action, resultName(result)));
     }
 }

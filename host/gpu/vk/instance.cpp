@@ -1,7 +1,9 @@
 #include "host/gpu/vk/instance.h"
 
 #include "host/base/error.h"
+#include "host/gpu/processor_use.h"
 #include "host/gpu/vk/check.h"
+#include "host/gpu/vk/driver_environment.h"
 
 #include <fmt/format.h>
 
@@ -69,6 +71,12 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEX
 } // namespace
 
 Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
+    requireVectorWidth();
+    [[maybe_unused]] static const bool isChecked = (requireAddressSpace(), true); // later the driver has its share
+    explainDriverFiles([this] { create(); });
+}
+
+void Instance::create() {
     const bool isValidated = isValidationWanted();
     if (isValidated && !isLayerPresent(validationLayer))
         throw Error(ErrorKind::NoDevice,
@@ -122,7 +130,7 @@ Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
         throw Error(ErrorKind::NoDevice,
-                    "no Vulkan driver is installed: install your GPU's driver, or the package "
+                    "no Vulkan driver can be used: install your GPU's driver, or the package "
                     "mesa-vulkan-drivers, whose lavapipe renders on any CPU");
     check(result, "vkCreateInstance for hyalite");
     handle_ = InstanceHandle(NoParent{}, instance);
@@ -155,7 +163,8 @@ void Instance::abandon() {
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
     std::uint32_t count = 0;
     const char *const action = "vkEnumeratePhysicalDevices for the list of devices";
-    check(vkEnumeratePhysicalDevices(handle_.get(), &count, nullptr), action);
+    // Loaders open their drivers here.
+    explainDriverFiles([&] { check(vkEnumeratePhysicalDevices(handle_.get(), &count, nullptr), action); });
     std::vector<VkPhysicalDevice> devices(count);
     check(vkEnumeratePhysicalDevices(handle_.get(), &count, devices.data()), action);
     devices.resize(count);

@@ -31,6 +31,8 @@ class Instance {
     void throwOnValidationMessage() const;
 
   private:
+    void create();
+
     InstanceHandle handle_;
     bool hasDebugUtils_ = false;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
