@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace hyalite {
@@ -62,7 +64,12 @@ class DocumentCheck : public json::json_sax_t {
         // The bytes that it cites need not be UTF-8.
         std::replace_if(
             what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7F; }, '?');
-        failAtByte(std::max<std::size_t>(position, 1) - 1, excerpt(what, maxSyntaxMessageBytes));
+        const std::size_t offset = std::max<std::size_t>(position, 1) - 1;
+        const bool isComment = offset < text_.size() && (text_[offset] == '/' || text_[offset] == '#');
+        failAtByte(offset, excerpt(what, maxSyntaxMessageBytes) +
+                               (isComment ? "; JSON has no comments, but every object of a scene may have a "
+                                            "\"description\""
+                                          : ""));
     }
 
     /// Throws Error{BadInput} with the line and column of a byte of the text.
@@ -114,6 +121,105 @@ class DocumentCheck : public json::json_sax_t {
     std::vector<Level> levels_;
 };
 
+/// Counts lines up to the last character that was read but one: the parser reads one character beyond a number.
+class CountingIterator {
+  public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char *;
+    using reference = const char &;
+
+    CountingIterator(const char *at, std::size_t *line) : at_(at), line_(line) {}
+    const char &operator*() const { return *at_; }
+    CountingIterator &operator++() {
+        *line_ += isBehindEnd_ ? 1 : 0;
+        isBehindEnd_ = *at_++ == '\n';
+        return *this;
+    }
+    bool operator==(const CountingIterator &other) const { return at_ == other.at_; }
+    bool operator!=(const CountingIterator &other) const { return at_ != other.at_; }
+
+  private:
+    const char *at_;
+    std::size_t *line_;
+    bool isBehindEnd_ = false;
+};
+
+/// Follows a path as far as the document has it.
+class LineFinder : public json::json_sax_t {
+  public:
+    LineFinder(const json::json_pointer &path, const std::size_t &line) : line_(line) {
+        for (json::json_pointer rest = path; !rest.empty(); rest.pop_back())
+            wanted_.insert(wanted_.begin(), rest.back());
+    }
+    [[nodiscard]] std::size_t found() const { return found_; }
+
+    bool null() override { return startValue(); }
+    bool boolean(bool) override { return startValue(); }
+    bool number_integer(number_integer_t) override { return startValue(); }
+    bool number_unsigned(number_unsigned_t) override { return startValue(); }
+    bool number_float(number_float_t, const string_t &) override { return startValue(); }
+    bool string(string_t &) override { return startValue(); }
+    bool binary(binary_t &) override { return startValue(); }
+    bool start_object(std::size_t) override { return open(false); }
+    bool end_object() override { return close(); }
+    bool start_array(std::size_t) override { return open(true); }
+    bool end_array() override { return close(); }
+    bool key(string_t &key) override {
+        levels_.back().step = key;
+        note();
+        return true;
+    }
+    bool parse_error(std::size_t, const std::string &, const json::exception &) override { return false; }
+
+  private:
+    struct Level {
+        bool isArray;
+        std::size_t count = 0;
+        std::string step{}; ///< key, or index
+    };
+
+    bool startValue() {
+        if (!levels_.empty() && levels_.back().isArray) {
+            levels_.back().step = fmt::format("{}", levels_.back().count++);
+            note();
+        }
+        return true;
+    }
+    bool open(bool isArray) {
+        startValue();
+        levels_.push_back({isArray});
+        return true;
+    }
+    bool close() {
+        levels_.pop_back();
+        return true;
+    }
+    void note() {
+        const bool isOnPath =
+            levels_.size() <= wanted_.size() &&
+            std::ranges::equal(levels_, std::span(wanted_).first(levels_.size()), {}, &Level::step);
+        if (isOnPath && levels_.size() > depth_) {
+            depth_ = levels_.size();
+            found_ = line_;
+        }
+    }
+
+    const std::size_t &line_;
+    std::vector<std::string> wanted_;
+    std::vector<Level> levels_;
+    std::size_t depth_ = 0;
+    std::size_t found_ = 1;
+};
+
+std::string joined(const std::vector<JsonFault> &faults) {
+    std::string text;
+    for (const JsonFault &fault : faults)
+        text += (text.empty() ? "" : "\n") + fault.text;
+    return text;
+}
+
 std::string readText(const std::filesystem::path &path) {
     const InputFile file(path);
     if (file.sizeBytes() > maxFileBytes)
@@ -139,10 +245,31 @@ nlohmann::json parseJson(const std::string &text, const std::string &fileName) {
     return json::parse(text);
 }
 
+JsonError::JsonError(std::vector<JsonFault> theFaults, Remedy mayHelp)
+    : Error(ErrorKind::BadInput, joined(theFaults), mayHelp), faults(std::move(theFaults)) {}
+
+std::size_t lineOf(const std::string &text, const json::json_pointer &path) {
+    std::size_t line = 1;
+    LineFinder finder(path, line);
+    json::sax_parse(CountingIterator(text.data(), &line), CountingIterator(text.data() + text.size(), &line),
+                    &finder);
+    return finder.found();
+}
+
+JsonError withLines(const JsonError &error, const std::filesystem::path &file) {
+    const std::string text = readText(file);
+    std::vector<JsonFault> faults = error.faults;
+    const bool hasLines = text.find('\n') < text.find_last_not_of(" \t\r\n");
+    for (JsonFault &fault : faults)
+        if (hasLines && !fault.path.empty())
+            fault.text += fmt::format(" (line {})", lineOf(text, fault.path));
+    return {std::move(faults), error.remedy};
+}
+
 void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path, std::string_view message,
             Remedy remedy) {
     const std::string place = path.empty() ? "the top level" : excerpt(path.to_string());
-    throw Error(ErrorKind::BadInput, fmt::format("{}: {}: {}", fileName, place, message), remedy);
+    throw JsonError({{path, fmt::format("{}: {}: {}", fileName, place, message)}}, remedy);
 }
 
 } // namespace hyalite

@@ -38,6 +38,33 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+/// In lower case, and as the English spell it.
+std::string spelled(std::string_view word) {
+    std::string text(word);
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const auto &[american, english] : {std::pair("color", "colour"), std::pair("center", "centre")})
+        if (const std::size_t at = text.find(american); at != std::string::npos)
+            text.replace(at, std::string_view(american).size(), english);
+    return text;
+}
+
+bool isSynonym(std::string_view word, std::string_view candidate) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 7> synonyms{{{"colour", "albedo"},
+                                                                                     {"basecolour", "albedo"},
+                                                                                     {"albedo", "basecolour"},
+                                                                                     {"colour", "power"},
+                                                                                     {"intensity", "power"},
+                                                                                     {"fov", "horizontalfov"},
+                                                                                     {"samples", "spp"}}};
+    constexpr std::size_t shortest = 3;
+    if (word.size() < shortest || word.size() > 64)
+        return false;
+    const std::pair<std::string, std::string> both(spelled(word), spelled(candidate));
+    return both.second.find(both.first) != std::string::npos ||
+           std::ranges::find(synonyms, std::pair<std::string_view, std::string_view>(both)) != synonyms.end();
+}
+
 } // namespace
 
 void JsonNode::refuse(std::string_view allowed) const {
@@ -114,12 +141,33 @@ std::size_t JsonNode::indexOfName(std::span<const std::string_view> names) const
     return static_cast<std::size_t>(name - names.begin());
 }
 
+void JsonFaults::keep(const Error &error) {
+    constexpr std::size_t maxShown = 20;
+    if (error.kind != ErrorKind::BadInput)
+        throw; // it is being handled
+    if (const auto *const faults = dynamic_cast<const JsonError *>(&error))
+        faults_.insert(faults_.end(), faults->faults.begin(), faults->faults.end());
+    else
+        faults_.push_back({nlohmann::json::json_pointer(), error.what()});
+    remedy_ = remedy_ == Remedy::None ? error.remedy : remedy_;
+    if (faults_.size() >= maxShown) {
+        faults_.resize(maxShown);
+        throwThem();
+    }
+}
+
+void JsonFaults::throwThem() const {
+    if (!faults_.empty())
+        throw JsonError(faults_, remedy_);
+}
+
 JsonObject::JsonObject(JsonNode node) : node_(std::move(node)) {
     if (!node_.value->is_object())
         node_.refuse("an object { }");
 }
 
 void JsonObject::allowOnly(std::span<const std::string_view> keys) const {
+    JsonFaults faults;
     for (const auto &[key, value] : node_.value->items()) {
         if (std::find(keys.begin(), keys.end(), key) != keys.end())
             continue;
@@ -129,8 +177,11 @@ void JsonObject::allowOnly(std::span<const std::string_view> keys) const {
             continue;
         }
         const std::string allowed = keys.empty() ? "none" : quotedList(keys);
-        node.fail(fmt::format("unknown key; allowed: {}{}", allowed, suggestion(key, keys)));
+        faults.collect([&, &word = key] {
+            node.fail(fmt::format("unknown key; allowed: {}{}", allowed, suggestion(word, keys)));
+        });
     }
+    faults.throwThem();
 }
 
 std::optional<JsonNode> JsonObject::find(std::string_view key) const {
@@ -177,6 +228,9 @@ std::vector<std::pair<std::string, JsonNode>> JsonObject::members(std::size_t ma
 
 std::string suggestion(std::string_view word, std::span<const std::string_view> candidates) {
     constexpr std::size_t longestWord = 64; // longer words are not typing errors
+    for (const std::string_view candidate : candidates)
+        if (isSynonym(word, candidate))
+            return fmt::format("; did you mean \"{}\"?", excerpt(candidate));
     std::string_view nearest;
     std::size_t minDistance = std::max<std::size_t>(2, word.size() / 2);
     for (const std::string_view candidate : candidates) {

@@ -5,6 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/base/interval.h"
+#include "host/base/json_document.h"
 
 #include <array>
 #include <glm/vec2.hpp>
@@ -44,6 +45,27 @@ struct JsonNode {
     [[nodiscard]] std::size_t indexOfName(std::span<const std::string_view> names) const; ///< in `names`
 };
 
+/// The faults of a document's independent parts, to tell them all at once.
+class JsonFaults {
+  public:
+    /// Calls `read`, and keeps its Error{BadInput}. Throws all faults when there are too many to show.
+    template <class Read> void collect(const Read &read) {
+        try {
+            read();
+        } catch (const Error &error) {
+            keep(error);
+        }
+    }
+    /// Throws JsonError if there is any.
+    void throwThem() const;
+
+  private:
+    void keep(const Error &error);
+
+    std::vector<JsonFault> faults_;
+    Remedy remedy_ = Remedy::None;
+};
+
 /// An object's members by key. A getter without a fallback demands the key. null is as good as no key, as programs
 /// write it.
 class JsonObject {
@@ -54,7 +76,7 @@ class JsonObject {
         allowOnly(keys);
     }
 
-    /// Throws for a key that is not listed, and suggests the most similar one. Every object may have a "description":
+    /// Throws for keys that are not listed, and suggests the most similar one. Every object may have a "description":
     /// JSON has no comments. It is a text, and is passed over.
     void allowOnly(std::span<const std::string_view> keys) const;
 
@@ -122,7 +144,8 @@ class JsonObject {
     JsonNode node_;
 };
 
-/// `; did you mean "centre"?` for the candidate nearest to `word`, or nothing where none is near.
+/// `; did you mean "centre"?` for the candidate nearest to `word`, or nothing where none is near. A word that other programs
+/// have for a candidate, or that is a part of one, is near.
 [[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> candidates);
 
 /// `"a", "b", "c"`, safe for terminals; `...` after 32 names.

@@ -96,6 +96,10 @@ CameraPath readCameraPath(const JsonObject &object, const Camera &camera) {
 
 Light readLight(const JsonNode &node) {
     const JsonObject object(node);
+    if (const std::optional<JsonNode> type = object.find("type"); type && *type->value == "area")
+        type->refuse("\"point\", \"spot\", \"directional\"; a light with a size is a sphere, shape or mesh "
+                     "whose material "
+                     "has \"emission\"");
     Light light;
     light.kind = object.choice("type", lightNames);
     switch (light.kind) {
@@ -218,18 +222,18 @@ void readKey(const JsonObject &object, std::string_view key, const MetalKey & /*
     material.conductorExtinction = metal.extinction;
 }
 
-Material readMaterial(const std::string &name, const JsonObject &object, const TextureSource &source) {
-    Material material;
-    material.name = name;
+void readMaterial(const JsonObject &object, const TextureSource &source, JsonFaults &faults,
+                  Material &material) {
     material.kind = object.choice("type", materialNames);
     const MaterialRow &row = rowOf(material.kind);
-    object.allowOnly(scene_keys::material(row));
+    faults.collect([&] { object.allowOnly(scene_keys::material(row)); });
     material.roughness = row.defaultRoughness;
     if (row.textures != 0)
-        readTextures(object, row, source, material);
+        faults.collect([&] { readTextures(object, row, source, material); });
     for (const MaterialKey &key : row.keys)
-        std::visit([&](const auto &value) { readKey(object, key.key, value, material); }, key.value);
-    return material;
+        faults.collect([&, &name = key.key] {
+            std::visit([&](const auto &value) { readKey(object, name, value, material); }, key.value);
+        });
 }
 
 template <class Number>
@@ -247,13 +251,14 @@ Value readValue(const JsonObject &object, std::string_view key, const ChoiceSett
     return object.choice(key, choice.names, fallback);
 }
 
-RenderSettings readSettings(const JsonObject &object) {
+RenderSettings readSettings(const JsonObject &object, JsonFaults &faults) {
     RenderSettings settings;
     const auto read = [&](std::string_view key, const auto &value) {
         settings.*value.member = readValue(object, key, value, settings.*value.member);
     };
     for (const Setting &setting : settingsTable)
-        std::visit([&](const auto &value) { read(setting.key, value); }, setting.value);
+        faults.collect(
+            [&] { std::visit([&](const auto &value) { read(setting.key, value); }, setting.value); });
     return settings;
 }
 
@@ -273,25 +278,40 @@ bool speaksOfEmission(const nlohmann::json &document) {
     });
 }
 
-} // namespace
+/// Materials stand by their names if they have faults, so that what refers to them has none.
+void readMaterials(const JsonObject &materials, const TextureSource &source, JsonFaults &faults,
+                   Scene &scene) {
+    for (const auto &[name, node] : materials.members(limits::materialCount)) {
+        Material &material = scene.materials.emplace_back();
+        material.name = name;
+        faults.collect([&, &place = node] { readMaterial(JsonObject(place), source, faults, material); });
+    }
+}
 
-LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &options) {
-    const nlohmann::json document = readJsonFile(file);
+LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::path &file,
+                         const LoadOptions &options) {
     const std::string fileName = file.string();
-    const JsonObject top({&document, &fileName}, scene_keys::top);
+    const JsonObject top{JsonNode{&document, &fileName}};
+    JsonFaults faults;
+    faults.collect([&] { top.allowOnly(scene_keys::top); });
     for (const std::string_view ignored : {"$schema"sv, "description"sv})
-        static_cast<void>(top.text(ignored, ""));
+        faults.collect([&, &key = ignored] { static_cast<void>(top.text(key, "")); });
 
     LoadedScene loaded;
     loaded.file = file;
     Scene &scene = loaded.scene;
     bool hasIntegrator = false;
-    if (const std::optional<JsonObject> settings = top.object("settings", scene_keys::settings)) {
-        hasIntegrator = settings->find("integrator").has_value();
-        scene.settings = readSettings(*settings);
+    faults.collect([&] {
+        const std::optional<JsonNode> node = top.find("settings");
+        if (!node)
+            return;
+        const JsonObject settings(*node);
+        faults.collect([&] { settings.allowOnly(scene_keys::settings); });
+        hasIntegrator = settings.find("integrator").has_value();
+        scene.settings = readSettings(settings, faults);
         scene.shadowThroughGlass = static_cast<float>(
-            settings->number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
-    }
+            settings.number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
+    });
     if (!hasIntegrator && speaksOfEmission(document))
         scene.settings.integrator = Integrator::Path;
     if (options.events.onOutline)
@@ -299,21 +319,33 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &
                                       !top.elements("shapes", limits::meshCount).empty(),
                                   scene.settings});
 
-    scene.background = glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
+    faults.collect([&] {
+        scene.background =
+            glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
+    });
     const FileReach reach(file, options.allowedPaths);
     TextureLibrary textures;
-    if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
-        scene.environment = readEnvironment(*environment, reach, loaded);
-    if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera)) {
-        scene.camera = readCamera(*camera);
-        loaded.cameraPath = readCameraPath(*camera, scene.camera);
+    faults.collect([&] {
+        if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
+            scene.environment = readEnvironment(*environment, reach, loaded);
+    });
+    faults.collect([&] {
+        if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera)) {
+            scene.camera = readCamera(*camera);
+            loaded.cameraPath = readCameraPath(*camera, scene.camera);
+        }
+    });
+    faults.collect([&] {
+        for (const JsonNode &light : top.elements("lights", limits::lightCount))
+            faults.collect([&] { scene.lights.push_back(readLight(light)); });
+    });
+    if (const std::optional<JsonNode> materials = top.find("materials")) {
+        faults.collect([&] { readMaterials(JsonObject(*materials), {reach, textures}, faults, scene); });
+        if (scene.materials.empty()) // what refers to them would have faults of its own
+            faults.throwThem();
     }
-    for (const JsonNode &light : top.elements("lights", limits::lightCount))
-        scene.lights.push_back(readLight(light));
-    if (const std::optional<JsonNode> materials = top.find("materials"))
-        for (const auto &[name, material] : JsonObject(*materials).members(limits::materialCount))
-            scene.materials.push_back(readMaterial(name, JsonObject(material), {reach, textures}));
-    readObjects(top, reach, textures, options.events.onReading, loaded);
+    readObjects(top, reach, textures, options.events.onReading, faults, loaded);
+    faults.throwThem();
     scene.textures = textures.give();
     if (!hasIntegrator) {
         const LightSources sources = lightSourcesOf(scene);
@@ -321,6 +353,17 @@ LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &
             sources.hasEmitters || sources.hasEnvironment ? Integrator::Path : RenderSettings{}.integrator;
     }
     return loaded;
+}
+
+} // namespace
+
+LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &options) {
+    const nlohmann::json document = readJsonFile(file);
+    try {
+        return loadDocument(document, file, options);
+    } catch (const JsonError &error) {
+        throw withLines(error, file);
+    }
 }
 
 namespace scene_keys {

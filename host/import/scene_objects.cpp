@@ -204,15 +204,21 @@ void addMesh(const JsonNode &node, const std::vector<glm::dmat4x3> &instances, P
 } // namespace
 
 void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &textures,
-                 const OnReading &onReading, LoadedScene &loaded) {
+                 const OnReading &onReading, JsonFaults &faults, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
-    for (const JsonNode &sphere : top.elements("spheres", limits::sphereCount))
+    const auto forEach = [&](std::string_view key, std::size_t maxCount, const auto &read) {
+        faults.collect([&] {
+            for (const JsonNode &node : top.elements(key, maxCount))
+                faults.collect([&] { read(node); });
+        });
+    };
+    forEach("spheres", limits::sphereCount, [&](const JsonNode &sphere) {
         scene.spheres.push_back(readSphere({sphere, scene_keys::sphere}, scene.materials));
-    const std::vector<JsonNode> meshes = top.elements("meshes", limits::meshCount);
+    });
     const OnReading onReadingMesh = [&](double share) {
         if (onReading)
             onReading((static_cast<double>(loaded.meshReports.size()) + share) /
-                      static_cast<double>(meshes.size()));
+                      static_cast<double>(top.find("meshes")->value->size()));
     };
     const std::vector<Material> named = scene.materials;
     std::size_t triangleTotal = 0;
@@ -228,13 +234,13 @@ void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &
         }
         return instances.size();
     };
-    for (const JsonNode &node : top.elements("shapes", limits::meshCount)) {
+    forEach("shapes", limits::meshCount, [&](const JsonNode &node) {
         const JsonObject object(node, scene_keys::shape);
         std::vector<PlacedMesh> shape;
         shape.push_back(readShape(object, named));
         add(node, object, std::move(shape));
-    }
-    for (const JsonNode &node : meshes) {
+    });
+    forEach("meshes", limits::meshCount, [&](const JsonNode &node) {
         const JsonObject object(node, scene_keys::mesh);
         MeshFile file = readMeshes(object, named, {reach, textures, onReadingMesh});
         if (!object.find("material"))
@@ -243,7 +249,7 @@ void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &
             overrides->fail("found beside \"material\"; allowed: one of the two");
         file.report.instanceCount = add(node, object, std::move(file.meshes));
         loaded.meshReports.push_back(std::move(file.report));
-    }
+    });
 }
 
 } // namespace hyalite

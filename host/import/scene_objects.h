@@ -9,8 +9,9 @@
 namespace hyalite {
 
 /// Reads the spheres, shapes and meshes of the scene file whose materials `loaded` has, in this order, and the files of
-/// the meshes. `onReading` gets the share of the meshes that is read. Throws as loadSceneFile does.
+/// the meshes. `onReading` gets the share of the meshes that is read. Faults of single objects are
+/// kept in `faults`.
 void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &textures,
-                 const OnReading &onReading, LoadedScene &loaded);
+                 const OnReading &onReading, JsonFaults &faults, LoadedScene &loaded);
 
 } // namespace hyalite

@@ -144,7 +144,15 @@ void overrideSize(const SceneOptions &options, const std::optional<double> &aspe
 void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     RenderSettings &settings = scene.settings;
+    // A mesh without lights of its own is lit by an environment that is given.
+    const bool isLitAround = loaded.autoFramed && loaded.isAutoLit && !options.environment.empty();
+    if (isLitAround)
+        settings.integrator = Integrator::Path;
     overrideSettings(options, settings);
+    if (isLitAround && settings.integrator == Integrator::Path) { // others do not see its light
+        scene.lights.clear();
+        loaded.isAutoLit = false;
+    }
     requireEffect(options.settings, settings.integrator);
     if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
         throw OverrideError("filter", fmt::format("found {} with all samples at the pixel's centre; allowed: "

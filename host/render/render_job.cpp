@@ -126,9 +126,12 @@ void RenderJob::resume() {
         try {
             resumed = resumeCheckpoint(request_.checkpoint, identity, subject);
         } catch (const Error &error) {
-            // Who is told to make a part again need not remove it before; but that of another picture stays. A frame
-            // that has changed begins anew, as it does without a checkpoint.
-            if (!request_.frame && (!request_.part || error.remedy == Remedy::BeginAnew))
+            // A damaged part is overwritten; one of another picture is an error. A frame that has changed begins anew,
+            // as it does without a checkpoint.
+            if (request_.part && error.remedy == Remedy::BeginAnew)
+                throw Error(error.kind, fmt::format("{}; remove {}, or name another --output", error.what(),
+                                                    request_.output));
+            if (!request_.frame && !request_.part)
                 throw;
             checkpointDamage_ = error.what();
         }

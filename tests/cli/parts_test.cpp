@@ -273,7 +273,10 @@ TEST_F(Parts, RefuseWhatIsNotForThem) {
     expectFailure("render sheet.json --device cpu-double -o a.part --part 1/3", 2, {"cpu-double"});
     expectFailure(line + " -o a.part --part 1/300", 2, {"1/300", "80 x 56", "at most 70 parts"});
     ASSERT_EQ(renderPart(1, 3).exitCode, 0);
-    expectFailure(line + " -o p1.part --part 2/3", 3, {"another render", "part: 1/3 there, 2/3 here"});
+    const std::string other =
+        expectFailure(line + " -o p1.part --part 2/3", 3,
+                      {"another render", "part: 1/3 there, 2/3 here", "remove p1.part"});
+    EXPECT_FALSE(contains(other, "--resume")) << other;
     expectFailure("merge p1.part -o p1.part", 2, {});
     expectFailure("merge p1.part -o a.pfm --audit 0", 2, {"--audit"});
     expectFailure("merge p1.part -o a.pfm --audit-seed 3", 2, {"--audit"});

@@ -370,5 +370,17 @@ TEST_F(RenderOptions, APanoramaHasNoFieldOfView) {
     expectFailure("render around.json -o around.pfm --fov 60", 2, {"--fov", "panorama", "perspective"});
 }
 
+TEST_F(RenderOptions, AnEnvironmentLightsABareMeshInPlaceOfLights) {
+    store("square.obj", squareObj());
+    store("white.pfm", std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\x80?\0\0\x80?\0\0\x80?", 12));
+    const std::string line = "square.obj --environment white.pfm --width 8 --height 8 --spp 4 --device cpu";
+    const Image lit = renderImage(line);
+    // Of a white furnace: the square shows its albedo.
+    EXPECT_GT(lit.at(4, 4).x, 0.1f);
+    EXPECT_LT(lit.at(4, 4).x, 0.9f);
+    EXPECT_EQ(renderReport(line).at("settings").at("integrator"), "path");
+    EXPECT_EQ(renderReport(line + " --integrator whitted").at("settings").at("integrator"), "whitted");
+}
+
 } // namespace
 } // namespace hyalite::testing

@@ -478,5 +478,58 @@ TEST_F(SceneJson, EveryObjectMayHaveADescription) {
     EXPECT_NE(refusal(described("7")).find("/description: found 7"), std::string::npos);
 }
 
+TEST_F(SceneJson, AllFaultsAreToldAtOnceWithTheirLines) {
+    const std::string message = refusal(R"({
+  "settings": {"spp": 0, "colr": 1,
+    "seed": -1},
+  "background": [0,
+    1,
+    -2
+  ],
+  "camera": {"fov": 30},
+  "lights": [{"type": "point", "color": 1, "position": [0, 0, 0], "power": 1}, {"type": "area"}],
+  "materials": {
+    "a": {"type": "diffuse",
+          "color": 1,
+          "emission": "x"},
+    "b": {"type": "difuse"}},
+  "spheres": [{"centre": [0, 0, 0], "radius": 1, "material": "b"},
+              {"centre": [0, 0, 0], "radius": -1, "material": "a"}],
+  "meshes": [{"file": "none.obj", "material": "a"}]
+})");
+    const std::vector<std::pair<std::string, std::string>> faults{
+        {" /settings/colr: ", "(line 2)"},
+        {" /settings/spp: found 0", "(line 2)"},
+        {" /settings/seed: found -1", "(line 3)"},
+        {" /background/2: found -2", "(line 6)"},
+        {" /camera/fov: unknown", "did you mean \"horizontalFov\"? (line 8)"},
+        {" /lights/0/color: ", "did you mean \"power\"? (line 9)"},
+        {" /lights/1/type: found \"area\"", "whose material has \"emission\" (line 9)"},
+        {" /materials/a/color: ", "did you mean \"albedo\"? (line 12)"},
+        {" /materials/a/emission: ", "(line 13)"},
+        {" /materials/b/type: ", "did you mean \"diffuse\"? (line 14)"},
+        {" /spheres/1/radius: ", "(line 16)"},
+        {" /meshes/0/file: ", "no such file (line 17)"}};
+    std::istringstream lines(message);
+    for (const auto &[place, end] : faults) {
+        std::string line;
+        ASSERT_TRUE(std::getline(lines, line)) << place;
+        EXPECT_NE(line.find(place), std::string::npos) << line;
+        EXPECT_TRUE(line.ends_with(end)) << line;
+    }
+    EXPECT_TRUE(lines.eof()) << message;
+    json many = {{"spheres", std::vector<json>(100, json::object())}};
+    const std::string bounded = refusal(many.dump());
+    EXPECT_EQ(std::ranges::count(bounded, '\n'), 19) << bounded;
+}
+
+TEST_F(SceneJson, HasNoComments) {
+    for (const std::string text : {"{\n// two\n}", "{\n# two\n}", "{\n/* two */}"}) {
+        const std::string message = refusal(text);
+        EXPECT_TRUE(message.starts_with("2:1: ")) << message;
+        EXPECT_NE(message.find("JSON has no comments"), std::string::npos) << message;
+    }
+}
+
 } // namespace
 } // namespace hyalite
