@@ -39,9 +39,9 @@ void run(std::string_view text) {
         const HeapPeak peak;
         (void)refusalOf([&] {
             TextureLibrary textures;
-            std::vector<std::string> warnings;
+            Losses losses;
             FileFinder files(std::filesystem::canonical(file.parent_path()));
-            for (const Material &material : loadMtl(file, {files, textures, warnings}))
+            for (const Material &material : loadMtl(file, {files, textures, losses}))
                 requireSound(material);
         });
         require(peak.bytes() <= anyFileBytes + 64 * text.size(),

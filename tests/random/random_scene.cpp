@@ -75,10 +75,10 @@ class SceneDrawer {
         const bool isCrowd = plan_ == Plan::Crowd && draws_.chance(0.6);
         const int count = isCrowd ? draws_.whole(66, 140) : draws_.chance(0.5) ? draws_.whole(1, 5) : 0;
         for (int i = 0; i < count; ++i)
-            scene_["lights"].push_back(drawLightSource());
+            scene_["lights"].push_back(drawLightSource(static_cast<std::size_t>(i)));
     }
 
-    json drawLightSource() {
+    json drawLightSource(std::size_t index) {
         const auto &[name, kind] = draws_.oneOf(lightNames);
         json light{{"type", name}};
         const auto direction = [&] {
@@ -99,7 +99,8 @@ class SceneDrawer {
         if (kind == LightKind::Spot) {
             light["angle"] = draws_.number(limits::spotAngle);
             light["blend"] = draws_.number(limits::fraction);
-            light["fade"] = draws_.oneOf(spotFadeNames).first;
+            light["fade"] =
+                spotFadeNames[index % spotFadeNames.size()].first; // seeds keep the rest of their scenes
         }
         return light;
     }
