@@ -125,7 +125,8 @@ std::optional<std::string> diagnoseLight(const Scene &scene) {
     return std::nullopt;
 }
 
-std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Film &film) {
+std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Film &film,
+                                           const RayCounts &rays) {
     constexpr double toleratedShare = 0.01;
     std::size_t wrongCount = 0;
     bool isBlack = true;
@@ -143,6 +144,11 @@ std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Fil
     const bool isKnown = diagnoseLight(scene.loaded.scene).has_value(); // and was said before the render
     if (isBlack && showsLight(scene.loaded.scene.settings.integrator) && !isKnown)
         return "the picture is black: " + reasonOfBlack(scene);
+    const bool mayMeetNothing = rays.total() == rays.primary && !isKnown && hasSurfaces(scene.loaded.scene);
+    if (mayMeetNothing && lookAround(scene.packed, scene.crop).hitCount == 0)
+        return "no primary ray met anything: the picture shows what is around the scene alone; move the "
+               "camera, or "
+               "point it with --look-at";
     return std::nullopt;
 }
 

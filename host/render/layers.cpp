@@ -1,11 +1,12 @@
 #include "host/render/layers.h"
 
 #include "host/film/partition.h"
+#include "host/reference/closest_hit.h"
 #include "host/report/render_report.h"
-
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 
@@ -16,6 +17,30 @@ namespace {
 /// The normal of a colour in the normal view.
 glm::vec3 normalOf(const glm::vec3 &colour) {
     return colour == glm::vec3(0.0f) ? colour : 2.0f * colour - 1.0f;
+}
+
+/// Makes planar depths of distances along rays, but in a panorama, which has no plane. `begun` has pixels whose depths are
+/// planar already, or is null.
+void flattenDepths(const PreparedScene &scene, const Film *begun, Film &film) {
+    constexpr float ofNothing = 1e10f; // as Blender writes
+    const reference::SceneView<float> view(scene.packed, layout::samplerCentre);
+    const bool isFlat = scene.loaded.scene.camera.kind != CameraKind::Panorama;
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(scene.packed.frame.imagePlane));
+    const auto width = static_cast<std::size_t>(film.crop.width());
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        layout::FilmPixel &pixel = film.pixels[i];
+        if (pixel.sampleCount == 0 || (begun != nullptr && begun->pixels[i].sampleCount > 0))
+            continue;
+        const glm::uvec2 place(static_cast<std::size_t>(film.crop.x0) + i % width,
+                               static_cast<std::size_t>(film.crop.y0) + i / width);
+        const double along =
+            isFlat ? glm::dot(glm::dvec3(reference::primaryRay(view, place, 0).direction), forward) : 1.0;
+        const float distance = pixel.sum.x; // of the only sample
+        const float depth = distance == 0.0f ? ofNothing : static_cast<float>(double{distance} * along);
+        pixel.sum = glm::vec3(depth);
+        pixel.sumOfSquares = glm::vec3(depth * depth);
+        pixel.sumRest = pixel.squaresRest = glm::vec3(0.0f);
+    }
 }
 
 Layer layerOf(const ViewFilm &of) {
@@ -75,6 +100,8 @@ std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
             if (result.failure)
                 throw Error(*result.failure);
             film = std::move(result.film);
+            if (view == Integrator::Depth)
+                flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr, film);
         }
         films.push_back({view, std::move(film)});
         settings = ofImage;

@@ -23,7 +23,8 @@ inline constexpr std::array<Integrator, 4> layerViews{Integrator::Albedo, Integr
 /// depths or normals belongs to no surface.
 [[nodiscard]] int samplesOfView(Integrator view, int samplesPerPixel);
 
-/// Renders the views of `scene`, and restores its settings. Pixels outside of the squares stay black; empty: there are
+/// Renders the views of `scene`, and restores its settings. Depths become planar, along the view direction, and 1e10 where
+/// nothing is met, as compositors have them; in a panorama they stay distances. Pixels outside of the squares stay black; empty: there are
 /// none. `begun` are films of the first views that have some samples, as of a render that was stopped. When `shouldStop`
 /// returns true, the rest gets no samples.
 [[nodiscard]] std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
@@ -31,8 +32,8 @@ inline constexpr std::array<Integrator, 4> layerViews{Integrator::Albedo, Integr
                                                 std::span<const Crop> squares, std::span<const Film> begun,
                                                 bool isQuiet, const std::function<bool()> &shouldStop);
 
-/// "albedo" RGB, "normal" XYZ of unit length, "depth" and "id" RGB, for the films that exist; all 0 where a ray leaves
-/// the scene. `films` must outlive the layers.
+/// "albedo" RGB, "normal" XYZ of unit length, "depth" and "id" RGB, for the films that exist; all but depths
+/// are 0 where a ray leaves the scene. `films` must outlive the layers.
 [[nodiscard]] std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films);
 
 } // namespace hyalite

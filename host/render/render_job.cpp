@@ -305,8 +305,9 @@ void RenderJob::writeReport() {
 }
 
 std::optional<std::string> RenderJob::diagnosis() const {
-    return report_.finished.isComplete && !request_.part ? diagnosePicture(session_.scene(), *film_)
-                                                         : std::nullopt;
+    return report_.finished.isComplete && !request_.part
+               ? diagnosePicture(session_.scene(), *film_, report_.rays)
+               : std::nullopt;
 }
 
 void RenderJob::throwFailure() const {

@@ -46,6 +46,14 @@ TEST_F(DarkPictures, NothingIsSaidOfALitScene) {
     EXPECT_EQ(warningsOf(onlyBall, " --quiet"), "");
 }
 
+TEST_F(DarkPictures, NothingIsInView) {
+    const std::string away = " --camera-position 0,0,50 --look-at 0,0,100";
+    for (const char *integrator : {"path", "whitted", "normal"})
+        expectWarning("no primary ray met anything", lit + ", \"background\": 1",
+                      away + " --integrator " + integrator);
+    EXPECT_EQ(warningsOf("\"background\": 1"), "") << "there is nothing to meet";
+}
+
 TEST_F(DarkPictures, NothingLightsThisScene) {
     expectWarning("nothing lights this scene", onlyBall);
     expectWarning("nothing lights this scene", onlyBall, " --integrator path");

@@ -78,7 +78,6 @@ TEST_F(RenderOutput, LayersAreTheViews) {
             ASSERT_EQ(found.pixels()[i], wanted.pixels()[i]) << layer << ", pixel " << i;
     };
     expectSame("albedo", " --spp 2");
-    expectSame("depth", " --spp 1 --sampler centre");
     expectSame("id", " --spp 1 --sampler centre");
     EXPECT_TRUE(hasExrLayer(file, "normal"));
     EXPECT_TRUE(hasExrLayer(file, "Z")) << "the depth, as compositors know it";
@@ -87,6 +86,49 @@ TEST_F(RenderOutput, LayersAreTheViews) {
     // The image is the one without layers.
     ASSERT_EQ(run("render cat -o b.exr --spp 2" + size).exitCode, 0);
     EXPECT_TRUE(std::ranges::equal(readExr(file).pixels(), readExr(InputFile(folder / "b.exr")).pixels()));
+}
+
+TEST_F(RenderOutput, TheLayerOfDepthsIsPlanar) {
+    store("square.obj", squareObj());
+    for (const std::string camera : {R"("position": [0, 0, 10], "horizontalFov": 30)",
+                                     R"("position": [0, 0, 10], "horizontalFov": 30, "aperture": 2)",
+                                     R"("position": [0, 0, 10], "type": "orthographic", "viewWidth": 5)"}) {
+        store("square.json", R"({"camera": {)" + camera + R"(}, "materials": {"m": {"type": "mirror"}},
+                                "meshes": [{"file": "square.obj", "material": "m"}]})");
+        ASSERT_EQ(
+            run("render square.json -o a.exr --spp 2 --layers depth --width 24 --height 18 --device cpu")
+                .exitCode,
+            0);
+        int hitCount = 0;
+        const Image depths = readExr(InputFile(folder / "a.exr"), "depth");
+        for (const glm::vec3 &pixel : depths.pixels()) {
+            if (pixel.x == 1e10f)
+                continue;
+            EXPECT_NEAR(pixel.x, 10.0f, 1e-5f) << camera;
+            ++hitCount;
+        }
+        EXPECT_GT(hitCount, 20) << camera;
+        EXPECT_LT(hitCount, 400) << camera;
+        for (const char *part : {"1/2", "2/2"})
+            ASSERT_EQ(run("render square.json -o " + std::string(part).substr(0, 1) + ".part --part " + part +
+                          " --spp 2 --layers depth --width 24 --height 18 --device cpu")
+                          .exitCode,
+                      0);
+        ASSERT_EQ(run("merge 1.part 2.part -o merged.exr").exitCode, 0);
+        EXPECT_TRUE(readExr(InputFile(folder / "merged.exr"), "depth").pixels() == depths.pixels());
+        std::filesystem::remove(folder / "1.part");
+        std::filesystem::remove(folder / "2.part");
+    }
+    // In a panorama there is no plane: distances.
+    store("around.json",
+          R"({"camera": {"type": "panorama", "position": [0, 0, 10]}, "materials": {"m": {"type": "mirror"}},
+                            "spheres": [{"centre": [0, 0, 10], "radius": 4, "material": "m"}]})");
+    ASSERT_EQ(run("render around.json -o b.exr --spp 1 --layers depth --width 24 --height 18 --device cpu")
+                  .exitCode,
+              0);
+    const Image distances = readExr(InputFile(folder / "b.exr"), "depth");
+    for (const glm::vec3 &pixel : distances.pixels())
+        EXPECT_NEAR(pixel.x, 4.0f, 1e-4f);
 }
 
 TEST_F(RenderOutput, LayersThatCannotBeAreRefused) {
