@@ -3,7 +3,6 @@
 
 #include "host/render/prepare.h"
 
-
 namespace hyalite {
 
 /// On standard output. Of lists at most 32 rows.

@@ -406,9 +406,10 @@ struct LightRecord {
     uint kind;
     // radiant intensity, power / (4 pi), of a spot on its axis; irradiance of a directional light
     vec3 intensity;
-    float cosineOuter;  // of a spot: it is dark beyond this angle to its axis
-    vec3 axis;          // unit direction in which light leaves
-    float falloffScale; // of a spot: 1 / (cosine where it begins to fade - cosineOuter); negative: it fades by a square
+    float cosineOuter; // of a spot: it is dark beyond this angle to its axis
+    vec3 axis;         // unit direction in which light leaves
+    float
+        falloffScale; // of a spot: 1 / (cosine where it begins to fade - cosineOuter); negative: it fades by a square
 };
 
 // Emitters: targets of the path integrator's shadow rays. Each shadow ray chooses one, with a probability in proportion

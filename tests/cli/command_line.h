@@ -15,6 +15,9 @@
 
 namespace hyalite::testing {
 
+/// Too short for any work, and so the render ends with the least that it can do.
+inline const std::string atOnce = " --time-limit 1e-6";
+
 /// A test with an empty folder, which is the working directory of the commands and vanishes afterwards.
 class CommandLine : public ::testing::Test {
   protected:

@@ -45,8 +45,6 @@ class RenderCheckpoint : public CommandLine {
 
 const std::string smallResumed = " --width 24 --height 16 --spp 3";
 const std::string files = " -o a.pfm --report report.json --checkpoint c";
-/// Too short for any work, and so the render ends with the least that it can do.
-const std::string atOnce = " --time-limit 1e-6";
 
 TEST_F(RenderCheckpoint, IsOfOneRenderAtATime) {
     const std::string line = "render spheres" + smallResumed + files + " --device cpu";

@@ -55,8 +55,6 @@ const char *nameOf(int signal) {
 const std::string manyTiles = " --width 2048 --height 2048 --spp 4";
 /// Hours of work.
 const std::string endlessStopped = " --width 512 --height 512 --spp 65536 --device cpu";
-/// Too short for any work, and so the render ends with the least that it can do.
-const std::string atOnce = " --time-limit 1e-6";
 
 TEST_F(RenderStop, ASignalWritesWhatTheDeviceHasFinished) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {

@@ -211,7 +211,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"{\"background\": 1e999}", "1:20: ", "number overflow"},
         Refusal{"{} {}", "1:4: ", "unexpected '{'"}, //
         Refusal{"{\"\xFF\": 1}", "1:3: ", "ill-formed UTF-8"},
-        Refusal{"version https://git-lfs.github.com/spec/v1\n", " this is not JSON; ", "a pointer of Git LFS"},
+        Refusal{"version https://git-lfs.github.com/spec/v1\n", " this is not JSON; ",
+                "a pointer of Git LFS"},
         // keys
         Refusal{"[]", " the top level: ", "found an array of 0; allowed: an object"},
         Refusal{R"({"sphere": []})", " /sphere: ", "did you mean \"spheres\"?"},
