@@ -219,7 +219,6 @@ CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, const Rend
                         "are allowed: the command line is too long",
                         path_.string(), std::max(identity_.size(), subject_.origin.size()), maxTextBytes));
     requireWritableCheckpoint(path_);
-    requireOwnCheckpoint(path_);
 }
 
 void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<const Film *const> layers) {

@@ -77,7 +77,7 @@ void requireOwnCheckpoint(const std::filesystem::path &path);
 class CheckpointWriter {
   public:
     /// `isNewestWhole`: `path` is a readable checkpoint of this render, which then becomes the older generation. Throws
-    /// Error{OutputNotWritten} if `path` cannot be written, or is not a checkpoint.
+    /// Error{OutputNotWritten} if `path` cannot be written.
     CheckpointWriter(const std::filesystem::path &path, const RenderIdentity &identity,
                      CheckpointSubject subject, bool isNewestWhole);
 

@@ -1,4 +1,3 @@
-#include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/image/exr.h"
 
@@ -77,7 +76,7 @@ Imf::Header headerOf(const Picture &picture, const std::vector<Layer> &layers) {
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::addChromaticities(header, Imf::Chromaticities()); // Rec. 709
     for (const auto &[name, text] : picture.attributes)
-        header.insert(name, Imf::StringAttribute(cleanText(text)));
+        header.insert(name, Imf::StringAttribute(text));
     for (const Layer &layer : layers)
         for (const std::string &name : channelNames(layer))
             header.channels().insert(name, Imf::Channel(Imf::FLOAT));

@@ -44,8 +44,6 @@ RenderJob::RenderJob(const RenderRequest &request, const std::string &commandLin
         reportFile_.emplace(request_.report);
     if (!request_.checkpoint.empty()) {
         requireWritableCheckpoint(request_.checkpoint);
-        if (!request_.isResuming) // else reading it says what it is
-            requireOwnCheckpoint(request_.checkpoint);
         checkpointLock_.emplace(request_.checkpoint);
     }
     report_.origin.commandLine = commandLine;
@@ -135,6 +133,7 @@ void RenderJob::resume() {
                 throw;
             checkpointDamage_ = error.what();
         }
+    requireOwnCheckpoint(request_.checkpoint);
     // Without a resumed checkpoint, the existing file belongs to another render and may be lost with the second
     // generation.
     checkpoint_.emplace(request_.checkpoint, identity, subject,

@@ -1,5 +1,6 @@
 #include "host/report/provenance.h"
 
+#include "host/base/clean_text.h"
 #include "host/base/hash.h"
 #include "host/base/version.h"
 #include "host/scene/settings_table.h"
@@ -18,7 +19,7 @@ void appendAttributes(std::vector<Attribute> &attributes, const std::string &pat
         return;
     }
     attributes.emplace_back(path == "program" ? "software" : path,
-                            value.is_string() ? value.get<std::string>() : value.dump());
+                            cleanText(value.is_string() ? value.get<std::string>() : value.dump()));
 }
 
 } // namespace

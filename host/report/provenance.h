@@ -43,6 +43,7 @@ struct Provenance {
 [[nodiscard]] nlohmann::ordered_json rendererToJson(const RendererIdentity &renderer);
 
 /// The same as attributes of an image file: each value by its path, as "device.driver", and the program as "software".
+/// Texts are clean: names may have control characters.
 [[nodiscard]] std::vector<Attribute> attributesOf(const nlohmann::ordered_json &provenance);
 
 /// Whether a provenance, as a file has it, has no other attributes than those above: files would take some names for
