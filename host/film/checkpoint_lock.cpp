@@ -49,8 +49,8 @@ std::optional<std::string> ownerIn(int descriptor) {
     if (!text.starts_with(mark) || !text.ends_with('\n'))
         return std::nullopt;
     const std::string_view owner = text.substr(mark.size(), text.size() - mark.size() - 1);
-    return owner.find_first_not_of("0123456789") == owner.npos ? std::optional(std::string(owner))
-                                                               : std::nullopt;
+    return owner.find_first_not_of("0123456789") == std::string_view::npos ? std::optional(std::string(owner))
+                                                                           : std::nullopt;
 }
 
 void writeOwner(int descriptor, const std::filesystem::path &path) {

@@ -157,7 +157,7 @@ Layout parseLayout(const InputFile &file, const std::string &line) {
     std::array<char, 2> sign{};
     std::array<char, 2> axis{};
     int length = 0;
-    if (std::sscanf(line.c_str(), "%c%c %6d %c%c %6d%n", &sign[0], &axis[0], &layout.rowCount, &sign[1],
+    if (std::sscanf(line.c_str(), "%c%c %6d %c%c %6d%n", sign.data(), axis.data(), &layout.rowCount, &sign[1],
                     &axis[1], &layout.rowLength, &length) != 6 ||
         static_cast<std::size_t>(length) != line.size() || (axis[0] == 'Y') == (axis[1] == 'Y') ||
         (axis[0] != 'Y' && axis[0] != 'X') || (axis[1] != 'Y' && axis[1] != 'X') ||

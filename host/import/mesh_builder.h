@@ -67,7 +67,7 @@ class MeshBuilder {
     void setMaterial(std::uint32_t index);
 
     /// Sets the colour of the following faces, linear, in [0, 1]; it counts where vertices have none.
-    void setFaceColour(const glm::vec3 &colour);
+    void setFaceColour(const glm::vec3 &linear);
 
     [[nodiscard]] MeshReport &report() { return result.report; }
 

@@ -159,8 +159,8 @@ Attributes readAttributes(Buffers &buffers, const JsonNode &node) {
     for (const auto &[name, member] : JsonObject(node).members(1024)) {
         // Of programs' own, whose names begin with _, nobody else knows the meaning.
         if (!isRead(name) && !name.starts_with('_'))
-            buffers.document().losses().add("attribute", [&] {
-                return fmt::format("{}: {}: left out", *member.fileName, member.path.to_string());
+            buffers.document().losses().add("attribute", [&, &unread = member] {
+                return fmt::format("{}: {}: left out", *unread.fileName, unread.path.to_string());
             });
         attributes.emplace(name, Accessor(buffers, buffers.document().reference(member, "accessors")));
     }
