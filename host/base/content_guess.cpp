@@ -1,5 +1,6 @@
 #include "host/base/content_guess.h"
 
+#include "host/base/letter_case.h"
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -37,16 +38,20 @@ constexpr Signature signatures[] = {
 };
 
 bool isWebPage(std::string_view text) {
-    text.remove_prefix(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+    text.remove_prefix(byteOrderMarkBytes(text));
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     const auto begins = [&](std::string_view tag) {
-        return std::ranges::equal(text.substr(0, tag.size()), tag, {},
-                                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        return lowerCase(text.substr(0, tag.size())) == lowerCase(tag);
     };
     return begins("<!doctype html") || begins("<html");
 }
 
 } // namespace
+
+std::size_t byteOrderMarkBytes(std::span<const char> head) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    return std::string_view(head.data(), head.size()).starts_with(mark) ? mark.size() : 0;
+}
 
 std::string guessBySignature(std::span<const char> head) {
     const std::string_view text(head.data(), head.size());

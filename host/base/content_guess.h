@@ -9,6 +9,9 @@
 
 namespace hyalite {
 
+/// The size of a byte order mark of UTF-8 at the beginning: 3, or 0 without one.
+[[nodiscard]] std::size_t byteOrderMarkBytes(std::span<const char> head);
+
 /// What the first bytes of a file look like, with a remedy: "gzip data: unpack it first (gunzip)". Empty for plain
 /// text, which has hardly any control characters.
 [[nodiscard]] std::string guessContent(std::span<const char> head);

@@ -25,12 +25,9 @@ constexpr std::uint64_t maxFileBytes = std::uint64_t{512} << 20;
 constexpr std::size_t maxNesting = 32;
 constexpr std::size_t maxSyntaxMessageBytes = 300;
 
-/// Walks through the text once and checks what a document cannot tell any more: the syntax with its place,
-/// the nesting before it costs memory, and keys given twice (of which the parser keeps the last).
-class DocumentCheck : public json::json_sax_t {
+/// Walks through a text once, and knows where it is.
+class DocumentWalk : public json::json_sax_t {
   public:
-    DocumentCheck(const std::string &fileName, const std::string &text) : fileName_(fileName), text_(text) {}
-
     bool null() override { return startValue(); }
     bool boolean(bool) override { return startValue(); }
     bool number_integer(number_integer_t) override { return startValue(); }
@@ -42,14 +39,64 @@ class DocumentCheck : public json::json_sax_t {
     bool end_object() override { return close(); }
     bool start_array(std::size_t) override { return open(true); }
     bool end_array() override { return close(); }
-
     bool key(string_t &key) override {
-        Level &level = levels_.back();
-        level.key = key;
-        if (!level.keys.insert(key).second)
-            failAt(fileName_, path(), "the key is given twice");
+        levels_.back().key = key;
+        onStep();
         return true;
     }
+
+  protected:
+    struct Level {
+        bool isArray;
+        std::size_t begunCount = 0; ///< number of elements of an array so far
+        std::string key{};          ///< last key of an object
+        std::unordered_set<std::string> keys{};
+    };
+
+    /// A key, or an element of an array, begins: the last of the levels.
+    virtual void onStep() = 0;
+    /// An object or an array begins, whose level does not exist yet.
+    virtual void onNesting() {}
+
+    [[nodiscard]] std::vector<Level> &levels() { return levels_; }
+    [[nodiscard]] json::json_pointer path() const {
+        json::json_pointer path;
+        for (const Level &level : levels_) {
+            if (level.isArray)
+                path /= level.begunCount - 1;
+            else
+                path /= level.key;
+        }
+        return path;
+    }
+
+  private:
+    bool startValue() {
+        if (!levels_.empty() && levels_.back().isArray) {
+            ++levels_.back().begunCount;
+            onStep();
+        }
+        return true;
+    }
+    bool open(bool isArray) {
+        startValue();
+        onNesting();
+        levels_.push_back({isArray});
+        return true;
+    }
+    bool close() {
+        levels_.pop_back();
+        return true;
+    }
+
+    std::vector<Level> levels_;
+};
+
+/// Checks what a document cannot tell any more: the syntax with its place,
+/// the nesting before it costs memory, and keys given twice (of which the parser keeps the last).
+class DocumentCheck : public DocumentWalk {
+  public:
+    DocumentCheck(const std::string &fileName, const std::string &text) : fileName_(fileName), text_(text) {}
 
     /// `position` counts the bytes read, the last of which is at fault.
     bool parse_error(std::size_t position, const std::string &, const json::exception &error) override {
@@ -82,43 +129,18 @@ class DocumentCheck : public json::json_sax_t {
     }
 
   private:
-    struct Level {
-        bool isArray;
-        std::size_t begunCount = 0; ///< number of elements of an array so far
-        std::string key{};          ///< last key of an object
-        std::unordered_set<std::string> keys{};
-    };
-
-    bool startValue() {
-        if (!levels_.empty())
-            ++levels_.back().begunCount;
-        return true;
+    void onStep() override {
+        Level &level = levels().back();
+        if (!level.isArray && !level.keys.insert(level.key).second)
+            failAt(fileName_, path(), "the key is given twice");
     }
-    bool open(bool isArray) {
-        startValue();
-        if (levels_.size() == maxNesting)
+    void onNesting() override {
+        if (levels().size() == maxNesting)
             failAt(fileName_, path(), fmt::format("nested deeper than {} levels", maxNesting));
-        levels_.push_back({isArray});
-        return true;
-    }
-    bool close() {
-        levels_.pop_back();
-        return true;
-    }
-    json::json_pointer path() const {
-        json::json_pointer path;
-        for (const Level &level : levels_) {
-            if (level.isArray)
-                path /= level.begunCount - 1;
-            else
-                path /= level.key;
-        }
-        return path;
     }
 
     const std::string &fileName_;
     const std::string &text_;
-    std::vector<Level> levels_;
 };
 
 /// Counts lines up to the last character that was read but one: the parser reads one character beyond a number.
@@ -147,7 +169,7 @@ class CountingIterator {
 };
 
 /// Follows a path as far as the document has it.
-class LineFinder : public json::json_sax_t {
+class LineFinder : public DocumentWalk {
   public:
     LineFinder(const json::json_pointer &path, const std::size_t &line) : line_(line) {
         for (json::json_pointer rest = path; !rest.empty(); rest.pop_back())
@@ -155,60 +177,23 @@ class LineFinder : public json::json_sax_t {
     }
     [[nodiscard]] std::size_t found() const { return found_; }
 
-    bool null() override { return startValue(); }
-    bool boolean(bool) override { return startValue(); }
-    bool number_integer(number_integer_t) override { return startValue(); }
-    bool number_unsigned(number_unsigned_t) override { return startValue(); }
-    bool number_float(number_float_t, const string_t &) override { return startValue(); }
-    bool string(string_t &) override { return startValue(); }
-    bool binary(binary_t &) override { return startValue(); }
-    bool start_object(std::size_t) override { return open(false); }
-    bool end_object() override { return close(); }
-    bool start_array(std::size_t) override { return open(true); }
-    bool end_array() override { return close(); }
-    bool key(string_t &key) override {
-        levels_.back().step = key;
-        note();
-        return true;
-    }
     bool parse_error(std::size_t, const std::string &, const json::exception &) override { return false; }
 
   private:
-    struct Level {
-        bool isArray;
-        std::size_t count = 0;
-        std::string step{}; ///< key, or index
-    };
-
-    bool startValue() {
-        if (!levels_.empty() && levels_.back().isArray) {
-            levels_.back().step = fmt::format("{}", levels_.back().count++);
-            note();
-        }
-        return true;
-    }
-    bool open(bool isArray) {
-        startValue();
-        levels_.push_back({isArray});
-        return true;
-    }
-    bool close() {
-        levels_.pop_back();
-        return true;
-    }
-    void note() {
-        const bool isOnPath =
-            levels_.size() <= wanted_.size() &&
-            std::ranges::equal(levels_, std::span(wanted_).first(levels_.size()), {}, &Level::step);
-        if (isOnPath && levels_.size() > depth_) {
-            depth_ = levels_.size();
+    void onStep() override {
+        const auto step = [](const Level &level) {
+            return level.isArray ? fmt::format("{}", level.begunCount - 1) : level.key;
+        };
+        const std::size_t depth = levels().size();
+        if (depth > depth_ && depth <= wanted_.size() &&
+            std::ranges::equal(levels(), std::span(wanted_).first(depth), {}, step)) {
+            depth_ = depth;
             found_ = line_;
         }
     }
 
     const std::size_t &line_;
     std::vector<std::string> wanted_;
-    std::vector<Level> levels_;
     std::size_t depth_ = 0;
     std::size_t found_ = 1;
 };

@@ -2,9 +2,9 @@
 
 #include "host/base/clean_text.h"
 #include "host/base/json_document.h"
+#include "host/base/letter_case.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
 
@@ -23,14 +23,13 @@ std::string describe(const json &value) {
 
 /// Levenshtein's edit distance, upper and lower case being the same.
 std::size_t editDistance(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
         std::size_t diagonal = row[0];
         row[0] = i + 1;
         for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (lower(a[i]) == lower(b[j]) ? 0 : 1);
+            const std::size_t replaced = diagonal + (lowerCase(a[i]) == lowerCase(b[j]) ? 0 : 1);
             diagonal = row[j + 1];
             row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
         }
@@ -40,9 +39,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 /// In lower case, and as the English spell it.
 std::string spelled(std::string_view word) {
-    std::string text(word);
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string text = lowerCase(word);
     for (const auto &[american, english] : {std::pair("color", "colour"), std::pair("center", "centre")})
         if (const std::size_t at = text.find(american); at != std::string::npos)
             text.replace(at, std::string_view(american).size(), english);

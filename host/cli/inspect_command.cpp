@@ -1,4 +1,3 @@
-#include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/base/message.h"
 #include "host/base/quantities.h"
@@ -42,8 +41,7 @@ void printMeshes(const PreparedScene &prepared) {
                     countText(report.unusedStatementCount, "statement that is not geometry",
                               "statements that are not geometry"));
         for (const std::string &library : report.lostLibraries)
-            printResult("  not read   {}: no such material library in the mesh's folder\n",
-                        cleanText(library));
+            printResult("  not read   {}: no such material library in the mesh's folder\n", library);
         if (report.unknownMaterialCount > 0)
             printResult("  neutral    {}\n",
                         countText(report.unknownMaterialCount, "material that no library has",

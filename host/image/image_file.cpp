@@ -3,6 +3,7 @@
 #include "host/base/content_guess.h"
 #include "host/base/error.h"
 #include "host/base/input_file.h"
+#include "host/base/letter_case.h"
 #include "host/image/exr.h"
 #include "host/image/hdr.h"
 #include "host/image/pfm.h"
@@ -19,10 +20,7 @@
 namespace hyalite {
 
 ImageFormat imageFormatOf(const std::filesystem::path &path) {
-    std::string extension = path.extension().string();
-    for (char &c : extension) {
-        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
+    const std::string extension = lowerCase(path.extension().string());
     if (extension == ".png") {
         return ImageFormat::Png;
     }

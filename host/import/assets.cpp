@@ -1,6 +1,7 @@
 #include "host/import/assets.h"
 
 #include "host/base/error.h"
+#include "host/base/letter_case.h"
 #include "host/import/foreign_format.h"
 #include "host/import/formats.h"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <set>
 
@@ -78,10 +78,7 @@ std::filesystem::path resolveScene(const std::string &argument) {
 }
 
 bool hasExtension(const std::filesystem::path &file, std::string_view extension) {
-    std::string found = file.extension().string();
-    std::transform(found.begin(), found.end(), found.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return found == extension;
+    return lowerCase(file.extension().string()) == extension;
 }
 
 } // namespace hyalite

@@ -1,5 +1,6 @@
 #include "host/import/file_finder.h"
 
+#include "host/base/letter_case.h"
 #include "host/import/obj_lines.h"
 
 #include <fmt/format.h>
@@ -10,13 +11,6 @@
 
 namespace hyalite {
 namespace {
-
-std::string lowered(std::string text) {
-    std::ranges::transform(text, text.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return text;
-}
 
 std::string_view trimmed(std::string_view name) {
     constexpr std::string_view around = " \t\"";
@@ -48,7 +42,7 @@ const FileFinder::Listing &FileFinder::listingOf(const std::filesystem::path &fo
     for (std::filesystem::directory_iterator entry(folder, error), end;
          !error && entry != end && found->second.size() < maxEntries; entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        const auto [place, isFirst] = found->second.try_emplace(lowered(name), name);
+        const auto [place, isFirst] = found->second.try_emplace(lowerCase(name), name);
         if (!isFirst) // two names that differ in case alone: the same one each time
             place->second = std::min(place->second, name);
     }
@@ -71,7 +65,7 @@ std::optional<std::filesystem::path> FileFinder::findInAnyCase(const std::filesy
         if (error || !isInside)
             return std::nullopt;
         const Listing &listing = listingOf(canonical);
-        const auto found = listing.find(lowered(part.string()));
+        const auto found = listing.find(lowerCase(part.string()));
         if (found == listing.end())
             return std::nullopt;
         file /= found->second;

@@ -3,6 +3,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/content_guess.h"
 #include "host/base/error.h"
+#include "host/base/letter_case.h"
 #include "host/image/texture_file.h"
 #include "host/import/mtl_material.h"
 #include "host/import/obj_lines.h"
@@ -370,13 +371,6 @@ constexpr UnusedStatement unusedStatements[] = {
 
 /// Ambient light is what a path tracer computes; the others say how other programs filter and mirror.
 constexpr std::string_view needlessStatements[] = {"ka", "sharpness", "map_aat"};
-
-std::string lowerCase(std::string_view word) {
-    std::string small(word);
-    std::ranges::transform(small, small.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return small;
-}
 
 /// Reads the statements of one library.
 class MtlReader {

@@ -1,6 +1,7 @@
 #include "host/import/obj_lines.h"
 
 #include "host/base/clean_text.h"
+#include "host/base/content_guess.h"
 #include "host/base/error.h"
 
 #include <fmt/format.h>
@@ -28,8 +29,8 @@ ObjLines::ObjLines(const std::filesystem::path &path)
     if (file.sizeBytes() > maxFileBytes)
         throw file.bad(
             fmt::format("has {} bytes; at most {} (4 GiB) are read", file.sizeBytes(), maxFileBytes));
-    if (refill() && filled >= 3 && std::memcmp(buffer.data(), "\xEF\xBB\xBF", 3) == 0)
-        lineBegin = scan = 3;
+    if (refill())
+        lineBegin = scan = byteOrderMarkBytes(head());
 }
 
 double ObjLines::shareRead() const {

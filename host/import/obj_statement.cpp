@@ -1,5 +1,6 @@
 #include "host/import/obj_statement.h"
 
+#include "host/base/letter_case.h"
 #include "host/import/obj_plain.h"
 
 #include <algorithm>
@@ -75,9 +76,7 @@ bool isNotFinite(std::string_view token) {
         return true;
     if (token.size() < 3)
         return false;
-    std::string head(token.substr(0, 3));
-    std::transform(head.begin(), head.end(), head.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    const std::string head = lowerCase(token.substr(0, 3));
     return head == "nan" || head == "inf";
 }
 

@@ -173,14 +173,14 @@ template <class Values> class PlyReader {
             builder_.losses().add("element", [&] {
                 return fmt::format("{}: the element {} is left out", fileName_, quoteInput(element.name));
             });
-        constexpr std::string_view usedOfFaces[] = {
-            "vertex_indices", "vertex_index", "texcoord", "texnumber", "red", "green", "blue", "alpha"};
+        constexpr std::string_view usedOfFaces[] = {"vertex_indices", "vertex_index", "texcoord",
+                                                    "texnumber"};
         for (const PlyProperty &property : element.properties) {
-            const bool isUsed =
-                element.name == "vertex"
-                    ? std::ranges::find(roleNames, property.name, &RoleName::name) != std::end(roleNames)
-                    : std::ranges::find(usedOfFaces, property.name) != std::end(usedOfFaces);
-            if (isRead && !isUsed)
+            const auto *const row = std::ranges::find(roleNames, property.name, &RoleName::name);
+            const bool isUsed = row != std::end(roleNames) && (element.name == "vertex" || row->role >= Red);
+            const bool isOfFace = element.name != "vertex" &&
+                                  std::ranges::find(usedOfFaces, property.name) != std::end(usedOfFaces);
+            if (isRead && !isUsed && !isOfFace)
                 builder_.losses().add("property", [&] {
                     return fmt::format("{}: the property {} of the element {} is left out", fileName_,
                                        quoteInput(property.name), quoteInput(element.name));

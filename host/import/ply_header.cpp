@@ -27,10 +27,7 @@ constexpr std::pair<std::string_view, PlyType> typeNames[] = {
 class HeaderReader {
   public:
     HeaderReader(std::span<const char> file, const std::string &fileName)
-        : text_(file.data(), file.size()), fileName_(fileName) {
-        if (text_.starts_with("\xEF\xBB\xBF"))
-            at_ = 3;
-    }
+        : text_(file.data(), file.size()), fileName_(fileName), at_(byteOrderMarkBytes(file)) {}
 
     /// Goes to the next line. False at the end of the file.
     bool next() {
@@ -81,8 +78,8 @@ class HeaderReader {
   private:
     std::string_view text_;
     const std::string &fileName_;
+    std::size_t at_;
     std::string_view line_;
-    std::size_t at_ = 0;
     std::size_t lineNumber_ = 0;
     bool isCrLf_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include "host/base/content_guess.h"
 #include "host/base/error.h"
+#include "host/base/letter_case.h"
 #include "host/import/mesh_builder.h"
 #include "host/import/obj_lines.h"
 #include "host/import/obj_statement.h"
@@ -150,9 +151,7 @@ void readBinary(std::span<const char> bytes, const std::string &fileName, Vertex
 }
 
 bool isWord(std::string_view found, std::string_view lower) {
-    return std::ranges::equal(found, lower, [](char a, char b) {
-        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-    });
+    return std::ranges::equal(found, lower, [](char a, char b) { return lowerCase(a) == b; });
 }
 
 /// The words of text, whose case does not matter, with their lines.
@@ -280,8 +279,8 @@ bool isBinary(std::span<const char> bytes) {
     if (bytes.size() == headBytes + count * triangleBytes)
         return true;
     const std::string noName;
-    const bool hasMark = std::string_view(bytes.data(), bytes.size()).starts_with("\xEF\xBB\xBF");
-    return !isWord(StlWords(bytes.subspan(hasMark ? 3 : 0, headBytes - 3), noName).next(), "solid");
+    return !isWord(StlWords(bytes.first(headBytes).subspan(byteOrderMarkBytes(bytes)), noName).next(),
+                   "solid");
 }
 
 } // namespace
@@ -291,9 +290,7 @@ ObjMesh loadStl(const std::filesystem::path &file, const MeshTransform &transfor
     const std::string fileName = file.string();
     const std::vector<char> whole = readWholeFile(file);
     const bool isInBinary = isBinary(whole);
-    const bool hasMark =
-        !isInBinary && std::string_view(whole.data(), whole.size()).starts_with("\xEF\xBB\xBF");
-    const std::span<const char> bytes = std::span(whole).subspan(hasMark ? 3 : 0);
+    const std::span<const char> bytes = std::span(whole).subspan(isInBinary ? 0 : byteOrderMarkBytes(whole));
     bool areFar = false;
     const auto read = [&](const glm::dvec3 &origin) {
         MeshBuilder builder(fileName, transform, origin, isInBinary ? PlaceUnit::Byte : PlaceUnit::Line);

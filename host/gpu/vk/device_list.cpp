@@ -1,6 +1,7 @@
 #include "host/gpu/vk/device_list.h"
 
 #include "host/base/error.h"
+#include "host/base/letter_case.h"
 #include "host/gpu/vk/instance.h"
 #include "host/gpu/vk/physical_device.h"
 #include "shaders/layout/layout.h"
@@ -9,7 +10,6 @@
 #include <vulkan/vulkan.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <optional>
 #include <regex>
@@ -18,12 +18,6 @@
 namespace hyalite::gpu {
 
 namespace {
-
-std::string lowerCase(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return text;
-}
 
 /// The name of lavapipe contains its vector width, which depends on our own settings (processor_use.h).
 std::string withoutVectorWidth(const std::string &name) {
