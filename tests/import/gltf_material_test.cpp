@@ -1,8 +1,8 @@
 // glTF: materials and textures.
-#include "host/image/png.h"
 #include "host/import/gltf/materials.h"
 #include "host/scene/limits.h"
 #include "tests/fixtures/gltf_fixture.h"
+#include "tests/fixtures/png_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,7 @@ class GltfMaterial : public GltfFolder {
   protected:
     void SetUp() override {
         GltfFolder::SetUp();
-        const std::uint8_t pixels[] = {128, 128, 255};
-        const std::vector<std::byte> png = encodePng(1, 1, pixels);
-        image = std::string(reinterpret_cast<const char *>(png.data()), png.size());
+        image = onePixelPng(128, 128, 255);
         static_cast<void>(write("image.png", image));
     }
 

@@ -1,7 +1,7 @@
 // Losses: every key that a format knows and that changes a picture is either read or told, one warning a key.
-#include "host/image/png.h"
 #include "host/import/load.h"
 #include "tests/fixtures/gltf_fixture.h"
+#include "tests/fixtures/png_fixture.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,9 +18,7 @@ class LossesOfFormats : public GltfFolder {
   protected:
     void SetUp() override {
         GltfFolder::SetUp();
-        const std::uint8_t pixel[] = {128, 128, 255};
-        const std::vector<std::byte> png = encodePng(1, 1, pixel);
-        (void)write("c.png", std::string(reinterpret_cast<const char *>(png.data()), png.size()));
+        (void)write("c.png", onePixelPng(128, 128, 255));
     }
 
     [[nodiscard]] static std::vector<std::string> warningsOf(const std::filesystem::path &file) {

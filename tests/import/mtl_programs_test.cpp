@@ -1,7 +1,7 @@
 // MTL as programs write it: what is made of it, program by program. host/import/README.md has a row for each of these.
 #include "host/base/clean_text.h"
-#include "host/image/png.h"
 #include "host/import/mtl.h"
+#include "tests/fixtures/png_fixture.h"
 #include "tests/fixtures/scene_json_fixture.h"
 
 #include <fmt/format.h>
@@ -82,9 +82,7 @@ class MtlOfPrograms : public SceneFolder, public ::testing::WithParamInterface<C
 
 TEST_P(MtlOfPrograms, BecomesWhatTheyMean) {
     const Case &each = GetParam();
-    const std::uint8_t rgb[] = {200, 100, 50};
-    const std::vector<std::byte> bytes = encodePng(1, 1, rgb);
-    (void)write("c.png", std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size()));
+    (void)write("c.png", onePixelPng(200, 100, 50));
     FileFinder files(std::filesystem::canonical(folder));
     TextureLibrary library;
     Losses losses;

@@ -1,7 +1,6 @@
 // Material libraries of OBJ files.
 #include "host/import/mtl.h"
 
-#include "host/image/png.h"
 #include "host/import/load.h"
 #include "host/packing/packed_scene.h"
 #include "tests/fixtures/png_fixture.h"
@@ -30,10 +29,7 @@ class Mtl : public SceneFolder {
 
     /// An image of one pixel.
     void writePixel(const std::string &name, std::uint8_t red, std::uint8_t green, std::uint8_t blue) const {
-        const std::uint8_t rgb[] = {red, green, blue};
-        const std::vector<std::byte> bytes = encodePng(1, 1, rgb);
-        static_cast<void>(
-            write(name, std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size())));
+        static_cast<void>(write(name, onePixelPng(red, green, blue)));
     }
 
     TextureLibrary library;

@@ -1,8 +1,8 @@
 // PLY meshes: every way of writing one square, and what is refused.
 #include "host/import/ply.h"
 
-#include "host/image/png.h"
 #include "host/import/load.h"
+#include "tests/fixtures/png_fixture.h"
 #include "tests/fixtures/scene_json_fixture.h"
 
 #include <bit>
@@ -244,10 +244,7 @@ TEST_F(Ply, FacesMayHaveColours) {
 }
 
 TEST_F(Ply, HasTheTexturesOfItsHeader) {
-    const std::uint8_t rgb[] = {200, 100, 50};
-    const std::vector<std::byte> bytes = encodePng(1, 1, rgb);
-    static_cast<void>(
-        write("my scan.png", std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size())));
+    static_cast<void>(write("my scan.png", onePixelPng(200, 100, 50)));
     const std::string vertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
                                  "property float s\nproperty float t\n";
     const std::string rows = "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n";

@@ -1,5 +1,6 @@
 // The scene file: what it says is what is loaded, and what it may not say is refused with its place.
 #include "host/scene/validate.h"
+#include "tests/fixtures/png_fixture.h"
 #include "tests/fixtures/scene_json_fixture.h"
 
 #include <sys/stat.h>
@@ -415,10 +416,7 @@ TEST_F(SceneJson, TexturesComeFromWhereTheSceneMayRead) {
                                             std::string("\x80\x40\x00\x88", 4)));
     EXPECT_EQ(refusalOfTexture("emission", "glow.hdr"), "");
     EXPECT_NE(refusalOfTexture("baseColour", "glow.hdr").find("found an image of floats"), std::string::npos);
-    const std::uint8_t grey[] = {9, 9, 9};
-    const std::vector<std::byte> image = encodePng(1, 1, grey);
-    static_cast<void>(
-        write("grey.png", std::string(reinterpret_cast<const char *>(image.data()), image.size())));
+    static_cast<void>(write("grey.png", onePixelPng(9, 9, 9)));
     EXPECT_NE(refusalOfTexture("normal", "grey.png").find("found a grey image"), std::string::npos);
 }
 
