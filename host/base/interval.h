@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <string>
 
@@ -21,6 +23,19 @@ struct Interval {
         const T highest = static_cast<T>(high);
         return (lowIncluded ? value >= lowest : value > lowest) &&
                (highIncluded ? value <= highest : value < highest);
+    }
+
+    /// The number of the interval that `value` stands for: itself, or an end that it is beyond by what adding and rounding
+    /// floats leaves, 2^-21 of the end or of 1. Where there is none, `value`.
+    [[nodiscard]] double rounded(double value) const {
+        constexpr double rounding = 1.0 / (1 << 21);
+        const auto isNear = [&](double end) {
+            return std::abs(value - end) <= rounding * std::max(1.0, std::abs(end)) &&
+                   std::abs(value - end) <= rounding * (high - low);
+        };
+        if (value < low && lowIncluded && isNear(low))
+            return low;
+        return value > high && highIncluded && isNear(high) ? high : value;
     }
 
     /// In words: "from 0 to 1", "more than 0 and less than 180".

@@ -73,9 +73,10 @@ void JsonNode::fail(std::string_view message, Remedy remedy) const {
 }
 
 double JsonNode::number(const Interval &allowed) const {
-    if (!value->is_number() || !allowed.contains(value->get<double>()))
+    const double found = value->is_number() ? allowed.rounded(value->get<double>()) : 0.0;
+    if (!value->is_number() || !allowed.contains(found))
         refuse("a number " + allowed.text());
-    return value->get<double>();
+    return found;
 }
 
 glm::dvec3 JsonNode::vector(const Interval &allowed) const {

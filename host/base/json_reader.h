@@ -35,6 +35,7 @@ struct JsonNode {
     /// Throws `message` at this path.
     [[noreturn]] void fail(std::string_view message, Remedy remedy = Remedy::None) const;
 
+    /// Interval::rounded() of it.
     [[nodiscard]] double number(const Interval &allowed) const;
     [[nodiscard]] glm::dvec3 vector(const Interval &allowed) const; ///< [x, y, z]
     [[nodiscard]] glm::dvec2 pair(const Interval &allowed) const;   ///< [u, v], or one number for both

@@ -17,6 +17,17 @@ using SceneJson = SceneFolder;
 
 // ---- What a file says is what is loaded
 
+TEST_F(SceneJson, NumbersBeyondTheirRangeByRoundingAreItsEnds) {
+    json scene = completeScene();
+    scene["materials"]["varnish"]["baseColour"] = {1.0000002, -1e-8, 0.5};
+    const Scene loaded = load(scene.dump());
+    EXPECT_EQ(loaded.materials[4].albedo, glm::vec3(1.0f, 0.0f, 0.5f));
+    for (const double beyond : {1.000001, -1e-6, 1.1}) {
+        scene["materials"]["varnish"]["baseColour"] = beyond;
+        EXPECT_THROW(static_cast<void>(load(scene.dump())), Error) << beyond;
+    }
+}
+
 TEST_F(SceneJson, EveryValueReachesTheScene) {
     Scene scene = load(completeScene().dump());
     EXPECT_EQ(scene.camera.position, glm::dvec3(1, 2, 3));
@@ -375,7 +386,7 @@ TEST_F(SceneJson, OnlyRegularFilesOfAModestSizeAreRead) {
 
     const std::filesystem::path pipe = folder / "pipe.json";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_EQ(refusalOf(pipe), " is a pipe, not a regular file; name a file");
+    EXPECT_EQ(refusalOf(pipe), " is a pipe, not a regular file; name a file, or - for standard input");
 
     const std::filesystem::path large = write("large.json", "{}");
     std::filesystem::resize_file(large, (512u << 20) + 1); // sparse
