@@ -31,14 +31,25 @@ Drawing drawFilm(const Film &film, const RenderSettings &settings) {
     return drawing;
 }
 
-void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, const Picture &picture,
+void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
                const RenderSettings &settings, ToneCurve tone) {
-    if (settings.integrator == Integrator::Cost && format == ImageFormat::Png) {
-        const Drawing drawing = drawCost(film);
-        writePng(file, drawing.width, drawing.height, drawing.rgb, picture.attributes);
-    } else {
+    constexpr const char *pixelsAttribute = "pixels";
+    std::vector<Attribute> &attributes = picture.attributes;
+    if (format != ImageFormat::Png) {
+        attributes.emplace_back(pixelsAttribute, pixelHash(picture.colour));
         writeImage(file, format, picture, settings.exposureStops, tone);
+        return;
     }
+    Drawing drawing;
+    if (settings.integrator == Integrator::Cost) {
+        drawing = drawCost(film);
+    } else {
+        drawing.width = picture.colour.width();
+        drawing.height = picture.colour.height();
+        drawing.rgb = toneMap(picture.colour, settings.exposureStops, tone);
+    }
+    attributes.emplace_back(pixelsAttribute, pixelHash(drawing.rgb));
+    writePng(file, drawing.width, drawing.height, drawing.rgb, attributes);
 }
 
 } // namespace hyalite

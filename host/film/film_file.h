@@ -19,8 +19,9 @@ namespace hyalite {
 /// The picture in a PNG: the tone-mapped means, or drawCost() for the cost.
 [[nodiscard]] Drawing drawFilm(const Film &film, const RenderSettings &settings);
 
-/// writeImage() of the film's `picture`, or of drawCost() for a PNG of the cost. Throws likewise.
-void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, const Picture &picture,
+/// writeImage() of the film's `picture`, or of drawCost() for a PNG of the cost, with the attribute "pixels", which is
+/// pixelHash() of the file's colours. Throws likewise.
+void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
                const RenderSettings &settings, ToneCurve tone = ToneCurve::Gamma);
 
 } // namespace hyalite

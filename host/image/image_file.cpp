@@ -2,8 +2,10 @@
 
 #include "host/base/content_guess.h"
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/base/input_file.h"
 #include "host/base/letter_case.h"
+#include "host/base/standard_stream.h"
 #include "host/image/exr.h"
 #include "host/image/hdr.h"
 #include "host/image/pfm.h"
@@ -13,14 +15,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace hyalite {
 
+namespace {
+
+/// What an 8-bit PNG has stored.
+std::vector<std::uint8_t> levelsOf(const Image &display) {
+    std::vector<std::uint8_t> levels;
+    levels.reserve(display.pixels().size() * 3);
+    for (const glm::vec3 &pixel : display.pixels())
+        for (int channel = 0; channel < 3; ++channel)
+            levels.push_back(static_cast<std::uint8_t>(std::lround(pixel[channel] * 255.0f)));
+    return levels;
+}
+
+} // namespace
+
 ImageFormat imageFormatOf(const std::filesystem::path &path) {
-    const std::string extension = lowerCase(path.extension().string());
+    const std::optional<std::string> streamFormat = standardStreamFormat(path);
+    const std::string extension = lowerCase(!streamFormat           ? path.extension().string()
+                                            : streamFormat->empty() ? ".png"
+                                                                    : "." + *streamFormat);
     if (extension == ".png") {
         return ImageFormat::Png;
     }
@@ -35,10 +56,11 @@ ImageFormat imageFormatOf(const std::filesystem::path &path) {
     }
     throw Error(
         ErrorKind::Usage,
-        fmt::format("'{}': an image is written as .png (8-bit, tone-mapped), .exr (linear float, with "
-                    "layers), .hdr (linear, 8 bits and an exponent) or .pfm (linear float); name a file "
-                    "with one of these extensions",
-                    path.string()));
+        fmt::format(
+            "'{}': an image is written as .png (8-bit, tone-mapped), .exr (linear float, with "
+            "layers), .hdr (linear, 8 bits and an exponent) or .pfm (linear float); name a file "
+            "with one of these extensions, or - for standard output (exr:- for another format than PNG)",
+            path.string()));
 }
 
 void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops,
@@ -79,15 +101,27 @@ LoadedImage readImage(const std::filesystem::path &path) {
     throw file.bad(foreignContent(file, "it is no PNG, OpenEXR, Radiance (HDR) or PFM file"));
 }
 
+std::string pixelHash(std::span<const std::uint8_t> levels) {
+    return hashText(hashBytes(std::as_bytes(levels)));
+}
+
+std::string pixelHash(const Image &linear) {
+    return hashText(hashBytes(std::as_bytes(std::span(linear.pixels()))));
+}
+
 bool isImageWith(const std::filesystem::path &path, const std::string &text, int width, int height) {
     constexpr std::size_t mostBytes = std::size_t{1} << 20;
     try {
         const std::vector<std::byte> head = InputFile(path).head(mostBytes);
-        const std::span<const std::byte> wanted = std::as_bytes(std::span(text));
-        if (std::search(head.begin(), head.end(), wanted.begin(), wanted.end()) == head.end())
+        const auto hasText = [&](const std::string &wanted) {
+            const std::span<const std::byte> bytes = std::as_bytes(std::span(wanted));
+            return std::search(head.begin(), head.end(), bytes.begin(), bytes.end()) != head.end();
+        };
+        if (!hasText(text))
             return false;
-        const Image image = readImage(path).image;
-        return image.width() == width && image.height() == height;
+        const auto [image, encoding] = readImage(path);
+        return image.width() == width && image.height() == height &&
+               hasText(encoding == Encoding::Display ? pixelHash(levelsOf(image)) : pixelHash(image));
     } catch (const Error &) {
         return false;
     }

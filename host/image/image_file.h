@@ -7,7 +7,9 @@
 #include "host/image/picture.h"
 #include "host/image/tone_map.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace hyalite {
@@ -30,7 +32,8 @@ struct LoadedImage {
     Encoding encoding = Encoding::Linear;
 };
 
-/// By the name's extension, .png, .exr, .hdr or .pfm in upper or lower case. Throws Error{Usage} for any other.
+/// By the name's extension, .png, .exr, .hdr or .pfm in upper or lower case; of "exr:-" for standard output, where "-"
+/// is a PNG. Throws Error{Usage} for any other.
 [[nodiscard]] ImageFormat imageFormatOf(const std::filesystem::path &path);
 
 /// Writes the picture, which is not empty; the caller commits the file. A PNG is multiplied by 2^exposureStops and
@@ -48,8 +51,13 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 /// readingBytesMax.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 
+/// The hash of an image's numbers as its file has them, 8-bit levels or floats: what its attribute "pixels" says.
+[[nodiscard]] std::string pixelHash(std::span<const std::uint8_t> levels);
+[[nodiscard]] std::string pixelHash(const Image &linear);
+
 /// Whether this is a whole image of this size, with an attribute of this text, in printable ASCII, which is found in the
-/// first MiB. Reads all of the file: it may have been cut short on its way from another machine.
+/// first MiB, as the hash of its pixels is. Reads all of the file: it may have been cut short on its way from another
+/// machine, or painted over.
 [[nodiscard]] bool isImageWith(const std::filesystem::path &path, const std::string &text, int width,
                                int height);
 

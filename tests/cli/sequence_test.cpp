@@ -127,6 +127,21 @@ TEST_F(SequenceFrames, OfAnotherSizeAreNotTakenForFinished) {
     EXPECT_TRUE(load("f.1.png") == whole);
 }
 
+TEST_F(SequenceFrames, ThatArePaintedOverAreNotTakenForFinished) {
+    store("moving.json", movingScene());
+    const std::string line = "render moving.json --frames 1 --width 24 --height 16 --spp 2 --resume -o f.#.";
+    ASSERT_EQ(run(line + "png").exitCode, 0);
+    const std::string whole = load("f.1.png");
+    ASSERT_EQ(run("render spheres -o other.png --width 24 --height 16 --spp 1").exitCode, 0);
+    const std::string other = load("other.png");
+    store("f.1.png", whole.substr(0, whole.find("IDAT") - 4) + other.substr(other.find("IDAT") - 4));
+    EXPECT_TRUE(contains(run(line + "png").output, "f.1.png: 24x16, 2 spp"));
+    EXPECT_TRUE(load("f.1.png") == whole);
+    EXPECT_TRUE(contains(run(line + "png").output, "f.1.png: frame 1 is finished"));
+    EXPECT_TRUE(contains(run(line + "exr").output, "f.1.exr: 24x16, 2 spp"));
+    EXPECT_TRUE(contains(run(line + "exr").output, "f.1.exr: frame 1 is finished"));
+}
+
 TEST_F(SequenceFrames, AreDealtToParts) {
     store("moving.json", movingScene());
     for (const char *part : {"1/3", "2/3", "3/3"})
