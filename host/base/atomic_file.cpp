@@ -1,9 +1,11 @@
 #include "host/base/atomic_file.h"
 
 #include "host/base/error.h"
+#include "host/base/standard_stream.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <cstdint>
@@ -13,6 +15,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -113,6 +116,13 @@ int openUnnamed(const fs::path &folder) {
     return descriptor;
 }
 
+/// A file in memory for what goes to standard output, or -1.
+int openForStandardOutput(const fs::path &givenPath) {
+    if (isatty(STDOUT_FILENO) != 0)
+        refuse(givenPath, "standard output is a terminal; lead it into a file or a program (> FILE)");
+    return memfd_create("hyalite", MFD_CLOEXEC);
+}
+
 /// fsync; a file system without support for it counts as success. Returns errno, or 0.
 int synchronize(int descriptor) {
     while (fsync(descriptor) != 0) {
@@ -157,6 +167,13 @@ template <class Create> int AtomicFile::claimName(const Create &create) {
 AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(target) {
     if (target.empty()) {
         refuse(target, "the name is empty; name a file");
+    }
+    if (isStandardStream(target)) {
+        descriptor_ = openForStandardOutput(target);
+        if (descriptor_ < 0) {
+            refuseWithErrno(target, "no file can be created in memory", errno);
+        }
+        return;
     }
     std::error_code error; // errors in the path show when the file is created
     targetPath_ = followLinks(fs::absolute(target, error));
@@ -209,8 +226,12 @@ void AtomicFile::discard() noexcept {
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
     assert(descriptor_ >= 0);
+    writeAll(descriptor_, bytes);
+}
+
+void AtomicFile::writeAll(int descriptor, std::span<const std::byte> bytes) const {
     while (!bytes.empty()) {
-        const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
         if (count >= 0) {
             bytes = bytes.subspan(static_cast<std::size_t>(count));
         } else if (errno != EINTR) {
@@ -235,8 +256,27 @@ void AtomicFile::writeAt(std::uint64_t offsetBytes, std::span<const std::byte> b
     }
 }
 
+void AtomicFile::pourIntoStandardOutput() {
+    std::array<std::byte, std::size_t{1} << 16> buffer;
+    off_t offset = 0;
+    while (true) {
+        const ssize_t count = pread(descriptor_, buffer.data(), buffer.size(), offset);
+        if (count < 0)
+            refuseWithErrno(givenPath_, "reading what was written", errno);
+        if (count == 0)
+            break;
+        offset += count;
+        writeAll(STDOUT_FILENO, std::span(buffer).first(static_cast<std::size_t>(count)));
+    }
+    discard();
+}
+
 void AtomicFile::commit() {
     assert(descriptor_ >= 0);
+    if (isStandardStream(givenPath_)) {
+        pourIntoStandardOutput();
+        return;
+    }
     if (const int errorNumber = synchronize(descriptor_); errorNumber != 0) {
         refuseWithErrno(givenPath_, "storing the bytes", errorNumber);
     }

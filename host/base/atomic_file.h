@@ -4,6 +4,8 @@
 // A failure at any moment, from a full disk to a killed process, leaves the previous file unchanged. The
 // temporary file has no name until commit() where the file system offers that (O_TMPFILE): a process that is killed
 // then leaves nothing behind.
+//
+// "-" is standard output, which gets all bytes at once, by commit(): formats fill in their tables at the end.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +29,8 @@ class AtomicFile {
     /// A symbolic link is followed, even a dangling one: the file that it points at is replaced, the link stays.
     /// The new file has the permissions of any new file (0666 less the umask), whatever the old one had.
     /// Throws Error{OutputNotWritten} for a target that exists and is not a regular file (a folder, a device, a
-    /// pipe), that is write-protected, or whose folder is missing or takes no new file.
+    /// pipe), that is write-protected, or whose folder is missing or takes no new file; for standard output, where that
+    /// is a terminal.
     explicit AtomicFile(const std::filesystem::path &target, TemporaryFile kind = TemporaryFile::Automatic);
 
     AtomicFile(AtomicFile &&other) noexcept;
@@ -58,6 +61,8 @@ class AtomicFile {
     /// `create` returns whether it did and sets errno if not. Returns errno, or 0.
     template <class Create> [[nodiscard]] int claimName(const Create &create);
     void discard() noexcept;
+    void writeAll(int descriptor, std::span<const std::byte> bytes) const;
+    void pourIntoStandardOutput();
 
     std::filesystem::path givenPath_;
     std::filesystem::path targetPath_;    ///< absolute, links followed

@@ -1,5 +1,7 @@
 #include "host/base/input_file.h"
 
+#include "host/base/standard_stream.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,11 +35,17 @@ std::string_view kindOf(mode_t mode) {
 } // namespace
 
 InputFile::InputFile(const std::filesystem::path &path) : path_(path) {
+    if (isStandardStream(path)) {
+        contents_ = standardInput();
+        sizeBytes_ = contents_.size();
+        return;
+    }
     const auto requireRegular = [&](int failure, const struct stat &status) {
         if (failure != 0)
             throw bad(std::generic_category().message(errno));
         if (!S_ISREG(status.st_mode))
-            throw bad(fmt::format("is {}, not a regular file; name a file", kindOf(status.st_mode)));
+            throw bad(fmt::format("is {}, not a regular file; name a file{}", kindOf(status.st_mode),
+                                  S_ISFIFO(status.st_mode) ? ", or - for standard input" : ""));
     };
     // Opening a device can have side effects, so the type is checked first. If the file is replaced in between,
     // O_NONBLOCK keeps a pipe from blocking until a writer opens it.

@@ -1,5 +1,6 @@
 // Input file: a regular file that is read piece by piece, so that its contents can be checked before memory is
-// allocated. All files that a user or a scene names are opened here. Or a file inside another one, already in memory.
+// allocated. All files that a user or a scene names are opened here. Or one that is in memory already: a file inside
+// another one, or standard input.
 #pragma once
 
 #include "host/base/error.h"
@@ -16,7 +17,7 @@ namespace hyalite {
 class InputFile {
   public:
     /// Throws Error{BadInput} if there is no such file, it cannot be read, or it is a folder, device, pipe or socket,
-    /// which are never opened or waited for.
+    /// which are never opened or waited for. "-" is standard input, as standardInput() reads it.
     explicit InputFile(const std::filesystem::path &path);
     /// A file inside another one. `name` is for messages; the contents outlive the object.
     InputFile(std::filesystem::path name, std::span<const std::byte> contents);

@@ -27,6 +27,9 @@ void printWarning(fmt::format_string<Arguments...> format, Arguments &&...argume
     printMessage("hyalite: warning: {}\n", fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
+/// Where results go: standard output, or standard error once a file goes to standard output.
+inline std::FILE *resultStream = stdout;
+
 /// An argument of printResult(): texts on one line, without control characters.
 template <class Argument> auto shownArgument(const Argument &argument) {
     if constexpr (std::is_convertible_v<const Argument &, std::string_view>) {
@@ -37,11 +40,11 @@ template <class Argument> auto shownArgument(const Argument &argument) {
     }
 }
 
-/// Prints on standard output. Texts among the arguments may be names from files: each stays on its line.
+/// Prints on `resultStream`. Texts among the arguments may be names from files: each stays on its line.
 template <class... Arguments>
 void printResult(fmt::format_string<decltype(shownArgument(std::declval<const Arguments &>()))...> format,
                  const Arguments &...arguments) {
-    fmt::print("{}", fmt::format(format, shownArgument(arguments)...));
+    fmt::print(resultStream, "{}", fmt::format(format, shownArgument(arguments)...));
 }
 
 } // namespace hyalite

@@ -65,9 +65,9 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
         ->default_str("0");
     addThreadsOption(*command, options->contest.threadCount);
     addDeviceOptions(*command, options->contest.deviceOptions);
-    addFile(*command, "--diff", options->heatMap, "FILE.png",
-            "write a heat map of the difference (HDR-FLIP)");
-    addFile(*command, "--report", options->report, "FILE.json", "write all metrics");
+    addOutput(*command, "--diff", options->heatMap, "FILE.png",
+              "write a heat map of the difference (HDR-FLIP)");
+    addOutput(*command, "--report", options->report, "FILE.json", "write all metrics");
     command->add_flag("--quiet", options->isQuiet, "print the result only");
     addStatisticalOptions(*command, *options);
     command->callback([options, &context] {

@@ -24,9 +24,9 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
         "of each pixel and channel, and of the image, with Sidak's correction; 1 if not");
     addSignificanceOption(*command, options->welch)->needs(statistical);
     addFile(*command, "--mask", options->mask, "FILE", "compare only where this image is white");
-    addFile(*command, "--diff", options->heatMap, "FILE.png",
-            "write the FLIP error of each pixel as a heat map");
-    addFile(*command, "--report", options->report, "FILE.json", "write all numbers as JSON");
+    addOutput(*command, "--diff", options->heatMap, "FILE.png",
+              "write the FLIP error of each pixel as a heat map");
+    addOutput(*command, "--report", options->report, "FILE.json", "write all numbers as JSON");
 
     constexpr Interval distance{0.0, 1e38};
     addNumber(*command, "--threshold", options->outlierThreshold, distance,

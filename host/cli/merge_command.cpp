@@ -215,9 +215,9 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
     command->footer("`hyalite render --part I/N` makes parts. The picture has the bits of one render.");
     command->add_option("PART", options->parts, "the .part files; two of one part are compared, bit for bit")
         ->required();
-    command->add_option("-o,--output", options->output, "the picture: .png, .exr, .hdr or .pfm")
-        ->required()
-        ->type_name("FILE");
+    addOutput(*command, "-o,--output", options->output, "FILE",
+              "the picture: .png, .exr, .hdr or .pfm; -: a PNG to standard output, exr:- another format")
+        ->required();
     command->add_flag("--partial", options->isPartial, "merge what is there; missing parts are black");
     command
         ->add_option(

@@ -2,6 +2,8 @@
 
 #include "host/base/atomic_file.h"
 #include "host/base/clean_text.h"
+#include "host/base/message.h"
+#include "host/base/standard_stream.h"
 
 #include <fmt/format.h>
 
@@ -35,6 +37,8 @@ std::filesystem::path canonicalPath(const std::string &path) {
 }
 
 bool isSameFile(const std::string &a, const std::string &b) {
+    if (isStandardStream(a) || isStandardStream(b))
+        return isStandardStream(a) && isStandardStream(b);
     std::error_code error; // of files that do not exist
     return canonicalPath(a) == canonicalPath(b) || std::filesystem::equivalent(a, b, error);
 }
@@ -74,6 +78,19 @@ CLI::Option *addWord(CLI::App &command, const std::string &name, std::string &wo
 }
 
 } // namespace
+
+CLI::Option *addOutput(CLI::App &command, const std::string &name, std::string &path,
+                       const std::string &typeName, const std::string &help) {
+    const auto read = [name, &path](const CLI::results_t &words) {
+        if (words.front().empty())
+            refuseValue(name, "", "the name of a file, or - for standard output");
+        path = words.front();
+        if (isStandardStream(path))
+            resultStream = stderr;
+        return true;
+    };
+    return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);
+}
 
 CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
                      const std::string &typeName, const std::string &help) {
@@ -120,7 +137,7 @@ void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vect
         if (output.path.empty())
             continue;
         for (const std::string &input : inputs)
-            if (!input.empty() && isSameFile(output.path, input))
+            if (!input.empty() && !isStandardStream(input) && isSameFile(output.path, input))
                 throw Error(
                     ErrorKind::Usage,
                     fmt::format("{} {}: this would overwrite {}, which is an input; name another output",

@@ -116,6 +116,11 @@ CLI::Option *addChoice(CLI::App &command, const std::string &name, std::optional
         command, name, [&value](Value chosen) { value = chosen; }, choices, help);
 }
 
+/// An option with the name of a file, not empty, that is written: "-" is standard output, and results then go to
+/// standard error.
+CLI::Option *addOutput(CLI::App &command, const std::string &name, std::string &path,
+                       const std::string &typeName, const std::string &help);
+
 /// An option with a file name, which must not be empty.
 CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
                      const std::string &typeName, const std::string &help);

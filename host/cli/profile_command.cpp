@@ -160,16 +160,16 @@ void addMeasurementOptions(CLI::App &command, MeasurementRequest &request) {
 }
 
 void addFileOptions(CLI::App &command, ProfilePaths &paths) {
-    addFile(command, "-o,--output", paths.output, "FILE", "write the image, too, and time that");
-    addFile(command, "--report", paths.report, "FILE.json", "write all figures, as --baseline reads them");
-    addFile(command, "--csv", paths.csv, "FILE.csv", "write a line for each dispatch");
-    addFile(command, "--trace", paths.trace, "FILE.json",
-            "write a timeline that ui.perfetto.dev and chrome://tracing open");
-    addFile(command, "--heatmap", paths.heatMap, "FILE.png",
-            "render once more, and write how many boxes and triangles each pixel tests, in false colours");
-    addFile(command, "--html", paths.html, "FILE.html",
-            "render once more, and write a page with the image, the heat map, the figures and where they "
-            "come from");
+    addOutput(command, "-o,--output", paths.output, "FILE", "write the image, too, and time that");
+    addOutput(command, "--report", paths.report, "FILE.json", "write all figures, as --baseline reads them");
+    addOutput(command, "--csv", paths.csv, "FILE.csv", "write a line for each dispatch");
+    addOutput(command, "--trace", paths.trace, "FILE.json",
+              "write a timeline that ui.perfetto.dev and chrome://tracing open");
+    addOutput(command, "--heatmap", paths.heatMap, "FILE.png",
+              "render once more, and write how many boxes and triangles each pixel tests, in false colours");
+    addOutput(command, "--html", paths.html, "FILE.html",
+              "render once more, and write a page with the image, the heat map, the figures and where they "
+              "come from");
 }
 
 void addBaselineOptions(CLI::App &command, ProfileOptions &options) {

@@ -1,5 +1,6 @@
 #include "host/base/message.h"
 #include "host/base/quantities.h"
+#include "host/base/standard_stream.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/cli/render_request.h"
@@ -70,6 +71,13 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
         return;
     }
     const ImageFormat format = imageFormatOf(request.output);
+    if (isStandardStream(request.output) && request.partialSeconds)
+        throw Error(ErrorKind::Usage,
+                    "--partial: a partial image is replaced, which standard output does not do; "
+                    "name a file as --output");
+    if (isStandardStream(request.checkpoint))
+        throw Error(ErrorKind::Usage,
+                    "--checkpoint: it is written again and again, and read to resume; name a file");
     if (request.checkpoint.empty() && request.isResuming && !request.frame)
         throw Error(ErrorKind::Usage, "--resume needs --checkpoint FILE to resume from");
     if (request.checkpoint.empty() && request.checkpointSeconds)

@@ -82,12 +82,11 @@ void addLongRenderOptions(CLI::App &command, RenderRequest &request) {
 
 void addRenderOptions(CLI::App &command, RenderRequest &request) {
     addSceneOptions(command, request.scene);
-    command
-        .add_option("-o,--output", request.output,
-                    ".png: 8 bits, tone-mapped by --tone; .exr: linear float, with variance and "
-                    "sample counts; .hdr, .pfm: linear")
-        ->required()
-        ->type_name("FILE");
+    addOutput(
+        command, "-o,--output", request.output, "FILE",
+        ".png: 8 bits, tone-mapped by --tone; .exr: linear float, with variance and sample counts; .hdr, "
+        ".pfm: linear; -: a PNG to standard output, exr:- another format")
+        ->required();
     command
         .add_option("--device", request.devices,
                     "auto: a GPU before software; cpu: the reference renderer; an index or part of a name as "
@@ -101,8 +100,8 @@ void addRenderOptions(CLI::App &command, RenderRequest &request) {
     addLayersOption(command, request.layers);
     addThreadsOption(command, request.threadCount);
     addDeviceOptions(command, request.deviceOptions);
-    addFile(command, "--report", request.report, "FILE.json",
-            "write a report with settings, counts and times");
+    addOutput(command, "--report", request.report, "FILE.json",
+              "write a report with settings, counts and times");
     command
         .add_option("--part", CLI::callback_t([&request](const CLI::results_t &words) {
                         request.part = readPart(words.front());

@@ -91,7 +91,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     command
         .add_option("scene", options.scene,
                     "a .json, .gltf or .glb scene, a .obj, .ply or .stl mesh, "
-                    "or the name of a shipped scene")
+                    "the name of a shipped scene, or - for standard input")
         ->required()
         ->type_name("SCENE");
     addPaths(command, "--allow-path", options.load.allowedPaths,

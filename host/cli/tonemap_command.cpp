@@ -48,8 +48,8 @@ void addToneMapCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("tonemap", "make a PNG of an image of linear radiance");
     const auto options = std::make_shared<ToneMapOptions>();
     command->footer("The PNG has the pixels that `hyalite render` would have written with the same options.");
-    command->add_option("IN", options->input, "EXR, HDR or PFM")->required();
-    command->add_option("OUT", options->output, "the .png to write")->required();
+    command->add_option("IN", options->input, "EXR, HDR or PFM; -: standard input")->required();
+    addOutput(*command, "OUT", options->output, "", "the .png to write; -: standard output")->required();
     addNumber(*command, "--exposure", options->exposureStops, rangeOf(&RenderSettings::exposureStops),
               "in stops: radiance is multiplied by 2^NUMBER")
         ->default_str("0");

@@ -225,8 +225,8 @@ void addVerifyCommand(CLI::App &app, CommandContext &context) {
         ->type_name("NAME,...")
         ->delimiter(',')
         ->expected(1, -1);
-    addFile(*command, "--junit", options->junit, "FILE.xml", "write the verdicts as JUnit XML, for CI");
-    addFile(*command, "--report", options->report, "FILE.json", "write the verdicts and all hashes");
+    addOutput(*command, "--junit", options->junit, "FILE.xml", "write the verdicts as JUnit XML, for CI");
+    addOutput(*command, "--report", options->report, "FILE.json", "write the verdicts and all hashes");
     command->add_flag("--quiet", options->isQuiet, "print what differs, and the result only");
     command->callback([options, &context] { context.exitCode = runVerify(*options, context.commandLine); });
 }

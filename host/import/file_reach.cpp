@@ -3,6 +3,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/base/json_document.h"
+#include "host/base/standard_stream.h"
 #include "host/import/assets.h"
 
 #include <fmt/format.h>
@@ -58,6 +59,8 @@ std::filesystem::path FileReach::resolve(const JsonNode &node, const std::string
     if (name.empty())
         node.fail("found an empty name; allowed: that of a file");
     std::filesystem::path file = folder_ / name;
+    if (isStandardStream(file))
+        file = "./" / file; // a file of that name
     std::error_code error;
     const std::filesystem::path absolute = std::filesystem::absolute(file, error);
     if (error)

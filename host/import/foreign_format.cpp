@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/base/input_file.h"
 #include "host/base/shell.h"
+#include "host/base/standard_stream.h"
 #include "host/import/assets.h"
 
 #include <fmt/format.h>
@@ -106,6 +107,12 @@ void refuseForeignFormat(const std::filesystem::path &file) {
         if (!isNamed && !looksLike(format, head))
             continue;
         std::filesystem::path glb = file;
+        if (isStandardStream(file))
+            throw Error(
+                ErrorKind::BadInput,
+                fmt::format("standard input: it is {}, which is not read; store it as a file, and render "
+                            "that: the error then names the command that makes a .glb of it",
+                            format.name));
         glb.replace_extension(hasExtension(file, ".glb") ? ".converted.glb" : ".glb");
         throw Error(ErrorKind::BadInput,
                     fmt::format("{}: it is {}, which is not read; this command makes a .glb of it: {}",

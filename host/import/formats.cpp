@@ -1,5 +1,8 @@
 #include "host/import/formats.h"
 
+#include "host/base/content_guess.h"
+#include "host/base/input_file.h"
+#include "host/base/standard_stream.h"
 #include "host/import/assets.h"
 #include "host/import/gltf/gltf.h"
 #include "host/import/obj.h"
@@ -11,24 +14,71 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace hyalite {
 namespace {
 
+std::string_view textOf(std::span<const char> bytes) {
+    const std::string_view text(bytes.data(), bytes.size());
+    return text.substr(std::min(text.find_first_not_of(" \t\r\n", byteOrderMarkBytes(bytes)), text.size()));
+}
+
+bool isJson(std::span<const char> bytes) { return textOf(bytes).starts_with('{'); }
+
+/// glTF requires an "asset", which a scene of ours has not.
+bool isGltf(std::span<const char> bytes) {
+    return isJson(bytes) && textOf(bytes).find("\"asset\"") != std::string_view::npos;
+}
+
+bool isScene(std::span<const char> bytes) { return isJson(bytes) && !isGltf(bytes); }
+
+bool isGlb(std::span<const char> bytes) { return textOf(bytes).starts_with("glTF"); }
+
+bool isPly(std::span<const char> bytes) {
+    return textOf(bytes).starts_with("ply\n") || textOf(bytes).starts_with("ply\r");
+}
+
+/// What is text, and nothing else.
+bool isObj(std::span<const char> bytes) {
+    return guessContent(bytes.first(std::min(bytes.size(), guessedBytes))).empty();
+}
+
 constexpr auto table = std::to_array<Format>({
-    {.extension = ".json", .readScene = loadSceneFile},
-    {.extension = ".obj", .readMeshes = readObjMeshes},
-    {.extension = ".gltf", .readScene = loadGltf, .hasChoices = true, .readMeshes = readGltfMeshes},
-    {.extension = ".glb", .readScene = loadGltf, .hasChoices = true, .readMeshes = readGltfMeshes},
-    {.extension = ".ply", .readMeshes = readPlyMeshes},
-    {.extension = ".stl", .readMeshes = readStlMeshes},
+    {.extension = ".json", .hasContent = isScene, .readScene = loadSceneFile},
+    {.extension = ".gltf",
+     .hasContent = isGltf,
+     .readScene = loadGltf,
+     .hasChoices = true,
+     .readMeshes = readGltfMeshes},
+    {.extension = ".glb",
+     .hasContent = isGlb,
+     .readScene = loadGltf,
+     .hasChoices = true,
+     .readMeshes = readGltfMeshes},
+    {.extension = ".ply", .hasContent = isPly, .readMeshes = readPlyMeshes},
+    {.extension = ".stl", .hasContent = isStl, .readMeshes = readStlMeshes},
+    {.extension = ".obj", .hasContent = isObj, .readMeshes = readObjMeshes},
 });
+
+/// Throws Error{BadInput} for contents of no format.
+const Format &formatOf(const InputFile &file) {
+    std::vector<char> bytes(static_cast<std::size_t>(file.sizeBytes()));
+    file.read(0, std::as_writable_bytes(std::span(bytes)));
+    const auto found =
+        std::ranges::find_if(table, [&](const Format &format) { return format.hasContent(bytes); });
+    if (found == table.end())
+        throw file.bad(foreignContent(file, fmt::format("it is no {}", listOfExtensions())));
+    return *found;
+}
 
 } // namespace
 
 std::span<const Format> formats() { return table; }
 
 const Format *formatOf(const std::filesystem::path &file) {
+    if (isStandardStream(file))
+        return &formatOf(InputFile(file));
     const auto found = std::ranges::find_if(
         table, [&](const Format &format) { return hasExtension(file, format.extension); });
     return found == table.end() ? nullptr : &*found;

@@ -13,6 +13,8 @@ namespace hyalite {
 
 struct Format {
     std::string_view extension; ///< ".obj", in lower case
+    /// Whether a file without a name, standard input, is of this format. The first row that says so is right.
+    bool (*hasContent)(std::span<const char> bytes) = nullptr;
     /// Reads the file as a scene. Null: a file of meshes alone, which is framed and lit.
     LoadedScene (*readScene)(const std::filesystem::path &file, const LoadOptions &options) = nullptr;
     bool hasChoices = false; ///< of cameras, scenes and times: LoadOptions
@@ -22,7 +24,8 @@ struct Format {
 
 [[nodiscard]] std::span<const Format> formats();
 
-/// The format of the file's extension, in any letter case; null if none has it.
+/// The format of the file's extension, in any letter case; null if none has it. That of standard input is by its
+/// contents.
 [[nodiscard]] const Format *formatOf(const std::filesystem::path &file);
 
 /// ".json, .obj or .glb", for messages.

@@ -1,6 +1,7 @@
 #include "host/import/load.h"
 
 #include "host/base/error.h"
+#include "host/base/standard_stream.h"
 #include "host/import/assets.h"
 #include "host/import/file_reach.h"
 #include "host/import/formats.h"
@@ -26,7 +27,7 @@ namespace {
 /// one.
 void requireFile(const std::filesystem::path &file) {
     std::error_code error;
-    if (std::filesystem::exists(file, error) || error)
+    if (isStandardStream(file) || std::filesystem::exists(file, error) || error)
         return; // reading it reports the fault
     const std::vector<std::string> names = availableScenes();
     const std::string stem = file.stem().string();

@@ -272,18 +272,26 @@ void readText(std::span<const char> bytes, const std::string &fileName, VertexMe
         });
 }
 
-bool isBinary(std::span<const char> bytes) {
-    if (bytes.size() < headBytes)
-        return false;
-    const std::uint64_t count = littleEndian<std::uint32_t>(bytes.data() + 80);
-    if (bytes.size() == headBytes + count * triangleBytes)
-        return true;
+/// Whether it has the length of the binary file that it would be.
+bool hasBinarySize(std::span<const char> bytes) {
+    return bytes.size() >= headBytes &&
+           bytes.size() ==
+               headBytes + std::uint64_t{littleEndian<std::uint32_t>(bytes.data() + 80)} * triangleBytes;
+}
+
+bool beginsAsText(std::span<const char> bytes) {
     const std::string noName;
-    return !isWord(StlWords(bytes.first(headBytes).subspan(byteOrderMarkBytes(bytes)), noName).next(),
-                   "solid");
+    const std::span<const char> head = bytes.first(std::min<std::size_t>(bytes.size(), headBytes));
+    return isWord(StlWords(head.subspan(byteOrderMarkBytes(head)), noName).next(), "solid");
+}
+
+bool isBinary(std::span<const char> bytes) {
+    return hasBinarySize(bytes) || (bytes.size() >= headBytes && !beginsAsText(bytes));
 }
 
 } // namespace
+
+bool isStl(std::span<const char> bytes) { return hasBinarySize(bytes) || beginsAsText(bytes); }
 
 ObjMesh loadStl(const std::filesystem::path &file, const MeshTransform &transform,
                 const OnReading &onReading) {

@@ -4,8 +4,13 @@
 #include "host/import/obj.h"
 
 #include <filesystem>
+#include <span>
 
 namespace hyalite {
+
+/// Whether a file without a name is one: text that begins with "solid", or as long as the number of triangles says that
+/// a binary file announces.
+[[nodiscard]] bool isStl(std::span<const char> bytes);
 
 /// Loads all triangles of all solids of an STL file as one mesh. Vertices with the same coordinates, as floats, become
 /// one. The normal of a triangle follows from its winding, counter-clockwise seen from outside; that of the file, which

@@ -118,8 +118,8 @@ class FileActions {
     void enterFolder(const std::filesystem::path &folder) {
         posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
     }
-    void readNothing() {
-        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    void readFrom(const std::filesystem::path &input) {
+        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, input.c_str(), O_RDONLY, 0);
     }
     void connect(const Channel &channel, int target) {
         if (channel.theirs.number() >= 0)
@@ -208,7 +208,7 @@ pid_t start(const std::vector<std::string> &arguments, const Surroundings &surro
     const SpawnAttributes attributes;
     FileActions actions;
     actions.enterFolder(surroundings.folder);
-    actions.readNothing();
+    actions.readFrom(surroundings.input);
     actions.connect(output, STDOUT_FILENO);
     actions.connect(errors, STDERR_FILENO);
     const FileSizeLimit limit(surroundings.fileSizeLimitBytes);

@@ -26,6 +26,7 @@ struct Surroundings {
     std::filesystem::path folder; ///< the working directory
     /// Added to this process' environment; without a value: removed from it.
     std::map<std::string, std::optional<std::string>> environment;
+    std::filesystem::path input = "/dev/null"; ///< what standard input is, a path in the folder
     Stream output = Stream::Captured;
     Stream errors = Stream::Captured;
     double timeoutSeconds = 1200.0;   ///< after which the program is killed and the test fails

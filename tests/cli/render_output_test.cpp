@@ -301,7 +301,7 @@ TEST_F(RenderOutput, WhatCannotBeWrittenIsRefusedBeforeRendering) {
 }
 
 TEST_F(RenderOutput, AnUnknownExtensionIsRefusedBeforeRendering) {
-    for (const char *output : {"a", "a.jpg", ".png", "a.png.txt", "-", "/dev/full"}) {
+    for (const char *output : {"a", "a.jpg", ".png", "a.png.txt", "jpg:-", "/dev/full"}) {
         const Outcome outcome = run("render spheres -o " + std::string(output) + endlessWritten);
         EXPECT_EQ(outcome.exitCode, 2) << outcome;
         for (const char *part : {output, ".png", ".pfm"})

@@ -126,7 +126,7 @@ TEST_F(Assets, MissingFoldersHoldNoScenes) {
 
 TEST_F(Assets, AnythingElseIsRefused) {
     for (const char *argument : {"", "foo.txt", "a/b", ".", "..", "../scenes/spheres", "spheres.json.gz"})
-        EXPECT_TRUE(contains(refusal(argument), "ends in .json, .obj, ")) << argument;
+        EXPECT_TRUE(contains(refusal(argument), "ends in .json, .gltf, ")) << argument;
 }
 
 TEST_F(Assets, ASceneIsLoadedByItsName) {
