@@ -3,7 +3,7 @@
 
 #include "host/cli/failure.h"
 #include "host/film/welch_test.h"
-#include "host/render/contest.h"
+#include "host/lab/contest.h"
 
 #include <cstdint>
 #include <optional>

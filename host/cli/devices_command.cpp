@@ -7,7 +7,7 @@
 #include "host/gpu/render_config.h"
 #include "host/gpu/vk/device.h"
 #include "host/gpu/vk/device_list.h"
-#include "host/render/tune.h"
+#include "host/lab/tune.h"
 #include "host/scene/names.h"
 
 #include <fmt/format.h>

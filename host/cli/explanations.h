@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/cli/outliers.h"
+#include "host/engine/prepare.h"
 #include "host/reference/divergence.h"
-#include "host/render/prepare.h"
 
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "host/cli/failure.h"
 
 #include "host/base/version.h"
-#include "host/render/prepare.h"
+#include "host/engine/prepare.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // The contents of a scene, as `hyalite inspect` prints them: bounds, camera, lights, materials.
 #pragma once
 
-#include "host/render/prepare.h"
+#include "host/engine/prepare.h"
 
 namespace hyalite {
 

@@ -1,7 +1,7 @@
 // --layers: views of primary hits, beside the colours of an EXR.
 #pragma once
 
-#include "host/render/layers.h"
+#include "host/jobs/layers.h"
 
 #include <CLI/CLI.hpp>
 

@@ -6,7 +6,7 @@
 #include "host/cli/profile_files.h"
 #include "host/cli/scene_options.h"
 #include "host/import/assets.h"
-#include "host/render/measurement.h"
+#include "host/lab/measurement.h"
 #include "host/report/baseline.h"
 #include "host/report/profile_table.h"
 

@@ -4,7 +4,7 @@
 #include "host/base/atomic_file.h"
 #include "host/cli/options.h"
 #include "host/image/image_file.h"
-#include "host/render/measurement.h"
+#include "host/lab/measurement.h"
 
 #include <optional>
 #include <string>

@@ -4,10 +4,10 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/cli/render_request.h"
+#include "host/engine/time_limit.h"
+#include "host/farm/rank_backend.h"
 #include "host/import/assets.h"
-#include "host/render/rank_backend.h"
-#include "host/render/render_job.h"
-#include "host/render/time_limit.h"
+#include "host/jobs/render_job.h"
 
 #include <fmt/format.h>
 

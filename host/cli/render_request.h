@@ -1,7 +1,7 @@
 // The command line of `hyalite render` as a request.
 #pragma once
 
-#include "host/render/sequence.h"
+#include "host/jobs/sequence.h"
 
 #include <CLI/CLI.hpp>
 

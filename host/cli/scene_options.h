@@ -1,7 +1,7 @@
 // The SCENE argument and the options that override the scene file, for all commands that render.
 #pragma once
 
-#include "host/render/prepare.h"
+#include "host/engine/prepare.h"
 
 #include <CLI/CLI.hpp>
 

@@ -4,8 +4,8 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/cli/verify_files.h"
+#include "host/engine/tuning.h"
 #include "host/gpu/vk/device_list.h"
-#include "host/render/tuning.h"
 #include "host/report/progress.h"
 
 #include <fmt/format.h>

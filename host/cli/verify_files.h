@@ -1,7 +1,7 @@
 // Reports of a verification.
 #pragma once
 
-#include "host/render/verify.h"
+#include "host/lab/verify.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,7 @@
 #include "host/scene/light_sources.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace hyalite {
@@ -34,6 +36,31 @@ LightSources lightSourcesOf(const Scene &scene) {
 
 bool hasSurfaces(const Scene &scene) {
     return !scene.spheres.empty() || !scene.meshes.empty() || !scene.instances.empty();
+}
+
+bool showsLight(Integrator integrator) {
+    return integrator == Integrator::Whitted || integrator == Integrator::Path;
+}
+
+std::optional<std::string> diagnoseLight(const Scene &scene) {
+    if (!showsLight(scene.settings.integrator) || !hasSurfaces(scene))
+        return std::nullopt;
+    const LightSources sources = lightSourcesOf(scene);
+    const bool isWhitted = scene.settings.integrator == Integrator::Whitted;
+    if (!sources.hasLights && !sources.hasEmitters && !sources.hasEnvironment && !sources.hasBackground)
+        return "nothing lights this scene: it has no light, no material with an emission, no environment and "
+               "a black background; the picture will be black";
+    if (isWhitted && !sources.hasLights)
+        return "whitted lights surfaces by lights without size (point, spot, directional) alone, and this "
+               "scene has none: --integrator path follows the light of emitters, environments and "
+               "backgrounds";
+    if (isWhitted && (sources.hasEmitters || sources.hasEnvironment))
+        return fmt::format("whitted shows {}, but does not light surfaces by {}: --integrator path does",
+                           sources.hasEmitters && sources.hasEnvironment ? "emitters and the environment"
+                           : sources.hasEmitters                         ? "emitters"
+                                                                         : "the environment",
+                           sources.hasEmitters ? "them" : "it");
+    return std::nullopt;
 }
 
 } // namespace hyalite

@@ -3,6 +3,9 @@
 
 #include "host/scene/scene.h"
 
+#include <optional>
+#include <string>
+
 namespace hyalite {
 
 struct LightSources {
@@ -17,5 +20,12 @@ struct LightSources {
 
 /// Whether there is anything to light.
 [[nodiscard]] bool hasSurfaces(const Scene &scene);
+
+/// Whether it shows the light of a scene, and no view of it.
+[[nodiscard]] bool showsLight(Integrator integrator);
+
+/// What of the scene's light its integrator does not see, or that there is none at all, in words for warnings. Empty where
+/// all is well, and for integrators that show something else than light.
+[[nodiscard]] std::optional<std::string> diagnoseLight(const Scene &scene);
 
 } // namespace hyalite

@@ -1,6 +1,6 @@
+#include "host/engine/opening.h"
+#include "host/engine/shared_backend.h"
 #include "host/film/film_file.h"
-#include "host/render/opening.h"
-#include "host/render/shared_backend.h"
 #include "tests/bench/race.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"

@@ -8,10 +8,10 @@
 // - the options: start of a process, setting up a tile, reading a part in `merge`, bytes a second between ranks.
 //
 // Parts are those of Partition, tiles those of TileQueue and tilePixels(): the program's own.
+#include "host/engine/cpu_backend.h"
+#include "host/engine/opening.h"
+#include "host/engine/tile_queue.h"
 #include "host/film/partition.h"
-#include "host/render/cpu_backend.h"
-#include "host/render/opening.h"
-#include "host/render/tile_queue.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

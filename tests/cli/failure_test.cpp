@@ -2,7 +2,7 @@
 #include "host/cli/failure.h"
 
 #include "host/base/version.h"
-#include "host/render/prepare.h"
+#include "host/engine/prepare.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // Signals that are caught, and those that are not any more.
-#include "host/render/stop.h"
+#include "host/jobs/stop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Parts as `hyalite merge` reads them.
-#include "host/render/merge.h"
+#include "host/farm/merge.h"
 #include "tests/fuzz/checkpoint_bytes.h"
 #include "tests/fuzz/harness.h"
 

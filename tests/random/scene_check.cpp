@@ -1,9 +1,9 @@
 #include "tests/random/scene_check.h"
 
 #include "host/base/error.h"
+#include "host/engine/prepare.h"
 #include "host/gpu/kernel_needs.h"
 #include "host/reference/renderer.h"
-#include "host/render/prepare.h"
 #include "host/scene/names.h"
 #include "tests/fixtures/subnormals.h"
 #include "tests/fixtures/test_device.h"

@@ -1,0 +1,67 @@
+#include "host/engine/backend.h"
+
+#include "host/base/error.h"
+#include "host/base/host_memory.h"
+#include "host/base/message.h"
+#include "host/base/quantities.h"
+#include "host/report/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+/// Memory for a film and its image. Tone mapping and packing come later and take less.
+std::uint64_t filmBytes(const Crop &crop) {
+    return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height()) *
+           (sizeof(layout::FilmPixel) + sizeof(glm::vec3));
+}
+
+[[noreturn]] void refuseFilm(const Crop &crop, std::uint64_t neededBytes, const std::string &available) {
+    throw Error(ErrorKind::LimitExceeded,
+                fmt::format("{}x{} pixels take {} of memory, and {}", crop.width(), crop.height(),
+                            sizeText(neededBytes), available),
+                Remedy::SmallerImage);
+}
+
+} // namespace
+
+void requireFilmMemory(const Crop &crop, unsigned filmCount) {
+    const std::uint64_t neededBytes = filmCount * filmBytes(crop);
+    const std::optional<std::uint64_t> available = availableHostBytes();
+    if (available && neededBytes > *available)
+        refuseFilm(crop, neededBytes, sizeText(*available) + " are available");
+}
+
+BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, const std::string &task,
+                                 bool isQuiet, Timeline *timeline, const std::function<bool()> &shouldStop,
+                                 Continuation continuation) {
+    ProgressLine progress(task, isQuiet);
+    const double others = continuation.shareOfOthers;
+    if (backend.hasCompiler())
+        progress.expectCompiler();
+    try {
+        BackendResult result = backend.render(
+            scene, [&](double share) { progress.update(std::max(share - others, 0.0) / (1.0 - others)); },
+            timeline, shouldStop, std::move(continuation));
+        if (result.failure && !shouldStop)
+            throw Error(*result.failure);
+        const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);
+        for (std::size_t i = 0; i < survived; ++i)
+            printMessage("note: {}; reopened the device to do half as much at a time\n", result.faults[i]);
+        for (const RendererShare &share : result.shares)
+            if (!share.failure.empty() && share.seconds > 0.0) // else it was told before
+                printMessage("note: left out {}: {}\n", share.name, share.failure);
+        return result;
+    } catch (const std::bad_alloc &) {
+        refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
+    }
+}
+
+} // namespace hyalite

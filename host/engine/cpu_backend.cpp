@@ -1,0 +1,89 @@
+#include "host/engine/cpu_backend.h"
+
+#include <string>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+class CpuBackend : public Backend {
+  public:
+    CpuBackend(reference::Precision precision, int threadCount)
+        : precision_(precision), threadCount_(threadCount) {}
+
+    [[nodiscard]] std::string name() const override {
+        return precision_ == reference::Precision::Float32 ? "cpu" : "cpu-double";
+    }
+    [[nodiscard]] RendererIdentity identity(const PackedScene &, Integrator) const override {
+        return {name(),
+                "reference renderer",
+                "native / and sqrt: IEEE 754",
+                precision_ == reference::Precision::Float32 ? "promised"
+                                                            : "none: it computes in double precision",
+                "",
+                0};
+    }
+    [[nodiscard]] std::string precision() const override {
+        // A film holds sums in single precision.
+        return precision_ == reference::Precision::Float32 ? Backend::precision() : std::string();
+    }
+    [[nodiscard]] bool hasCompiler() const override { return false; }
+    [[nodiscard]] std::string description() const override {
+        return precision_ == reference::Precision::Float32
+                   ? "cpu, the reference renderer"
+                   : "cpu-double, the reference renderer in double precision";
+    }
+    [[nodiscard]] BackendResult render(const PreparedScene &scene,
+                                       const std::function<void(double)> &onProgress, Timeline *timeline,
+                                       const std::function<bool()> &shouldStop,
+                                       Continuation continuation) override {
+        const RenderSettings &settings = scene.loaded.scene.settings;
+        Stopwatch watch;
+        reference::Result result = reference::render(
+            scene.packed, settings, scene.crop, {precision_, threadCount_, onProgress, false, shouldStop},
+            std::move(continuation));
+        const Span span = watch.lap();
+        if (timeline != nullptr) {
+            timeline->clock = "the host's clock, from call to return";
+            timeline->stages.push_back({"dispatches", span});
+            timeline->dispatches.push_back(describeCall(scene, result.rays, span));
+        }
+        RenderTiming timing;
+        timing.renderSeconds = span.seconds();
+        return {std::move(result.film), result.rays, timing, result.work, {}};
+    }
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+                                                        std::uint32_t sampleIndex) override {
+        return reference::trace(scene.packed, scene.loaded.scene.settings, pixel, sampleIndex, precision_);
+    }
+
+  private:
+    /// The whole render as one dispatch of one tile.
+    [[nodiscard]] DispatchRecord describeCall(const PreparedScene &scene, const RayCounts &rays,
+                                              const Span &span) const {
+        DispatchRecord record;
+        record.kernel = name();
+        record.tileX = scene.crop.x0;
+        record.tileY = scene.crop.y0;
+        record.tileWidth = scene.crop.width();
+        record.tileHeight = scene.crop.height();
+        record.sampleEnd = static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel);
+        record.rays = rays;
+        record.invocations =
+            static_cast<std::uint64_t>(record.tileWidth) * static_cast<std::uint64_t>(record.tileHeight);
+        record.times.host = span;
+        return record;
+    }
+
+    reference::Precision precision_;
+    int threadCount_;
+};
+
+} // namespace
+
+std::unique_ptr<Backend> makeCpuBackend(reference::Precision precision, int threadCount) {
+    return std::make_unique<CpuBackend>(precision, threadCount);
+}
+
+} // namespace hyalite

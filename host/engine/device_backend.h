@@ -1,0 +1,15 @@
+// A Vulkan device as a backend.
+#pragma once
+
+#include "host/engine/backend.h"
+#include "host/gpu/render_config.h"
+
+#include <memory>
+
+namespace hyalite {
+
+/// Opens the device. Throws as gpu::Renderer does.
+[[nodiscard]] std::unique_ptr<Backend> makeDeviceBackend(const gpu::DeviceInfo &device,
+                                                         const gpu::RenderConfig &config);
+
+} // namespace hyalite

@@ -1,0 +1,43 @@
+#include "host/engine/identity.h"
+
+#include "host/base/hash.h"
+#include "host/scene/names.h"
+#include "host/scene/settings_table.h"
+
+#include "shaders/embedded_kernels.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace hyalite {
+
+RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
+                          const std::vector<Integrator> *layers) {
+    RenderIdentity identity;
+    const layout::FrameRecord &frame = scene.packed.frame;
+    const Crop &crop = scene.crop;
+    identity.emplace_back("image", fmt::format("{}x{}", frame.imageWidth, frame.imageHeight));
+    identity.emplace_back("crop", fmt::format("{},{},{},{}", crop.x0, crop.x1, crop.y0, crop.y1));
+    for (const Setting &setting : settingsTable) {
+        if (setting.changes != Changes::Samples)
+            continue;
+        const nlohmann::ordered_json value = settingToJson(setting, scene.loaded.scene.settings);
+        identity.emplace_back(setting.key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    const RenderSettings &settings = scene.loaded.scene.settings;
+    if (settings.integrator == Integrator::Cost) // a picture of the tree
+        identity.emplace_back("tree",
+                              fmt::format("{}, leaf size {}", nameOf(settings.tree), settings.leafSize));
+    if (layers != nullptr) {
+        std::vector<std::string_view> names;
+        for (const Integrator layer : *layers)
+            names.push_back(nameOf(layer));
+        identity.emplace_back("layers", fmt::format("{}", fmt::join(names, ",")));
+    }
+    identity.emplace_back("scene and camera", hashText(scene.contentHash()));
+    identity.emplace_back("precision", backend.precision());
+    identity.emplace_back("kernels of this program", pixelSources());
+    return identity;
+}
+
+} // namespace hyalite

@@ -1,0 +1,341 @@
+#include "host/engine/prepare.h"
+
+#include "host/base/error.h"
+#include "host/base/message.h"
+#include "host/bvh/bvh.h"
+#include "host/bvh/tree_statistics.h"
+#include "host/import/environment_file.h"
+#include "host/import/load.h"
+#include "host/import/neutral_environment.h"
+#include "host/report/progress.h"
+#include "host/scene/contacts.h"
+#include "host/scene/framing.h"
+#include "host/scene/instances.h"
+#include "host/scene/light_sources.h"
+#include "host/scene/limits.h"
+#include "host/scene/names.h"
+#include "host/scene/validate.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+glm::dvec3 toVector(const std::vector<double> &values) { return {values[0], values[1], values[2]}; }
+
+/// The point to look at: that of --look-at or, if the camera of a bare mesh is moved, the centre of the mesh, because
+/// no scene file gives a direction.
+std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const LoadedScene &loaded) {
+    if (!options.lookAt.empty())
+        return toVector(options.lookAt) - loaded.scene.origin;
+    if (loaded.autoFramed && !options.cameraPosition.empty())
+        return triangleBounds(loaded.scene, loaded.file.string()).centre();
+    return std::nullopt;
+}
+
+/// Up of a mesh without a camera: that of --up, of unit length, or +y.
+glm::dvec3 chooseUp(const SceneOptions &options) {
+    const glm::dvec3 up = options.up.empty() ? glm::dvec3(0.0) : toVector(options.up);
+    const double length = glm::length(up);
+    return limits::directionLength.contains(length) ? up / length : glm::dvec3(0.0, 1.0, 0.0);
+}
+
+/// Moves the camera. A new position keeps the direction; a new target keeps the position.
+void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &camera) {
+    if (!options.cameraPosition.empty())
+        camera.position = toVector(options.cameraPosition) - loaded.scene.origin;
+    if (!options.up.empty())
+        camera.up = toVector(options.up);
+    if (!limits::directionLength.contains(glm::length(camera.up)))
+        throw OverrideError("up", "found a vector without length; allowed: any other vector");
+    if (const std::optional<glm::dvec3> target = chooseTarget(options, loaded)) {
+        camera.direction = *target - camera.position;
+        if (!limits::directionLength.contains(glm::length(camera.direction)))
+            throw OverrideError("look-at", "found the camera's own position; allowed: any other point");
+    }
+}
+
+void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
+    for (const SettingChange &change : options.settings)
+        change.apply(settings);
+}
+
+/// Throws for an option that the integrator does not look at.
+void requireEffect(const SettingChanges &changes, Integrator integrator) {
+    for (const SettingChange &change : changes) {
+        if (change.option == nullptr || change.option->integrators.empty() ||
+            std::ranges::find(change.option->integrators, integrator) != change.option->integrators.end())
+            continue;
+        std::string users;
+        for (const Integrator user : change.option->integrators)
+            users += fmt::format("{}{}", users.empty() ? "" : ", ", nameOf(user));
+        throw OverrideError(
+            std::string(change.option->option.substr(2)),
+            fmt::format("has no effect with the integrator {}; allowed: with {}", nameOf(integrator), users));
+    }
+}
+
+/// What is around the scene: the environment or the background of the command line replaces both of the scene's.
+void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
+    Environment &environment = loaded.scene.environment;
+    if (!options.background.empty()) {
+        if (!options.environment.empty())
+            throw OverrideError("background", "found beside --environment; allowed: one of the two");
+        loaded.scene.background = glm::vec3(toVector(options.background));
+        environment = {};
+    }
+    if (options.environment == neutralEnvironmentName) {
+        environment = {.radiance = neutralEnvironment()};
+    } else if (!options.environment.empty()) {
+        EnvironmentImage image = readEnvironmentImage(options.environment);
+        environment = {.radiance = std::move(image.radiance)};
+        loaded.inputFiles.push_back(options.environment);
+        std::ranges::move(image.warnings, std::back_inserter(loaded.warnings));
+    }
+    const bool isMissing = environment.radiance.pixels().empty();
+    const auto require = [&](std::string_view option) {
+        if (isMissing)
+            throw OverrideError(
+                std::string(option),
+                "found a scene without an environment; allowed: with one, or with --environment");
+    };
+    if (options.environmentScale) {
+        require("environment-scale");
+        environment.scale = static_cast<float>(*options.environmentScale);
+    }
+    if (options.environmentRotateDegrees) {
+        require("environment-rotate");
+        environment.rotateDegrees = *options.environmentRotateDegrees;
+    }
+}
+
+/// The size of the image: of the options, or the scene's. Where the file gives the shape, a side that no option gives
+/// follows from the other one; without options the longer side is that of the scene.
+void overrideSize(const SceneOptions &options, const std::optional<double> &aspectRatio, Camera &camera) {
+    const auto toPixels = [](double side) {
+        return static_cast<int>(std::clamp(std::round(side), limits::imageSize.low, limits::imageSize.high));
+    };
+    if (!aspectRatio) {
+        camera.width = options.width.value_or(camera.width);
+        camera.height = options.height.value_or(camera.height);
+        return;
+    }
+    const double ratio = *aspectRatio;
+    const int width =
+        toPixels(options.height ? *options.height * ratio : camera.width * std::min(ratio, 1.0));
+    const int height =
+        toPixels(options.width ? *options.width / ratio : camera.height / std::max(ratio, 1.0));
+    camera.width = options.width.value_or(width);
+    camera.height = options.height.value_or(height);
+}
+
+void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
+    Scene &scene = loaded.scene;
+    RenderSettings &settings = scene.settings;
+    // A mesh without lights of its own is lit by an environment that is given.
+    const bool isLitAround = loaded.autoFramed && loaded.isAutoLit && !options.environment.empty();
+    if (isLitAround)
+        settings.integrator = Integrator::Path;
+    overrideSettings(options, settings);
+    if (isLitAround && settings.integrator == Integrator::Path) { // others do not see its light
+        scene.lights.clear();
+        loaded.isAutoLit = false;
+    }
+    requireEffect(options.settings, settings.integrator);
+    if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
+        throw OverrideError("filter", fmt::format("found {} with all samples at the pixel's centre; allowed: "
+                                                  "with the sampler sobol, or the filter box",
+                                                  nameOf(settings.filter)));
+    overrideEnvironment(options, loaded);
+
+    Camera &camera = scene.camera;
+    overrideSize(options, loaded.aspectRatio, camera);
+    if (options.fovDegrees && camera.kind != CameraKind::Perspective)
+        throw OverrideError("fov", fmt::format("found a camera of the type {}, which has no field of "
+                                               "view; allowed: with a perspective one",
+                                               nameIn(cameraNames, camera.kind)));
+    if (loaded.verticalFovDegrees)
+        camera.horizontalFovDegrees =
+            horizontalFovDegrees(*loaded.verticalFovDegrees, camera.width, camera.height);
+    camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
+    if (!loaded.autoFramed) {
+        moveCamera(options, loaded, camera);
+        return;
+    }
+    const Bounds bounds = triangleBounds(scene, loaded.file.string());
+    camera = frameCamera(bounds, camera.width, camera.height, camera.horizontalFovDegrees, chooseUp(options));
+    moveCamera(options, loaded, camera);
+    const bool isMoved = !options.up.empty() || !options.cameraPosition.empty();
+    if (loaded.isAutoLit && isMoved)
+        scene.lights = frameLights(bounds, chooseUp(options), camera.position);
+}
+
+/// The override that decides the orientation of the camera, or empty.
+std::string cameraOverride(const SceneOptions &options) {
+    if (!options.up.empty())
+        return "up";
+    if (!options.lookAt.empty())
+        return "look-at";
+    return options.cameraPosition.empty() ? "" : "camera-position";
+}
+
+/// Validates the scene with its overrides. It was valid as loaded, and each override is in range, so any failure is a
+/// conflict between them.
+void validateWithOverrides(const SceneOptions &options, const Scene &scene, const std::string &file) {
+    const std::string name = cameraOverride(options);
+    try {
+        validateScene(scene,
+                      fmt::format("{} with {}", file, name.empty() ? "these settings" : "this camera"));
+    } catch (const Error &error) {
+        if (name.empty())
+            throw Error(ErrorKind::Usage, error.what());
+        throw OverrideError(name, error.what());
+    }
+}
+
+Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
+    if (wanted.empty())
+        return {0, camera.width, 0, camera.height};
+    const Crop crop{wanted[0], wanted[1], wanted[2], wanted[3]};
+    const bool isInside = 0 <= crop.x0 && crop.x0 < crop.x1 && crop.x1 <= camera.width && 0 <= crop.y0 &&
+                          crop.y0 < crop.y1 && crop.y1 <= camera.height;
+    if (!isInside)
+        throw OverrideError(
+            "crop",
+            fmt::format("{},{},{},{} is empty or leaves the image of {}x{} pixels; allowed: x0,x1,y0,y1 "
+                        "with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}",
+                        crop.x0, crop.x1, crop.y0, crop.y1, camera.width, camera.height, camera.width,
+                        camera.height));
+    return crop;
+}
+
+/// Expected triangle tests of a line above which the tree is useless. Good meshes are far below: a sphere of eight
+/// million triangles has 14.
+constexpr double manyTrianglesTested = 1000.0;
+
+void warnOfOverlaps(const Bvh &bvh) {
+    const BvhStatistics statistics = measureBvh(bvh);
+    const bool hasTree = statistics.depth > 0; // without a tree, many tests are what the user asked for
+    if (hasTree && statistics.trianglesTested > manyTrianglesTested)
+        printWarning("the boxes of the scene's {} triangles overlap so much that a ray tests about "
+                     "{:.0f} of them: rendering will be slow",
+                     statistics.triangleCount, statistics.trianglesTested);
+}
+
+/// Whether a triangle's material is one that `isMeant`, by its index.
+template <class IsMeant> bool wears(const TriangleMesh &mesh, const IsMeant &isMeant) {
+    return mesh.triangleMaterials.empty() ? isMeant(mesh.materialIndex)
+                                          : std::ranges::any_of(mesh.triangleMaterials, isMeant);
+}
+
+/// Whether anything is of glass without roughness, through which no shadow ray goes.
+bool hasSmoothGlass(const Scene &scene) {
+    const auto isSmooth = [&](std::uint32_t index) {
+        const Material &material = scene.materials[index];
+        return material.kind == MaterialKind::Dielectric && material.roughness == 0.0f;
+    };
+    const auto wearsIt = [&](const TriangleMesh &mesh) { return wears(mesh, isSmooth); };
+    return std::ranges::any_of(scene.spheres, isSmooth, &Sphere::materialIndex) ||
+           std::ranges::any_of(scene.meshes, wearsIt) || std::ranges::any_of(scene.prototypes, wearsIt);
+}
+
+/// `path` meets a light without size by shadow rays only, and smooth glass bends light in one direction only.
+void warnOfLightsBehindGlass(const Scene &scene) {
+    if (scene.settings.integrator == Integrator::Path && !scene.lights.empty() && hasSmoothGlass(scene))
+        printWarning("path does not find the light of lights without size (point, spot, "
+                     "directional) through smooth glass: its shadow is dark, and it focuses none of that "
+                     "light. Give the light a size, as a sphere with emission, or use --integrator "
+                     "whitted");
+}
+
+/// Drops what is packed, but for glass: where a camera moves, packCamera asks what is around it.
+void dropSource(Scene &scene) {
+    const auto isOfGlass = [&](std::uint32_t index) { return isGlass(scene.materials[index]); };
+    for (std::vector<TriangleMesh> *meshes : {&scene.meshes, &scene.prototypes})
+        for (TriangleMesh &mesh : *meshes)
+            if (!wears(mesh, isOfGlass))
+                mesh = {};
+    scene.textures = {};
+}
+
+double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
+    return std::chrono::duration<double>(b - a).count();
+}
+
+} // namespace
+
+PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
+                           const std::function<void(const SceneOutline &)> &onOutline) {
+    using Clock = std::chrono::steady_clock;
+    PreparedScene prepared;
+    const Clock::time_point start = Clock::now();
+    {
+        ProgressLine progress("load", isQuiet);
+        const auto tellOutline = [&](SceneOutline outline) {
+            overrideSettings(options, outline.settings);
+            if (onOutline)
+                onOutline(outline);
+        };
+        LoadOptions load = options.load;
+        load.events = {tellOutline, [&](double share) { progress.update(share); }};
+        prepared.loaded = loadScene(options.scene, load);
+    }
+    applyOverrides(options, prepared.loaded);
+    for (const std::string &warning : prepared.loaded.warnings)
+        printWarning("{}", warning);
+    for (const MeshReport &report : prepared.loaded.meshReports)
+        for (const std::string &warning : report.warnings)
+            printWarning("{}", warning);
+    Scene &scene = prepared.loaded.scene;
+    validateWithOverrides(options, scene, prepared.loaded.file.string());
+    prepared.crop = chooseCrop(options.crop, scene.camera);
+    prepared.sources = lightSourcesOf(scene);
+    if (!isQuiet) {
+        warnOfLightsBehindGlass(scene);
+        if (const std::optional<std::string> dark = diagnoseLight(scene))
+            printWarning("{}", *dark);
+    }
+    const Clock::time_point loaded = Clock::now();
+    // Without a tree all triangles are tested one by one, and have to be in one space.
+    const bool isFlattened = options.isFlattened || scene.settings.tree == TreeKind::None;
+    arrangeInstances(scene, isFlattened ? Flattening::All : Flattening::Useful);
+    partContacts(scene);
+    prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);
+    warnOfOverlaps(prepared.bvh);
+    prepared.packed = packScene(scene, prepared.bvh);
+    prepared.arraysHash = prepared.packed.arraysHash();
+    if (source == Source::Dropped) {
+        dropSource(scene);
+        prepared.bvh = {};
+    }
+    prepared.loadSeconds = secondsBetween(start, loaded);
+    prepared.buildSeconds = secondsBetween(loaded, Clock::now());
+    return prepared;
+}
+
+Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine) {
+    Provenance origin;
+    origin.commandLine = commandLine;
+    origin.scene = scene.loaded.file.string();
+    origin.sceneHash = scene.contentHash();
+    origin.triangleCount = scene.packed.triangles.size();
+    origin.width = scene.crop.width();
+    origin.height = scene.crop.height();
+    origin.coordinateOrigin = scene.loaded.scene.origin;
+    origin.settings = scene.loaded.scene.settings;
+    return origin;
+}
+
+} // namespace hyalite

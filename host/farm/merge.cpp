@@ -1,0 +1,184 @@
+#include "host/farm/merge.h"
+
+#include "host/base/clean_text.h"
+#include "host/base/error.h"
+#include "host/engine/backend.h"
+#include "host/scene/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+constexpr std::size_t shownBytes = 300;
+
+/// The first pixel that differs in any bit, as the index among those of the squares.
+std::optional<std::size_t> firstDifference(std::span<const layout::FilmPixel> a,
+                                           std::span<const layout::FilmPixel> b) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (!haveEqualBits(a[i], b[i]))
+            return i;
+    return std::nullopt;
+}
+
+struct Place {
+    Crop square;
+    int x;
+    int y;
+};
+
+/// Where pixel `index` of the squares is in the picture.
+Place placeOf(std::span<const Crop> squares, std::size_t index) {
+    for (const Crop &square : squares) {
+        const auto width = static_cast<std::size_t>(square.width());
+        const std::size_t count = width * static_cast<std::size_t>(square.height());
+        if (index < count)
+            return {square, square.x0 + static_cast<int>(index % width),
+                    square.y0 + static_cast<int>(index / width)};
+        index -= count;
+    }
+    return {};
+}
+
+/// Pixels of the part that lack samples of the picture or of a layer.
+std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origin) {
+    const auto samplesOfLayer = [&](std::size_t layer) {
+        return static_cast<std::uint32_t>(
+            samplesOfView(origin.layers[layer], static_cast<int>(file.samplesPerPixel)));
+    };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < file.pixels.size(); ++i) {
+        bool isFinished = file.pixels[i].sampleCount == file.samplesPerPixel;
+        for (std::size_t layer = 0; layer < file.layers.size(); ++layer)
+            isFinished = isFinished && file.layers[layer][i].sampleCount == samplesOfLayer(layer);
+        count += !isFinished;
+    }
+    return count;
+}
+
+} // namespace
+
+void Merger::add(const std::filesystem::path &path) {
+    try {
+        const CheckpointFile file = readCheckpointFile(path, partition_ ? &*partition_ : nullptr);
+        PartOrigin origin;
+        try {
+            origin = readPartOrigin(file.origin);
+            if (origin.layers.size() != file.layers.size())
+                throw Error(ErrorKind::BadInput, fmt::format("it has {} layers and says that they are {}",
+                                                             file.layers.size(), origin.layers.size()));
+            if (origin.wholeWidth < file.crop.x1 || origin.wholeHeight < file.crop.y1)
+                throw Error(ErrorKind::BadInput, "its crop is larger than its picture");
+        } catch (const Error &error) {
+            throw Error(error.kind,
+                        fmt::format("cannot use part '{}': {}", path.string(),
+                                    excerpt(error.what(), shownBytes))); // as of the file's own words
+        }
+        take(file, origin);
+    } catch (const Error &error) {
+        if (error.kind == ErrorKind::LimitExceeded)
+            faults_.unusable.push_back(fmt::format("'{}': {}", path.string(), error.what()));
+        else
+            faults_.unusable.emplace_back(error.what());
+    }
+}
+
+void Merger::take(const CheckpointFile &file, const PartOrigin &origin) {
+    const std::string path = file.path.string();
+    if (const std::size_t unfinished = unfinishedPixels(file, origin); unfinished > 0) {
+        faults_.unusable.push_back(fmt::format("'{}' is not finished: {} of its {} pixels lack samples", path,
+                                               unfinished, file.pixels.size()));
+        return;
+    }
+    if (!subject_)
+        begin(file, origin);
+    if (const std::string difference = foreignness(file); !difference.empty()) {
+        faults_.foreign.push_back(
+            fmt::format("'{}' belongs to another picture than '{}': {}", path, firstPath_, difference));
+        return;
+    }
+    const Taken taken{path, origin.maker()};
+    if (parts_.contains(file.part.index)) {
+        compare(file, taken);
+        return;
+    }
+    const std::span<const Crop> squares = partition_->squaresOf(file.part.index);
+    setPixelsIn(*film_, squares, file.pixels);
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+        setPixelsIn(layers_[i].film, squares, file.layers[i]);
+    rays_ += file.rays;
+    parts_.emplace(file.part.index, taken);
+}
+
+void Merger::begin(const CheckpointFile &file, const PartOrigin &origin) {
+    requireFilmMemory(file.crop, 2 + static_cast<unsigned>(file.layers.size()));
+    subject_ = CheckpointSubject{file.crop, file.part, file.samplesPerPixel, {}};
+    firstPath_ = file.path.string();
+    identity_ = file.identity;
+    origin_ = origin;
+    partition_.emplace(file.crop, file.part.count);
+    film_.emplace(file.crop);
+    for (const Integrator layer : origin.layers)
+        layers_.push_back({layer, Film(file.crop)});
+}
+
+std::string Merger::foreignness(const CheckpointFile &file) const {
+    if (file.identity != identity_)
+        return describeDifferences(identity_, file.identity);
+    if (file.part.count != subject_->part.count)
+        return fmt::format("parts: {} there, {} here", subject_->part.count, file.part.count);
+    if (file.samplesPerPixel != subject_->samplesPerPixel)
+        return fmt::format("spp: {} there, {} here", subject_->samplesPerPixel, file.samplesPerPixel);
+    if (file.layers.size() != layers_.size())
+        return fmt::format("layers: {} there, {} here", layers_.size(), file.layers.size());
+    return file.crop == subject_->crop ? "" : "it has another crop";
+}
+
+void Merger::compare(const CheckpointFile &file, const Taken &second) {
+    const std::span<const Crop> squares = partition_->squaresOf(file.part.index);
+    const auto compareFilm = [&](const Film &film, std::span<const layout::FilmPixel> pixels,
+                                 std::string_view of) {
+        const std::optional<std::size_t> index = firstDifference(pixelsIn(film, squares), pixels);
+        if (!index)
+            return;
+        const Place place = placeOf(squares, *index);
+        faults_.differences.push_back(fmt::format(
+            "part {} of {} differs{} in the tile at {},{}, first at the pixel {},{}: {} and '{}', made by {}",
+            file.part.index, file.part.count, of, place.square.x0, place.square.y0, place.x, place.y,
+            describe(file.part.index), second.path, second.maker));
+    };
+    compareFilm(*film_, file.pixels, "");
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+        compareFilm(layers_[i].film, file.layers[i],
+                    fmt::format(" in its layer {}", nameOf(layers_[i].view)));
+}
+
+std::vector<std::uint32_t> Merger::missing() const {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t index = 1; subject_ && index <= subject_->part.count; ++index)
+        if (!parts_.contains(index))
+            indices.push_back(index);
+    return indices;
+}
+
+std::string Merger::commandFor(std::uint32_t index) const {
+    return origin_.commandFor(subject_->part, {index, subject_->part.count});
+}
+
+std::string Merger::describe(std::uint32_t index) const {
+    const Taken &taken = parts_.at(index);
+    return fmt::format("'{}', made by {}", taken.path, taken.maker);
+}
+
+std::map<std::string, std::size_t> Merger::makers() const {
+    std::map<std::string, std::size_t> counts;
+    for (const auto &[index, taken] : parts_)
+        ++counts[taken.maker];
+    return counts;
+}
+
+} // namespace hyalite

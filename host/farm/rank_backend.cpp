@@ -1,0 +1,284 @@
+#include "host/farm/rank_backend.h"
+
+#include "host/base/error.h"
+#include "host/engine/identity.h"
+#include "host/farm/part_origin.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+/// A message: what it says, and pixels.
+///
+///     the size of the JSON, 8 bytes   JSON   pixels
+struct Message {
+    std::string text; ///< the JSON
+    std::vector<layout::FilmPixel> pixels{};
+
+    [[nodiscard]] json header() const { return json::parse(text); }
+};
+
+void send(Ranks &ranks, int to, const json &header, std::span<const layout::FilmPixel> pixels = {}) {
+    const std::string text = header.dump(-1, ' ', false, json::error_handler_t::replace);
+    const std::uint64_t textSize = text.size();
+    const std::span<const std::byte> pixelBytes = std::as_bytes(pixels);
+    std::vector<std::byte> bytes(sizeof(textSize) + text.size() + pixelBytes.size());
+    std::memcpy(bytes.data(), &textSize, sizeof(textSize));
+    std::memcpy(bytes.data() + sizeof(textSize), text.data(), text.size());
+    if (!pixelBytes.empty())
+        std::memcpy(bytes.data() + sizeof(textSize) + text.size(), pixelBytes.data(), pixelBytes.size());
+    ranks.send(to, bytes);
+}
+
+std::optional<Message> poll(Ranks &ranks, int from) {
+    const std::optional<std::vector<std::byte>> bytes = ranks.poll(from);
+    if (!bytes)
+        return std::nullopt;
+    std::uint64_t textSize = 0;
+    std::memcpy(&textSize, bytes->data(), sizeof(textSize));
+    const std::span<const std::byte> rest = std::span(*bytes).subspan(sizeof(textSize));
+    Message message;
+    message.text.assign(reinterpret_cast<const char *>(rest.data()), textSize);
+    const std::span<const std::byte> pixels = rest.subspan(textSize);
+    message.pixels.resize(pixels.size() / sizeof(layout::FilmPixel));
+    if (!pixels.empty())
+        std::memcpy(message.pixels.data(), pixels.data(), pixels.size());
+    return message;
+}
+
+constexpr auto pollInterval = std::chrono::milliseconds(1); // a tile takes seconds
+
+Message waitFor(Ranks &ranks, int from) {
+    for (;;) {
+        if (std::optional<Message> message = poll(ranks, from))
+            return std::move(*message);
+        std::this_thread::sleep_for(pollInterval);
+    }
+}
+
+json toJson(const RayCounts &rays) {
+    json counts = json::array();
+    for (const RayKind &kind : rayKinds)
+        counts.push_back(rays.*kind.count);
+    return counts;
+}
+
+RayCounts raysFrom(const json &counts) {
+    RayCounts rays;
+    for (std::size_t i = 0; i < rayKinds.size(); ++i)
+        rays.*rayKinds[i].count = counts.at(i).get<std::uint64_t>();
+    return rays;
+}
+
+json toJson(const RendererIdentity &identity) {
+    return {
+        {"name", identity.name},           {"driver", identity.driver}, {"arithmetic", identity.arithmetic},
+        {"equalBits", identity.equalBits}, {"kernel", identity.kernel}, {"kernelHash", identity.kernelHash}};
+}
+
+RendererIdentity identityFrom(const json &from) {
+    return {from.at("name"),      from.at("driver"), from.at("arithmetic"),
+            from.at("equalBits"), from.at("kernel"), from.at("kernelHash")};
+}
+
+/// The renderer of another rank.
+class RankBackend : public Backend {
+  public:
+    RankBackend(Ranks &ranks, int rank, std::string hello)
+        : ranks_(ranks), rank_(rank), hello_(std::move(hello)) {}
+
+    [[nodiscard]] std::string name() const override {
+        return fmt::format("{} of rank {}", hello().at("name").get<std::string>(), rank_);
+    }
+    [[nodiscard]] std::string description() const override {
+        return fmt::format("rank {} on {}: {}", rank_, hello().at("host").get<std::string>(),
+                           hello().at("description").get<std::string>());
+    }
+    [[nodiscard]] RendererIdentity identity(const PackedScene &, Integrator) const override {
+        return identityFrom(hello().at("renderer"));
+    }
+    [[nodiscard]] gpu::BitGuarantee bits() const override {
+        return {static_cast<gpu::BitDegree>(hello().at("bitDegree").get<int>()), hello().at("bitReason")};
+    }
+    [[nodiscard]] std::string precision() const override { return hello().at("precision"); }
+    [[nodiscard]] bool hasCompiler() const override { return hello().at("hasCompiler"); }
+
+    [[nodiscard]] BackendResult render(const PreparedScene &scene, const std::function<void(double)> &,
+                                       Timeline *, const std::function<bool()> &shouldStop,
+                                       Continuation continuation) override {
+        Film film = continuation.film ? std::move(*continuation.film) : Film(scene.crop);
+        const RenderSettings &settings = scene.loaded.scene.settings;
+        const Crop &crop = film.crop;
+        send(ranks_, rank_,
+             {{"kind", "tile"},
+              {"integrator", static_cast<int>(settings.integrator)},
+              {"samples", settings.samplesPerPixel},
+              {"sampler", static_cast<int>(settings.sampler)},
+              {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}}},
+             film.pixels);
+        std::optional<Clock::time_point> stopped;
+        std::optional<Message> answer;
+        while (!(answer = poll(ranks_, rank_))) {
+            if (!stopped && shouldStop && shouldStop()) {
+                send(ranks_, rank_, {{"kind", "stop"}});
+                stopped = Clock::now();
+            }
+            // The rank may be gone: then mpirun ends this one, too, and what is finished had better be written.
+            if (stopped && Clock::now() - *stopped > std::chrono::seconds(2))
+                throw Error(ErrorKind::DeviceLost, "it does not answer");
+            std::this_thread::sleep_for(pollInterval);
+        }
+        const json header = answer->header();
+        if (const std::string why = header.at("error"); !why.empty())
+            throw Error(static_cast<ErrorKind>(header.at("errorKind").get<int>()), why);
+        film.pixels = std::move(answer->pixels);
+        BackendResult result{std::move(film), raysFrom(header.at("rays")), {}, {}};
+        result.timing.dispatchCount = header.at("dispatches");
+        result.timing.pipelineSeconds = header.at("pipelineSeconds");
+        result.timing.uploadSeconds = header.at("uploadSeconds");
+        result.memory.deviceBytes = header.at("deviceBytes");
+        result.faults = header.at("faults").get<std::vector<std::string>>();
+        if (const std::string why = header.at("failure"); !why.empty())
+            result.failure.emplace(static_cast<ErrorKind>(header.at("failureKind").get<int>()), why);
+        return result;
+    }
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &, const glm::uvec2 &,
+                                                        std::uint32_t) override {
+        throw Error(ErrorKind::Usage, "paths are traced in one process");
+    }
+
+  private:
+    [[nodiscard]] json hello() const { return json::parse(hello_); }
+
+    Ranks &ranks_;
+    int rank_;
+    std::string hello_; ///< JSON
+};
+
+/// Whether rank 0 wants the tile back as it is. Asks seldom: it is called after each sample.
+class StopQuestion {
+  public:
+    explicit StopQuestion(Ranks &ranks) : ranks_(ranks) {}
+
+    [[nodiscard]] bool operator()() {
+        if (isStopped_ || Clock::now().time_since_epoch().count() < nextTicks_)
+            return isStopped_;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock.owns_lock())
+            return isStopped_;
+        nextTicks_ = (Clock::now() + std::chrono::milliseconds(20)).time_since_epoch().count();
+        if (poll(ranks_, 0)) // while a tile is rendered, nothing else comes
+            isStopped_ = true;
+        return isStopped_;
+    }
+
+  private:
+    Ranks &ranks_;
+    std::mutex mutex_;
+    std::atomic<Clock::rep> nextTicks_ = 0;
+    std::atomic<bool> isStopped_ = false;
+};
+
+/// Renders the tile of a message, and answers.
+void renderTile(Ranks &ranks, PreparedScene &scene, Backend &backend, const json &job,
+                std::vector<layout::FilmPixel> pixels) {
+    RenderSettings &settings = scene.loaded.scene.settings;
+    settings.integrator = static_cast<Integrator>(job.at("integrator").get<int>());
+    settings.samplesPerPixel = job.at("samples");
+    settings.sampler = static_cast<SamplerKind>(job.at("sampler").get<int>());
+    const json &crop = job.at("crop");
+    Continuation continuation;
+    continuation.film.emplace(Crop{});
+    continuation.film->crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
+    continuation.film->pixels = std::move(pixels);
+    StopQuestion shouldStop(ranks);
+    try {
+        const BackendResult result = backend.render(
+            scene, {}, nullptr, [&] { return shouldStop(); }, std::move(continuation));
+        send(ranks, 0,
+             {{"error", ""},
+              {"rays", toJson(result.rays)},
+              {"dispatches", result.timing.dispatchCount},
+              {"pipelineSeconds", result.timing.pipelineSeconds},
+              {"uploadSeconds", result.timing.uploadSeconds},
+              {"deviceBytes", result.memory.deviceBytes},
+              {"faults", result.faults},
+              {"failure", result.failure ? result.failure->what() : ""},
+              {"failureKind", static_cast<int>(result.failure ? result.failure->kind : ErrorKind{})}},
+             result.film.pixels);
+    } catch (const Error &error) {
+        send(ranks, 0, {{"error", error.what()}, {"errorKind", static_cast<int>(error.kind)}});
+    }
+}
+
+} // namespace
+
+RankCrew::~RankCrew() {
+    try {
+        for (int rank = 1; rank < ranks_.count(); ++rank)
+            send(ranks_, rank, {{"kind", "end"}});
+    } catch (const std::exception &) { // of memory: mpirun ends those that wait for ever
+    }
+}
+
+std::vector<std::unique_ptr<Backend>> RankCrew::backends(const PreparedScene &scene, const Backend &backend,
+                                                         std::vector<std::string> &notes) {
+    const std::string here = identityText(identityOf(scene, backend));
+    std::vector<std::unique_ptr<Backend>> backends;
+    for (int rank = 1; rank < ranks_.count(); ++rank) {
+        Message message = waitFor(ranks_, rank);
+        const json hello = message.header();
+        std::string why = hello.value("excuse", "");
+        if (const std::string there = hello.value("identity", here); why.empty() && there != here)
+            why = describeDifferences(there, here);
+        if (why.empty())
+            backends.push_back(std::make_unique<RankBackend>(ranks_, rank, std::move(message.text)));
+        else
+            notes.push_back(fmt::format("left out rank {}: {}", rank, why));
+    }
+    return backends;
+}
+
+void serveTiles(Ranks &ranks, PreparedScene &scene, Backend &backend) {
+    const gpu::BitGuarantee bits = backend.bits();
+    send(ranks, 0,
+         {{"name", backend.name()},
+          {"host", hostName()},
+          {"description", backend.description()},
+          {"identity", identityText(identityOf(scene, backend))},
+          {"renderer", toJson(backend.identity(scene.packed, scene.loaded.scene.settings.integrator))},
+          {"bitDegree", static_cast<int>(bits.degree)},
+          {"bitReason", bits.reason},
+          {"precision", backend.precision()},
+          {"hasCompiler", backend.hasCompiler()}});
+    for (;;) {
+        Message message = waitFor(ranks, 0);
+        const json header = message.header();
+        const std::string kind = header.at("kind");
+        if (kind == "end")
+            return;
+        if (kind == "tile") // a "stop" that comes after its tile means nothing
+            renderTile(ranks, scene, backend, header, std::move(message.pixels));
+    }
+}
+
+void excuse(Ranks &ranks, const std::string &why) {
+    send(ranks, 0, {{"excuse", why}});
+    while (waitFor(ranks, 0).header().at("kind") != "end") {
+    }
+}
+
+} // namespace hyalite

@@ -1,0 +1,35 @@
+#include "host/jobs/render_session.h"
+
+#include "host/engine/shared_backend.h"
+
+#include <utility>
+
+namespace hyalite {
+
+void RenderSession::prepare(const RenderRequest &request) {
+    const auto beginOpening = [&](const SceneOutline &outline) {
+        opening_ = beginOpeningRenderers(request.devices, processorsFor(request.threadCount, outline),
+                                         renderConfigFor(request.deviceOptions));
+    };
+    scene_ = prepareScene(request.scene, Source::Dropped, request.isQuiet, beginOpening);
+}
+
+void RenderSession::replaceScene(const SceneOptions &options, bool isQuiet) {
+    scene_.reset(); // the memory first
+    scene_ = prepareScene(options, Source::Dropped, isQuiet);
+}
+
+void RenderSession::open() {
+    if (!opening_.valid())
+        return;
+    opened_ = opening_.get();
+    if (crew_ == nullptr)
+        return;
+    std::vector<std::unique_ptr<Backend>> members = crew_->backends(*scene_, *opened_.backend, opened_.notes);
+    if (members.empty())
+        return;
+    members.insert(members.begin(), std::move(opened_.backend));
+    opened_.backend = shareBackends(std::move(members));
+}
+
+} // namespace hyalite

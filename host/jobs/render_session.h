@@ -1,0 +1,71 @@
+// A session: a scene and the renderers that are opened for it, for one picture or for many.
+#pragma once
+
+#include "host/engine/opening.h"
+#include "host/engine/prepare.h"
+#include "host/farm/rank_backend.h"
+#include "host/film/partition.h"
+#include "host/image/tone_map.h"
+#include "host/scene/integrators.h"
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// A request: what to render, on which device, into which files. The path of a file that is not wanted is empty.
+struct RenderRequest {
+    SceneOptions scene;
+    std::string output;
+    std::optional<ToneCurve> tone; ///< of a PNG; default: gamma
+    std::vector<Integrator> layers;
+    RendererNames devices{"auto"}; ///< several share the picture
+    int threadCount = 0;           ///< 0: all
+    DeviceOptions deviceOptions;
+    std::string report;
+    std::optional<double> timeLimitSeconds;
+    std::string checkpoint;
+    std::optional<double> checkpointSeconds; ///< interval; default: 10
+    bool isResuming = false;
+    /// Only this part of the picture, into the checkpoint `output` in place of a picture; it goes on from what is there.
+    std::optional<Part> part;
+    /// A frame of a sequence: its picture is written only when it is finished, and says which one it is. A render that
+    /// is resuming leaves a picture alone that it would make once more.
+    std::optional<int> frame;
+    std::vector<std::string> words;       ///< of the command line, for who has to make a part again
+    std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
+    bool isQuiet = false;                 ///< no progress
+};
+
+class RenderSession {
+  public:
+    /// With a crew, the other ranks share the pictures. It must outlive this.
+    explicit RenderSession(RankCrew *crew = nullptr) : crew_(crew) {}
+
+    /// Loads and builds the scene, and opens the renderers at the same time, as soon as the outline is known. Throws as
+    /// prepareScene() does.
+    void prepare(const RenderRequest &request);
+    /// Another scene for the same renderers.
+    void replaceScene(const SceneOptions &options, bool isQuiet);
+    /// Waits for the renderers. Throws as openRenderers() does.
+    void open();
+
+    [[nodiscard]] bool isPrepared() const { return scene_.has_value(); }
+    [[nodiscard]] bool isOpen() const { return opened_.backend != nullptr; }
+    [[nodiscard]] PreparedScene &scene() { return *scene_; }
+    [[nodiscard]] const PreparedScene &scene() const { return *scene_; }
+    [[nodiscard]] Backend &backend() const { return *opened_.backend; }
+    /// Renderers that are left out, each with the reason.
+    [[nodiscard]] const std::vector<std::string> &notes() const { return opened_.notes; }
+
+  private:
+    RankCrew *crew_;
+    std::optional<PreparedScene> scene_;
+    std::future<OpenedRenderers> opening_;
+    OpenedRenderers opened_;
+};
+
+} // namespace hyalite

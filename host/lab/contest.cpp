@@ -1,0 +1,37 @@
+#include "host/lab/contest.h"
+
+#include <utility>
+
+namespace hyalite {
+
+Contestants openContestants(const ContestRequest &request, const PreparedScene &scene) {
+    const gpu::ProcessorUse processors = processorsFor(request.threadCount, scene);
+    const gpu::RenderConfig config = renderConfigFor(request.deviceOptions);
+    std::unique_ptr<Backend> first = openBackend(request.device, processors, config);
+    return {std::move(first), openBackend(request.against, processors,
+                                          isReference(request.against) ? gpu::RenderConfig{} : config)};
+}
+
+std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene,
+                                              const glm::uvec2 &pixel) {
+    const int sampleCount = scene.loaded.scene.settings.samplesPerPixel;
+    for (int sample = 0; sample < sampleCount; ++sample) {
+        const std::uint32_t index = static_cast<std::uint32_t>(sample);
+        if (std::optional<Divergence> divergence =
+                findDivergence(first.trace(scene, pixel, index), second.trace(scene, pixel, index),
+                               scene.packed.frame.firstTriangleId, scene.loaded.scene.origin))
+            return divergence;
+    }
+    return std::nullopt;
+}
+
+nlohmann::ordered_json contestToJson(const Contestants &contestants, const PreparedScene &scene,
+                                     const std::string &commandLine) {
+    const Integrator integrator = scene.loaded.scene.settings.integrator;
+    nlohmann::ordered_json json = provenanceToJson(provenanceOf(scene, commandLine));
+    json["first"] = rendererToJson(contestants.first->identity(scene.packed, integrator));
+    json["second"] = rendererToJson(contestants.second->identity(scene.packed, integrator));
+    return json;
+}
+
+} // namespace hyalite
