@@ -1,5 +1,4 @@
 // The program's entry: the standard streams, the command line, the one catch, and the exit code.
-#include "host/base/host_memory.h"
 #include "host/base/json_reader.h"
 #include "host/base/message.h"
 #include "host/base/shell.h"
@@ -8,6 +7,8 @@
 #include "host/cli/failure.h"
 #include "host/cli/help_formatter.h"
 #include "host/cli/manual.h"
+#include "host/gpu/vk/instance.h"
+#include "host/process/process.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -210,8 +211,8 @@ ExitCode runAndReport(std::span<char *> arguments) {
 } // namespace
 
 int main(int argumentCount, char **arguments) {
-    useOneHeap();
-    keepFreedMemory();
+    prepareProcess();
+    gpu::onValidationMessage = [](const char *message) { printMessage("validation: {}\n", message); };
     openMissingStreams();
     // A file beyond the shell's limit is an error of its own, as one on a full disk is.
     std::signal(SIGXFSZ, SIG_IGN);

@@ -34,7 +34,8 @@ enum class Remedy {
     OneDevice,        ///< a picture by one device alone has no seams
     BeginAnew,        ///< render with the checkpoint's settings, or without the checkpoint
     AllowPath,        ///< let the scene read files in another folder
-    ProfileReport     ///< a profile writes such a report
+    ProfileReport,    ///< a profile writes such a report
+    Turntable         ///< a turntable moves any camera
 };
 
 class Error : public std::runtime_error {

@@ -4,6 +4,7 @@
 #include "host/cli/compare_options.h"
 #include "host/cli/options.h"
 #include "host/cli/statistical.h"
+#include "host/cli/terminal_observer.h"
 #include "host/import/assets.h"
 
 #include <fmt/format.h>
@@ -31,23 +32,24 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     std::optional<AtomicFile> reportFile;
     if (!options.report.empty())
         reportFile.emplace(options.report);
-    PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    TerminalObserver observer(options.isQuiet);
+    PreparedScene scene = prepareScene(options.scene, Source::Dropped, observer);
     requireDistinctFiles({{"--report", options.report}}, scene.loaded.inputFiles);
     requireFilmMemory(scene.crop, 4); // two films, and two estimates of about the same size
     RenderSettings &settings = scene.loaded.scene.settings;
     const std::uint32_t firstSeed = settings.seed;
     const std::uint32_t secondSeed = secondSeedOf(options, firstSeed);
-    const Contestants contestants = openContestants(options.contest, scene);
+    const Contestants contestants = openContestants(options.contest, scene, observer);
     if (!options.isQuiet) {
         printContestants(scene, contestants);
         printResult("seeds        {} and {}\n", firstSeed, secondSeed);
     }
-    const auto render = [&](Backend &backend, std::uint32_t seed) {
+    const auto estimate = [&](Backend &backend, std::uint32_t seed) {
         settings.seed = scene.packed.frame.seed = seed;
-        return estimateOf(renderWithProgress(backend, scene, backend.name(), options.isQuiet).film);
+        return estimateOf(unlessFailed(render(backend, scene, backend.name(), observer)).film);
     };
-    const Estimate a = render(*contestants.first, firstSeed);
-    const Estimate b = render(*contestants.second, secondSeed);
+    const Estimate a = estimate(*contestants.first, firstSeed);
+    const Estimate b = estimate(*contestants.second, secondSeed);
     const WelchResult result = testAndPrint(a, b, options.welch, scene.loaded.file.string());
     if (reportFile) {
         settings.seed = scene.packed.frame.seed = firstSeed;

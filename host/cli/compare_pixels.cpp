@@ -5,6 +5,7 @@
 #include "host/cli/explanations.h"
 #include "host/cli/options.h"
 #include "host/cli/outliers.h"
+#include "host/cli/terminal_observer.h"
 #include "host/image/comparison_json.h"
 #include "host/image/heat_map.h"
 #include "host/image/png.h"
@@ -103,12 +104,12 @@ class CompareFiles {
 };
 
 Compared compareRenders(const CompareOptions &options, const Tolerance &tolerance,
-                        const Contestants &contestants, const PreparedScene &scene) {
-    const auto render = [&](Backend &backend) {
-        return renderWithProgress(backend, scene, backend.name(), options.isQuiet);
+                        const Contestants &contestants, const PreparedScene &scene, Observer &observer) {
+    const auto renderAll = [&](Backend &backend) {
+        return unlessFailed(render(backend, scene, backend.name(), observer));
     };
-    const BackendResult a = render(*contestants.first);
-    const BackendResult b = render(*contestants.second);
+    const BackendResult a = renderAll(*contestants.first);
+    const BackendResult b = renderAll(*contestants.second);
     Compared compared{a.film.toImage(), b.film.toImage(), a.rays, b.rays, {}, {}};
     compared.comparison = compareImages(compared.imageB, compared.imageA, Encoding::Linear);
     compared.outliers = isAgainstOracle(options) && isDefault(tolerance)
@@ -168,14 +169,15 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     const std::vector<NamedFile> outputs{{"--diff", options.heatMap}, {"--report", options.report}};
     requireDistinctFiles(outputs, {resolveScene(options.scene.scene).string()});
     CompareFiles files(options);
-    const PreparedScene scene = prepareScene(options.scene, Source::Dropped, options.isQuiet);
+    TerminalObserver observer(options.isQuiet);
+    const PreparedScene scene = prepareScene(options.scene, Source::Dropped, observer);
     requireDistinctFiles(outputs, scene.loaded.inputFiles);
     files.requireSize(scene.crop);
     requireFilmMemory(scene.crop, 2);
-    const Contestants contestants = openContestants(options.contest, scene);
+    const Contestants contestants = openContestants(options.contest, scene, observer);
     if (!options.isQuiet)
         printContestants(scene, contestants);
-    const Compared compared = compareRenders(options, tolerance, contestants, scene);
+    const Compared compared = compareRenders(options, tolerance, contestants, scene, observer);
     printMetrics(compared.comparison, compared.imageA, compared.imageB);
     printOutliers(options, tolerance, compared);
     const bool isWithinShare = compared.outlierShare() <= options.maxOutliers;

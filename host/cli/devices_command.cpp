@@ -3,11 +3,13 @@
 #include "host/base/message.h"
 #include "host/base/version.h"
 #include "host/cli/commands.h"
+#include "host/cli/terminal_observer.h"
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/render_config.h"
 #include "host/gpu/vk/device.h"
 #include "host/gpu/vk/device_list.h"
 #include "host/lab/tune.h"
+#include "host/process/apart.h"
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
@@ -39,8 +41,8 @@ std::vector<std::pair<std::string_view, std::string_view>> chosenKernels(const g
     return chosen;
 }
 
-void printKernels(const gpu::DeviceInfo &device) {
-    const Tuning tuning = readTuning(device);
+void printKernels(const gpu::DeviceInfo &device, Observer &observer) {
+    const Tuning tuning = readTuning(device, observer);
     std::string text;
     for (const auto &[workload, kernel] : chosenKernels(device, tuning))
         text += fmt::format("{}{} for {}", text.empty() ? "" : ", ", kernel, workload);
@@ -50,16 +52,17 @@ void printKernels(const gpu::DeviceInfo &device) {
 }
 
 /// Opens the device if it promises nothing.
-std::string equalBitsOf(const gpu::DeviceInfo &device) {
+std::string equalBitsOf(const gpu::DeviceInfo &device, Observer &observer) {
     if (device.areBitsPromised())
         return "promised";
     if (!device.isUsable())
         return "none: " + gpu::explainUnpromisedBits(device);
     gpu::Device opened(device);
-    return gpu::describe(guaranteeOf(gpu::guaranteeOf(device, gpu::checkDevice(opened)), readTuning(device)));
+    return gpu::describe(
+        guaranteeOf(gpu::guaranteeOf(device, gpu::checkDevice(opened)), readTuning(device, observer)));
 }
 
-void printTable(const std::vector<gpu::DeviceInfo> &devices) {
+void printTable(const std::vector<gpu::DeviceInfo> &devices, Observer &observer) {
     for (const gpu::DeviceInfo &device : devices) {
         printResult("{}  {}\n", device.index, device.name);
         printResult("   type        {}\n", gpu::deviceTypeName(device.type));
@@ -73,14 +76,14 @@ void printTable(const std::vector<gpu::DeviceInfo> &devices) {
                     device.canRoundToNearestEven ? "yes" : "not offered",
                     device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
         printResult("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
-        printKernels(device);
-        printResult("   equal bits  {}\n", equalBitsOf(device));
+        printKernels(device, observer);
+        printResult("   equal bits  {}\n", equalBitsOf(device, observer));
         printResult("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
     }
     printResult("cpu  the reference renderer, without Vulkan\n");
 }
 
-void printJson(const std::vector<gpu::DeviceInfo> &devices) {
+void printJson(const std::vector<gpu::DeviceInfo> &devices, Observer &observer) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const gpu::DeviceInfo &device : devices) {
         nlohmann::ordered_json entry;
@@ -101,12 +104,12 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
         entry["canRoundToNearestEven"] = device.canRoundToNearestEven;
         entry["canPreserveSignedZeroInfNan"] = device.canPreserveSignedZeroInfNan;
         entry["hasExactDivisionListed"] = device.hasExactDivisionListed;
-        const Tuning tuning = readTuning(device);
+        const Tuning tuning = readTuning(device, observer);
         for (const auto &[workload, kernel] : chosenKernels(device, tuning))
             entry["kernels"][std::string(workload)] = kernel;
         entry["areKernelsMeasured"] = tuning.isMeasured();
         entry["areBitsPromised"] = device.areBitsPromised();
-        entry["equalBits"] = equalBitsOf(device);
+        entry["equalBits"] = equalBitsOf(device, observer);
         entry["isUsable"] = device.isUsable();
         if (!device.isUsable())
             entry["rejection"] = device.rejection;
@@ -124,18 +127,18 @@ void printJson(const std::vector<gpu::DeviceInfo> &devices) {
 }
 
 /// Measures the kernels on one device and stores the fastest ones.
-void tune(const std::string &deviceName) {
+void tune(const std::string &deviceName, Observer &observer) {
     const std::filesystem::path file = tuningFile();
     std::error_code error;
     if (std::filesystem::exists(file.parent_path(), error))
         static_cast<void>(AtomicFile(file)); // fails now if it cannot be written half a minute later
-    const std::vector<KernelRates> all = measureKernels(deviceName);
+    const std::vector<KernelRates> all = measureKernels(deviceName, observer, inOwnProcess);
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     printResult("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");
     for (const auto &[kernel, choice] : gpu::namedKernels)
         printResult(" {:>12}", kernel);
     printResult("   auto\n");
-    Tuning tuning = readTuning(device);
+    Tuning tuning = readTuning(device, observer);
     tuning.date = today();
     for (const KernelRates &rates : all) {
         printResult("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);
@@ -145,7 +148,7 @@ void tune(const std::string &deviceName) {
         printResult("   {}\n", kernel);
         tuning.kernels[static_cast<std::size_t>(rates.workload)] = choice;
     }
-    storeTuning(device, tuning);
+    storeTuning(device, tuning, observer);
     printResult("\nkept in {}\n", file.string());
 }
 
@@ -171,15 +174,16 @@ void addDevicesCommand(CLI::App &app, CommandContext &) {
         ->capture_default_str()
         ->needs(tuning);
     command->callback([options] {
+        TerminalObserver observer(false);
         if (options->isTuning) {
-            tune(options->device);
+            tune(options->device, observer);
             return;
         }
         const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
         if (options->isJson)
-            printJson(devices);
+            printJson(devices, observer);
         else
-            printTable(devices);
+            printTable(devices, observer);
     });
 }
 

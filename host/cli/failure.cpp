@@ -34,6 +34,8 @@ std::string_view wordsFor(Remedy remedy) {
         return "; render as before, or start over without --resume";
     case Remedy::AllowPath:
         return "; --allow-path PATH allows another folder or file";
+    case Remedy::Turntable:
+        return "; --turntable COUNT turns around it";
     case Remedy::ProfileReport:
         return "; `hyalite profile --report` writes one";
     }
@@ -87,7 +89,8 @@ Failure describeFailure(const std::exception_ptr &failure, const std::string &co
     try {
         std::rethrow_exception(failure);
     } catch (const OverrideError &error) {
-        return {exitCodeOf(error.kind), fmt::format("--{}: {}", error.name, error.what())};
+        return {exitCodeOf(error.kind),
+                fmt::format("--{}: {}{}", error.name, error.what(), wordsFor(error.remedy))};
     } catch (const Error &error) {
         return describeError(error, commandLine);
     } catch (const std::bad_alloc &) {

@@ -7,6 +7,7 @@
 #include "host/cli/inspect_scene.h"
 #include "host/cli/options.h"
 #include "host/cli/scene_options.h"
+#include "host/cli/terminal_observer.h"
 #include "host/reference/closest_hit.h"
 #include "host/scene/instances.h"
 #include "host/scene/names.h"
@@ -135,7 +136,8 @@ bool compareWithBruteForce(const PreparedScene &prepared, int rayCount) {
 }
 
 ExitCode runInspect(const InspectOptions &options) {
-    const PreparedScene prepared = prepareScene(options.scene, Source::Kept, false);
+    TerminalObserver observer(false);
+    const PreparedScene prepared = prepareScene(options.scene, Source::Kept, observer);
     const Scene &scene = prepared.loaded.scene;
     printResult("scene        {}\n", prepared.loaded.file.string());
     printResult("contents     {} in {}, {}, {}, {}\n", countText(inputOrder(scene).triangleCount, "triangle"),

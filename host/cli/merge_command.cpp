@@ -2,7 +2,10 @@
 #include "host/base/quantities.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
+#include "host/cli/part_command.h"
+#include "host/cli/progress.h"
 #include "host/cli/render_request.h"
+#include "host/cli/terminal_observer.h"
 #include "host/engine/identity.h"
 #include "host/engine/opening.h"
 #include "host/farm/audit.h"
@@ -11,7 +14,6 @@
 #include "host/import/assets.h"
 #include "host/import/file_reach.h"
 #include "host/jobs/film_picture.h"
-#include "host/report/progress.h"
 
 #include <fmt/format.h>
 
@@ -52,7 +54,8 @@ std::string listOf(const std::vector<std::string> &lines) {
 std::vector<std::string> commandsFor(const Merger &merger, const std::vector<std::uint32_t> &missing) {
     std::vector<std::string> commands;
     for (const std::uint32_t index : missing) {
-        commands.push_back(merger.commandFor(index));
+        commands.push_back(
+            commandFor(merger.origin(), merger.firstPart(), {index, merger.firstPart().count}));
         if (commands.size() > mostShown) // more are only counted
             break;
     }
@@ -107,7 +110,8 @@ bool passesAudit(const Merger &merger, const MergeOptions &options) {
     RenderRequest request = readRenderRequest(merger.origin().words);
     request.scene.load.allowedPaths = options.allowedPaths; // what a part says opens no others
     requireAllowed(request.scene, options.allowedPaths);
-    OpenedRenderers opened = openRenderers(options.devices);
+    TerminalObserver observer(options.isQuiet);
+    OpenedRenderers opened = openRenderers(options.devices, observer);
     for (const std::string &note : opened.notes)
         printMessage("note: {}\n", note);
     const std::unique_ptr<Backend> backend = std::move(opened.backend);
@@ -117,7 +121,7 @@ bool passesAudit(const Merger &merger, const MergeOptions &options) {
             fmt::format("--audit: {} does not promise the bits of other devices ({}), so that it cannot "
                         "judge them; --device cpu can",
                         backend->description(), bits.reason));
-    PreparedScene scene = prepareScene(request.scene, Source::Dropped, options.isQuiet);
+    PreparedScene scene = prepareScene(request.scene, Source::Dropped, observer);
     scene.loaded.scene.settings.samplesPerPixel = static_cast<int>(merger.samplesPerPixel());
     requireFilmMemory(scene.crop, 3);
     const std::string here = identityText(identityOf(scene, *backend, &merger.origin().layers));
@@ -129,8 +133,7 @@ bool passesAudit(const Merger &merger, const MergeOptions &options) {
                         request.scene.scene, describeDifferences(merger.identity(), here),
                         merger.origin().host, merger.origin().folder));
     const std::uint64_t seed = options.auditSeed ? std::uint64_t{*options.auditSeed} : auditSeed(merger);
-    const AuditResult result =
-        audit(merger, *backend, scene, *options.auditPercent / 100.0, seed, options.isQuiet);
+    const AuditResult result = audit(merger, *backend, scene, *options.auditPercent / 100.0, seed, observer);
     for (const AuditFinding &finding : result.findings)
         printResult(
             "part {} of {} has other pixels than this machine computes, {} of the tile at {},{}, first "

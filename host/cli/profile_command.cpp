@@ -5,6 +5,7 @@
 #include "host/cli/options.h"
 #include "host/cli/profile_files.h"
 #include "host/cli/scene_options.h"
+#include "host/cli/terminal_observer.h"
 #include "host/import/assets.h"
 #include "host/lab/measurement.h"
 #include "host/report/baseline.h"
@@ -25,6 +26,7 @@ namespace {
 
 struct ProfileOptions {
     MeasurementRequest measurement;
+    bool isQuiet = false;
     ProfilePaths paths;
     std::string baseline;
     std::optional<std::string> maxRegression; ///< default: 5%
@@ -114,7 +116,8 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     const std::vector<NamedFile> outputs = namedFiles(options.paths);
     requireDistinctFiles(outputs, {resolveScene(options.measurement.scene.scene).string(), options.baseline});
     ProfileFiles files(options.paths);
-    Measurement measurement(options.measurement, commandLine);
+    TerminalObserver observer(options.isQuiet);
+    Measurement measurement(options.measurement, commandLine, observer);
     const Profile &profile = measurement.profile();
     measurement.prepareScene();
     requireDistinctFiles(outputs, measurement.scene().loaded.inputFiles);
@@ -156,7 +159,6 @@ void addMeasurementOptions(CLI::App &command, MeasurementRequest &request) {
                  "end all renders after this time and write what was measured and counted until then");
     command.add_flag("--no-verify", request.isUnverified,
                      "skip the comparison with the image of the CPU twin");
-    command.add_flag("--quiet", request.isQuiet, "show no progress");
 }
 
 void addFileOptions(CLI::App &command, ProfilePaths &paths) {
@@ -192,6 +194,7 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("profile", "measure repeated renders of a scene, stage by stage");
     const auto options = std::make_shared<ProfileOptions>();
     addMeasurementOptions(*command, options->measurement);
+    command->add_flag("--quiet", options->isQuiet, "show no progress");
     addFileOptions(*command, options->paths);
     command->add_flag("--counts", options->measurement.isCounting,
                       "render twice more and count nodes, boxes and triangles, of the same rays with a stack "

@@ -4,6 +4,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/cli/render_request.h"
+#include "host/cli/terminal_observer.h"
 #include "host/engine/time_limit.h"
 #include "host/farm/rank_backend.h"
 #include "host/import/assets.h"
@@ -106,14 +107,14 @@ void tellDevice(const RenderSession &session) {
 }
 
 /// The checkpoint that the render resumes from.
-void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request) {
+void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request, bool isQuiet) {
     const RenderReport &report = job.report();
     if (!job.checkpointDamage().empty() && report.resumed)
         printMessage("note: {}; resuming from the older {}\n", job.checkpointDamage(),
                      report.resumed->checkpoint);
     else if (!job.checkpointDamage().empty())
         printMessage("note: {}; starting from the beginning\n", job.checkpointDamage());
-    if (request.isQuiet || !(request.isResuming || (request.part && report.resumed)))
+    if (isQuiet || !(request.isResuming || (request.part && report.resumed)))
         return;
     if (report.resumed)
         printMessage("resuming from {}: {:.1f} % of the samples are finished\n", report.resumed->checkpoint,
@@ -158,8 +159,7 @@ void tellShares(const RenderReport &report) {
                      share.name, share.tileCount);
 }
 
-void tellOutcome(const RenderJob &job, const RenderRequest &request) {
-    const bool isQuiet = request.isQuiet;
+void tellOutcome(const RenderJob &job, const RenderRequest &request, bool isQuiet) {
     const RenderReport &report = job.report();
     if (!report.finished.isComplete && !(isQuiet && job.isCutByTime()))
         tellWhatIsFinished(report, request);
@@ -188,37 +188,40 @@ void requireSequenceOptions(const RenderRequest &request, const SequenceOptions 
 }
 
 /// One picture, or one frame of a sequence, from a session that may be prepared already.
-ExitCode renderOne(const RenderRequest &request, const std::string &commandLine, RenderSession &session) {
+ExitCode renderOne(const RenderRequest &request, const std::string &commandLine, RenderSession &session,
+                   TerminalObserver &observer, bool isQuiet) {
     const bool isFirst = !session.isOpen();
     RenderJob job(request, commandLine, session);
     job.prepare();
     requireDistinctFiles(outputsOf(request), session.scene().loaded.inputFiles);
     job.openDevice();
-    if (isFirst && !request.isQuiet)
+    observer.catchSignals();
+    if (isFirst && !isQuiet)
         tellDevice(session);
     job.resume();
     if (job.isFinishedBefore()) {
-        if (!request.isQuiet)
+        if (!isQuiet)
             printResult("{}: {} is finished\n", request.output,
                         request.part ? fmt::format("part {} of {}", request.part->index, request.part->count)
                                      : fmt::format("frame {}", *request.frame));
         return ExitCode::Ok;
     }
-    tellWhatIsResumed(job, request);
+    tellWhatIsResumed(job, request, isQuiet);
     job.renderLayers();
     job.render();
     job.writeImage();
     job.writeReport();
-    tellOutcome(job, request);
+    tellOutcome(job, request, isQuiet);
     job.throwFailure();
-    const int signal = job.stoppingSignal();
-    return signal != 0 ? exitCodeOf(errorKindOf(signal)) : ExitCode::Ok;
+    const std::optional<Stop> stop = observer.wantsStop();
+    observer.releaseSignals();
+    return stop ? exitCodeOf(stop->kind) : ExitCode::Ok;
 }
 
 /// A rank but the first: renders tiles, and writes nothing.
-ExitCode serve(RenderRequest request, Ranks &ranks) {
-    request.isQuiet = true;
-    RenderSession session;
+ExitCode serve(const RenderRequest &request, Ranks &ranks) {
+    TerminalObserver observer(true);
+    RenderSession session(observer);
     try {
         session.prepare(request);
         session.open();
@@ -230,7 +233,7 @@ ExitCode serve(RenderRequest request, Ranks &ranks) {
     return ExitCode::Ok;
 }
 
-ExitCode runRender(const RenderRequest &request, const std::string &commandLine) {
+ExitCode runRender(const RenderRequest &request, const std::string &commandLine, bool isQuiet) {
     requireOptionsThatGoTogether(request);
     const std::unique_ptr<Ranks> ranks = joinRanks();
     if (ranks != nullptr && ranks->rank() > 0)
@@ -238,11 +241,13 @@ ExitCode runRender(const RenderRequest &request, const std::string &commandLine)
     std::optional<RankCrew> crew;
     if (ranks != nullptr)
         crew.emplace(*ranks);
-    RenderSession session(crew ? &*crew : nullptr);
-    return renderOne(request, commandLine, session);
+    TerminalObserver observer(isQuiet);
+    RenderSession session(observer, crew ? &*crew : nullptr);
+    return renderOne(request, commandLine, session, observer, isQuiet);
 }
 
-ExitCode runSequence(RenderRequest request, const SequenceOptions &options, const std::string &commandLine) {
+ExitCode runSequence(RenderRequest request, const SequenceOptions &options, const std::string &commandLine,
+                     bool isQuiet) {
     requireSequenceOptions(request, options);
     const std::unique_ptr<Ranks> ranks = joinRanks();
     if (ranks != nullptr && request.part)
@@ -252,12 +257,13 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
             Part{static_cast<std::uint32_t>(ranks->rank()) + 1, static_cast<std::uint32_t>(ranks->count())};
     Sequence sequence(request, options);
     if (sequence.frames().empty()) {
-        if (!request.isQuiet)
+        if (!isQuiet)
             printResult("part {} of {} has no frame\n", request.part->index, request.part->count);
         return ExitCode::Ok;
     }
     requireOptionsThatGoTogether(sequence.requestOf(sequence.frames().front()));
-    RenderSession session;
+    TerminalObserver observer(isQuiet);
+    RenderSession session(observer);
     sequence.prepare(session);
     const TimeLimit limit(request.timeLimitSeconds);
     for (const int frame : sequence.frames()) {
@@ -268,7 +274,8 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
         }
         ofFrame.timeLimitSeconds = limit.secondsLeft();
         sequence.moveTo(frame, session);
-        if (const ExitCode code = renderOne(ofFrame, commandLine, session); code != ExitCode::Ok)
+        if (const ExitCode code = renderOne(ofFrame, commandLine, session, observer, isQuiet);
+            code != ExitCode::Ok)
             return code;
     }
     return ExitCode::Ok;
@@ -280,14 +287,16 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("render", "render a scene to an image file");
     const auto request = std::make_shared<RenderRequest>();
     const auto sequence = std::make_shared<SequenceOptions>();
-    addRenderOptions(*command, *request);
+    const auto isQuiet = std::make_shared<bool>(false);
+    addRenderOptions(*command, *request, *isQuiet);
     addSequenceOptions(*command, *sequence);
-    command->callback([request, sequence, &context] {
+    command->callback([request, sequence, isQuiet, &context] {
         request->words = context.words;
         if (sequence->framesPerSecond && !sequence->areGiven())
             throw Error(ErrorKind::Usage, "--fps needs --frames FIRST..LAST");
-        context.exitCode = sequence->areGiven() ? runSequence(*request, *sequence, context.commandLine)
-                                                : runRender(*request, context.commandLine);
+        context.exitCode = sequence->areGiven()
+                               ? runSequence(*request, *sequence, context.commandLine, *isQuiet)
+                               : runRender(*request, context.commandLine, *isQuiet);
     });
 }
 

@@ -80,7 +80,7 @@ void addLongRenderOptions(CLI::App &command, RenderRequest &request) {
 
 } // namespace
 
-void addRenderOptions(CLI::App &command, RenderRequest &request) {
+void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet) {
     addSceneOptions(command, request.scene);
     addOutput(
         command, "-o,--output", request.output, "FILE",
@@ -112,13 +112,14 @@ void addRenderOptions(CLI::App &command, RenderRequest &request) {
         ->type_name("I/N");
     addTimeLimit(command, request.timeLimitSeconds, "stop after this time and write the partial image");
     addLongRenderOptions(command, request);
-    command.add_flag("--quiet", request.isQuiet, "print errors only");
+    command.add_flag("--quiet", isQuiet, "print errors only");
 }
 
 RenderRequest readRenderRequest(const std::vector<std::string> &words) {
     RenderRequest request;
+    bool isQuiet = false;
     CLI::App app;
-    addRenderOptions(*app.add_subcommand("render"), request);
+    addRenderOptions(*app.add_subcommand("render"), request, isQuiet);
     std::vector<std::string> arguments; // the last first, as CLI11 wants them
     for (std::size_t i = words.size(); i-- > 1;)
         arguments.push_back(words[i]);

@@ -10,8 +10,8 @@
 
 namespace hyalite {
 
-/// Adds the arguments of `render`. `request` must outlive `command`.
-void addRenderOptions(CLI::App &command, RenderRequest &request);
+/// Adds the arguments of `render`. `request` and `isQuiet` must outlive `command`.
+void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet);
 
 /// Adds --frames and what goes with it. `options` must outlive `command`.
 void addSequenceOptions(CLI::App &command, SequenceOptions &options);

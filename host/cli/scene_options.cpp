@@ -20,6 +20,8 @@ namespace {
 /// The allowed range of a crop depends on the image.
 constexpr Interval anyInteger{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 
+std::string optionOf(const Setting &setting) { return fmt::format("--{}", setting.option); }
+
 template <class Number>
 CLI::Option *addSetting(CLI::App &command, const Setting &setting, const NumberSetting<Number> &number,
                         SettingChanges &changes) {
@@ -27,8 +29,7 @@ CLI::Option *addSetting(CLI::App &command, const Setting &setting, const NumberS
         changes.push_back(
             {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
     };
-    return addNumberFor<Number>(command, std::string(setting.option), take, number.allowed,
-                                helpText(setting));
+    return addNumberFor<Number>(command, optionOf(setting), take, number.allowed, helpText(setting));
 }
 
 template <class Value>
@@ -38,7 +39,7 @@ CLI::Option *addSetting(CLI::App &command, const Setting &setting, const ChoiceS
         changes.push_back(
             {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
     };
-    return addChoiceFor<Value>(command, std::string(setting.option), take, choice.names, helpText(setting));
+    return addChoiceFor<Value>(command, optionOf(setting), take, choice.names, helpText(setting));
 }
 
 /// The options of one group.

@@ -3,10 +3,11 @@
 #include "host/base/message.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
+#include "host/cli/progress.h"
+#include "host/cli/terminal_observer.h"
 #include "host/cli/verify_files.h"
 #include "host/engine/tuning.h"
 #include "host/gpu/vk/device_list.h"
-#include "host/report/progress.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -136,23 +137,23 @@ void requireKernels(const std::vector<std::string> &names) {
 }
 
 /// Keeps the outcome with the device's tuning, which decides whether its bits count as measured.
-void keep(const gpu::DeviceInfo &device, bool isPassed) {
-    Tuning tuning = readTuning(device);
+void keep(const gpu::DeviceInfo &device, bool isPassed, Observer &observer) {
+    Tuning tuning = readTuning(device, observer);
     if (!isPassed && tuning.verifiedDate.empty())
         return;
     tuning.verifiedDate = isPassed ? today() : std::string();
     try {
-        storeTuning(device, tuning);
+        storeTuning(device, tuning, observer);
     } catch (const Error &error) {
         printMessage("note: that {} was verified is not kept: {}\n", device.name, error.what());
     }
 }
 
 DeviceVerdict verifyWithProgress(const Subject &subject, const ShippedFilms &shipped,
-                                 const VerifyOptions &options) {
+                                 const VerifyOptions &options, Observer &observer) {
     ProgressLine progress("verify " + (subject.device ? subject.device->name : subject.name),
                           options.isQuiet);
-    return verifyDevice(subject.name, shipped, options.kernels,
+    return verifyDevice(subject.name, shipped, observer, options.kernels,
                         [&](const FilmVerdict &, double share) { progress.update(share); });
 }
 
@@ -175,12 +176,13 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
         printResult("{} films of {}, version {}\n", shipped.films.size(),
                     fmt::join(shipped.sceneNames(), ", "), shipped.version);
 
+    TerminalObserver observer(options.isQuiet);
     std::vector<DeviceVerdict> verdicts;
     for (const Subject &subject : subjects) {
-        verdicts.push_back(verifyWithProgress(subject, shipped, options));
+        verdicts.push_back(verifyWithProgress(subject, shipped, options, observer));
         const DeviceVerdict &verdict = verdicts.back();
         if (subject.device && options.scenes.empty() && options.kernels.empty())
-            keep(*subject.device, verdict.isPassed());
+            keep(*subject.device, verdict.isPassed(), observer);
         if (!options.isQuiet || !verdict.isPassed())
             print(verdict);
         std::fflush(stdout); // a later device may take long, or crash its driver

@@ -2,9 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/base/host_memory.h"
-#include "host/base/message.h"
 #include "host/base/quantities.h"
-#include "host/report/progress.h"
 
 #include <fmt/format.h>
 
@@ -39,29 +37,32 @@ void requireFilmMemory(const Crop &crop, unsigned filmCount) {
         refuseFilm(crop, neededBytes, sizeText(*available) + " are available");
 }
 
-BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene, const std::string &task,
-                                 bool isQuiet, Timeline *timeline, const std::function<bool()> &shouldStop,
-                                 Continuation continuation) {
-    ProgressLine progress(task, isQuiet);
+BackendResult render(Backend &backend, const PreparedScene &scene, const std::string &task,
+                     Observer &observer, const TimeLimit &limit, Timeline *timeline,
+                     Continuation continuation) {
+    ObservedTask progress(observer, task, backend.hasCompiler());
     const double others = continuation.shareOfOthers;
-    if (backend.hasCompiler())
-        progress.expectCompiler();
     try {
         BackendResult result = backend.render(
             scene, [&](double share) { progress.update(std::max(share - others, 0.0) / (1.0 - others)); },
-            timeline, shouldStop, std::move(continuation));
-        if (result.failure && !shouldStop)
-            throw Error(*result.failure);
+            timeline, [&] { return observer.wantsStop().has_value() || limit.isReached(); },
+            std::move(continuation));
         const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);
         for (std::size_t i = 0; i < survived; ++i)
-            printMessage("note: {}; reopened the device to do half as much at a time\n", result.faults[i]);
+            observer.note(result.faults[i] + "; reopened the device to do half as much at a time");
         for (const RendererShare &share : result.shares)
             if (!share.failure.empty() && share.seconds > 0.0) // else it was told before
-                printMessage("note: left out {}: {}\n", share.name, share.failure);
+                observer.note(fmt::format("left out {}: {}", share.name, share.failure));
         return result;
     } catch (const std::bad_alloc &) {
         refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
     }
+}
+
+BackendResult unlessFailed(BackendResult result) {
+    if (result.failure)
+        throw Error(*result.failure);
+    return result;
 }
 
 } // namespace hyalite

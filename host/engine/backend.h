@@ -1,7 +1,9 @@
 // Backends: renderers behind one interface.
 #pragma once
 
+#include "host/engine/observer.h"
 #include "host/engine/prepare.h"
+#include "host/engine/time_limit.h"
 #include "host/film/continuation.h"
 #include "host/film/ray_counts.h"
 #include "host/film/render_timing.h"
@@ -61,14 +63,14 @@ class Backend {
     trace(const PreparedScene &scene, const glm::uvec2 &pixel, std::uint32_t sampleIndex) = 0;
 };
 
-/// Renders with a progress line that starts with `task`. Throws Error{LimitExceeded} with the size of the film if
-/// memory is too small for it. Device faults are reported. If they end a render without `shouldStop`, whose partial
-/// result is useless, its failure is thrown.
-[[nodiscard]] BackendResult renderWithProgress(Backend &backend, const PreparedScene &scene,
-                                               const std::string &task, bool isQuiet,
-                                               Timeline *timeline = nullptr,
-                                               const std::function<bool()> &shouldStop = {},
-                                               Continuation continuation = {});
+/// Renders as the observer's task `task`, until the observer wants it to stop or the limit is reached. Throws
+/// Error{LimitExceeded} with the size of the film if memory is too small for it. Device faults are noted.
+[[nodiscard]] BackendResult render(Backend &backend, const PreparedScene &scene, const std::string &task,
+                                   Observer &observer, const TimeLimit &limit = TimeLimit(),
+                                   Timeline *timeline = nullptr, Continuation continuation = {});
+
+/// The result, whose film is of no use in part: throws its failure, if there is one.
+[[nodiscard]] BackendResult unlessFailed(BackendResult result);
 
 /// Throws Error{LimitExceeded} if memory cannot hold this number of films of the crop and the images made of them.
 void requireFilmMemory(const Crop &crop, unsigned filmCount);

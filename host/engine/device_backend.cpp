@@ -26,8 +26,8 @@ std::string driverBesideName(const std::string &driver, const std::string &name)
 
 class DeviceBackend : public Backend {
   public:
-    DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config)
-        : DeviceBackend(device, config, readTuning(device)) {}
+    DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config, Observer &observer)
+        : DeviceBackend(device, config, readTuning(device, observer), observer) {}
 
     [[nodiscard]] std::string name() const override { return device_.name; }
     [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
@@ -65,11 +65,12 @@ class DeviceBackend : public Backend {
     }
 
   private:
-    DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config, const Tuning &tuning)
+    DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config, const Tuning &tuning,
+                  Observer &observer)
         : device_(withTuning(device, tuning)), renderer_(device_, config, tuning.kernels),
           bits_(guaranteeOf(renderer_.bits(), tuning)) {
         if (device_.hasSlowShuffles != renderer_.device().hasSlowShuffles)
-            keepLaneExchange(tuning);
+            keepLaneExchange(tuning, observer);
     }
 
     static gpu::DeviceInfo withTuning(gpu::DeviceInfo device, const Tuning &tuning) {
@@ -78,10 +79,10 @@ class DeviceBackend : public Backend {
     }
 
     /// Keeps what was measured just now, which takes a tenth of the time of a small render.
-    void keepLaneExchange(Tuning tuning) const {
+    void keepLaneExchange(Tuning tuning, Observer &observer) const {
         tuning.hasSlowShuffles = renderer_.device().hasSlowShuffles;
         try {
-            storeTuning(device_, tuning);
+            storeTuning(device_, tuning, observer);
         } catch (const Error &) { // the next render measures again
         }
     }
@@ -93,8 +94,9 @@ class DeviceBackend : public Backend {
 
 } // namespace
 
-std::unique_ptr<Backend> makeDeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config) {
-    return std::make_unique<DeviceBackend>(device, config);
+std::unique_ptr<Backend> makeDeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config,
+                                           Observer &observer) {
+    return std::make_unique<DeviceBackend>(device, config, observer);
 }
 
 } // namespace hyalite

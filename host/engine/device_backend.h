@@ -8,8 +8,9 @@
 
 namespace hyalite {
 
-/// Opens the device. Throws as gpu::Renderer does.
+/// Opens the device. The observer gets notes on what is kept of it. Throws as gpu::Renderer does.
 [[nodiscard]] std::unique_ptr<Backend> makeDeviceBackend(const gpu::DeviceInfo &device,
-                                                         const gpu::RenderConfig &config);
+                                                         const gpu::RenderConfig &config,
+                                                         Observer &observer = nobody());
 
 } // namespace hyalite

@@ -1,7 +1,6 @@
 #include "host/engine/opening.h"
 
 #include "host/base/error.h"
-#include "host/base/host_memory.h"
 #include "host/engine/cpu_backend.h"
 #include "host/engine/device_backend.h"
 #include "host/engine/shared_backend.h"
@@ -26,7 +25,8 @@ gpu::LoadedDevices loadDevices() {
     }
 }
 
-std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::RenderConfig &config) {
+std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::RenderConfig &config,
+                              Observer &observer) {
     if (isReference(name) && config.traversal != gpu::Traversal::Automatic)
         throw Error(ErrorKind::Usage,
                     fmt::format("only Vulkan devices have kernels to choose from, {} has none", name),
@@ -35,9 +35,8 @@ std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gp
         return makeCpuBackend(reference::Precision::Float32, threadCount);
     if (name == "cpu-double")
         return makeCpuBackend(reference::Precision::Float64, threadCount);
-    reserveHeap();                                   // for the driver's compiler
     const gpu::LoadedDevices loaded = loadDevices(); // until the chosen device has an instance of its own
-    return makeDeviceBackend(gpu::chooseDevice(loaded.devices, name), config);
+    return makeDeviceBackend(gpu::chooseDevice(loaded.devices, name), config, observer);
 }
 
 /// A renderer that the names mean: the CPU, or a device.
@@ -68,7 +67,7 @@ std::vector<Choice> chooseNamed(const RendererNames &names, const std::vector<gp
     std::vector<Choice> chosen;
     for (const std::string &name : names) {
         if (name == "cpu-double" || name == "all")
-            throw Error(ErrorKind::Usage, fmt::format("--device: {} goes with no other", name));
+            throw OverrideError("device", name + " goes with no other");
         Choice choice;
         if (name != "cpu")
             choice = gpu::chooseDevice(devices, name);
@@ -76,17 +75,17 @@ std::vector<Choice> chooseNamed(const RendererNames &names, const std::vector<gp
             return choice && other ? choice->index == other->index : choice.has_value() == other.has_value();
         };
         if (std::ranges::any_of(chosen, isSame))
-            throw Error(ErrorKind::Usage, fmt::format("--device: {} is there twice", name));
+            throw OverrideError("device", name + " is there twice");
         chosen.push_back(std::move(choice));
     }
     return chosen;
 }
 
-OpenedRenderers openAll(const RendererNames &names, int threadCount, const gpu::RenderConfig &config) {
+OpenedRenderers openAll(const RendererNames &names, int threadCount, const gpu::RenderConfig &config,
+                        Observer &observer) {
     const bool isAll = names.size() == 1 && names.front() == "all";
     if (names.size() == 1 && !isAll)
-        return {open(names.front(), threadCount, config), {}};
-    reserveHeap();
+        return {open(names.front(), threadCount, config, observer), {}};
     OpenedRenderers opened;
     gpu::LoadedDevices loaded; // until those that are chosen have instances of their own
     try {
@@ -107,7 +106,7 @@ OpenedRenderers openAll(const RendererNames &names, int threadCount, const gpu::
         };
         try {
             std::unique_ptr<Backend> member =
-                choice ? makeDeviceBackend(*choice, config)
+                choice ? makeDeviceBackend(*choice, config, observer)
                        : makeCpuBackend(reference::Precision::Float32, threadCount);
             if (member->bits().degree == gpu::BitDegree::None)
                 leaveOut(fmt::format("its bits may be its own: {}; `hyalite verify` finds out",
@@ -135,9 +134,9 @@ OpenedRenderers openAll(const RendererNames &names, int threadCount, const gpu::
     return opened;
 }
 
-void tellLavapipe(gpu::ProcessorUse processors, const gpu::RenderConfig &config) {
+void announceDriver(Observer &observer, gpu::ProcessorUse processors, const gpu::RenderConfig &config) {
     processors.hasStack = config.traversal == gpu::Traversal::Stack;
-    gpu::tellLavapipe(processors);
+    observer.beforeDriver(processors);
 }
 
 } // namespace
@@ -162,23 +161,25 @@ gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene) {
     return processorsFor(threadCount, SceneOutline{scene.packed.hasTriangles, scene.loaded.scene.settings});
 }
 
-std::unique_ptr<Backend> openBackend(const std::string &name, const gpu::ProcessorUse &processors,
-                                     const gpu::RenderConfig &config) {
-    tellLavapipe(processors, config);
-    return open(name, processors.threadCount, config);
+std::unique_ptr<Backend> openBackend(const std::string &name, Observer &observer,
+                                     const gpu::ProcessorUse &processors, const gpu::RenderConfig &config) {
+    if (!isReference(name))
+        announceDriver(observer, processors, config);
+    return open(name, processors.threadCount, config, observer);
 }
 
-OpenedRenderers openRenderers(const RendererNames &names, const gpu::ProcessorUse &processors,
-                              const gpu::RenderConfig &config) {
-    tellLavapipe(processors, config);
-    return openAll(names, processors.threadCount, config);
+OpenedRenderers openRenderers(const RendererNames &names, Observer &observer,
+                              const gpu::ProcessorUse &processors, const gpu::RenderConfig &config) {
+    return beginOpeningRenderers(names, observer, processors, config).get();
 }
 
-std::future<OpenedRenderers> beginOpeningRenderers(const RendererNames &names,
+std::future<OpenedRenderers> beginOpeningRenderers(const RendererNames &names, Observer &observer,
                                                    const gpu::ProcessorUse &processors,
                                                    const gpu::RenderConfig &config) {
-    tellLavapipe(processors, config); // here, as other threads may read the environment from now on
-    return std::async(std::launch::async, [=] { return openAll(names, processors.threadCount, config); });
+    if (!std::ranges::all_of(names, isReference))
+        announceDriver(observer, processors, config); // here, as the other thread may read the environment
+    return std::async(std::launch::async,
+                      [=, &observer] { return openAll(names, processors.threadCount, config, observer); });
 }
 
 } // namespace hyalite

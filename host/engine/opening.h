@@ -1,4 +1,4 @@
-// Opening the renderers that a command names: Vulkan devices, the CPU twin, and the double twin.
+// Opening renderers by name: Vulkan devices, the CPU twin, and the double twin.
 #pragma once
 
 #include "host/engine/backend.h"
@@ -30,14 +30,14 @@ struct DeviceOptions {
 [[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline);
 [[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene);
 
-/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. Lavapipe follows `processors` only if
-/// this is the first device that the program opens. Throws Error{NoDevice}, and Error{Usage} if a kernel is chosen for
-/// the reference renderer.
-[[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name,
+/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. The observer is asked for settings of the
+/// driver first, if there is one. Throws Error{NoDevice}, and Error{Usage} if a kernel is chosen for the reference
+/// renderer.
+[[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name, Observer &observer,
                                                    const gpu::ProcessorUse &processors = {},
                                                    const gpu::RenderConfig &config = {});
 
-/// Renderers that a command names, as openBackend() does; several, or "all".
+/// Names of renderers, as openBackend() takes them; several, or "all".
 using RendererNames = std::vector<std::string>;
 
 struct OpenedRenderers {
@@ -47,13 +47,14 @@ struct OpenedRenderers {
 
 /// Opens one renderer, or several that share each picture (shared_backend.h). "all" is every usable device, and the CPU
 /// unless a software device computes on it, too. Of several, those that cannot be opened, or whose bits are their own,
-/// are left out. Throws Error{NoDevice} if none is left, and Error{Usage} for names that do not go together.
-[[nodiscard]] OpenedRenderers openRenderers(const RendererNames &names,
+/// are left out. Throws Error{NoDevice} if none is left, and OverrideError "device" for names that do not go together.
+[[nodiscard]] OpenedRenderers openRenderers(const RendererNames &names, Observer &observer,
                                             const gpu::ProcessorUse &processors = {},
                                             const gpu::RenderConfig &config = {});
 
-/// The same, in a thread of its own. The kernel of a render config must outlive the opening.
+/// The same, in a thread of its own. The kernel of a render config, and the observer, must outlive the opening.
 [[nodiscard]] std::future<OpenedRenderers> beginOpeningRenderers(const RendererNames &names,
+                                                                 Observer &observer,
                                                                  const gpu::ProcessorUse &processors,
                                                                  const gpu::RenderConfig &config = {});
 

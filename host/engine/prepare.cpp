@@ -1,13 +1,11 @@
 #include "host/engine/prepare.h"
 
 #include "host/base/error.h"
-#include "host/base/message.h"
 #include "host/bvh/bvh.h"
 #include "host/bvh/tree_statistics.h"
 #include "host/import/environment_file.h"
 #include "host/import/load.h"
 #include "host/import/neutral_environment.h"
-#include "host/report/progress.h"
 #include "host/scene/contacts.h"
 #include "host/scene/framing.h"
 #include "host/scene/instances.h"
@@ -35,7 +33,7 @@ namespace {
 
 glm::dvec3 toVector(const std::vector<double> &values) { return {values[0], values[1], values[2]}; }
 
-/// The point to look at: that of --look-at or, if the camera of a bare mesh is moved, the centre of the mesh, because
+/// The point to look at: that of the options or, if the camera of a bare mesh is moved, the centre of the mesh, because
 /// no scene file gives a direction.
 std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const LoadedScene &loaded) {
     if (!options.lookAt.empty())
@@ -45,7 +43,7 @@ std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const Loaded
     return std::nullopt;
 }
 
-/// Up of a mesh without a camera: that of --up, of unit length, or +y.
+/// Up of a mesh without a camera: that of the options, of unit length, or +y.
 glm::dvec3 chooseUp(const SceneOptions &options) {
     const glm::dvec3 up = options.up.empty() ? glm::dvec3(0.0) : toVector(options.up);
     const double length = glm::length(up);
@@ -82,7 +80,7 @@ void requireEffect(const SettingChanges &changes, Integrator integrator) {
         for (const Integrator user : change.option->integrators)
             users += fmt::format("{}{}", users.empty() ? "" : ", ", nameOf(user));
         throw OverrideError(
-            std::string(change.option->option.substr(2)),
+            std::string(change.option->option),
             fmt::format("has no effect with the integrator {}; allowed: with {}", nameOf(integrator), users));
     }
 }
@@ -92,7 +90,7 @@ void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
     Environment &environment = loaded.scene.environment;
     if (!options.background.empty()) {
         if (!options.environment.empty())
-            throw OverrideError("background", "found beside --environment; allowed: one of the two");
+            throw OverrideError("background", "found beside an environment; allowed: one of the two");
         loaded.scene.background = glm::vec3(toVector(options.background));
         environment = {};
     }
@@ -109,7 +107,7 @@ void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
         if (isMissing)
             throw OverrideError(
                 std::string(option),
-                "found a scene without an environment; allowed: with one, or with --environment");
+                "found a scene without an environment; allowed: with one, of the scene or of the options");
     };
     if (options.environmentScale) {
         require("environment-scale");
@@ -225,13 +223,14 @@ Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
 /// million triangles has 14.
 constexpr double manyTrianglesTested = 1000.0;
 
-void warnOfOverlaps(const Bvh &bvh) {
+void warnOfOverlaps(const Bvh &bvh, Observer &observer) {
     const BvhStatistics statistics = measureBvh(bvh);
     const bool hasTree = statistics.depth > 0; // without a tree, many tests are what the user asked for
     if (hasTree && statistics.trianglesTested > manyTrianglesTested)
-        printWarning("the boxes of the scene's {} triangles overlap so much that a ray tests about "
-                     "{:.0f} of them: rendering will be slow",
-                     statistics.triangleCount, statistics.trianglesTested);
+        observer.warning(
+            fmt::format("the boxes of the scene's {} triangles overlap so much that a ray tests about "
+                        "{:.0f} of them: rendering will be slow",
+                        statistics.triangleCount, statistics.trianglesTested));
 }
 
 /// Whether a triangle's material is one that `isMeant`, by its index.
@@ -252,12 +251,12 @@ bool hasSmoothGlass(const Scene &scene) {
 }
 
 /// `path` meets a light without size by shadow rays only, and smooth glass bends light in one direction only.
-void warnOfLightsBehindGlass(const Scene &scene) {
+void adviseOnLightsBehindGlass(const Scene &scene, Observer &observer) {
     if (scene.settings.integrator == Integrator::Path && !scene.lights.empty() && hasSmoothGlass(scene))
-        printWarning("path does not find the light of lights without size (point, spot, "
-                     "directional) through smooth glass: its shadow is dark, and it focuses none of that "
-                     "light. Give the light a size, as a sphere with emission, or use --integrator "
-                     "whitted");
+        observer.advice("path does not find the light of lights without size (point, spot, "
+                        "directional) through smooth glass: its shadow is dark, and it focuses none of that "
+                        "light. Give the light a size, as a sphere with emission, or use the integrator "
+                        "whitted");
 }
 
 /// Drops what is packed, but for glass: where a camera moves, packCamera asks what is around it.
@@ -276,13 +275,13 @@ double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::stea
 
 } // namespace
 
-PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
+PreparedScene prepareScene(const SceneOptions &options, Source source, Observer &observer,
                            const std::function<void(const SceneOutline &)> &onOutline) {
     using Clock = std::chrono::steady_clock;
     PreparedScene prepared;
     const Clock::time_point start = Clock::now();
     {
-        ProgressLine progress("load", isQuiet);
+        ObservedTask progress(observer, "load");
         const auto tellOutline = [&](SceneOutline outline) {
             overrideSettings(options, outline.settings);
             if (onOutline)
@@ -294,26 +293,24 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQu
     }
     applyOverrides(options, prepared.loaded);
     for (const std::string &warning : prepared.loaded.warnings)
-        printWarning("{}", warning);
+        observer.warning(warning);
     for (const MeshReport &report : prepared.loaded.meshReports)
         for (const std::string &warning : report.warnings)
-            printWarning("{}", warning);
+            observer.warning(warning);
     Scene &scene = prepared.loaded.scene;
     validateWithOverrides(options, scene, prepared.loaded.file.string());
     prepared.crop = chooseCrop(options.crop, scene.camera);
     prepared.sources = lightSourcesOf(scene);
-    if (!isQuiet) {
-        warnOfLightsBehindGlass(scene);
-        if (const std::optional<std::string> dark = diagnoseLight(scene))
-            printWarning("{}", *dark);
-    }
+    adviseOnLightsBehindGlass(scene, observer);
+    if (const std::optional<std::string> dark = diagnoseLight(scene))
+        observer.advice(*dark);
     const Clock::time_point loaded = Clock::now();
     // Without a tree all triangles are tested one by one, and have to be in one space.
     const bool isFlattened = options.isFlattened || scene.settings.tree == TreeKind::None;
     arrangeInstances(scene, isFlattened ? Flattening::All : Flattening::Useful);
     partContacts(scene);
     prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);
-    warnOfOverlaps(prepared.bvh);
+    warnOfOverlaps(prepared.bvh, observer);
     prepared.packed = packScene(scene, prepared.bvh);
     prepared.arraysHash = prepared.packed.arraysHash();
     if (source == Source::Dropped) {

@@ -3,6 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/bvh/bvh.h"
+#include "host/engine/observer.h"
 #include "host/film/film.h"
 #include "host/import/loaded_scene.h"
 #include "host/packing/packed_scene.h"
@@ -40,8 +41,8 @@ struct SceneOptions {
 /// An override that conflicts with the scene or with another one. `name` is that of the override: "crop", "look-at".
 class OverrideError : public Error {
   public:
-    OverrideError(std::string overrideName, const std::string &message)
-        : Error(ErrorKind::Usage, message), name(std::move(overrideName)) {}
+    OverrideError(std::string overrideName, const std::string &message, Remedy mayHelp = Remedy::None)
+        : Error(ErrorKind::Usage, message, mayHelp), name(std::move(overrideName)) {}
 
     const std::string name;
 };
@@ -66,10 +67,10 @@ struct PreparedScene {
 };
 
 /// Loads, overrides, validates, builds and packs. Throws Error{BadInput}, or OverrideError for conflicting overrides,
-/// such as a crop outside the image. Unless quiet, shows progress while it reads large meshes, and warns of light
+/// such as a crop outside the image. The observer gets the task "load", warnings of what is lost, and advice on light
 /// that the integrator does not see. `onOutline` gets an outline of the scene, with overrides applied, before large
 /// files are read.
-[[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, bool isQuiet,
+[[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, Observer &observer,
                                          const std::function<void(const SceneOutline &)> &onOutline = {});
 
 /// Provenance for reports.

@@ -6,7 +6,6 @@
 #include "host/base/hash.h"
 #include "host/base/json_document.h"
 #include "host/base/json_text.h"
-#include "host/base/message.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -77,7 +76,8 @@ fs::path tuningFile() {
                 "there is nowhere to keep measurements: set HYALITE_CACHE to a folder");
 }
 
-Tuning readTuning(const gpu::DeviceInfo &device) {
+Tuning readTuning(const gpu::DeviceInfo &device, Observer &observer) {
+    constexpr const char *outcome = "kernels are chosen as if nothing had been measured";
     const std::optional<fs::path> file = findFile();
     std::error_code error;
     if (!file || !fs::exists(*file, error))
@@ -99,15 +99,14 @@ Tuning readTuning(const gpu::DeviceInfo &device) {
             return tuning;
         }
     } catch (const Error &fault) {
-        printMessage("note: {}; kernels are chosen as if nothing had been measured\n", fault.what());
+        observer.note(fmt::format("{}; {}", fault.what(), outcome));
     } catch (const nlohmann::json::exception &fault) {
-        printMessage("note: {}: {}; kernels are chosen as if nothing had been measured\n", file->string(),
-                     fault.what());
+        observer.note(fmt::format("{}: {}; {}", file->string(), fault.what(), outcome));
     }
     return {};
 }
 
-void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning) {
+void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning, Observer &observer) {
     const fs::path file = tuningFile();
     std::error_code error;
     fs::create_directories(file.parent_path(), error); // an error shows when the file is written
@@ -119,7 +118,7 @@ void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning) {
                 if (entry.is_object() && entry.value("key", Json()) != key)
                     entries.push_back(entry);
         } catch (const Error &fault) {
-            printMessage("note: {}; it will be rewritten\n", fault.what());
+            observer.note(fmt::format("{}; it will be rewritten", fault.what()));
         }
     }
     Json entry;

@@ -2,6 +2,7 @@
 // verified.
 #pragma once
 
+#include "host/engine/observer.h"
 #include "host/gpu/render_config.h"
 #include "host/gpu/vk/device_list.h"
 
@@ -25,12 +26,13 @@ struct Tuning {
 /// Error{OutputNotWritten} if none of these variables is set.
 [[nodiscard]] std::filesystem::path tuningFile();
 
-/// The entry for this device, this version of its driver and these kernels. An unreadable file is reported on standard
-/// error and ignored, because tuning changes no bit of any image.
-[[nodiscard]] Tuning readTuning(const gpu::DeviceInfo &device);
+/// The entry for this device, this version of its driver and these kernels. An unreadable file is noted and passed over,
+/// because tuning changes no bit of any image.
+[[nodiscard]] Tuning readTuning(const gpu::DeviceInfo &device, Observer &observer = nobody());
 
-/// Stores an entry, and keeps those of other devices. Throws Error{OutputNotWritten}.
-void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning);
+/// Stores an entry, and keeps those of other devices, unless the file is unreadable, which is noted. Throws
+/// Error{OutputNotWritten}.
+void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning, Observer &observer = nobody());
 
 /// YYYY-MM-DD, in UTC.
 [[nodiscard]] std::string today();

@@ -57,7 +57,7 @@ std::uint64_t auditSeed(const Merger &merged) {
 }
 
 AuditResult audit(const Merger &merged, Backend &backend, const PreparedScene &scene, double share,
-                  std::uint64_t seed, bool isQuiet) {
+                  std::uint64_t seed, Observer &observer) {
     std::vector<Candidate> chosen = candidatesOf(merged, seed);
     const double wanted = std::ceil(share * static_cast<double>(chosen.size()));
     chosen.resize(std::clamp<std::size_t>(static_cast<std::size_t>(wanted),
@@ -69,8 +69,8 @@ AuditResult audit(const Merger &merged, Backend &backend, const PreparedScene &s
     Continuation continuation;
     continuation.film = filmOfSquares(scene.crop, tiles, merged.samplesPerPixel());
     continuation.shareOfOthers = shareOutside(scene.crop, tiles);
-    const BackendResult again =
-        renderWithProgress(backend, scene, "audit", isQuiet, nullptr, {}, std::move(continuation));
+    const BackendResult again = unlessFailed(
+        render(backend, scene, "audit", observer, TimeLimit(), nullptr, std::move(continuation)));
     AuditResult result{chosen.size(), {}};
     for (const Candidate &candidate : chosen)
         if (const std::optional<AuditFinding> finding = compareTile(candidate, merged.film(), again.film))

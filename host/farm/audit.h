@@ -30,6 +30,6 @@ struct AuditResult {
 /// Renders `share` of the tiles of the parts that are there, in (0, 1] and one at least, and compares the pixels bit for
 /// bit; layers are not compared. `scene` is that of the parts.
 [[nodiscard]] AuditResult audit(const Merger &merged, Backend &backend, const PreparedScene &scene,
-                                double share, std::uint64_t seed, bool isQuiet);
+                                double share, std::uint64_t seed, Observer &observer);
 
 } // namespace hyalite

@@ -165,10 +165,6 @@ std::vector<std::uint32_t> Merger::missing() const {
     return indices;
 }
 
-std::string Merger::commandFor(std::uint32_t index) const {
-    return origin_.commandFor(subject_->part, {index, subject_->part.count});
-}
-
 std::string Merger::describe(std::uint32_t index) const {
     const Taken &taken = parts_.at(index);
     return fmt::format("'{}', made by {}", taken.path, taken.maker);

@@ -30,13 +30,12 @@ class Merger {
 
     /// Whether there is any part.
     [[nodiscard]] bool hasParts() const { return subject_.has_value(); }
-    /// The parts that are missing, and the command that makes one of them.
     [[nodiscard]] std::vector<std::uint32_t> missing() const;
-    [[nodiscard]] std::string commandFor(std::uint32_t index) const;
 
     // All of the following need a part.
 
     [[nodiscard]] const std::string &identity() const { return identity_; }
+    [[nodiscard]] const Part &firstPart() const { return subject_->part; }
     [[nodiscard]] const PartOrigin &origin() const { return origin_; } ///< of the first part
     [[nodiscard]] const Partition &partition() const { return *partition_; }
     [[nodiscard]] std::uint32_t samplesPerPixel() const { return subject_->samplesPerPixel; }

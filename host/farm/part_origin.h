@@ -26,10 +26,6 @@ struct PartOrigin {
 
     /// "node7 (llvmpipe, Mesa 22.3.6)".
     [[nodiscard]] std::string maker() const;
-
-    /// The command that renders `part` in place of the own one, into a file that is named alike; quoted for a shell, and
-    /// clean, as who reads it may run it.
-    [[nodiscard]] std::string commandFor(const Part &own, const Part &part) const;
 };
 
 [[nodiscard]] std::string hostName();

@@ -81,8 +81,8 @@ std::string reasonOfBlack(const PreparedScene &prepared) {
     const LightSources &sources = prepared.sources;
     const Sight sight = lookAround(prepared.packed, prepared.crop);
     if (sight.hitCount == 0)
-        return "no surface is in view, and the background is black; move the camera, or point it with "
-               "--look-at";
+        return "no surface is in view, and the background is black; move the camera, or point it at "
+               "something";
     if (sight.backCount == sight.hitCount)
         return "all surfaces in view are seen from behind, where they are black: the camera may be inside an "
                "object, or faces may be wound the wrong way; move the camera, or write \"twoSided\": true";
@@ -122,8 +122,7 @@ std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Fil
     const bool mayMeetNothing = rays.total() == rays.primary && !isKnown && hasSurfaces(scene.loaded.scene);
     if (mayMeetNothing && lookAround(scene.packed, scene.crop).hitCount == 0)
         return "no primary ray met anything: the picture shows what is around the scene alone; move the "
-               "camera, or "
-               "point it with --look-at";
+               "camera, or point it at something";
     return std::nullopt;
 }
 

@@ -65,8 +65,7 @@ Layer layerOf(const ViewFilm &of) {
 
 std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
                                   const std::vector<Integrator> &views, std::span<const Crop> squares,
-                                  std::span<const Film> begun, bool isQuiet,
-                                  const std::function<bool()> &shouldStop) {
+                                  std::span<const Film> begun, Observer &observer, const TimeLimit &limit) {
     RenderSettings &settings = scene.loaded.scene.settings;
     const RenderSettings ofImage = settings;
     std::vector<ViewFilm> films;
@@ -87,14 +86,12 @@ std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
             continuation.film &&
             finishedWork(*continuation.film, squares, settings.samplesPerPixel).isComplete;
         Film film(scene.crop);
-        if (isFinished || shouldStop()) {
+        if (isFinished || observer.wantsStop() || limit.isReached()) {
             if (continuation.film)
                 film = std::move(*continuation.film);
         } else {
-            BackendResult result = renderWithProgress(backend, scene, std::string(nameOf(view)), isQuiet,
-                                                      nullptr, shouldStop, std::move(continuation));
-            if (result.failure)
-                throw Error(*result.failure);
+            BackendResult result = unlessFailed(render(backend, scene, std::string(nameOf(view)), observer,
+                                                       limit, nullptr, std::move(continuation)));
             film = std::move(result.film);
             if (view == Integrator::Depth)
                 flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr, film);

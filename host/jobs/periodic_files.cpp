@@ -1,14 +1,14 @@
 #include "host/jobs/periodic_files.h"
 
-#include "host/base/message.h"
-
 #include <algorithm>
 #include <exception>
+#include <string>
 #include <utility>
 
 namespace hyalite {
 
-PeriodicFiles::PeriodicFiles(const Crop &crop, std::vector<PeriodicFile> files) : crop_(crop) {
+PeriodicFiles::PeriodicFiles(const Crop &crop, std::vector<PeriodicFile> files, Observer &observer)
+    : crop_(crop), observer_(observer) {
     const Clock::time_point now = Clock::now();
     for (PeriodicFile &file : files) {
         const auto interval = std::chrono::duration<double>(file.intervalSeconds);
@@ -55,7 +55,7 @@ void PeriodicFiles::writeNow(Timed &timed, const Film &film, const RayCounts &ra
         timed.isFailing = false;
     } catch (const std::exception &error) {
         if (!timed.isFailing) // reported once: the disk may stay full for long
-            printMessage("note: {}; the render goes on, and this is tried again\n", error.what());
+            observer_.note(std::string(error.what()) + "; the render goes on, and this is tried again");
         timed.isFailing = true;
     }
 }

@@ -1,6 +1,7 @@
 // Files that are written periodically during a render.
 #pragma once
 
+#include "host/engine/observer.h"
 #include "host/film/continuation.h"
 
 #include <atomic>
@@ -16,7 +17,7 @@ namespace hyalite {
 /// A file that is written at intervals.
 struct PeriodicFile {
     double intervalSeconds;
-    /// Called by a thread of its own. If it throws Error, the message is printed, and the render continues.
+    /// Called by a thread of its own. If it throws Error, the observer gets a note, and the render goes on.
     std::function<void(const Film &film, const RayCounts &rays)> write;
 };
 
@@ -24,8 +25,8 @@ struct PeriodicFile {
 /// the interval, the next time is skipped.
 class PeriodicFiles : public SnapshotTaker {
   public:
-    /// `crop` is that of the film. The first interval begins now.
-    PeriodicFiles(const Crop &crop, std::vector<PeriodicFile> files);
+    /// `crop` is that of the film. The first interval begins now. `observer` must outlive it.
+    PeriodicFiles(const Crop &crop, std::vector<PeriodicFile> files, Observer &observer);
     /// As finish().
     ~PeriodicFiles() override;
 
@@ -49,9 +50,10 @@ class PeriodicFiles : public SnapshotTaker {
 
     void run();
     [[nodiscard]] Clock::time_point nextDue() const;
-    static void writeNow(Timed &timed, const Film &film, const RayCounts &rays);
+    void writeNow(Timed &timed, const Film &film, const RayCounts &rays);
 
     Crop crop_;
+    Observer &observer_;
     std::vector<Timed> files_; ///< touched by the writing thread alone
     Film film_{Crop{}};        ///< of the last snapshot; empty until there is one
     RayCounts rays_;

@@ -60,10 +60,10 @@ void RenderJob::prepare() {
     report_.origin = provenanceOf(session_.scene(), report_.origin.commandLine);
     const Part part = request_.part.value_or(Part{});
     if (const std::uint32_t most = Partition::mostParts(session_.scene().crop); part.count > most)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--part: found {}/{}; a picture of {} x {} pixels has at most {} parts",
-                                part.index, part.count, session_.scene().crop.width(),
-                                session_.scene().crop.height(), most));
+        throw OverrideError("part",
+                            fmt::format("found {}/{}; a picture of {} x {} pixels has at most {} parts",
+                                        part.index, part.count, session_.scene().crop.width(),
+                                        session_.scene().crop.height(), most));
     partition_.emplace(session_.scene().crop, part.count);
 }
 
@@ -88,7 +88,6 @@ void RenderJob::openDevice() {
     session_.open();
     report_.device = session_.backend().identity(session_.scene().packed,
                                                  session_.scene().loaded.scene.settings.integrator);
-    signals_.emplace(request_.isQuiet);
 }
 
 void RenderJob::lookForFrame() {
@@ -127,7 +126,7 @@ void RenderJob::resume() {
             // A damaged part is overwritten; one of another picture is an error. A frame that has changed begins anew,
             // as it does without a checkpoint.
             if (request_.part && error.remedy == Remedy::BeginAnew)
-                throw Error(error.kind, fmt::format("{}; remove {}, or name another --output", error.what(),
+                throw Error(error.kind, fmt::format("{}; remove {}, or name another output", error.what(),
                                                     request_.output));
             if (!request_.frame && !request_.part)
                 throw;
@@ -187,8 +186,6 @@ void RenderJob::writeCheckpoint(const Film &film, const RayCounts &rays) {
     checkpoint_->write(film, rays, layers);
 }
 
-bool RenderJob::shouldStop() const { return signals_->first() != 0 || timeLimit_.isReached(); }
-
 std::vector<PeriodicFile> RenderJob::periodicFiles() {
     std::vector<PeriodicFile> files;
     if (checkpoint_)
@@ -205,11 +202,11 @@ std::vector<PeriodicFile> RenderJob::periodicFiles() {
 }
 
 void RenderJob::renderLayers() {
-    snapshots_.emplace(session_.scene().crop, periodicFiles());
+    snapshots_.emplace(session_.scene().crop, periodicFiles(), session_.observer());
     timeLimit_ = TimeLimit(request_.timeLimitSeconds);
     layers_ = renderViews(session_.backend(), session_.scene(), request_.layers,
                           request_.part ? squares() : std::span<const Crop>(), layersBefore_,
-                          request_.isQuiet, [this] { return shouldStop(); });
+                          session_.observer(), timeLimit_);
 }
 
 void RenderJob::render() {
@@ -217,20 +214,16 @@ void RenderJob::render() {
     continuation.film = std::move(filmBefore_);
     continuation.snapshots = &*snapshots_;
     continuation.shareOfOthers = shareOutside(session_.scene().crop, squares());
-    BackendResult result = renderWithProgress(
-        session_.backend(), session_.scene(),
-        request_.frame ? fmt::format("frame {}", *request_.frame) : "render", request_.isQuiet, nullptr,
-        [this] {
-            signals_->keepResults(); // whoever asks this ends soon, with what is finished
-            return shouldStop();
-        },
-        std::move(continuation));
+    BackendResult result =
+        hyalite::render(session_.backend(), session_.scene(),
+                        request_.frame ? fmt::format("frame {}", *request_.frame) : "render",
+                        session_.observer(), timeLimit_, nullptr, std::move(continuation));
     snapshots_->finish();
     takeResult(std::move(result));
 }
 
 void RenderJob::takeResult(BackendResult result) {
-    signalWhileRendering_ = signals_->first();
+    stop_ = session_.observer().wantsStop();
     report_.finished =
         finishedWork(result.film, squares(), session_.scene().loaded.scene.settings.samplesPerPixel);
     const int samplesPerPixel = session_.scene().loaded.scene.settings.samplesPerPixel;
@@ -240,14 +233,12 @@ void RenderJob::takeResult(BackendResult result) {
             finishedWork(layer.film, squares(), samplesOfView(layer.view, samplesPerPixel)).isComplete;
     if (result.failure && report_.finished.sampleCount == 0)
         throw Error(*result.failure);
-    if (signalWhileRendering_ != 0 && report_.finished.sampleCount == 0)
-        throw Error(errorKindOf(signalWhileRendering_),
-                    fmt::format("stopped by {} before the first sample was finished: nothing is written",
-                                signalName(signalWhileRendering_)));
+    if (stop_ && report_.finished.sampleCount == 0)
+        throw Error(
+            stop_->kind,
+            fmt::format("stopped by {} before the first sample was finished: nothing is written", stop_->by));
     if (!report_.finished.isComplete)
-        report_.stoppedBy = result.failure               ? "the device"
-                            : signalWhileRendering_ != 0 ? signalName(signalWhileRendering_)
-                                                         : "the time limit";
+        report_.stoppedBy = result.failure ? "the device" : stop_ ? stop_->by : "the time limit";
     report_.faults = std::move(result.faults);
     report_.shares = std::move(result.shares);
     report_.timing = result.timing;
@@ -316,8 +307,6 @@ void RenderJob::throwFailure() const {
         throw Error(*renderFailure_);
 }
 
-bool RenderJob::isCutByTime() const {
-    return !report_.finished.isComplete && !renderFailure_ && signalWhileRendering_ == 0;
-}
+bool RenderJob::isCutByTime() const { return !report_.finished.isComplete && !renderFailure_ && !stop_; }
 
 } // namespace hyalite

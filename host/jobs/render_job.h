@@ -11,7 +11,6 @@
 #include "host/jobs/layers.h"
 #include "host/jobs/periodic_files.h"
 #include "host/jobs/render_session.h"
-#include "host/jobs/stop.h"
 #include "host/report/render_report.h"
 
 #include <chrono>
@@ -24,7 +23,7 @@ namespace hyalite {
 /// Call the stages once each, in the order of their declarations.
 class RenderJob {
   public:
-    /// Opens the outputs, so that one that cannot be written fails before the work begins.
+    /// Opens the outputs, so that one that cannot be written fails before the work begins. The session's observer watches.
     /// `session` must outlive it.
     RenderJob(const RenderRequest &request, const std::string &commandLine, RenderSession &session);
 
@@ -36,8 +35,7 @@ class RenderJob {
     void resume();
     /// Renders the layers.
     void renderLayers();
-    /// Renders the missing samples, until it is stopped. Once some work is finished, signals stop it gracefully;
-    /// before, while the driver compiles, they end the program. Throws if not even one sample is finished.
+    /// Renders the missing samples, until the observer wants it to stop. Throws if not even one sample is finished.
     void render();
     /// Stores the checkpoint, then the image.
     void writeImage();
@@ -56,13 +54,10 @@ class RenderJob {
     [[nodiscard]] const std::string &checkpointDamage() const { return checkpointDamage_; }
     /// Whether it ended early, only because of the time limit.
     [[nodiscard]] bool isCutByTime() const;
-    /// The signal that came first so far, or 0.
-    [[nodiscard]] int stoppingSignal() const { return signals_->first(); }
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    [[nodiscard]] bool shouldStop() const;
     [[nodiscard]] std::vector<PeriodicFile> periodicFiles();
     [[nodiscard]] std::span<const Crop> squares() const;
     [[nodiscard]] PartOrigin partOrigin() const;
@@ -78,7 +73,6 @@ class RenderJob {
     std::optional<AtomicFile> image_; ///< unless the output is a part, or a frame that is there
     std::optional<AtomicFile> reportFile_;
     RenderSession &session_;
-    std::optional<CaughtSignals> signals_; ///< until everything is written, when the most could be lost
     std::optional<Partition> partition_;
     std::optional<CheckpointLock> checkpointLock_;
     std::optional<CheckpointWriter> checkpoint_;
@@ -92,7 +86,7 @@ class RenderJob {
     TimeLimit timeLimit_;
     std::optional<PeriodicFiles> snapshots_; ///< writes with the members above
     std::optional<Film> film_;
-    int signalWhileRendering_ = 0;
+    std::optional<Stop> stop_; ///< that the observer wanted while it rendered
     std::optional<Error> renderFailure_;
     std::optional<Error> checkpointFailure_;
     RenderReport report_;

@@ -8,15 +8,16 @@ namespace hyalite {
 
 void RenderSession::prepare(const RenderRequest &request) {
     const auto beginOpening = [&](const SceneOutline &outline) {
-        opening_ = beginOpeningRenderers(request.devices, processorsFor(request.threadCount, outline),
-                                         renderConfigFor(request.deviceOptions));
+        opening_ =
+            beginOpeningRenderers(request.devices, observer_, processorsFor(request.threadCount, outline),
+                                  renderConfigFor(request.deviceOptions));
     };
-    scene_ = prepareScene(request.scene, Source::Dropped, request.isQuiet, beginOpening);
+    scene_ = prepareScene(request.scene, Source::Dropped, observer_, beginOpening);
 }
 
-void RenderSession::replaceScene(const SceneOptions &options, bool isQuiet) {
+void RenderSession::replaceScene(const SceneOptions &options) {
     scene_.reset(); // the memory first
-    scene_ = prepareScene(options, Source::Dropped, isQuiet);
+    scene_ = prepareScene(options, Source::Dropped, nobody());
 }
 
 void RenderSession::open() {

@@ -37,19 +37,19 @@ struct RenderRequest {
     std::optional<int> frame;
     std::vector<std::string> words;       ///< of the command line, for who has to make a part again
     std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
-    bool isQuiet = false;                 ///< no progress
 };
 
 class RenderSession {
   public:
-    /// With a crew, the other ranks share the pictures. It must outlive this.
-    explicit RenderSession(RankCrew *crew = nullptr) : crew_(crew) {}
+    /// With a crew, the other ranks share the pictures. Both must outlive this.
+    explicit RenderSession(Observer &observer, RankCrew *crew = nullptr) : observer_(observer), crew_(crew) {}
 
     /// Loads and builds the scene, and opens the renderers at the same time, as soon as the outline is known. Throws as
     /// prepareScene() does.
     void prepare(const RenderRequest &request);
-    /// Another scene for the same renderers.
-    void replaceScene(const SceneOptions &options, bool isQuiet);
+    /// Another scene for the same renderers. Nobody watches: what there is to say was said of the first one.
+    void replaceScene(const SceneOptions &options);
+    [[nodiscard]] Observer &observer() const { return observer_; }
     /// Waits for the renderers. Throws as openRenderers() does.
     void open();
 
@@ -62,6 +62,7 @@ class RenderSession {
     [[nodiscard]] const std::vector<std::string> &notes() const { return opened_.notes; }
 
   private:
+    Observer &observer_;
     RankCrew *crew_;
     std::optional<PreparedScene> scene_;
     std::future<OpenedRenderers> opening_;

@@ -41,9 +41,8 @@ void requireNoPlace(const SceneOptions &options) {
                                        {"look-at", &options.lookAt},
                                        {"up", &options.up}})
         if (!values->empty())
-            throw OverrideError(name,
-                                "found beside a camera that moves by itself; allowed: with --turntable, "
-                                "or without --frames");
+            throw OverrideError(name, "found beside a camera that moves by itself; allowed: for one picture",
+                                Remedy::Turntable);
 }
 
 SequenceTimes timesOf(const SequenceOptions &options) {
@@ -59,10 +58,10 @@ std::string nameOfFrame(const std::string &pattern, int frame, const std::string
     const std::size_t begin = name.find('#');
     const std::size_t end = begin == std::string::npos ? begin : name.find_first_not_of('#', begin);
     if (begin == std::string::npos || (end != std::string::npos && name.find('#', end) != std::string::npos))
-        throw Error(ErrorKind::Usage,
-                    fmt::format("{}: found {}; the file name of frames has one run of #, which their numbers "
+        throw OverrideError(
+            option, fmt::format("found {}; the file name of frames has one run of #, which their numbers "
                                 "replace: frame.####.exr",
-                                option, pattern));
+                                pattern));
     const std::size_t width = (end == std::string::npos ? name.size() : end) - begin;
     const std::string numbered =
         name.substr(0, begin) + fmt::format("{:0{}}", frame, width) + name.substr(begin + width);
@@ -94,11 +93,11 @@ RenderRequest Sequence::requestOf(int frame) const {
     RenderRequest request = request_;
     request.part.reset();
     request.frame = frame;
-    request.output = nameOfFrame(request.output, frame, "--output");
+    request.output = nameOfFrame(request.output, frame, "output");
     if (!request.report.empty())
-        request.report = nameOfFrame(request.report, frame, "--report");
+        request.report = nameOfFrame(request.report, frame, "report");
     if (!request.checkpoint.empty())
-        request.checkpoint = nameOfFrame(request.checkpoint, frame, "--checkpoint");
+        request.checkpoint = nameOfFrame(request.checkpoint, frame, "checkpoint");
     return request;
 }
 
@@ -118,10 +117,9 @@ void Sequence::prepare(RenderSession &session) {
     path_ = std::exchange(scene.loaded.cameraPath, {});
     movesByTime_ = scene.loaded.movesByTime;
     if (path_.empty() && !movesByTime_)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--frames: nothing moves in {}: give its camera a path, or turn around it by "
-                                "--turntable COUNT",
-                                scene.loaded.file.string()));
+        throw OverrideError(
+            "frames", fmt::format("nothing moves in {}; give its camera a path", scene.loaded.file.string()),
+            Remedy::Turntable);
     if (!path_.empty())
         requireNoPlace(request.scene);
     // A field of view that the command line or the image's shape decides is that of all frames.
@@ -135,7 +133,7 @@ void Sequence::moveTo(int frame, RenderSession &session) {
     if (movesByTime_) {
         SceneOptions options = request_.scene;
         options.load.timeSeconds = times_.timeOf(frame);
-        session.replaceScene(options, true); // what there is to warn of was told for the first one
+        session.replaceScene(options);
         PreparedScene &scene = session.scene();
         if (scene.loaded.autoFramed) { // else the view would jump with what it frames
             if (!framing_)

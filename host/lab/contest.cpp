@@ -4,11 +4,11 @@
 
 namespace hyalite {
 
-Contestants openContestants(const ContestRequest &request, const PreparedScene &scene) {
+Contestants openContestants(const ContestRequest &request, const PreparedScene &scene, Observer &observer) {
     const gpu::ProcessorUse processors = processorsFor(request.threadCount, scene);
     const gpu::RenderConfig config = renderConfigFor(request.deviceOptions);
-    std::unique_ptr<Backend> first = openBackend(request.device, processors, config);
-    return {std::move(first), openBackend(request.against, processors,
+    std::unique_ptr<Backend> first = openBackend(request.device, observer, processors, config);
+    return {std::move(first), openBackend(request.against, observer, processors,
                                           isReference(request.against) ? gpu::RenderConfig{} : config)};
 }
 

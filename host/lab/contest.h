@@ -22,7 +22,8 @@ struct Contestants {
     std::unique_ptr<Backend> second;
 };
 
-[[nodiscard]] Contestants openContestants(const ContestRequest &request, const PreparedScene &scene);
+[[nodiscard]] Contestants openContestants(const ContestRequest &request, const PreparedScene &scene,
+                                          Observer &observer);
 
 /// Retraces a pixel of the whole image on both sides, sample by sample, until a step differs.
 [[nodiscard]] std::optional<Divergence>

@@ -24,14 +24,15 @@ RayCounts raysOf(const Frame &frame) {
 
 } // namespace
 
-Measurement::Measurement(const MeasurementRequest &request, const std::string &commandLine)
-    : request_(request) {
+Measurement::Measurement(const MeasurementRequest &request, const std::string &commandLine,
+                         Observer &observer)
+    : request_(request), observer_(observer) {
     profile_.origin.commandLine = commandLine;
 }
 
 void Measurement::prepareScene() {
     watch_ = {};
-    scene_ = hyalite::prepareScene(request_.scene, Source::Dropped, request_.isQuiet);
+    scene_ = hyalite::prepareScene(request_.scene, Source::Dropped, observer_);
     const Span prepared = watch_.lap();
     const auto nanos = [](double seconds) { return std::llround(seconds * 1e9); };
     const std::int64_t loaded = prepared.beginNanos + nanos(scene_.loadSeconds);
@@ -44,7 +45,7 @@ void Measurement::prepareScene() {
 void Measurement::openDevice() {
     requireFilmMemory(scene_.crop, 2);
     watch_ = {};
-    backend_ = openBackend(request_.device, processorsFor(request_.threadCount, scene_),
+    backend_ = openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_),
                            renderConfigFor(request_.deviceOptions));
     profile_.hostStages.push_back({"open the device", watch_.lap()});
     profile_.device = backend_->identity(scene_.packed, profile_.origin.settings.integrator);
@@ -58,11 +59,7 @@ void Measurement::startTime(bool isCounting) {
 
 BackendResult Measurement::render(Backend &backend, const std::string &task, const TimeLimit &limit,
                                   Timeline *timeline) const {
-    BackendResult result = renderWithProgress(backend, scene_, task, request_.isQuiet, timeline,
-                                              [&limit] { return limit.isReached(); });
-    if (result.failure)
-        throw Error(*result.failure);
-    return result;
+    return unlessFailed(hyalite::render(backend, scene_, task, observer_, limit, timeline));
 }
 
 double Measurement::finishedShare(const Film &film) const {
@@ -100,7 +97,7 @@ std::optional<std::string> Measurement::verify() {
         profile_.leftOut.emplace_back("the verification");
         return std::nullopt;
     }
-    const std::unique_ptr<Backend> twin = openBackend("cpu");
+    const std::unique_ptr<Backend> twin = openBackend("cpu", observer_);
     Stopwatch watch;
     const BackendResult wanted = render(*twin, "the CPU twin", measuring_.share(0.5));
     profile_.hostStages.push_back({"the CPU twin", watch.lap()});
@@ -147,7 +144,7 @@ void Measurement::cutCount(const char *what, double share) {
 
 void Measurement::countWork() {
     const std::unique_ptr<Backend> counter =
-        openBackend(request_.device, processorsFor(request_.threadCount, scene_));
+        openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_));
     bool &isWorkShown = scene_.loaded.scene.settings.isWorkShown;
     isWorkShown = true;
     const BackendResult result = render(*counter, "counting", limit_.share(request_.isCounting ? 0.5 : 1.0));
@@ -171,7 +168,7 @@ void Measurement::countKernelWork() {
     gpu::RenderConfig config = renderConfigFor(request_.deviceOptions);
     config.isCounting = true;
     const std::unique_ptr<Backend> counter =
-        openBackend(request_.device, processorsFor(request_.threadCount, scene_), config);
+        openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_), config);
     const BackendResult result = render(*counter, "counting the kernel's work", limit_);
     if (const double share = finishedShare(result.film); share < 1.0)
         cutCount("the work of the kernel: the samples", share);

@@ -24,7 +24,6 @@ struct MeasurementRequest {
     std::optional<double> timeLimitSeconds; ///< for all renders together
     bool isCounting = false;                ///< all that countWork() and countKernelWork() count
     bool isUnverified = false;
-    bool isQuiet = false; ///< no progress
 };
 
 /// Call the stages once each, in the order of their declarations; the counts are optional.
@@ -33,7 +32,8 @@ struct MeasurementRequest {
 /// finished; the profile says so.
 class Measurement {
   public:
-    Measurement(const MeasurementRequest &request, const std::string &commandLine);
+    /// `observer` must outlive it.
+    Measurement(const MeasurementRequest &request, const std::string &commandLine, Observer &observer);
 
     void prepareScene();
     void openDevice();
@@ -70,6 +70,7 @@ class Measurement {
     void cutCount(const char *what, double share);
 
     const MeasurementRequest request_;
+    Observer &observer_;
     Stopwatch watch_;
     PreparedScene scene_;
     std::unique_ptr<Backend> backend_;

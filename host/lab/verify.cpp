@@ -28,7 +28,7 @@ struct Kernel {
 };
 
 /// The kernels in groups that are opened one after the other: lavapipe has one vector width at a time, and a render's
-/// depends on whether its kernel has a stack (gpu::tellLavapipe).
+/// depends on whether its kernel has a stack (host/process/lavapipe.h).
 std::vector<std::vector<Kernel>> groupsOf(const std::string &device, const std::vector<std::string> &wanted) {
     std::vector<std::vector<Kernel>> groups(1);
     if (isReference(device)) {
@@ -65,7 +65,7 @@ std::vector<Task> tasksOf(const std::vector<Kernel> &kernels, const ShippedFilms
 using Renderers = std::vector<std::unique_ptr<Backend>>;
 
 Renderers openAll(const std::vector<Kernel> &kernels, const std::vector<Task> &tasks,
-                  const std::string &device) {
+                  const std::string &device, Observer &observer) {
     Renderers renderers(kernels.size());
     for (const Task &task : tasks) {
         if (renderers[task.kernel] != nullptr)
@@ -74,7 +74,7 @@ Renderers openAll(const std::vector<Kernel> &kernels, const std::vector<Task> &t
         DeviceOptions options;
         if (!kernel.name.empty())
             options.kernel = kernel.choice;
-        renderers[task.kernel] = openBackend(device, {}, renderConfigFor(options));
+        renderers[task.kernel] = openBackend(device, observer, {}, renderConfigFor(options));
     }
     return renderers;
 }
@@ -84,7 +84,7 @@ PreparedScene prepare(const ShippedFilms &shipped, const ShippedFilm &film) {
     options.scene = shipped.fileOf(film).string();
     options.settings.push_back(
         {[&film](RenderSettings &settings) { settings.integrator = film.integrator; }});
-    return prepareScene(options, Source::Dropped, true);
+    return prepareScene(options, Source::Dropped, nobody());
 }
 
 /// The first dispatch that rendered this pixel.
@@ -99,7 +99,7 @@ std::optional<DispatchRecord> dispatchOf(const Timeline &timeline, const glm::iv
 /// Compares a film with that of the CPU twin, which is rendered for it.
 FilmDifference explain(Backend &backend, const PreparedScene &scene, const Film &film,
                        const Timeline &timeline) {
-    const std::unique_ptr<Backend> twin = openBackend("cpu");
+    const std::unique_ptr<Backend> twin = openBackend("cpu", nobody());
     const Film wanted = twin->render(scene, {}, nullptr, {}, {}).film;
     FilmDifference difference;
     difference.pixelCount = differingPixelCount(film, wanted);
@@ -170,7 +170,7 @@ bool DeviceVerdict::isPassed() const {
            std::ranges::all_of(films, isRendered);
 }
 
-DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shipped,
+DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shipped, Observer &observer,
                            const std::vector<std::string> &wanted,
                            const std::function<void(const FilmVerdict &, double)> &onFilm) {
     const std::vector<std::vector<Kernel>> groups = groupsOf(device, wanted);
@@ -188,7 +188,7 @@ DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shippe
             continue;
         std::vector<Renderers> workers;
         for (std::size_t i = 0; i < std::min<std::size_t>(mostWorkers, tasks.size()); ++i)
-            workers.push_back(openAll(kernels, tasks, device));
+            workers.push_back(openAll(kernels, tasks, device, observer));
         const Backend &first = *workers.front()[tasks.front().kernel];
         verdict.device = first.name();
         verdict.description = first.description();

@@ -57,7 +57,7 @@ struct DeviceVerdict {
 /// finished share of the work, from one thread at a time. Devices that fail while they render do not throw. Throws as
 /// openBackend() and prepareScene() do.
 [[nodiscard]] DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shipped,
-                                         const std::vector<std::string> &wanted = {},
+                                         Observer &observer, const std::vector<std::string> &wanted = {},
                                          const std::function<void(const FilmVerdict &, double)> &onFilm = {});
 
 } // namespace hyalite

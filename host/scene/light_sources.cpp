@@ -52,10 +52,10 @@ std::optional<std::string> diagnoseLight(const Scene &scene) {
                "a black background; the picture will be black";
     if (isWhitted && !sources.hasLights)
         return "whitted lights surfaces by lights without size (point, spot, directional) alone, and this "
-               "scene has none: --integrator path follows the light of emitters, environments and "
+               "scene has none: the integrator path follows the light of emitters, environments and "
                "backgrounds";
     if (isWhitted && (sources.hasEmitters || sources.hasEnvironment))
-        return fmt::format("whitted shows {}, but does not light surfaces by {}: --integrator path does",
+        return fmt::format("whitted shows {}, but does not light surfaces by {}: the integrator path does",
                            sources.hasEmitters && sources.hasEnvironment ? "emitters and the environment"
                            : sources.hasEmitters                         ? "emitters"
                                                                          : "the environment",

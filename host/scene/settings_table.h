@@ -50,10 +50,10 @@ enum class Changes {
 
 struct Setting {
     std::string_view key;    ///< in scene files, reports and messages
-    std::string_view option; ///< on the command line
+    std::string_view option; ///< its word on the command line, without dashes
     SettingValue value;      ///< its default is that of the member
     Changes changes;
-    std::string_view group; ///< of options, in --help
+    std::string_view group; ///< of options, in help texts
     std::string_view help;
     std::span<const Integrator> integrators{}; ///< those that use it; empty: all
 };
@@ -67,45 +67,45 @@ inline constexpr auto severalBounces = integratorsThat<&IntegratorRow::followsPa
 
 /// In the order of reports and documents.
 inline constexpr auto settingsTable = std::to_array<Setting>({
-    {"integrator", "--integrator", ChoiceSetting<Integrator>{&RenderSettings::integrator, integratorNames},
+    {"integrator", "integrator", ChoiceSetting<Integrator>{&RenderSettings::integrator, integratorNames},
      Changes::Samples, tracingGroup, "what a sample estimates"},
-    {"spp", "--spp", NumberSetting<int>{&RenderSettings::samplesPerPixel, {1, 65536}}, Changes::SampleCount,
+    {"spp", "spp", NumberSetting<int>{&RenderSettings::samplesPerPixel, {1, 65536}}, Changes::SampleCount,
      imageGroup, "samples per pixel"},
-    {"maxDepth", "--max-depth", NumberSetting<int>{&RenderSettings::maxDepth, {1, layout::maxPathDepth}},
+    {"maxDepth", "max-depth", NumberSetting<int>{&RenderSettings::maxDepth, {1, layout::maxPathDepth}},
      Changes::Samples, tracingGroup,
      "maximum number of path segments, the primary ray included; with whitted, glass splits paths in two, so "
      "each level may double the work",
      severalBounces},
-    {"occlusionDistance", "--ao-distance",
+    {"occlusionDistance", "ao-distance",
      NumberSetting<double>{&RenderSettings::occlusionDistance, {0.0, 1e15, false}}, Changes::Samples,
      tracingGroup, "occluders further away than this are ignored; by default none is", ambientOcclusionOnly},
-    {"bvh", "--bvh", ChoiceSetting<TreeKind>{&RenderSettings::tree, treeNames}, Changes::Time, tracingGroup,
+    {"bvh", "bvh", ChoiceSetting<TreeKind>{&RenderSettings::tree, treeNames}, Changes::Time, tracingGroup,
      "how the tree over the triangles is built; none: every ray tests every triangle"},
-    {"leafSize", "--leaf-size", NumberSetting<int>{&RenderSettings::leafSize, {1, 64}}, Changes::Time,
+    {"leafSize", "leaf-size", NumberSetting<int>{&RenderSettings::leafSize, {1, 64}}, Changes::Time,
      tracingGroup, "maximum number of triangles in a leaf of the tree, where they can be separated"},
-    {"sampler", "--sampler", ChoiceSetting<SamplerKind>{&RenderSettings::sampler, samplerNames},
+    {"sampler", "sampler", ChoiceSetting<SamplerKind>{&RenderSettings::sampler, samplerNames},
      Changes::Samples, imageGroup,
      "centre: all samples at the pixel centre; sobol: spread evenly over the pixel, which smooths edges"},
-    {"filter", "--filter", ChoiceSetting<FilterKind>{&RenderSettings::filter, filterNames}, Changes::Samples,
+    {"filter", "filter", ChoiceSetting<FilterKind>{&RenderSettings::filter, filterNames}, Changes::Samples,
      imageGroup,
      "reconstruction filter, with the sampler sobol. box: all samples of the pixel count the same; "
      "blackman-harris: weights fall off smoothly to 1.5 pixels from the centre, with less aliasing and "
      "moire"},
-    {"seed", "--seed", NumberSetting<std::uint32_t>{&RenderSettings::seed, {0, 4294967295.0}},
-     Changes::Samples, imageGroup, "seed of the random numbers: another seed gives other noise"},
-    {"clamp", "--clamp", NumberSetting<double>{&RenderSettings::radianceLimit, {0.0, 1e30}}, Changes::Samples,
+    {"seed", "seed", NumberSetting<std::uint32_t>{&RenderSettings::seed, {0, 4294967295.0}}, Changes::Samples,
+     imageGroup, "seed of the random numbers: another seed gives other noise"},
+    {"clamp", "clamp", NumberSetting<double>{&RenderSettings::radianceLimit, {0.0, 1e30}}, Changes::Samples,
      tracingGroup,
      "upper limit, per channel, on each contribution of indirect light: less noise, but a darker image; 0: "
      "no limit",
      pathOnly},
-    {"lightChoice", "--light-choice",
+    {"lightChoice", "light-choice",
      ChoiceSetting<LightChoice>{&RenderSettings::lightChoice, lightChoiceNames}, Changes::Samples,
      tracingGroup,
      "how a shadow ray chooses its light. power: the brighter, the more often; tree: by power, distance and "
      "direction; "
      "auto: tree if there are more than 64 lights and emitting primitives, far apart",
      pathOnly},
-    {"exposure", "--exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
+    {"exposure", "exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
      Changes::Picture, imageGroup,
      "in stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG"},
 });

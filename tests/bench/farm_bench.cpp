@@ -1,6 +1,7 @@
 #include "host/engine/opening.h"
 #include "host/engine/shared_backend.h"
 #include "host/film/film_file.h"
+#include "host/process/silent_observer.h"
 #include "tests/bench/race.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"
@@ -23,11 +24,12 @@ void measureQueue(benchmark::State &state, const Context &context, const std::st
     options.scene = sceneName;
     options.settings.push_back(
         {[=](RenderSettings &settings) { settings.samplesPerPixel = samplesPerPixel; }});
-    const PreparedScene scene = prepareScene(options, Source::Dropped, true);
+    const PreparedScene scene = prepareScene(options, Source::Dropped, nobody());
     const std::string device = std::to_string(context.device().index);
-    const std::unique_ptr<Backend> alone = openBackend(device, processorsFor(0, scene));
+    SilentObserver observer;
+    const std::unique_ptr<Backend> alone = openBackend(device, observer, processorsFor(0, scene));
     std::vector<std::unique_ptr<Backend>> members;
-    members.push_back(openBackend(device, processorsFor(0, scene)));
+    members.push_back(openBackend(device, observer, processorsFor(0, scene)));
     const std::unique_ptr<Backend> shared = shareBackends(std::move(members));
     const auto render = [&](Backend &backend) { return backend.render(scene, {}, nullptr, {}, {}); };
     if (differingPixelCount(render(*alone).film, render(*shared).film) != 0) { // and the kernels are there
@@ -43,9 +45,10 @@ void measureTile(benchmark::State &state, const Context &context, const std::str
     SceneOptions options;
     options.scene = sceneName;
     options.settings.push_back({[](RenderSettings &settings) { settings.samplesPerPixel = 1; }});
-    const PreparedScene scene = prepareScene(options, Source::Dropped, true);
+    const PreparedScene scene = prepareScene(options, Source::Dropped, nobody());
+    SilentObserver observer;
     const std::unique_ptr<Backend> backend =
-        openBackend(std::to_string(context.device().index), processorsFor(0, scene));
+        openBackend(std::to_string(context.device().index), observer, processorsFor(0, scene));
     const auto render = [&] {
         Continuation tile;
         tile.film.emplace(Crop{0, 8, 0, 8});

@@ -12,6 +12,7 @@
 #include "host/engine/opening.h"
 #include "host/engine/tile_queue.h"
 #include "host/film/partition.h"
+#include "host/process/silent_observer.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -71,7 +72,7 @@ PreparedScene prepare(const std::string &name, int samplesPerPixel) {
     options.height = height;
     options.settings.push_back(
         {[=](RenderSettings &settings) { settings.samplesPerPixel = samplesPerPixel; }});
-    return prepareScene(options, Source::Dropped, true);
+    return prepareScene(options, Source::Dropped, nobody());
 }
 
 /// The work of rectangles of a picture, in seconds of this machine at the wanted samples.
@@ -117,7 +118,8 @@ class WorkMap {
 
     static double measureWhole(const Options &options) {
         const PreparedScene timed = prepare(options.scene, 8);
-        const std::unique_ptr<Backend> device = openBackend("auto", processorsFor(0, timed));
+        SilentObserver observer;
+        const std::unique_ptr<Backend> device = openBackend("auto", observer, processorsFor(0, timed));
         (void)device->render(timed, {}, nullptr, {}, {}); // compiles
         return secondsOf([&] { (void)device->render(timed, {}, nullptr, {}, {}); }) / 8.0 *
                options.samplesPerPixel;

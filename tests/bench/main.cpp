@@ -3,7 +3,7 @@
 // Verifies, measures, and prints tables in the end. --driver names the manifest of a Vulkan driver, which gets a column of
 // its own where processes are timed. --cpu-time counts processor seconds in place of time: for machines that do other
 // things meanwhile, and for devices that compute on the CPU. Exit code 1: a result was wrong or something was missing.
-#include "host/gpu/processor_use.h"
+#include "host/process/lavapipe.h"
 #include "tests/bench/race.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"
@@ -49,7 +49,7 @@ int main(int argumentCount, char **arguments) {
         benchmark::Initialize(&argumentCount, arguments);
         if (benchmark::ReportUnrecognizedArguments(argumentCount, arguments))
             return 2;
-        gpu::tellLavapipe({}); // vectors as wide as renders have them
+        tellLavapipe({}); // vectors as wide as renders have them
         bench::Context context(gpu::chooseDevice(gpu::listDevices(), deviceName));
         benchmark::AddCustomContext("device", context.device().name);
         benchmark::AddCustomContext("driver", context.device().driver);

@@ -1,5 +1,5 @@
 // What a process renders again and again leaves nothing behind, on the device or in memory.
-#include "host/base/host_memory.h"
+#include "host/process/process.h"
 #include "tests/cli/fault_process.h"
 
 #include <fmt/format.h>
@@ -50,8 +50,7 @@ TEST_F(ManyRenders, GrowNoMemory) {
     // For long runs by hand: HYALITE_TEST_SCALE=10 renders a thousand times.
     const char *scale = std::getenv("HYALITE_TEST_SCALE");
     const int count = 20 * std::clamp(scale != nullptr ? std::atoi(scale) : 1, 1, 1000);
-    useOneHeap();
-    keepFreedMemory();
+    prepareProcess();
     prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0); // pages of 2 MiB would hide what is looked for
     render(20);                            // until the heap has its holes
     Memory least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};

@@ -313,7 +313,7 @@ TEST_F(RenderEnvironment, IsReplacedByABackground) {
             EXPECT_EQ(pixel, glm::vec3(1.0f, 0.5f, 0.25f)) << scene;
     }
     expectFailure("render own.json -o a.png --background 1,1,1 --environment sky.pfm", 2,
-                  {"--background", "--environment"});
+                  {"--background", "an environment"});
     expectFailure("render dark.gltf -o a.png --background 1,1,1 --environment-scale 2", 2,
                   {"--environment-scale"});
 }

@@ -1,5 +1,5 @@
 // Signals that are caught, and those that are not any more.
-#include "host/jobs/stop.h"
+#include "host/process/signals.h"
 
 #include <gtest/gtest.h>
 

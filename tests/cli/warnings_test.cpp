@@ -57,7 +57,7 @@ TEST_F(Warnings, NameTheIntegratorOfTheCommandLine) {
     EXPECT_FALSE(contains(run("render spheres" + smallWarned).errors, behindGlass)) << "whitted";
     const std::string told = run("render spheres --integrator path" + smallWarned).errors;
     EXPECT_TRUE(contains(told, behindGlass)) << told;
-    EXPECT_TRUE(contains(told, "a sphere with emission, or use --integrator whitted")) << told;
+    EXPECT_TRUE(contains(told, "a sphere with emission, or use the integrator whitted")) << told;
 }
 
 TEST_F(Warnings, SpeakOfMeshesOfGlass) {

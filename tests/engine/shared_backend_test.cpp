@@ -98,7 +98,7 @@ struct SharedBackends : ::testing::Test {
         options.width = 120;
         options.height = 100;
         options.settings.push_back({[](RenderSettings &settings) { settings.samplesPerPixel = 6; }});
-        return prepareScene(options, Source::Dropped, true);
+        return prepareScene(options, Source::Dropped, nobody());
     }();
     BackendResult alone =
         makeCpuBackend(reference::Precision::Float32, 2)->render(scene, {}, nullptr, {}, {});

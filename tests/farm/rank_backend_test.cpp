@@ -56,7 +56,7 @@ PreparedScene smallRoom(int samplesPerPixel = 6, std::uint32_t seed = 0) {
         settings.samplesPerPixel = samplesPerPixel;
         settings.seed = seed;
     }});
-    return prepareScene(options, Source::Dropped, true);
+    return prepareScene(options, Source::Dropped, nobody());
 }
 
 std::unique_ptr<Backend> oneThread() { return makeCpuBackend(reference::Precision::Float32, 1); }

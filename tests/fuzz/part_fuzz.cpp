@@ -1,4 +1,5 @@
 // Parts as `hyalite merge` reads them.
+#include "host/cli/part_command.h"
 #include "host/farm/merge.h"
 #include "tests/fuzz/checkpoint_bytes.h"
 #include "tests/fuzz/harness.h"
@@ -39,7 +40,8 @@ void read(const TemporaryFolder &folder, std::string_view content) {
     const std::vector<std::uint32_t> missing = merger.missing();
     require(missing.size() + 1 == merger.partition().partCount(), "parts are lost");
     if (!missing.empty())
-        requirePlain(merger.commandFor(missing.front()));
+        requirePlain(
+            commandFor(merger.origin(), merger.firstPart(), {missing.front(), merger.firstPart().count}));
     for (const auto &[maker, count] : merger.makers())
         requirePlain(maker);
     const Film &film = merger.film();

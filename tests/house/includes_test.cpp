@@ -1,11 +1,11 @@
 // The folders of host/ stand on each other: each includes itself and those below it.
+#include "tests/house/source_text.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,13 +13,6 @@ namespace hyalite::testing {
 namespace {
 
 const std::filesystem::path source = HYALITE_SOURCE_DIR;
-
-std::string textOf(const std::filesystem::path &file) {
-    std::ifstream stream(file);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
 
 std::vector<std::string> matchesOf(const std::string &text, const std::string &pattern) {
     const std::regex regex(pattern);

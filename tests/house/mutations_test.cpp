@@ -1,20 +1,14 @@
 // The faults of tests/mutation/mutations.txt can be planted: each text is in its file.
+#include "tests/house/source_text.h"
+
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::testing {
 namespace {
-
-std::string textOf(const std::string &path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 std::string trimmed(const std::string &text) {
     const std::size_t begin = text.find_first_not_of(" \t");
@@ -52,4 +46,4 @@ TEST(Mutations, CanBePlanted) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::testing

@@ -28,7 +28,7 @@ class Shipped : public ::testing::Test {
         for (const std::string &name : shipped.sceneNames()) {
             SceneOptions options;
             options.scene = (shipped.folder / (name + ".json")).string();
-            scenes.push_back(prepareScene(options, Source::Kept, true));
+            scenes.push_back(prepareScene(options, Source::Kept, nobody()));
         }
         return scenes;
     }
@@ -61,7 +61,7 @@ void writeHashes(const DeviceVerdict &verdict, const ShippedFilms &shipped) {
 TEST_F(Shipped, HashesAreThoseOfTheReferenceRenderer) {
     const ShippedFilms shipped = readShippedFilms();
     ASSERT_GE(shipped.films.size(), 10u);
-    const DeviceVerdict verdict = verifyDevice("cpu", shipped);
+    const DeviceVerdict verdict = verifyDevice("cpu", shipped, nobody());
     ASSERT_EQ(verdict.films.size(), shipped.films.size());
     if (std::getenv("HYALITE_WRITE_FILMS") != nullptr)
         writeHashes(verdict, shipped);

@@ -133,7 +133,7 @@ std::optional<Fault> SceneCheck::faultOfFile(const RandomScene &drawn, const Way
     SceneOptions options;
     options.scene = file.string();
     options.isFlattened = way.isFlattened;
-    PreparedScene prepared = prepareScene(options, Source::Kept, true);
+    PreparedScene prepared = prepareScene(options, Source::Kept, nobody());
     const Scene &scene = prepared.loaded.scene;
     const Crop &crop = prepared.crop;
     PackedScene packed = way.isEncoded ? packScene(scene, prepared.bvh, 0) : std::move(prepared.packed);

@@ -76,7 +76,7 @@ std::string markdownText() {
     for (const Setting &setting : settingsTable)
         std::visit(
             [&](const auto &value) {
-                text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", setting.key, setting.option,
+                text += fmt::format("| `{}` | `--{}` | {} | {} | {} |\n", setting.key, setting.option,
                                     allowedText(value), defaultText(value), helpText(setting));
             },
             setting.value);

@@ -64,7 +64,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEX
     std::string &first = *static_cast<std::string *>(user);
     if (first.empty())
         first = data->pMessage != nullptr ? data->pMessage : "a message without text";
-    fmt::print(stderr, "validation: {}\n", data->pMessage != nullptr ? data->pMessage : "");
+    if (onValidationMessage != nullptr)
+        onValidationMessage(data->pMessage != nullptr ? data->pMessage : "");
     return VK_FALSE;
 }
 

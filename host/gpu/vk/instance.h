@@ -9,6 +9,9 @@
 
 namespace hyalite::gpu {
 
+/// Gets every message of the validation layer, from any thread. A program sets it before it opens an instance.
+inline void (*onValidationMessage)(const char *message) = nullptr;
+
 /// Set HYALITE_VALIDATION=1 to run under VK_LAYER_KHRONOS_validation, with synchronisation checks. Any warning or
 /// error of the layer then fails the program.
 class Instance {

@@ -1,4 +1,4 @@
-#include "host/gpu/processor_use.h"
+#include "host/process/lavapipe.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite {
 namespace {
 
 constexpr const char *width = "LP_NATIVE_VECTOR_WIDTH";
@@ -34,7 +34,7 @@ class Variable {
     std::optional<std::string> before_;
 };
 
-TEST(ProcessorUse, KeepsCompiledFunctionsOfWidthsApart) {
+TEST(Lavapipe, KeepsCompiledFunctionsOfWidthsApart) {
     const Variable widthBefore(width);
     const Variable flagsBefore(flags);
     setenv(flags, "nopt", 1);
@@ -58,4 +58,4 @@ TEST(ProcessorUse, KeepsCompiledFunctionsOfWidthsApart) {
 }
 
 } // namespace
-} // namespace hyalite::gpu
+} // namespace hyalite

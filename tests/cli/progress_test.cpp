@@ -1,5 +1,5 @@
 // The time left, of tasks whose parts differ in cost, and what a progress line says.
-#include "host/report/progress.h"
+#include "host/cli/progress.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/jobs/stop.h"
+#include "host/process/signals.h"
 
 #include <array>
 #include <atomic>

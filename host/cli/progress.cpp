@@ -1,4 +1,4 @@
-#include "host/report/progress.h"
+#include "host/cli/progress.h"
 
 #include "host/base/message.h"
 #include "host/base/quantities.h"

@@ -1,0 +1,18 @@
+#include "host/process/process.h"
+
+#include "host/process/heap.h"
+#include "host/process/lavapipe.h"
+
+namespace hyalite {
+
+void prepareProcess() {
+    useOneHeap();
+    keepFreedMemory();
+}
+
+void prepareDriver(const gpu::ProcessorUse &use) {
+    reserveHeap();
+    tellLavapipe(use);
+}
+
+} // namespace hyalite

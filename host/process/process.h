@@ -1,0 +1,15 @@
+// What a program that renders does to its own process: two calls, which are worth a third of the time on lavapipe.
+#pragma once
+
+#include "host/gpu/processor_use.h"
+
+namespace hyalite {
+
+/// The allocator's settings. Call it first in main, before there are other threads.
+void prepareProcess();
+
+/// Settings for the driver that is about to be loaded, and room for its compiler: what Observer::beforeDriver() is for.
+/// Sets environment variables: no other thread may read the environment meanwhile.
+void prepareDriver(const gpu::ProcessorUse &use);
+
+} // namespace hyalite
