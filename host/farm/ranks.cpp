@@ -1,11 +1,14 @@
-// Ranks by MPI. All calls are made by one thread at a time, and none waits for another process.
 #include "host/farm/ranks.h"
-#include "host/farm/ranks_started.h"
 
+#include "host/base/error.h"
+
+#if HYALITE_MPI
 #include <mpi.h>
+#endif
 
 #include <cassert>
 #include <chrono>
+#include <cstdlib>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -14,8 +17,20 @@ namespace hyalite {
 
 namespace {
 
+/// The number of ranks that Open MPI, MPICH, PMIx or Slurm's srun tells a program before MPI is initialised; 1 if there is
+/// none. Slurm tells batch jobs, too, that are no MPI programs: there the step's own manager counts.
+int startedRanks() {
+    for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"})
+        if (const char *text = std::getenv(name))
+            return std::atoi(text);
+    return 1;
+}
+
+#if HYALITE_MPI
+
 constexpr int tag = 1;
 
+/// All calls are made by one thread at a time, and none waits for another process.
 class MpiRanks : public Ranks {
   public:
     MpiRanks() {
@@ -70,13 +85,21 @@ class MpiRanks : public Ranks {
     int count_ = 1;
 };
 
+#endif
+
 } // namespace
 
 std::unique_ptr<Ranks> joinRanks() {
     if (startedRanks() <= 1)
         return nullptr;
+#if HYALITE_MPI
     auto ranks = std::make_unique<MpiRanks>();
     return ranks->count() > 1 ? std::unique_ptr<Ranks>(std::move(ranks)) : nullptr;
+#else
+    throw Error(ErrorKind::Usage,
+                "this program was built without MPI, and each process that mpirun starts would "
+                "render the same: build it with -DHYALITE_MPI=ON");
+#endif
 }
 
 } // namespace hyalite
