@@ -2,6 +2,7 @@
 
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/base/json_document.h"
 #include "host/report/profile_json.h"
 #include "host/report/render_report.h"
@@ -51,20 +52,26 @@ ProfileFigures::Times timesOf(const std::string &name, const Json &frameMillis) 
 }
 
 /// The exposure is left out, as it costs nothing.
-std::string jobText(const std::filesystem::path &scene, int width, int height, Json settings) {
+std::string jobText(const std::string &sceneHash, int width, int height, Json settings) {
     settings.erase("exposure");
-    return fmt::format("{}, {}x{}, {}", scene.filename().string(), width, height, settings.dump());
+    return fmt::format("scene of the hash {}, {}x{}, {}", sceneHash, width, height, settings.dump());
 }
 
 /// Throws exceptions of nlohmann::json, or Error, if something is missing or wrong.
 ProfileFigures figuresOf(const Json &json) {
+    const int version = json.contains("profileVersion") ? wholeNumber<int>(json.at("profileVersion")) : 1;
+    if (version != profileVersion && json.contains("frameMillis"))
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("it has version {}, and {} is compared: measure it anew with this program",
+                                version, profileVersion));
     if (json.contains("finishedShare"))
         throw Error(ErrorKind::BadInput, "the time limit ended its only frame, which has no time");
     ProfileFigures figures;
     const Json &device = json.at("device");
     figures.device = device.at("name").get<std::string>() + ", " + device.at("driver").get<std::string>();
     const Json &image = json.at("image");
-    figures.job = jobText(json.at("scene").get<std::string>(), wholeNumber<int>(image.at("width")),
+    figures.scene = json.at("scene").get<std::string>();
+    figures.job = jobText(json.at("sceneHash").get<std::string>(), wholeNumber<int>(image.at("width")),
                           wholeNumber<int>(image.at("height")), json.at("settings"));
     for (const Json &kernel : json.at("kernels")) {
         const std::string name = kernel.at("name").get<std::string>();
@@ -136,12 +143,13 @@ ProfileFigures readFigures(const std::filesystem::path &file) {
 }
 
 void requireSameJob(const ProfileFigures &baseline, const Profile &profile) {
-    const std::string job = jobText(profile.origin.scene, profile.origin.width, profile.origin.height,
-                                    Json(settingsToJson(profile.origin.settings)));
+    const std::string job = jobText(hashText(profile.origin.sceneHash), profile.origin.width,
+                                    profile.origin.height, Json(settingsToJson(profile.origin.settings)));
     if (baseline.job != job)
-        throw Error(ErrorKind::BadInput,
-                    fmt::format("the baseline is of another job: it measured\n  {}\nand this is\n  {}",
-                                excerpt(baseline.job, 400), job));
+        throw Error(
+            ErrorKind::BadInput,
+            fmt::format("the baseline is of another job: it measured\n  {}: {}\nand this is\n  {}: {}",
+                        excerpt(baseline.scene, 400), excerpt(baseline.job, 400), profile.origin.scene, job));
 }
 
 BaselineComparison compareWithBaseline(const ProfileFigures &baseline, const ProfileFigures &now,

@@ -30,7 +30,8 @@ struct ProfileFigures {
     };
 
     std::string device; ///< name and driver
-    std::string job;    ///< what was rendered; only equal jobs are compared
+    std::string scene;  ///< its file, for people
+    std::string job;    ///< what was rendered, by content; only equal jobs are compared
     std::vector<Times> kernels;
     Times frame{"frame", {}};
     std::vector<Count> work;
@@ -38,7 +39,8 @@ struct ProfileFigures {
 
 [[nodiscard]] ProfileFigures figuresOf(const Profile &profile);
 
-/// Reads the JSON of a profile. Throws Error{BadInput} naming the file and the key that is missing or wrong.
+/// Reads the JSON of a profile. Throws Error{BadInput} naming the file and the key that is missing or wrong, or another
+/// version than profileVersion (profile_json.h).
 [[nodiscard]] ProfileFigures readFigures(const std::filesystem::path &file);
 
 struct TimeChange {

@@ -40,7 +40,8 @@ nlohmann::ordered_json kernelToJson(const KernelSummary &kernel) {
 nlohmann::ordered_json profileToJson(const Profile &profile) {
     const std::vector<KernelSummary> kernels = summariseKernels(profile);
     const std::vector<double> frames = frameMillis(profile);
-    nlohmann::ordered_json json = provenanceToJson(profile.origin, profile.device);
+    nlohmann::ordered_json json{{"profileVersion", profileVersion}};
+    json.update(provenanceToJson(profile.origin, profile.device));
     json["device"]["clock"] = profile.frames.back().timeline.clock;
     json["sceneBytes"] = profile.sceneBytes;
     if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)

@@ -7,6 +7,10 @@
 
 namespace hyalite {
 
+/// What a profile says of itself as "profileVersion". Older ones are no baselines: 1, which said no version, was compared by
+/// the name of its scene's file.
+inline constexpr int profileVersion = 2;
+
 /// All times are in milliseconds.
 [[nodiscard]] nlohmann::ordered_json profileToJson(const Profile &profile);
 

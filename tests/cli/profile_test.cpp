@@ -259,6 +259,12 @@ TEST_F(ProfileCommand, RefusesABaselineThatIsNone) {
     expectFailure(line + " --baseline old.json --max-regression -1%", 2, {"--max-regression"});
     expectFailure(line + " --baseline old.json --report old.json", 2, {"would overwrite"});
     expectFailure("profile spheres --device cpu --width 16 --baseline old.json", 3, {"another job"});
+    store("a.json", squareScene()); // a file of one name with two scenes
+    store("square.obj", squareObj());
+    ASSERT_EQ(run("profile a.json --device cpu --report a-old.json" + smallProfiled).exitCode, 0);
+    store("a.json", wavySheetScene());
+    store("sheet.obj", wavySheetObj(2));
+    expectFailure("profile a.json --device cpu --baseline a-old.json" + smallProfiled, 3, {"another job"});
 }
 
 TEST_F(ProfileCommand, WritesAPageWithTheImageInIt) {

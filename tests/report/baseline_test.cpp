@@ -137,7 +137,10 @@ TEST(Baseline, OfAnotherJobIsRefused) {
     now.origin.settings.exposureStops = 2.0;
     EXPECT_NO_THROW(requireSameJob(baseline, now)) << "it costs nothing";
     now.origin.scene = "elsewhere/a.json";
-    EXPECT_NO_THROW(requireSameJob(baseline, now)) << "the same file elsewhere";
+    EXPECT_NO_THROW(requireSameJob(baseline, now)) << "the same scene elsewhere";
+    ++now.origin.sceneHash;
+    EXPECT_THROW(requireSameJob(baseline, now), Error) << "another scene in a file of that name";
+    --now.origin.sceneHash;
     now.origin.settings.samplesPerPixel = 5;
     EXPECT_THROW(requireSameJob(baseline, now), Error);
 }
@@ -152,7 +155,8 @@ TEST(Baseline, IsReadFromAReport) {
     EXPECT_EQ(figures.device, "the device, the driver 1.0");
     EXPECT_TRUE(compareWithBaseline(figures, figuresOf(profile), 0.0, Gate::All).isPassed);
     // Whatever is missing or of another kind is told.
-    for (const char *key : {"device", "image", "settings", "scene", "kernels", "frameMillis", "work"}) {
+    for (const char *key : {"profileVersion", "device", "image", "settings", "scene", "sceneHash", "kernels",
+                            "frameMillis", "work"}) {
         for (const nlohmann::json &value : {nlohmann::json(), nlohmann::json("text"), nlohmann::json(-1.5)}) {
             nlohmann::ordered_json damaged = profileToJson(profile);
             if (value.is_null())
@@ -162,11 +166,32 @@ TEST(Baseline, IsReadFromAReport) {
             store(damaged.dump());
             try {
                 static_cast<void>(readFigures(file));
-                EXPECT_TRUE(key == std::string("scene") && value == "text") << key << ": " << value;
+                EXPECT_TRUE(std::string(key).starts_with("scene") && value == "text") << key << ": " << value;
             } catch (const Error &error) {
                 EXPECT_EQ(error.kind, ErrorKind::BadInput);
                 EXPECT_NE(std::string(error.what()).find("baseline_test.json"), std::string::npos);
             }
+        }
+    }
+    std::filesystem::remove(file);
+}
+
+TEST(Baseline, OfAnotherVersionIsRefusedByName) {
+    const std::filesystem::path file =
+        std::filesystem::path(::testing::TempDir()) / "baseline_version_test.json";
+    for (const int version : {1, profileVersion + 1}) {
+        nlohmann::ordered_json other = profileToJson(handMadeProfile(calm));
+        other["profileVersion"] = version;
+        if (version == 1) // which said none
+            other.erase("profileVersion");
+        std::ofstream(file) << other.dump();
+        try {
+            static_cast<void>(readFigures(file));
+            ADD_FAILURE() << version;
+        } catch (const Error &error) {
+            EXPECT_NE(std::string(error.what()).find("it has version " + std::to_string(version)),
+                      std::string::npos)
+                << error.what();
         }
     }
     std::filesystem::remove(file);
