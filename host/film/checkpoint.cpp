@@ -19,7 +19,6 @@ namespace hyalite {
 namespace {
 
 constexpr std::string_view magic = "hyalite checkpoint\n";
-constexpr std::uint32_t currentVersion = 6;
 constexpr std::uint32_t maxTextBytes = 1u << 16; // of the identity, and of the origin
 constexpr std::uint32_t maxLayers = 64;
 
@@ -67,12 +66,12 @@ class Reader {
             throw file_.bad(fmt::format("it ends after {} bytes, within its header", head.size()));
         Header header{};
         std::memcpy(&header, head.data() + magic.size(), sizeof header);
-        if (header.version != currentVersion)
+        if (header.version != checkpointVersion)
             throw OtherRender(ErrorKind::BadInput,
                               fmt::format("cannot resume from '{}': its format has version {}, and this "
                                           "program reads version {}; finish it with the version that began "
                                           "it, or remove it",
-                                          file_.path().string(), header.version, currentVersion));
+                                          file_.path().string(), header.version, checkpointVersion));
         // Sizes are checked against that of the file, so memory is never more than the file has.
         const std::size_t pixelCount = countPixels(header);
         CheckpointFile contents;
@@ -223,7 +222,7 @@ CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, const Rend
 
 void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<const Film *const> layers) {
     const Crop &crop = subject_.crop;
-    Header header{currentVersion,
+    Header header{checkpointVersion,
                   static_cast<std::uint32_t>(identity_.size()),
                   crop.x0,
                   crop.x1,

@@ -22,6 +22,7 @@
 #include "host/film/partition.h"
 #include "host/film/ray_counts.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -31,6 +32,9 @@
 #include <vector>
 
 namespace hyalite {
+
+/// Of checkpoints and parts. Files of another version are refused by name.
+inline constexpr std::uint32_t checkpointVersion = 6;
 
 /// Everything that affects the samples of a render, by name. Renders with equal identities may share samples. Names and
 /// values have no line ends, and names have no colons.
