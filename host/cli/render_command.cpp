@@ -7,8 +7,9 @@
 #include "host/cli/terminal_observer.h"
 #include "host/engine/time_limit.h"
 #include "host/farm/rank_backend.h"
+#include "host/image/image_file.h"
 #include "host/import/assets.h"
-#include "host/jobs/render_job.h"
+#include "host/jobs/picture_render.h"
 
 #include <fmt/format.h>
 
@@ -107,18 +108,19 @@ void tellDevice(const RenderSession &session) {
 }
 
 /// The checkpoint that the render resumes from.
-void tellWhatIsResumed(const RenderJob &job, const RenderRequest &request, bool isQuiet) {
-    const RenderReport &report = job.report();
-    if (!job.checkpointDamage().empty() && report.resumed)
-        printMessage("note: {}; resuming from the older {}\n", job.checkpointDamage(),
+void tellWhatIsResumed(const PictureFiles &files, const PictureBeginning &begun, const RenderRequest &request,
+                       bool isQuiet) {
+    const RenderReport &report = begun.report;
+    if (!begun.checkpointDamage.empty() && report.resumed)
+        printMessage("note: {}; resuming from the older {}\n", begun.checkpointDamage,
                      report.resumed->checkpoint);
-    else if (!job.checkpointDamage().empty())
-        printMessage("note: {}; starting from the beginning\n", job.checkpointDamage());
+    else if (!begun.checkpointDamage.empty())
+        printMessage("note: {}; starting from the beginning\n", begun.checkpointDamage);
     if (isQuiet || !(request.isResuming || (request.part && report.resumed)))
         return;
     if (report.resumed)
         printMessage("resuming from {}: {:.1f} % of the samples are finished\n", report.resumed->checkpoint,
-                     percentOf(report.resumed->sampleCount, job.pixelCount(), report));
+                     percentOf(report.resumed->sampleCount, begun.pixelCount(files), report));
     else if (!request.checkpoint.empty())
         printMessage("no checkpoint {} yet: starting from the beginning\n", request.checkpoint);
 }
@@ -159,16 +161,16 @@ void tellShares(const RenderReport &report) {
                      share.name, share.tileCount);
 }
 
-void tellOutcome(const RenderJob &job, const RenderRequest &request, bool isQuiet) {
-    const RenderReport &report = job.report();
-    if (!report.finished.isComplete && !(isQuiet && job.isCutByTime()))
+void tellOutcome(const FinishedPicture &picture, const RenderRequest &request, bool isQuiet) {
+    const RenderReport &report = picture.report;
+    if (!report.finished.isComplete && !(isQuiet && picture.isCutByTime))
         tellWhatIsFinished(report, request);
     if (isQuiet || (request.frame && !report.finished.isComplete))
         return;
     tellSpeed(report, request.part);
     tellShares(report);
-    if (const std::optional<std::string> fault = job.diagnosis())
-        printWarning("{}", *fault);
+    if (picture.diagnosis)
+        printWarning("{}", *picture.diagnosis);
 }
 
 /// Throws Error{Usage} for options that frames do without.
@@ -190,29 +192,28 @@ void requireSequenceOptions(const RenderRequest &request, const SequenceOptions 
 /// One picture, or one frame of a sequence, from a session that may be prepared already.
 ExitCode renderOne(const RenderRequest &request, const std::string &commandLine, RenderSession &session,
                    TerminalObserver &observer, bool isQuiet) {
-    const bool isFirst = !session.isOpen();
-    RenderJob job(request, commandLine, session);
-    job.prepare();
+    PictureFiles files = openFiles(request);
+    if (!session.isPrepared())
+        session.prepare(request);
     requireDistinctFiles(outputsOf(request), session.scene().loaded.inputFiles);
-    job.openDevice();
+    requireRoom(files, session.scene().crop);
+    session.open();
     observer.catchSignals();
-    if (isFirst && !isQuiet)
+    if (session.isFirstPicture() && !isQuiet)
         tellDevice(session);
-    job.resume();
-    if (job.isFinishedBefore()) {
+    PictureBeginning begun = beginPicture(files, commandLine, session);
+    if (begun.isFinished) {
         if (!isQuiet)
             printResult("{}: {} is finished\n", request.output,
                         request.part ? fmt::format("part {} of {}", request.part->index, request.part->count)
                                      : fmt::format("frame {}", *request.frame));
         return ExitCode::Ok;
     }
-    tellWhatIsResumed(job, request, isQuiet);
-    job.renderLayers();
-    job.render();
-    job.writeImage();
-    job.writeReport();
-    tellOutcome(job, request, isQuiet);
-    job.throwFailure();
+    tellWhatIsResumed(files, begun, request, isQuiet);
+    const FinishedPicture picture = finishPicture(files, std::move(begun), session);
+    tellOutcome(picture, request, isQuiet);
+    if (picture.failure)
+        throw Error(*picture.failure);
     const std::optional<Stop> stop = observer.wantsStop();
     observer.releaseSignals();
     return stop ? exitCodeOf(stop->kind) : ExitCode::Ok;

@@ -21,7 +21,8 @@ void RenderSession::replaceScene(const SceneOptions &options) {
 }
 
 void RenderSession::open() {
-    if (!opening_.valid())
+    isFirstPicture_ = opening_.valid();
+    if (!isFirstPicture_)
         return;
     opened_ = opening_.get();
     if (crew_ == nullptr)

@@ -50,8 +50,10 @@ class RenderSession {
     /// Another scene for the same renderers. Nobody watches: what there is to say was said of the first one.
     void replaceScene(const SceneOptions &options);
     [[nodiscard]] Observer &observer() const { return observer_; }
-    /// Waits for the renderers. Throws as openRenderers() does.
+    /// Waits for the renderers, for each picture anew. Throws as openRenderers() does.
     void open();
+    /// Whether the scene was loaded, and the renderers opened, for the picture that they were opened for last.
+    [[nodiscard]] bool isFirstPicture() const { return isFirstPicture_; }
 
     [[nodiscard]] bool isPrepared() const { return scene_.has_value(); }
     [[nodiscard]] bool isOpen() const { return opened_.backend != nullptr; }
@@ -67,6 +69,7 @@ class RenderSession {
     std::optional<PreparedScene> scene_;
     std::future<OpenedRenderers> opening_;
     OpenedRenderers opened_;
+    bool isFirstPicture_ = false;
 };
 
 } // namespace hyalite

@@ -1,0 +1,340 @@
+#include "host/jobs/picture_render.h"
+
+#include "host/base/hash.h"
+#include "host/engine/identity.h"
+#include "host/farm/part_origin.h"
+#include "host/image/image_file.h"
+#include "host/image/png.h"
+#include "host/jobs/diagnosis.h"
+#include "host/jobs/film_picture.h"
+#include "host/jobs/layers.h"
+#include "host/jobs/periodic_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Whether the output may be the frame already; then it is opened only once it is known not to be.
+bool mayBeThere(const RenderRequest &request) {
+    std::error_code error;
+    return request.frame && request.isResuming && std::filesystem::is_regular_file(request.output, error);
+}
+
+ImageFormat formatOf(const RenderRequest &request) {
+    return request.part ? ImageFormat::Exr : imageFormatOf(request.output);
+}
+
+ToneCurve toneOf(const RenderRequest &request) { return request.tone.value_or(ToneCurve::Gamma); }
+
+Part partOf(const PictureFiles &files) { return files.request.part.value_or(Part{}); }
+
+Partition partitionFor(const PictureFiles &files, const Crop &crop) {
+    const Part part = partOf(files);
+    if (const std::uint32_t most = Partition::mostParts(crop); part.count > most)
+        throw OverrideError("part",
+                            fmt::format("found {}/{}; a picture of {} x {} pixels has at most {} parts",
+                                        part.index, part.count, crop.width(), crop.height(), most));
+    return {crop, part.count};
+}
+
+std::string identityOfFrame(const RenderRequest &request, const RenderSession &session) {
+    const RenderSettings &settings = session.scene().loaded.scene.settings;
+    const std::string whole =
+        fmt::format("{}samples per pixel: {}\nexposure: {}\ntone: {}\n",
+                    identityText(identityOf(session.scene(), session.backend(), &request.layers)),
+                    settings.samplesPerPixel, settings.exposureStops, static_cast<int>(toneOf(request)));
+    return hashText(hashBytes(std::as_bytes(std::span(whole))));
+}
+
+PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report, const Camera &camera) {
+    PartOrigin origin;
+    origin.host = hostName();
+    origin.folder = std::filesystem::current_path().string();
+    origin.words = request.words;
+    origin.wholeWidth = camera.width;
+    origin.wholeHeight = camera.height;
+    origin.layers = request.layers;
+    origin.provenance = provenanceToJson(report.origin, report.device)
+                            .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return origin;
+}
+
+/// The checkpoint to go on from, if there is one. A damaged part is overwritten; one of another picture is an error. A frame
+/// that has changed begins anew, as it does without a checkpoint.
+std::optional<ResumedCheckpoint> readBegun(const RenderRequest &request, const RenderIdentity &identity,
+                                           const CheckpointSubject &subject, std::string &damage) {
+    if (!request.isResuming)
+        return std::nullopt;
+    try {
+        return resumeCheckpoint(request.checkpoint, identity, subject);
+    } catch (const Error &error) {
+        if (request.part && error.remedy == Remedy::BeginAnew)
+            throw Error(error.kind,
+                        fmt::format("{}; remove {}, or name another output", error.what(), request.output));
+        if (!request.frame && !request.part)
+            throw;
+        damage = error.what();
+        return std::nullopt;
+    }
+}
+
+bool isPartFinished(const PictureFiles &files, const PictureBeginning &begun, int samplesPerPixel) {
+    if (!files.request.part || !begun.report.resumed || !begun.checkpointDamage.empty())
+        return false;
+    const std::span<const Crop> squares = begun.squares(files);
+    bool isFinished = finishedWork(*begun.film, squares, samplesPerPixel).isComplete;
+    for (std::size_t i = 0; i < begun.layers.size(); ++i)
+        isFinished = isFinished && finishedWork(begun.layers[i], squares,
+                                                samplesOfView(files.request.layers[i], samplesPerPixel))
+                                       .isComplete;
+    return isFinished;
+}
+
+void resume(const PictureFiles &files, const RenderSession &session, PictureBeginning &begun) {
+    const RenderRequest &request = files.request;
+    const PreparedScene &scene = session.scene();
+    const int samplesPerPixel = scene.loaded.scene.settings.samplesPerPixel;
+    const RenderIdentity identity =
+        identityOf(scene, session.backend(), request.part ? &request.layers : nullptr);
+    CheckpointSubject subject{scene.crop, partOf(files), static_cast<std::uint32_t>(samplesPerPixel), {}};
+    if (request.part)
+        subject.origin = toText(originOfPart(request, begun.report, scene.loaded.scene.camera));
+    std::optional<ResumedCheckpoint> resumed = readBegun(request, identity, subject, begun.checkpointDamage);
+    requireOwnCheckpoint(request.checkpoint);
+    // Without a resumed checkpoint, the existing file belongs to another render and may be lost with the second
+    // generation.
+    begun.checkpoint.emplace(request.checkpoint, identity, subject,
+                             begun.checkpointDamage.empty() && (!resumed || resumed->damage.empty()));
+    if (!resumed) {
+        if (request.part)
+            begun.film = filmOfSquares(scene.crop, begun.squares(files), subject.samplesPerPixel);
+        return;
+    }
+    begun.checkpointDamage = resumed->damage;
+    begun.rays = resumed->checkpoint.rays;
+    begun.report.resumed =
+        ResumedWork{resumed->path.string(),
+                    finishedWork(resumed->checkpoint.film, begun.squares(files), samplesPerPixel).sampleCount,
+                    begun.rays};
+    begun.film = std::move(resumed->checkpoint.film);
+    begun.layers = std::move(resumed->checkpoint.layers);
+    begun.isFinished = isPartFinished(files, begun, samplesPerPixel);
+}
+
+/// The render itself, with what its periodic files need.
+class PictureRender {
+  public:
+    PictureRender(PictureFiles &files, PictureBeginning &begun, RenderSession &session)
+        : files_(files), request_(files.request), begun_(begun), session_(session), report_(begun.report),
+          squares_(begun.squares(files)) {}
+
+    FinishedPicture finish() {
+        const PreparedScene &scene = session_.scene();
+        PeriodicFiles snapshots(scene.crop, periodicFiles(), session_.observer());
+        const TimeLimit limit(request_.timeLimitSeconds);
+        layers_ = renderViews(session_.backend(), session_.scene(), request_.layers,
+                              request_.part ? squares_ : std::span<const Crop>(), begun_.layers,
+                              session_.observer(), limit);
+        Continuation continuation;
+        continuation.film = std::move(begun_.film);
+        continuation.snapshots = &snapshots;
+        continuation.shareOfOthers = shareOutside(scene.crop, squares_);
+        BackendResult result = render(session_.backend(), scene,
+                                      request_.frame ? fmt::format("frame {}", *request_.frame) : "render",
+                                      session_.observer(), limit, nullptr, std::move(continuation));
+        snapshots.finish();
+        FinishedPicture finished;
+        take(result, finished);
+        writeFiles(result.film, finished);
+        writeReport();
+        if (report_.finished.isComplete && !request_.part)
+            finished.diagnosis = diagnosePicture(scene, result.film, report_.rays);
+        finished.report = std::move(report_);
+        return finished;
+    }
+
+  private:
+    void take(BackendResult &result, FinishedPicture &finished) {
+        const std::optional<Stop> stop = session_.observer().wantsStop();
+        const int samplesPerPixel = session_.scene().loaded.scene.settings.samplesPerPixel;
+        report_.finished = finishedWork(result.film, squares_, samplesPerPixel);
+        for (const ViewFilm &layer : layers_)
+            report_.finished.isComplete =
+                report_.finished.isComplete &&
+                finishedWork(layer.film, squares_, samplesOfView(layer.view, samplesPerPixel)).isComplete;
+        if (result.failure && report_.finished.sampleCount == 0)
+            throw Error(*result.failure);
+        if (stop && report_.finished.sampleCount == 0)
+            throw Error(stop->kind,
+                        fmt::format("stopped by {} before the first sample was finished: nothing is written",
+                                    stop->by));
+        if (!report_.finished.isComplete)
+            report_.stoppedBy = result.failure ? "the device" : stop ? stop->by : "the time limit";
+        finished.isCutByTime = !report_.finished.isComplete && !result.failure && !stop;
+        if (result.failure)
+            finished.failure.emplace(*result.failure);
+        report_.faults = std::move(result.faults);
+        report_.shares = std::move(result.shares);
+        report_.timing = result.timing;
+        report_.deviceBytes = result.memory.deviceBytes;
+        report_.rays = begun_.rays + result.rays;
+    }
+
+    void writeCheckpoint(const Film &film, const RayCounts &rays) {
+        std::vector<const Film *> layers;
+        if (request_.part)
+            for (const ViewFilm &layer : layers_)
+                layers.push_back(&layer.film);
+        begun_.checkpoint->write(film, rays, layers);
+    }
+
+    void writePicture(AtomicFile &file, const Film &film) const {
+        const Scene &scene = session_.scene().loaded.scene;
+        FilmPicture picture{.film = film, .views = layers_};
+        picture.wholeWidth = scene.camera.width;
+        picture.wholeHeight = scene.camera.height;
+        picture.attributes = attributesOf(provenanceToJson(report_.origin, report_.device));
+        if (request_.frame) {
+            picture.attributes.emplace_back("frame", fmt::format("{}", *request_.frame));
+            picture.attributes.emplace_back("identity", begun_.frameIdentity);
+        }
+        picture.integrator = scene.settings.integrator;
+        picture.exposureStops = scene.settings.exposureStops;
+        picture.tone = toneOf(request_);
+        writeFilmPicture(file, formatOf(request_), picture);
+    }
+
+    [[nodiscard]] std::vector<PeriodicFile> periodicFiles() {
+        std::vector<PeriodicFile> files;
+        if (begun_.checkpoint)
+            files.push_back(
+                {request_.checkpointSeconds.value_or(10.0), [this](const Film &film, const RayCounts &rays) {
+                     writeCheckpoint(film, begun_.rays + rays);
+                 }});
+        if (request_.partialSeconds)
+            files.push_back({*request_.partialSeconds, [this](const Film &film, const RayCounts &) {
+                                 AtomicFile partial(request_.output);
+                                 writePicture(partial, film);
+                                 partial.commit();
+                             }});
+        return files;
+    }
+
+    /// The checkpoint first: if there is no room for the picture, nothing is lost.
+    void writeFiles(const Film &film, FinishedPicture &finished) {
+        const Clock::time_point start = Clock::now();
+        bool isStored = true;
+        if (begun_.checkpoint) {
+            try {
+                writeCheckpoint(film, report_.rays);
+            } catch (const Error &error) {
+                isStored = false;
+                finished.failure.emplace(error);
+            }
+        }
+        if (request_.frame && !report_.finished.isComplete)
+            files_.image.reset(); // who looks at files takes it for finished
+        if (files_.image) {
+            writePicture(*files_.image, film);
+            files_.image->commit();
+        } else if (report_.finished.isComplete && isStored) {
+            std::error_code ignored; // the older generation is of no use to who merges parts
+            std::filesystem::remove(olderCheckpoint(request_.checkpoint), ignored);
+        }
+        report_.writeSeconds = secondsSince(start);
+    }
+
+    void writeReport() {
+        report_.totalSeconds = secondsSince(files_.openedAt);
+        if (!files_.report || (request_.frame && !report_.finished.isComplete))
+            return;
+        files_.report->write(formatReport(report_));
+        files_.report->commit();
+    }
+
+    PictureFiles &files_;
+    const RenderRequest &request_;
+    PictureBeginning &begun_;
+    RenderSession &session_;
+    RenderReport report_;
+    std::span<const Crop> squares_;
+    std::vector<ViewFilm> layers_; ///< the periodic files have them
+};
+
+} // namespace
+
+PictureFiles openFiles(RenderRequest request) {
+    if (request.part) { // a part is a checkpoint that is finished
+        request.checkpoint = request.output;
+        request.isResuming = true;
+    }
+    static_cast<void>(formatOf(request)); // of no format: that is said first
+    PictureFiles files;
+    if (!request.part && !mayBeThere(request))
+        files.image.emplace(request.output);
+    if (!request.report.empty())
+        files.report.emplace(request.report);
+    if (!request.checkpoint.empty()) {
+        requireWritableCheckpoint(request.checkpoint);
+        files.lock = std::make_unique<CheckpointLock>(request.checkpoint);
+    }
+    files.request = std::move(request);
+    return files;
+}
+
+void requireRoom(const PictureFiles &files, const Crop &crop) {
+    if (formatOf(files.request) == ImageFormat::Png)
+        requirePngSize(files.request.output, crop.width(), crop.height());
+    const bool isCopied = !files.request.checkpoint.empty() || files.request.partialSeconds;
+    requireFilmMemory(crop, (isCopied ? 2 : 1) + static_cast<unsigned>(files.request.layers.size()));
+}
+
+std::span<const Crop> PictureBeginning::squares(const PictureFiles &files) const {
+    return partition.squaresOf(partOf(files).index);
+}
+
+std::uint64_t PictureBeginning::pixelCount(const PictureFiles &files) const {
+    return partition.pixelCountOf(partOf(files).index);
+}
+
+PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLine, RenderSession &session) {
+    const PreparedScene &scene = session.scene();
+    PictureBeginning begun{.report = {}, .partition = partitionFor(files, scene.crop)};
+    RenderReport &report = begun.report;
+    report.output = files.request.output;
+    report.origin = provenanceOf(scene, commandLine);
+    report.device = session.backend().identity(scene.packed, scene.loaded.scene.settings.integrator);
+    if (session.isFirstPicture()) {
+        report.loadSeconds = scene.loadSeconds;
+        report.buildSeconds = scene.buildSeconds;
+    }
+    if (files.request.frame) {
+        begun.frameIdentity = identityOfFrame(files.request, session);
+        begun.isFinished = !files.image && isImageWith(files.request.output, begun.frameIdentity,
+                                                       scene.crop.width(), scene.crop.height());
+        if (!begun.isFinished && !files.image)
+            files.image.emplace(files.request.output);
+    }
+    if (!begun.isFinished && !files.request.checkpoint.empty())
+        resume(files, session, begun);
+    return begun;
+}
+
+FinishedPicture finishPicture(PictureFiles &files, PictureBeginning &&begun, RenderSession &session) {
+    return PictureRender(files, begun, session).finish();
+}
+
+} // namespace hyalite

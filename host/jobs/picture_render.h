@@ -1,0 +1,70 @@
+// One picture from request to files: openFiles, beginPicture, finishPicture. Each takes what the one before it gave, and the
+// caller may tell of it in between.
+#pragma once
+
+#include "host/base/atomic_file.h"
+#include "host/film/checkpoint.h"
+#include "host/film/checkpoint_lock.h"
+#include "host/film/partition.h"
+#include "host/jobs/render_session.h"
+#include "host/report/render_report.h"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// The outputs of a picture, opened before the work begins, so that one that cannot be written is known at once.
+struct PictureFiles {
+    RenderRequest request;           ///< a part has its output as the checkpoint from which it resumes
+    std::optional<AtomicFile> image; ///< none for a part, nor for what may be the finished frame
+    std::optional<AtomicFile> report;
+    std::unique_ptr<CheckpointLock> lock; ///< of the checkpoint, if there is one
+    std::chrono::steady_clock::time_point openedAt = std::chrono::steady_clock::now();
+};
+
+/// Throws Error{OutputNotWritten}, and Error{Usage} for a picture of no format.
+[[nodiscard]] PictureFiles openFiles(RenderRequest request);
+
+/// Throws Error{LimitExceeded} if the films of a picture of this crop do not fit into memory, or not into its format.
+void requireRoom(const PictureFiles &files, const Crop &crop);
+
+/// What a picture begins with: what a checkpoint has of it, or nothing.
+struct PictureBeginning {
+    RenderReport report{};
+    Partition partition;            ///< of the crop
+    std::string frameIdentity{};    ///< what decides the bytes of a frame's picture
+    std::string checkpointDamage{}; ///< why the newest checkpoint was not used, or empty
+    bool isFinished = false;        ///< the part or the frame was finished before: there is nothing to do
+    std::optional<CheckpointWriter> checkpoint{};
+    std::optional<Film> film{};
+    std::vector<Film> layers{};
+    RayCounts rays{};
+
+    /// The squares to be rendered: those of the part.
+    [[nodiscard]] std::span<const Crop> squares(const PictureFiles &files) const;
+    [[nodiscard]] std::uint64_t pixelCount(const PictureFiles &files) const;
+};
+
+/// Reads the checkpoint that is to be resumed, or looks for the frame that was rendered before. The session is open.
+/// Throws Error{BadInput} for a checkpoint of another picture.
+[[nodiscard]] PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLine,
+                                            RenderSession &session);
+
+struct FinishedPicture {
+    RenderReport report;
+    std::optional<std::string> diagnosis; ///< why the whole picture is black or not a number
+    std::optional<Error> failure; ///< of the checkpoint, or of the render: the files have what was finished
+    bool isCutByTime = false;     ///< it ended early, only because of the time limit
+};
+
+/// Renders the layers and the missing samples, until the session's observer wants it to stop, and writes checkpoint,
+/// image and report. Throws if not even one sample is finished.
+[[nodiscard]] FinishedPicture finishPicture(PictureFiles &files, PictureBeginning &&begun,
+                                            RenderSession &session);
+
+} // namespace hyalite
