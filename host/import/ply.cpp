@@ -93,7 +93,7 @@ RowPlan planRow(const PlyElement &element) {
     plan.hasColour = hasAll(Red, Blue);
     plan.hasAlpha = plan.hasColour && hasAll(Alpha, Alpha);
     if (plan.hasColour && isWhole(given[Red]->type)) {
-        constexpr double largest[] = {127.0, 255.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0};
+        constexpr double largest[] = {255.0, 255.0, 32767.0, 65535.0, 2147483647.0, 4294967295.0};
         plan.isSrgb = true;
         plan.colourScale = 1.0 / largest[static_cast<std::size_t>(given[Red]->type)];
     }
@@ -111,7 +111,13 @@ const std::array<float, 256> &srgbTable() {
     return table;
 }
 
-float linearColour(double value, const RowPlan &plan) {
+/// Of a colour or alpha. meshio declares bytes as int8: those below 0 are above 127.
+double wrapped(double value, const RowPlan &plan) {
+    return plan.isSrgb && plan.colourScale == 1.0 / 255.0 && value < 0.0 ? value + 256.0 : value;
+}
+
+float linearColour(double found, const RowPlan &plan) {
+    const double value = wrapped(found, plan);
     const double share = std::clamp(value * plan.colourScale, 0.0, 1.0);
     if (!plan.isSrgb)
         return share > 0.0 ? static_cast<float>(share) : 0.0f; // and NaN is 0
@@ -209,7 +215,12 @@ template <class Values> class PlyReader {
                            static_cast<double>(values_.bytesRead() + values_.bytesLeft()));
             values_.beginRow(element);
             read();
-            values_.endRow();
+            if (values_.endRow())
+                builder_.losses().add("surplus", [&] {
+                    return fmt::format("{}what stands behind the values of the element {} is left out",
+                                       placeText(fileName_, Values::unit, values_.place()),
+                                       quoteInput(element.name));
+                });
         }
     }
 
@@ -259,7 +270,7 @@ template <class Values> class PlyReader {
 
     /// Linear. Warns of transparency.
     glm::vec3 colourOf(const std::array<double, roleCount + 1> &found, const RowPlan &plan) {
-        if (plan.hasAlpha && found[Alpha] * plan.colourScale < 1.0)
+        if (plan.hasAlpha && wrapped(found[Alpha], plan) * plan.colourScale < 1.0)
             builder_.losses().add("alpha", [&] {
                 return fmt::format("{}alpha is left out: colours are opaque",
                                    placeText(fileName_, Values::unit, values_.place()));

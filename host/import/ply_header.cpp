@@ -2,6 +2,7 @@
 
 #include "host/base/content_guess.h"
 #include "host/base/error.h"
+#include "host/base/letter_case.h"
 #include "host/import/obj_lines.h"
 
 #include <fmt/format.h>
@@ -33,19 +34,25 @@ class HeaderReader {
     bool next() {
         if (at_ >= text_.size())
             return false;
-        const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+        const std::size_t end = std::min(text_.find_first_of(ends_, at_), text_.size());
         line_ = text_.substr(at_, end - at_);
         ++lineNumber_;
-        // The first line says how lines end: a LF after the CR of the last one may belong to the data.
-        if (lineNumber_ == 1)
+        // The first line says how lines end: a LF after the CR of the last one may belong to the data. Where lines
+        // end with LF alone, a CR before it is a blank.
+        if (lineNumber_ == 1) {
             isCrLf_ = text_.substr(end, 2) == "\r\n";
+            if (text_.substr(end, 1) == "\n")
+                ends_ = "\n";
+        }
         at_ = std::min(end + (isCrLf_ && text_.substr(end, 2) == "\r\n" ? 2 : 1), text_.size());
         return true;
     }
 
-    /// Empty at the end of the line.
+    /// The next word in small letters. Empty at the end of the line.
+    std::string small() { return lowerCase(word()); }
+
+    /// The next word. Empty at the end of the line.
     std::string_view word() {
-        constexpr std::string_view blanks = " \t";
         line_.remove_prefix(std::min(line_.find_first_not_of(blanks), line_.size()));
         const std::string_view found = line_.substr(0, line_.find_first_of(blanks));
         line_.remove_prefix(found.size());
@@ -54,13 +61,12 @@ class HeaderReader {
 
     /// The rest of the line, without blanks around it.
     std::string_view remainder() {
-        constexpr std::string_view blanks = " \t";
         line_.remove_prefix(std::min(line_.find_first_not_of(blanks), line_.size()));
         return line_.substr(0, line_.find_last_not_of(blanks) + 1);
     }
 
     PlyType type() {
-        const std::string_view name = word();
+        const std::string name = small();
         const auto *const found =
             std::ranges::find(typeNames, name, &std::pair<std::string_view, PlyType>::first);
         if (found == std::end(typeNames))
@@ -76,8 +82,10 @@ class HeaderReader {
     [[nodiscard]] std::size_t lineNumber() const { return lineNumber_; }
 
   private:
+    static constexpr std::string_view blanks = " \t\r";
     std::string_view text_;
     const std::string &fileName_;
+    std::string_view ends_ = "\r\n";
     std::size_t at_;
     std::string_view line_;
     std::size_t lineNumber_ = 0;
@@ -85,7 +93,7 @@ class HeaderReader {
 };
 
 PlyFormat readFormat(HeaderReader &reader) {
-    const std::string_view word = reader.word();
+    const std::string word = reader.small();
     if (word == "ascii")
         return PlyFormat::Text;
     if (word == "binary_little_endian")
@@ -98,7 +106,7 @@ PlyFormat readFormat(HeaderReader &reader) {
 
 PlyElement readElement(HeaderReader &reader, const std::vector<PlyElement> &before) {
     PlyElement element;
-    element.name = std::string(reader.word());
+    element.name = reader.small();
     if (std::ranges::find(before, element.name, &PlyElement::name) != before.end())
         reader.fail(fmt::format("there are two elements {}", quoteInput(element.name)));
     const std::string_view count = reader.word();
@@ -112,7 +120,7 @@ PlyElement readElement(HeaderReader &reader, const std::vector<PlyElement> &befo
 PlyProperty readProperty(HeaderReader &reader) {
     PlyProperty property;
     HeaderReader ahead = reader;
-    if (ahead.word() == "list") {
+    if (ahead.small() == "list") {
         reader.word();
         property.isList = true;
         property.countType = reader.type();
@@ -120,7 +128,7 @@ PlyProperty readProperty(HeaderReader &reader) {
             reader.fail("the length of a list is no whole number; allowed are char to uint");
     }
     property.type = reader.type();
-    property.name = std::string(reader.word());
+    property.name = reader.small();
     return property;
 }
 
@@ -129,7 +137,7 @@ PlyProperty readProperty(HeaderReader &reader) {
 PlyHeader readPlyHeader(std::span<const char> file, const std::string &fileName) {
     constexpr std::size_t maxElements = 256;
     HeaderReader reader(file, fileName);
-    if (!reader.next() || reader.word() != "ply") {
+    if (!reader.next() || reader.small() != "ply") {
         const std::string guess = guessContent(file.first(std::min(file.size(), guessedBytes)));
         throw Error(ErrorKind::BadInput,
                     fmt::format("{}: this is not PLY, which begins with the line \"ply\"{}{}", fileName,
@@ -138,7 +146,7 @@ PlyHeader readPlyHeader(std::span<const char> file, const std::string &fileName)
     PlyHeader header;
     std::optional<PlyFormat> format;
     while (reader.next()) { // other lines are comments, and comments that were broken into lines
-        const std::string_view keyword = reader.word();
+        const std::string keyword = reader.small();
         if (keyword == "format")
             format = readFormat(reader);
         else if (keyword == "element" && header.elements.size() < maxElements)
@@ -150,7 +158,7 @@ PlyHeader readPlyHeader(std::span<const char> file, const std::string &fileName)
         else if (keyword == "property")
             header.elements.back().properties.push_back(readProperty(reader));
         else if (keyword == "comment") {
-            if (reader.word() == "TextureFile" && header.textureFiles.size() < maxElements)
+            if (reader.small() == "texturefile" && header.textureFiles.size() < maxElements)
                 header.textureFiles.emplace_back(reader.remainder());
         } else if (keyword == "end_header") {
             if (!format)

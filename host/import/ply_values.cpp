@@ -22,9 +22,11 @@ bool isLineEnd(char c) { return c == '\n' || c == '\r'; }
 
 // ---- Text
 
-void PlyTextValues::endRow() {
-    while (at_ != end_ && !isLineEnd(*at_))
-        ++at_;
+bool PlyTextValues::endRow() {
+    bool hasMore = false;
+    for (; at_ != end_ && !isLineEnd(*at_); ++at_)
+        hasMore |= !isBlankOfPly(*at_);
+    return hasMore;
 }
 
 void PlyTextValues::beginRow(const PlyElement &element) {
@@ -56,11 +58,12 @@ double PlyTextValues::next(PlyType type) {
     if (!isWhole(type) || (result.ptr != end_ && !isBlankOfPly(*result.ptr) && !isLineEnd(*result.ptr)))
         result = std::from_chars(digits, end_, value);
     const bool isOver = result.ptr == end_ || isBlankOfPly(*result.ptr) || isLineEnd(*result.ptr);
-    if (result.ec == std::errc::result_out_of_range && isOver) // with a negative exponent it is nearly 0
-        value = std::string_view(at_, result.ptr).find("e-") != std::string_view::npos
-                    ? 0.0
-                    : std::numeric_limits<double>::infinity();
-    else if (result.ec != std::errc() || !isOver) {
+    if (result.ec == std::errc::result_out_of_range && isOver) { // with a negative exponent it is nearly 0
+        const std::string_view word(at_, result.ptr);
+        const bool isTiny =
+            word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
+        value = isTiny ? 0.0 : std::numeric_limits<double>::infinity();
+    } else if (result.ec != std::errc() || !isOver) {
         const char *wordEnd = at_;
         while (wordEnd != end_ && !isBlankOfPly(*wordEnd) && !isLineEnd(*wordEnd))
             ++wordEnd;

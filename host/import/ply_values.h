@@ -43,8 +43,8 @@ class PlyTextValues {
         for (std::size_t i = 0; i < count; ++i)
             static_cast<void>(next(type));
     }
-    /// Ends a row: the rest of the line is passed over.
-    void endRow();
+    /// Ends a row: the rest of the line is passed over. Returns whether it has more values.
+    bool endRow();
 
     [[nodiscard]] std::size_t place() const { return line_; }
     [[nodiscard]] std::size_t bytesRead() const { return static_cast<std::size_t>(at_ - begin_); }
@@ -88,7 +88,7 @@ class PlyByteValues {
             failCut();
         at_ += sizeOf(type) * count;
     }
-    void endRow() {}
+    static bool endRow() { return false; }
 
     [[nodiscard]] std::size_t place() const { return offset_ + static_cast<std::size_t>(row_ - begin_); }
     [[nodiscard]] std::size_t bytesRead() const { return static_cast<std::size_t>(at_ - begin_); }

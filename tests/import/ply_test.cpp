@@ -6,6 +6,7 @@
 #include "tests/fixtures/scene_json_fixture.h"
 
 #include <bit>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -75,6 +76,29 @@ TEST_F(Ply, MayHaveAnyLineEnds) {
     }
     expectSquare(read(textHead + "obj_info num_cols 512\n\nwords of a comment that was broken into lines\n" +
                       vertexHead + faceHead + "0 0 0 9 9\n\n1 0 0\n  1 1 0  \n+0 1e0 0.0\n4 0 1 2 3"));
+}
+
+TEST_F(Ply, BytesMayFollowALineEndThatIsNotLikeTheOthers) {
+    std::string text = "ply\nformat binary_little_endian 1.0\n" + vertexHead + faceHead;
+    text.insert(text.size() - 1, "\r");
+    for (const float number : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
+        text += bytesOf(number, false);
+    text += '\x04';
+    for (const std::int32_t index : {0, 1, 2, 3})
+        text += bytesOf(index, false);
+    expectSquare(read(text));
+}
+
+TEST_F(Ply, HeadersMayBeInAnyLetterCase) {
+    std::string head = textHead + vertexHead + faceHead;
+    std::ranges::transform(head, head.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    expectSquare(read(head + square));
+}
+
+TEST_F(Ply, NumbersTooSmallAreZero) {
+    expectSquare(
+        read(textHead + vertexHead + faceHead + "0 1e-400 1E-400\n1 0 -1E-400\n1 1 0\n0 1 0\n4 0 1 2 3\n"));
 }
 
 TEST_F(Ply, IsReadAsBytesOfEitherOrder) {
@@ -221,6 +245,32 @@ TEST_F(Ply, WhatIsNotUsedIsOneWarningAKind) {
         << ::testing::PrintToString(loaded.report.warnings);
     for (std::size_t i = 0; i < std::size(parts); ++i)
         EXPECT_NE(loaded.report.warnings[i].find(parts[i]), std::string::npos) << loaded.report.warnings[i];
+}
+
+TEST_F(Ply, ValuesBehindARowAreToldWithTheirCount) {
+    const ObjMesh loaded =
+        read(textHead + vertexHead + faceHead + "0 0 0 9\n1 0 0\t\n1 1 0 9 9\n0 1 0\n4 0 1 2 3 7\n");
+    expectSquare(loaded);
+    ASSERT_EQ(loaded.report.warnings.size(), 1u);
+    EXPECT_NE(
+        loaded.report.warnings[0].find(
+            "mesh.ply:10: what stands behind the values of the element \"vertex\" is left out (and 2 more)"),
+        std::string::npos)
+        << loaded.report.warnings[0];
+}
+
+TEST_F(Ply, ColoursOfInt8AreBytes) {
+    const auto withType = [](const std::string &type, const char *colour) {
+        return textHead +
+               "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty " + type +
+               " red\nproperty " + type + " green\nproperty " + type + " blue\n" + faceHead + "0 0 0 " +
+               colour + "\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n";
+    };
+    const ObjMesh wrapped = read(withType("int8", "-56 100 -1"));
+    EXPECT_TRUE(wrapped.report.warnings.empty());
+    const ObjMesh bytes = read(withType("uint8", "200 100 255"));
+    EXPECT_EQ(wrapped.mesh.colours.values, bytes.mesh.colours.values);
+    EXPECT_EQ(wrapped.mesh.colours.values.at(0).z, 1.0f);
 }
 
 TEST_F(Ply, FacesMayHaveColours) {
