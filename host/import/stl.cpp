@@ -130,6 +130,9 @@ void readBinary(std::span<const char> bytes, const std::string &fileName, Vertex
             return fmt::format("{}: it announces {} triangles, and has bytes for {}: {} are read", fileName,
                                announced, present, count);
         });
+    if (std::string_view(bytes.data(), 80).find("COLOR=") != std::string_view::npos)
+        builder.losses().add("colour of all",
+                             [&] { return fileName + ": the colour of its header is left out"; });
     builder.reserve(0, count);
     for (std::uint32_t triangle = 0; triangle < count; ++triangle) {
         if (onReading && triangle % stepTriangles == stepTriangles - 1)
@@ -153,6 +156,9 @@ void readBinary(std::span<const char> bytes, const std::string &fileName, Vertex
 bool isWord(std::string_view found, std::string_view lower) {
     return std::ranges::equal(found, lower, [](char a, char b) { return lowerCase(a) == b; });
 }
+
+constexpr std::string_view keywords[] = {"facet",    "outer", "vertex",   "endloop",
+                                         "endfacet", "solid", "endsolid", "color"};
 
 /// The words of text, whose case does not matter, with their lines.
 class StlWords {
@@ -187,16 +193,28 @@ class StlWords {
         return at_ == end_ || isBlank(*at_);
     }
 
+    /// 0 at the end of the file, which isCut() then tells.
     double number() {
         const std::string_view word = next();
         const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
         double value = 0.0;
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         const bool isRead = end == digits.data() + digits.size() && !digits.empty();
+        if (!isRead && peek().empty() && word.find_first_not_of("+-.0123456789Ee") == word.npos) {
+            isCut_ = true;
+            return 0.0;
+        }
         if (!isRead || (error != std::errc() && error != std::errc::result_out_of_range))
-            fail("a vertex has " + (word.empty() ? "fewer than three numbers" : quoteInput(word)) +
-                 "; allowed are three finite decimal numbers");
+            fail("a vertex has " + quoteInput(word) + "; allowed are three finite decimal numbers");
         return value;
+    }
+
+    /// Whether the file ends within a vertex or, as `word` is its last one, within a keyword.
+    [[nodiscard]] bool isCut(std::string_view word = {}) const {
+        return isCut_ || (!word.empty() && peek().empty() &&
+                          std::ranges::any_of(keywords, [&](std::string_view keyword) {
+                              return isWord(word, keyword.substr(0, word.size()));
+                          }));
     }
 
     [[nodiscard]] std::size_t line() const { return line_; }
@@ -212,13 +230,12 @@ class StlWords {
     const char *at_;
     const char *end_;
     std::size_t line_ = 1;
+    bool isCut_ = false;
     const std::string &fileName_;
 };
 
 /// Passes over as many words that are no keywords.
 void skipArguments(StlWords &words, int most) {
-    constexpr std::string_view keywords[] = {"facet",    "outer", "vertex",   "endloop",
-                                             "endfacet", "solid", "endsolid", "color"};
     for (int i = 0; i < most; ++i) {
         const std::string_view word = words.peek();
         if (std::ranges::any_of(keywords, [&](std::string_view keyword) { return isWord(word, keyword); }))
@@ -233,11 +250,14 @@ void readText(std::span<const char> bytes, const std::string &fileName, VertexMe
     StlWords words(bytes, fileName);
     std::vector<FaceCorner> corners;
     std::uint64_t faceCount = 0;
+    bool isCut = false;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         if (isWord(word, "vertex")) {
             const double x = words.number();
             const double y = words.number();
             const double z = words.number();
+            if (words.isCut())
+                break;
             corners.push_back(cornerOf(merger.add({x, y, z}, words.line())));
             if (corners.size() > maxFaceCorners)
                 words.fail(fmt::format("the facet has more than {} vertices", maxFaceCorners));
@@ -258,6 +278,9 @@ void readText(std::span<const char> bytes, const std::string &fileName, VertexMe
             builder.losses().add("colours", [&] {
                 return placeText(fileName, PlaceUnit::Line, words.line()) + "a colour is left out";
             });
+        } else if (words.isCut(word) && !isWord(word, "endfacet")) {
+            isCut = true;
+            break;
         } else if (!isWord(word, "endfacet")) {
             words.fail(
                 fmt::format("{} is no word of STL; allowed are solid, facet, outer loop, vertex, endloop, "
@@ -265,7 +288,7 @@ void readText(std::span<const char> bytes, const std::string &fileName, VertexMe
                             quoteInput(word)));
         }
     }
-    if (!corners.empty())
+    if (!corners.empty() || isCut || words.isCut())
         builder.losses().add("cut", [&] {
             return placeText(fileName, PlaceUnit::Line, words.line()) +
                    "the file ends within a facet, which is left out: it is cut short";
@@ -277,6 +300,14 @@ bool hasBinarySize(std::span<const char> bytes) {
     return bytes.size() >= headBytes &&
            bytes.size() ==
                headBytes + std::uint64_t{littleEndian<std::uint32_t>(bytes.data() + 80)} * triangleBytes;
+}
+
+/// Without a byte order mark, and the padding behind it: zeros, and the end of file of DOS.
+std::span<const char> textOf(std::span<const char> bytes) {
+    constexpr std::string_view padding("\0\x1A \t\r\n", 6);
+    const std::size_t end = std::string_view(bytes.data(), bytes.size()).find_last_not_of(padding) + 1;
+    const std::size_t begin = std::min(byteOrderMarkBytes(bytes), end);
+    return bytes.subspan(begin, end - begin);
 }
 
 bool beginsAsText(std::span<const char> bytes) {
@@ -298,7 +329,7 @@ ObjMesh loadStl(const std::filesystem::path &file, const MeshTransform &transfor
     const std::string fileName = file.string();
     const std::vector<char> whole = readWholeFile(file);
     const bool isInBinary = isBinary(whole);
-    const std::span<const char> bytes = std::span(whole).subspan(isInBinary ? 0 : byteOrderMarkBytes(whole));
+    const std::span<const char> bytes = isInBinary ? std::span(whole) : textOf(whole);
     bool areFar = false;
     const auto read = [&](const glm::dvec3 &origin) {
         MeshBuilder builder(fileName, transform, origin, isInBinary ? PlaceUnit::Byte : PlaceUnit::Line);

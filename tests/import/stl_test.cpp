@@ -66,6 +66,33 @@ void expectSquare(const ObjMesh &loaded) {
     EXPECT_EQ(loaded.mesh.triangles[0].normals, glm::uvec3(MeshTriangle::noNormal)) << "of the winding";
 }
 
+TEST_F(Stl, TextMayBePadded) {
+    for (const std::string &padding :
+         {std::string("\0\0\0", 3), std::string("\x1A"), std::string("\r\n\x1A\0 \n", 6)}) {
+        const ObjMesh loaded = read(textStl + padding);
+        expectSquare(loaded);
+        EXPECT_TRUE(loaded.report.warnings.empty());
+    }
+}
+
+TEST_F(Stl, TextThatEndsTooEarlyIsReadAsFarAsItGoes) {
+    const std::size_t second = textStl.find("facet normal nan");
+    const std::size_t behindFirst = textStl.find("endfacet");
+    for (std::size_t size = behindFirst + 1; size < textStl.rfind("endloop"); ++size) {
+        const ObjMesh loaded = read(textStl.substr(0, size));
+        EXPECT_EQ(loaded.mesh.triangles.size(), 1u) << size;
+        const bool isWithinFacet = size > textStl.find("vertex", second);
+        EXPECT_TRUE(!isWithinFacet || loaded.report.warnings.size() == 1) << textStl.substr(0, size);
+    }
+}
+
+TEST_F(Stl, TheColourOfAHeaderIsTold) {
+    const ObjMesh loaded = read(binaryStl("COLOR=\xFF\x01\x01\xFF", square));
+    expectSquare(loaded);
+    ASSERT_EQ(loaded.report.warnings.size(), 1u);
+    EXPECT_NE(loaded.report.warnings[0].find("the colour of its header"), std::string::npos);
+}
+
 TEST_F(Stl, IsReadAsText) {
     expectSquare(read(textStl));
     std::string shouting;
