@@ -205,6 +205,8 @@ TEST_F(GltfMesh, InstancingPlacesItManyTimes) {
     const LoadedScene loaded = load(maker);
     ASSERT_EQ(loaded.scene.instances.size(), 3u);
     EXPECT_EQ(loaded.scene.instances[2].toWorld.offset, glm::vec3(3, 0, 1));
+    EXPECT_TRUE(loaded.meshReports.at(0).warnings.empty())
+        << ::testing::PrintToString(loaded.meshReports.at(0).warnings);
 }
 
 TEST_F(GltfMesh, OfTheChosenSceneAlone) {

@@ -60,6 +60,10 @@ Chunk chunkAt(const InputFile &file, std::uint64_t offset) {
     return chunk;
 }
 
+/// Of glTF 1.0, which assimp reads.
+constexpr std::string_view convertingHint =
+    ", which `assimp export OLD.glb NEW.glb` makes of it (Debian: assimp-utils)";
+
 struct Chunks {
     Chunk json;
     std::optional<Chunk> binary;
@@ -69,7 +73,8 @@ struct Chunks {
 /// the next chunk follows at once or at a multiple of 4, wherever binary data begins.
 Chunks chunksOf(const InputFile &file, Losses &losses) {
     if (const std::uint32_t version = wordAt(file, 4); version != 2)
-        throw file.bad(fmt::format("is a GLB of version {}; allowed: 2", version));
+        throw file.bad(
+            fmt::format("is a GLB of version {}; allowed: 2{}", version, version == 1 ? convertingHint : ""));
     Chunks chunks{chunkAt(file, headerBytes), {}};
     if (chunks.json.type != jsonType)
         throw file.bad("its first chunk is not JSON");
@@ -110,8 +115,10 @@ void checkObjects(const JsonObject &top) {
 void checkVersion(const JsonObject &top) {
     const JsonObject asset(top.at("asset"));
     const JsonNode version = asset.at("version");
+    if (*version.value == 2) // a number, as some programs write it
+        return;
     if (!version.text().starts_with("2."))
-        version.refuse("2.0");
+        version.refuse(fmt::format("2.0{}", version.text().starts_with("1.") ? convertingHint : ""));
     if (const auto least = asset.find("minVersion"); least && least->text() != "2.0")
         least->refuse("2.0");
 }

@@ -16,9 +16,10 @@ namespace {
 
 enum class Mode { Points = 0, Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan };
 
+/// Of primitives and of instances.
 bool isRead(std::string_view attribute) {
-    constexpr std::string_view names[] = {"POSITION",   "NORMAL",     "TANGENT",
-                                          "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+    constexpr std::string_view names[] = {"POSITION", "NORMAL",      "TANGENT",  "TEXCOORD_0", "TEXCOORD_1",
+                                          "COLOR_0",  "TRANSLATION", "ROTATION", "SCALE"};
     return std::ranges::find(names, attribute) != std::end(names) || attribute.starts_with("JOINTS_") ||
            attribute.starts_with("WEIGHTS_");
 }
