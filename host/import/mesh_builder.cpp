@@ -377,11 +377,20 @@ void leaveOutUselessTextures(ObjMesh &loaded) {
             material.textures = {};
         loaded.report.warnings.push_back(loaded.mesh.name +
                                          ": its textures are ignored, as it has no texture coordinates");
-    } else if (loaded.report.uvLessCount > 0) {
-        loaded.report.warnings.push_back(fmt::format(
-            "{}: {} triangles have no texture coordinates; textures show their bottom left corner there",
-            loaded.mesh.name, loaded.report.uvLessCount));
+        return;
     }
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < loaded.mesh.triangleMaterials.size(); ++i) {
+        const std::uint32_t material = loaded.mesh.triangleMaterials[i]; // 0: none
+        count += loaded.mesh.triangleUvs[i].x == TriangleMesh::noUv && material > 0 &&
+                 hasTextures(loaded.materials[material - 1]);
+    }
+    if (count > 0)
+        loaded.report.warnings.push_back(
+            fmt::format("{}: {} triangles have no texture coordinates that their "
+                        "material wants; textures show their bottom left corner "
+                        "there",
+                        loaded.mesh.name, count));
 }
 
 } // namespace hyalite

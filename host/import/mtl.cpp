@@ -3,6 +3,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/content_guess.h"
 #include "host/base/error.h"
+#include "host/base/interval.h"
 #include "host/base/letter_case.h"
 #include "host/image/texture_file.h"
 #include "host/import/mtl_material.h"
@@ -10,13 +11,13 @@
 #include "host/scene/limits.h"
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -29,11 +30,7 @@ namespace hyalite {
 
 namespace {
 
-float fraction(float value) { return std::clamp(value, 0.0f, 1.0f); }
-
-glm::vec3 fraction(const glm::vec3 &colour) {
-    return {fraction(colour.x), fraction(colour.y), fraction(colour.z)};
-}
+constexpr Interval anyNumber{std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max()};
 
 /// A statement whose words have no meaning.
 class UnreadableStatement : public std::runtime_error {
@@ -99,22 +96,34 @@ class Words {
         return {red, green, number(keyword)};
     }
 
+    /// Numbers beyond `allowed` are its ends from now on.
+    void limitTo(const Interval &allowed) { allowed_ = allowed; }
+    /// The first number that was beyond, by more than rounding.
+    [[nodiscard]] std::optional<float> firstBeyond() const { return beyond_; }
+
   private:
-    [[nodiscard]] static float parse(std::string_view keyword, std::string_view word) {
+    [[nodiscard]] float parse(std::string_view keyword, std::string_view word) {
         std::string_view digits = word;
         if (digits.starts_with('+'))
             digits.remove_prefix(1);
-        float value = 0.0f;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        double wide = 0.0; // what is too small for a float is nearly 0
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), wide);
+        const auto value = static_cast<float>(wide);
         if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
             throw UnreadableStatement(fmt::format("{} has {}", keyword,
                                                   word.empty()
                                                       ? "fewer numbers than it needs"
                                                       : quoteInput(word) + ", which is no finite number"));
-        return value;
+        const double rounded = allowed_.rounded(wide);
+        const double inside = std::clamp(rounded, allowed_.low, allowed_.high);
+        if (!beyond_ && inside != rounded)
+            beyond_ = value;
+        return static_cast<float>(inside);
     }
 
     std::string_view rest_;
+    Interval allowed_ = anyNumber;
+    std::optional<float> beyond_;
 };
 
 /// Texture statements in small letters, and the slots that they fill.
@@ -248,7 +257,8 @@ class TextureReader {
         if (isScale || isOffset)
             return;
         const bool hasWord = option == "-blendu" || option == "-blendv" || option == "-cc" ||
-                             option == "-clamp" || option == "-imfchan" || option == "-type";
+                             option == "-clamp" || option == "-colorspace" || option == "-imfchan" ||
+                             option == "-type";
         const std::string_view value = hasWord ? words.next() : std::string_view();
         lose("option", [&] {
             return fmt::format("the option {}{}{} is left out; only -s, -o and -bm are read",
@@ -296,8 +306,9 @@ class TextureReader {
             return ignore("there is no such file in the mesh's folder");
         try {
             if (!isTextureFile(*file))
-                return ignore(
-                    foreignContent(InputFile(*file), "it is not a PNG, JPEG or Radiance (HDR) file"));
+                return ignore(foreignContent(
+                    InputFile(*file),
+                    "it is not a PNG, JPEG or Radiance (HDR) file, which are read: convert it"));
             const std::uint32_t index = textures_.library.load(*file);
             if (textures_.library.at(index).isFloat() && slot != layout::slotEmission)
                 return ignore("only map_Ke takes images of floats");
@@ -323,33 +334,43 @@ class TextureReader {
     const ObjLines &lines_;
 };
 
-/// Statements of numbers, in small letters.
+/// Statements of numbers, in small letters. Numbers beyond the range are its ends.
 struct NumberStatement {
     std::string_view keyword;
+    Interval range;
     void (*take)(MtlStatements &mtl, std::string_view keyword, Words &words);
 };
 
 constexpr NumberStatement numberStatements[] = {
-    {"kd", [](auto &mtl, auto keyword, Words &words) { mtl.diffuse = fraction(words.colour(keyword)); }},
-    {"ks", [](auto &mtl, auto keyword, Words &words) { mtl.specular = fraction(words.colour(keyword)); }},
-    {"ke", [](auto &mtl, auto keyword,
-              Words &words) { mtl.emission = glm::max(words.colour(keyword), glm::vec3(0.0f)); }},
-    {"ns", [](auto &mtl, auto keyword, Words &words) { mtl.exponent = words.number(keyword); }},
-    {"pr", [](auto &mtl, auto keyword, Words &words) { mtl.roughness = fraction(words.number(keyword)); }},
-    {"pm", [](auto &mtl, auto keyword, Words &words) { mtl.metallic = fraction(words.number(keyword)); }},
-    {"pc", [](auto &mtl, auto keyword, Words &words) { mtl.clearcoat = fraction(words.number(keyword)); }},
-    {"pcr",
-     [](auto &mtl, auto keyword, Words &words) { mtl.clearcoatRoughness = fraction(words.number(keyword)); }},
-    {"d",
+    {"kd", limits::fraction,
+     [](auto &mtl, auto keyword, Words &words) { mtl.diffuse = words.colour(keyword); }},
+    {"ks", limits::fraction,
+     [](auto &mtl, auto keyword, Words &words) { mtl.specular = words.colour(keyword); }},
+    {"ke", limits::radiance,
+     [](auto &mtl, auto keyword, Words &words) { mtl.emission = words.colour(keyword); }},
+    {"ns", anyNumber, [](auto &mtl, auto keyword, Words &words) { mtl.exponent = words.number(keyword); }},
+    {"pr", limits::fraction,
+     [](auto &mtl, auto keyword, Words &words) { mtl.roughness = words.number(keyword); }},
+    {"pm", limits::fraction,
+     [](auto &mtl, auto keyword, Words &words) { mtl.metallic = words.number(keyword); }},
+    {"pc", limits::fraction,
+     [](auto &mtl, auto keyword, Words &words) { mtl.clearcoat = words.number(keyword); }},
+    {"pcr", limits::fraction,
+     [](auto &mtl, auto keyword, Words &words) { mtl.clearcoatRoughness = words.number(keyword); }},
+    {"d", limits::fraction,
      [](auto &mtl, auto keyword, Words &words) {
          if (words.isAtOption())
              (void)words.next(); // -halo: opaque only where it is seen head on
-         mtl.dissolve = fraction(words.number(keyword));
+         mtl.dissolve = words.number(keyword);
      }},
-    {"tr", [](auto &mtl, auto keyword, Words &words) { mtl.transparency = fraction(words.number(keyword)); }},
-    {"ni", [](auto &mtl, auto keyword,
-              Words &words) { mtl.index = std::clamp(words.number(keyword), 1.0f, 10.0f); }},
-    {"illum",
+    {"tr", limits::fraction,
+     [](auto &mtl, auto keyword, Words &words) { mtl.transparency = words.number(keyword); }},
+    // Programs write 0 for what does not refract, and numbers of their own for how they shade.
+    {"ni", anyNumber,
+     [](auto &mtl, auto keyword, Words &words) {
+         mtl.index = std::clamp(words.number(keyword), 1.0f, 10.0f);
+     }},
+    {"illum", anyNumber,
      [](auto &mtl, auto keyword, Words &words) {
          mtl.illumination = static_cast<int>(std::clamp(words.number(keyword), 0.0f, 10.0f));
      }},
@@ -379,6 +400,10 @@ class MtlReader {
         : lines_(file), textures_(textures), textureReader_(file, textures_, lines_) {}
 
     [[nodiscard]] std::vector<Material> read() {
+        if (const std::string guess = guessContent(lines_.head()); !guess.empty()) {
+            textureReader_.lose("foreign", [&] { return "this is not MTL text; it looks like " + guess; });
+            return {};
+        }
         while (const std::optional<std::span<char>> line = lines_.next()) {
             Words words({line->data(), line->size()});
             const std::string_view keyword = words.next();
@@ -414,10 +439,17 @@ class MtlReader {
         if (textureReader_.take(*current_, small, keyword, words))
             return;
         if (const auto *row = std::ranges::find(numberStatements, small, &NumberStatement::keyword);
-            row != std::end(numberStatements))
+            row != std::end(numberStatements)) {
+            words.limitTo(row->range);
             row->take(*current_, keyword, words);
-        else if (const auto *unused = std::ranges::find(unusedStatements, small, &UnusedStatement::keyword);
-                 unused != std::end(unusedStatements))
+            if (const std::optional<float> beyond = words.firstBeyond())
+                textureReader_.lose("range", [&] {
+                    return fmt::format("{} {} counts as {}; allowed are {}", keyword, *beyond,
+                                       std::clamp<double>(*beyond, row->range.low, row->range.high),
+                                       row->range.text());
+                });
+        } else if (const auto *unused = std::ranges::find(unusedStatements, small, &UnusedStatement::keyword);
+                   unused != std::end(unusedStatements))
             leaveOut(*unused, keyword, words);
         else if (std::ranges::find(needlessStatements, small) == std::end(needlessStatements))
             textureReader_.lose("unknown", [&] {

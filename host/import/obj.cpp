@@ -2,6 +2,7 @@
 
 #include "host/base/content_guess.h"
 #include "host/base/error.h"
+#include "host/base/letter_case.h"
 #include "host/base/quantities.h"
 #include "host/import/file_finder.h"
 #include "host/import/mesh_builder.h"
@@ -165,6 +166,7 @@ class CheckedObjSource : public std::streambuf {
             if (!line)
                 return traits_type::eof();
             reportProgress();
+            lowerKeyword(*line);
             if (materials != nullptr)
                 materials->take({line->data(), line->size()});
             statement = checkStatement(*line, lines);
@@ -182,6 +184,14 @@ class CheckedObjSource : public std::streambuf {
 
   private:
     static constexpr std::size_t stepBytes = std::size_t{1} << 22;
+
+    /// Some programs write keywords in capitals.
+    static void lowerKeyword(std::span<char> line) {
+        const auto isBlank = [](char c) { return c == ' ' || c == '\t'; };
+        const auto begin = std::ranges::find_if_not(line, isBlank);
+        const auto end = std::find_if(begin, line.end(), isBlank);
+        std::transform(begin, end, begin, [](char c) { return lowerCase(c); });
+    }
 
     void leaveOut(std::string_view line) {
         ++builder.report().unusedStatementCount;
@@ -255,10 +265,44 @@ void requireText(const ObjLines &lines) {
                     fmt::format("{}: this is not OBJ text; it looks like {}", lines.fileName(), guess));
 }
 
+/// assimp writes black for vertices that have no colour where others have one. Makes it white in materials of which all
+/// vertices are black.
+void leaveOutBlackOfAssimp(ObjMesh &loaded) {
+    const std::vector<std::uint32_t> &materials = loaded.mesh.triangleMaterials;
+    CornerValues<glm::vec4> &colours = loaded.mesh.colours;
+    if (materials.empty() || colours.values.empty())
+        return;
+    std::vector<bool> isColoured(std::ranges::max(materials) + std::size_t{1});
+    const auto isBlack = [&](std::uint32_t value) {
+        return glm::vec3(colours.values[value]) == glm::vec3(0);
+    };
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const glm::uvec3 corners = colours.corners[i];
+        if (!isBlack(corners.x) || !isBlack(corners.y) || !isBlack(corners.z))
+            isColoured[materials[i]] = true;
+    }
+    const auto white = static_cast<std::uint32_t>(colours.values.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (!isColoured[materials[i]]) {
+            colours.corners[i] = glm::uvec3(white);
+            ++count;
+        }
+    if (count == 0)
+        return;
+    colours.values.emplace_back(1.0f);
+    loaded.report.warnings.push_back(
+        fmt::format("{}: {} of materials whose vertices are all black: no colours, as assimp writes it",
+                    loaded.report.name, countText(count, "triangle")));
+}
+
 ObjMesh readObj(const std::filesystem::path &file, const MeshTransform &transform, const glm::dvec3 &origin,
                 const OnReading &onReading, TextureLibrary *textures) {
     ObjLines lines(file);
     requireText(lines);
+    const std::span<const char> head = lines.head();
+    const bool isOfAssimp = std::string_view(head.data(), head.size()).find("Open Asset Import Library") !=
+                            std::string_view::npos;
     MeshBuilder builder(lines.fileName(), transform, origin);
     builder.report().files.push_back(file);
     ObjMaterials materials(file, builder, textures);
@@ -273,6 +317,8 @@ ObjMesh readObj(const std::filesystem::path &file, const MeshTransform &transfor
     if (!loaded.mesh.triangleMaterials.empty())
         loaded.materials = materials.give();
     leaveOutUselessTextures(loaded);
+    if (isOfAssimp)
+        leaveOutBlackOfAssimp(loaded);
     if (loaded.report.undefinedNormalCount > 0)
         loaded.report.warnings.push_back(
             fmt::format("{}: {} name{} normals that the file does not have, and get{} the geometric one",

@@ -329,6 +329,13 @@ TEST(Obj, NormalsThatTheFileDoesNotHaveGiveWayToTheGeometricOne) {
         << loaded.report.warnings[0];
 }
 
+TEST(Obj, KeywordsMayBeInCapitals) {
+    const ObjMesh loaded = loadText("V 0 0 0\nV 1 0 0\n\tV 0 1 0\nVN 0 0 1\nVT 0 0\nF 1/1/1 2/1/1 3/1/1\n");
+    EXPECT_EQ(loaded.mesh.positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(loaded.mesh.normals, std::vector<glm::vec3>{glm::vec3(0, 0, 1)});
+    EXPECT_TRUE(loaded.report.warnings.empty());
+}
+
 TEST(Obj, HasTheColoursOfItsVertices) {
     // The second vertex is read by tinyobjloader, as it is indented.
     const ObjMesh loaded =
