@@ -352,7 +352,10 @@ ObjMesh MeshBuilder::finish() {
         throw Error(ErrorKind::BadInput, result.mesh.name + ": no triangle in " +
                                              std::to_string(report.faceCount) + " faces (" +
                                              std::to_string(report.degenerateTriangleCount) +
-                                             " dropped for having no area); at least one is needed");
+                                             " dropped for having no area); at least one is needed" +
+                                             (report.faceCount == 0 && !result.mesh.positions.empty()
+                                                  ? ": points and lines alone are no surface"
+                                                  : ""));
     replaceLostPositions();
     addColours();
     std::ranges::move(dropped.warnings(), std::back_inserter(report.warnings));

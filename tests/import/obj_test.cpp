@@ -476,7 +476,8 @@ TEST(Obj, FilesWithoutATriangleAreErrors) {
     expectError("", ": no triangle in 0 faces");
     expectError("\xEF\xBB\xBF", ": no triangle in 0 faces");
     expectError("# nothing\n", ": no triangle in 0 faces");
-    expectError(threeVertices, ": no triangle in 0 faces");
+    expectError(threeVertices, ": no triangle in 0 faces", "needed: points and lines alone are no surface");
+    expectError(threeVertices + "p 1 2\nl 2 3\n", ": no triangle in 0 faces", "points and lines alone");
     expectError(threeVertices + "f 1 1 2\nf 1 2 1\n", ": no triangle in 2 faces (2 dropped");
 }
 
