@@ -98,14 +98,38 @@ class ObjMaterials {
     void read(std::string_view list) {
         if (!names.emplace(list).second || readOne(list))
             return;
-        std::size_t lostCount = 0;
+        bool isLost = false;
+        // Names may have blanks: ".mtl" ends one.
+        for (std::string_view rest = list; !rest.empty();) {
+            const std::string_view name = rest.substr(0, endOfName(rest));
+            isLost |= !readOne(name) && !readWords(name);
+            rest.remove_prefix(name.size());
+            rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+        }
+        if (isLost)
+            builder.report().lostLibraries.emplace_back(list);
+    }
+
+    /// Behind the first ".mtl" that ends a word, or all of it.
+    static std::size_t endOfName(std::string_view list) {
+        constexpr std::string_view ending = ".mtl";
+        for (std::size_t at = list.find(ending); at != list.npos; at = list.find(ending, at + 1)) {
+            const std::size_t end = at + ending.size();
+            if (end == list.size() || list[end] == ' ' || list[end] == '\t')
+                return end;
+        }
+        return list.size();
+    }
+
+    /// Whether each word is a library.
+    bool readWords(std::string_view list) {
+        bool areAll = true;
         for (std::string_view rest = list; !rest.empty();) {
             const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-            lostCount += end > 0 && !readOne(rest.substr(0, end));
+            areAll &= end == 0 || readOne(rest.substr(0, end));
             rest.remove_prefix(std::min(end + 1, rest.size()));
         }
-        if (lostCount > 0)
-            builder.report().lostLibraries.emplace_back(list);
+        return areAll;
     }
 
     /// False if there is no such file.

@@ -341,6 +341,18 @@ TEST_F(Mtl, NamesOfOtherComputersAreFoundBesideTheFile) {
         << loaded.meshReports[0].warnings[0];
 }
 
+TEST_F(Mtl, NamesOfLibrariesMayHaveBlanks) {
+    static_cast<void>(write("a b.mtl", "newmtl red\n"));
+    static_cast<void>(write("c.mtl d.mtl", "newmtl green\n"));
+    static_cast<void>(write("e f.mtl", "newmtl blue\n"));
+    const LoadedScene loaded =
+        loadScene(write("mesh.obj", "mtllib a b.mtl  e f.mtl\nmtllib c.mtl d.mtl\nusemtl blue\n"
+                                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+                      .string());
+    EXPECT_EQ(loaded.scene.materials.size(), 4u);
+    EXPECT_TRUE(loaded.meshReports.at(0).warnings.empty());
+}
+
 TEST_F(Mtl, SeveralLibrariesMayBeNamedAtOnce) {
     static_cast<void>(write("a.mtl", "newmtl red\n"));
     static_cast<void>(write("b.mtl", "newmtl blue\n"));
