@@ -113,7 +113,8 @@ class ObjMaterials {
     /// Behind the first ".mtl" that ends a word, or all of it.
     static std::size_t endOfName(std::string_view list) {
         constexpr std::string_view ending = ".mtl";
-        for (std::size_t at = list.find(ending); at != list.npos; at = list.find(ending, at + 1)) {
+        for (std::size_t at = list.find(ending); at != std::string_view::npos;
+             at = list.find(ending, at + 1)) {
             const std::size_t end = at + ending.size();
             if (end == list.size() || list[end] == ' ' || list[end] == '\t')
                 return end;

@@ -200,7 +200,8 @@ class StlWords {
         double value = 0.0;
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         const bool isRead = end == digits.data() + digits.size() && !digits.empty();
-        if (!isRead && peek().empty() && word.find_first_not_of("+-.0123456789Ee") == word.npos) {
+        if (!isRead && peek().empty() &&
+            word.find_first_not_of("+-.0123456789Ee") == std::string_view::npos) {
             isCut_ = true;
             return 0.0;
         }
