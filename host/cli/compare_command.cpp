@@ -30,12 +30,11 @@ void addStatisticalOptions(CLI::App &command, CompareOptions &options) {
 
 } // namespace
 
-void printContestants(const PreparedScene &scene, const Contestants &contestants) {
+void printRenderers(const PreparedScene &scene, const ComparisonRun &run) {
     printResult("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
                 scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
-    printResult("first        {}\nsecond       {}\n", contestants.first->description(),
-                contestants.second->description());
-    for (const Backend *backend : {contestants.first.get(), contestants.second.get()})
+    printResult("first        {}\nsecond       {}\n", run.first->description(), run.second->description());
+    for (const Backend *backend : {run.first.get(), run.second.get()})
         if (const gpu::BitGuarantee bits = backend->bits(); bits.degree != gpu::BitDegree::Promised)
             printResult("note         equal bits are not promised by {}: {}\n", backend->name(), bits.reason);
 }
@@ -45,11 +44,11 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
         app.add_subcommand("compare", "render a scene twice and compare the images bit for bit");
     const auto options = std::make_shared<CompareOptions>();
     addSceneOptions(*command, options->scene);
-    command->add_option("--device", options->contest.device, "the first renderer: as for `hyalite render`")
+    command->add_option("--device", options->comparison.device, "the first renderer: as for `hyalite render`")
         ->type_name("DEVICE")
         ->capture_default_str();
     command
-        ->add_option("--against", options->contest.against,
+        ->add_option("--against", options->comparison.against,
                      "the second renderer: cpu, the twin of the kernels; cpu-double, which measures the "
                      "error of float32 "
                      "and explains outliers; or another device")
@@ -63,8 +62,8 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
     addNumber(*command, "--max-outliers", options->maxOutliers, limits::fraction,
               "allowed fraction of pixels beyond the tolerance")
         ->default_str("0");
-    addThreadsOption(*command, options->contest.threadCount);
-    addDeviceOptions(*command, options->contest.deviceOptions);
+    addThreadsOption(*command, options->comparison.threadCount);
+    addDeviceOptions(*command, options->comparison.deviceOptions);
     addOutput(*command, "--diff", options->heatMap, "FILE.png",
               "write a heat map of the difference (HDR-FLIP)");
     addOutput(*command, "--report", options->report, "FILE.json", "write all metrics");

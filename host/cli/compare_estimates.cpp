@@ -39,21 +39,21 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     RenderSettings &settings = scene.loaded.scene.settings;
     const std::uint32_t firstSeed = settings.seed;
     const std::uint32_t secondSeed = secondSeedOf(options, firstSeed);
-    const Contestants contestants = openContestants(options.contest, scene, observer);
+    const ComparisonRun run = openComparison(options.comparison, scene, observer);
     if (!options.isQuiet) {
-        printContestants(scene, contestants);
+        printRenderers(scene, run);
         printResult("seeds        {} and {}\n", firstSeed, secondSeed);
     }
     const auto estimate = [&](Backend &backend, std::uint32_t seed) {
         settings.seed = scene.packed.frame.seed = seed;
         return estimateOf(unlessFailed(render(backend, scene, backend.name(), observer)).film);
     };
-    const Estimate a = estimate(*contestants.first, firstSeed);
-    const Estimate b = estimate(*contestants.second, secondSeed);
+    const Estimate a = estimate(*run.first, firstSeed);
+    const Estimate b = estimate(*run.second, secondSeed);
     const WelchResult result = testAndPrint(a, b, options.welch, scene.loaded.file.string());
     if (reportFile) {
         settings.seed = scene.packed.frame.seed = firstSeed;
-        nlohmann::ordered_json json = contestToJson(contestants, scene, commandLine);
+        nlohmann::ordered_json json = comparisonRunToJson(run, scene, commandLine);
         json["seeds"] = {firstSeed, secondSeed};
         json["statistical"] = welchToJson(result, options.welch);
         json["passed"] = result.isPassed();

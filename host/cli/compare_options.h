@@ -3,7 +3,7 @@
 
 #include "host/cli/failure.h"
 #include "host/film/welch_test.h"
-#include "host/lab/contest.h"
+#include "host/lab/comparison_run.h"
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@ namespace hyalite {
 
 struct CompareOptions {
     SceneOptions scene;
-    ContestRequest contest;
+    ComparisonRequest comparison;
     std::string tolerance = "0";
     double maxOutliers = 0.0;
     std::string heatMap;
@@ -24,7 +24,7 @@ struct CompareOptions {
     bool isQuiet = false;
 };
 
-void printContestants(const PreparedScene &scene, const Contestants &contestants);
+void printRenderers(const PreparedScene &scene, const ComparisonRun &run);
 
 /// Two renders with the same samples, pixel by pixel.
 [[nodiscard]] ExitCode runCompare(const CompareOptions &options, const std::string &commandLine);

@@ -40,7 +40,7 @@ struct Verdict {
     nlohmann::ordered_json reasons = nlohmann::ordered_json::object(); ///< for the report
 };
 
-bool isAgainstOracle(const CompareOptions &options) { return options.contest.against == "cpu-double"; }
+bool isAgainstOracle(const CompareOptions &options) { return options.comparison.against == "cpu-double"; }
 
 bool isDefault(const Tolerance &tolerance) { return tolerance.absolute == 0.0 && tolerance.ulps == 0; }
 
@@ -103,13 +103,13 @@ class CompareFiles {
     std::optional<AtomicFile> report_;
 };
 
-Compared compareRenders(const CompareOptions &options, const Tolerance &tolerance,
-                        const Contestants &contestants, const PreparedScene &scene, Observer &observer) {
+Compared compareRenders(const CompareOptions &options, const Tolerance &tolerance, const ComparisonRun &run,
+                        const PreparedScene &scene, Observer &observer) {
     const auto renderAll = [&](Backend &backend) {
         return unlessFailed(render(backend, scene, backend.name(), observer));
     };
-    const BackendResult a = renderAll(*contestants.first);
-    const BackendResult b = renderAll(*contestants.second);
+    const BackendResult a = renderAll(*run.first);
+    const BackendResult b = renderAll(*run.second);
     Compared compared{a.film.toImage(), b.film.toImage(), a.rays, b.rays, {}, {}};
     compared.comparison = compareImages(compared.imageB, compared.imageA, Encoding::Linear);
     compared.outliers = isAgainstOracle(options) && isDefault(tolerance)
@@ -131,7 +131,7 @@ Verdict judgeOutliers(const PreparedScene &scene, const Compared &compared, bool
 }
 
 /// Comparison of renders that should be equal. If they are not, it reports the first step that differs.
-Verdict judgeBits(const Contestants &contestants, const PreparedScene &scene, const Compared &compared,
+Verdict judgeBits(const ComparisonRun &run, const PreparedScene &scene, const Compared &compared,
                   bool isWithinShare) {
     Verdict verdict;
     verdict.isPassed = isWithinShare;
@@ -140,7 +140,7 @@ Verdict judgeBits(const Contestants &contestants, const PreparedScene &scene, co
         const glm::uvec2 pixel =
             imagePixel(scene.crop, worstPixel(compared.imageA, compared.imageB, compared.comparison.pixels));
         const std::optional<Divergence> divergence =
-            findFirstDivergence(*contestants.first, *contestants.second, scene, pixel);
+            findFirstDivergence(*run.first, *run.second, scene, pixel);
         printDivergence(pixel, divergence);
         verdict.reasons["divergence"] = divergenceToJson(pixel, divergence);
     }
@@ -174,16 +174,16 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     requireDistinctFiles(outputs, scene.loaded.inputFiles);
     files.requireSize(scene.crop);
     requireFilmMemory(scene.crop, 2);
-    const Contestants contestants = openContestants(options.contest, scene, observer);
+    const ComparisonRun run = openComparison(options.comparison, scene, observer);
     if (!options.isQuiet)
-        printContestants(scene, contestants);
-    const Compared compared = compareRenders(options, tolerance, contestants, scene, observer);
+        printRenderers(scene, run);
+    const Compared compared = compareRenders(options, tolerance, run, scene, observer);
     printMetrics(compared.comparison, compared.imageA, compared.imageB);
     printOutliers(options, tolerance, compared);
     const bool isWithinShare = compared.outlierShare() <= options.maxOutliers;
     const Verdict verdict = isAgainstOracle(options) ? judgeOutliers(scene, compared, isWithinShare)
-                                                     : judgeBits(contestants, scene, compared, isWithinShare);
-    files.write(contestToJson(contestants, scene, commandLine), compared, verdict);
+                                                     : judgeBits(run, scene, compared, isWithinShare);
+    files.write(comparisonRunToJson(run, scene, commandLine), compared, verdict);
     return verdict.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 

@@ -1,7 +1,7 @@
 // --threads, --kernel and --max-dispatch-ms, for all commands that open a renderer.
 #pragma once
 
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 
 #include <CLI/CLI.hpp>
 

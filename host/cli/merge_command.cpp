@@ -7,7 +7,7 @@
 #include "host/cli/render_request.h"
 #include "host/cli/terminal_observer.h"
 #include "host/engine/identity.h"
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 #include "host/farm/audit.h"
 #include "host/farm/merge.h"
 #include "host/image/png.h"
@@ -39,15 +39,15 @@ struct MergeOptions {
     bool isQuiet = false;
 };
 
-constexpr std::size_t mostShown = 20; // of a list that may have thousands of lines
+constexpr std::size_t maxShown = 20; // of a list that may have thousands of lines
 
 /// The lines, indented; of many, the first.
 std::string listOf(const std::vector<std::string> &lines) {
     std::string text;
-    for (std::size_t i = 0; i < std::min(lines.size(), mostShown); ++i)
+    for (std::size_t i = 0; i < std::min(lines.size(), maxShown); ++i)
         text += fmt::format("\n  {}", lines[i]);
-    if (lines.size() > mostShown)
-        text += fmt::format("\n  ... and {} more", lines.size() - mostShown);
+    if (lines.size() > maxShown)
+        text += fmt::format("\n  ... and {} more", lines.size() - maxShown);
     return text;
 }
 
@@ -56,7 +56,7 @@ std::vector<std::string> commandsFor(const Merger &merger, const std::vector<std
     for (const std::uint32_t index : missing) {
         commands.push_back(
             commandFor(merger.origin(), merger.firstPart(), {index, merger.firstPart().count}));
-        if (commands.size() > mostShown) // more are only counted
+        if (commands.size() > maxShown) // more are only counted
             break;
     }
     commands.resize(missing.size());

@@ -98,7 +98,7 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
                     fmt::format("--layers are for .exr files: --output is {}", request.output));
 }
 
-void tellDevice(const RenderSession &session) {
+void printDevice(const RenderSession &session) {
     const Backend &device = session.backend();
     printMessage("device: {}\n", device.description());
     for (const std::string &note : session.notes())
@@ -108,8 +108,8 @@ void tellDevice(const RenderSession &session) {
 }
 
 /// The checkpoint that the render resumes from.
-void tellWhatIsResumed(const PictureFiles &files, const PictureBeginning &begun, const RenderRequest &request,
-                       bool isQuiet) {
+void printResumed(const PictureFiles &files, const PictureBeginning &begun, const RenderRequest &request,
+                  bool isQuiet) {
     const RenderReport &report = begun.report;
     if (!begun.checkpointDamage.empty() && report.resumed)
         printMessage("note: {}; resuming from the older {}\n", begun.checkpointDamage,
@@ -126,7 +126,7 @@ void tellWhatIsResumed(const PictureFiles &files, const PictureBeginning &begun,
 }
 
 /// The finished part of an incomplete image, and its file.
-void tellWhatIsFinished(const RenderReport &report, const RenderRequest &request) {
+void printFinished(const RenderReport &report, const RenderRequest &request) {
     const FinishedWork &finished = report.finished;
     std::string where = report.output + " has them";
     if (request.frame)
@@ -137,7 +137,7 @@ void tellWhatIsFinished(const RenderReport &report, const RenderRequest &request
 }
 
 /// The last line: the speed of this run.
-void tellSpeed(const RenderReport &report, const std::optional<Part> &part) {
+void printSpeed(const RenderReport &report, const std::optional<Part> &part) {
     const std::uint64_t rayCount = report.rays.total() - (report.resumed ? report.resumed->rays.total() : 0);
     const double megaraysPerSecond =
         rayCount > 0 ? static_cast<double>(rayCount) / 1e6 / report.timing.renderSeconds : 0.0;
@@ -150,7 +150,7 @@ void tellSpeed(const RenderReport &report, const std::optional<Part> &part) {
 }
 
 /// Who of several renderers did how much.
-void tellShares(const RenderReport &report) {
+void printShares(const RenderReport &report) {
     std::uint64_t all = 0;
     for (const RendererShare &share : report.shares)
         all += share.sampleCount;
@@ -161,14 +161,14 @@ void tellShares(const RenderReport &report) {
                      share.name, share.tileCount);
 }
 
-void tellOutcome(const FinishedPicture &picture, const RenderRequest &request, bool isQuiet) {
+void printOutcome(const FinishedPicture &picture, const RenderRequest &request, bool isQuiet) {
     const RenderReport &report = picture.report;
     if (!report.finished.isComplete && !(isQuiet && picture.isCutByTime))
-        tellWhatIsFinished(report, request);
+        printFinished(report, request);
     if (isQuiet || (request.frame && !report.finished.isComplete))
         return;
-    tellSpeed(report, request.part);
-    tellShares(report);
+    printSpeed(report, request.part);
+    printShares(report);
     if (picture.diagnosis)
         printWarning("{}", *picture.diagnosis);
 }
@@ -200,7 +200,7 @@ ExitCode renderOne(const RenderRequest &request, const std::string &commandLine,
     session.open();
     observer.catchSignals();
     if (session.isFirstPicture() && !isQuiet)
-        tellDevice(session);
+        printDevice(session);
     PictureBeginning begun = beginPicture(files, commandLine, session);
     if (begun.isFinished) {
         if (!isQuiet)
@@ -209,9 +209,9 @@ ExitCode renderOne(const RenderRequest &request, const std::string &commandLine,
                                      : fmt::format("frame {}", *request.frame));
         return ExitCode::Ok;
     }
-    tellWhatIsResumed(files, begun, request, isQuiet);
+    printResumed(files, begun, request, isQuiet);
     const FinishedPicture picture = finishPicture(files, std::move(begun), session);
-    tellOutcome(picture, request, isQuiet);
+    printOutcome(picture, request, isQuiet);
     if (picture.failure)
         throw Error(*picture.failure);
     const std::optional<Stop> stop = observer.wantsStop();
@@ -227,7 +227,7 @@ ExitCode serve(const RenderRequest &request, Ranks &ranks) {
         session.prepare(request);
         session.open();
     } catch (const Error &error) {
-        excuse(ranks, error.what());
+        reportFailure(ranks, error.what());
         return ExitCode::Ok; // rank 0 says so
     }
     serveTiles(ranks, session.scene(), session.backend());
@@ -239,11 +239,11 @@ ExitCode runRender(const RenderRequest &request, const std::string &commandLine,
     const std::unique_ptr<Ranks> ranks = joinRanks();
     if (ranks != nullptr && ranks->rank() > 0)
         return serve(request, *ranks);
-    std::optional<RankCrew> crew;
+    std::optional<RankPool> pool;
     if (ranks != nullptr)
-        crew.emplace(*ranks);
+        pool.emplace(*ranks);
     TerminalObserver observer(isQuiet);
-    RenderSession session(observer, crew ? &*crew : nullptr);
+    RenderSession session(observer, pool ? &*pool : nullptr);
     return renderOne(request, commandLine, session, observer, isQuiet);
 }
 

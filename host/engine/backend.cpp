@@ -55,7 +55,7 @@ BackendResult render(Backend &backend, const PreparedScene &scene, const std::st
                 observer.note(fmt::format("left out {}: {}", share.name, share.failure));
         return result;
     } catch (const std::bad_alloc &) {
-        refuseFilm(scene.crop, filmBytes(scene.crop), "that much is not to be had");
+        refuseFilm(scene.crop, filmBytes(scene.crop), "this machine cannot allocate that much");
     }
 }
 

@@ -282,13 +282,13 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
     const Clock::time_point start = Clock::now();
     {
         ObservedTask progress(observer, "load");
-        const auto tellOutline = [&](SceneOutline outline) {
+        const auto passOutline = [&](SceneOutline outline) {
             overrideSettings(options, outline.settings);
             if (onOutline)
                 onOutline(outline);
         };
         LoadOptions load = options.load;
-        load.events = {tellOutline, [&](double share) { progress.update(share); }};
+        load.events = {passOutline, [&](double share) { progress.update(share); }};
         prepared.loaded = loadScene(options.scene, load);
     }
     applyOverrides(options, prepared.loaded);

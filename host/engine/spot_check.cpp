@@ -74,7 +74,7 @@ std::vector<Crop> spotsIn(const Crop &crop) {
 SpotCheck::SpotCheck(const PreparedScene &scene, const Crop &crop, const std::function<bool()> &shouldStop)
     : scene_(scene), shouldStop_(shouldStop),
       samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel)),
-      checkedSamples_(std::min(samplesPerPixel_, mostSamples)), spots_(spotsIn(crop)),
+      checkedSamples_(std::min(samplesPerPixel_, maxSamples)), spots_(spotsIn(crop)),
       cpu_(makeCpuBackend(reference::Precision::Float32, 1)) {}
 
 bool SpotCheck::run(Backend &backend, std::vector<std::string> &faults) {

@@ -19,7 +19,7 @@ namespace hyalite {
 /// A check for one picture. The judge is the CPU, on one thread. It renders each tile once, however many ask.
 class SpotCheck {
   public:
-    static constexpr std::uint32_t mostSamples = 2; ///< of each pixel, the last ones
+    static constexpr std::uint32_t maxSamples = 2; ///< of each pixel, the last ones
 
     /// `scene` and `shouldStop` must outlive it.
     SpotCheck(const PreparedScene &scene, const Crop &crop, const std::function<bool()> &shouldStop);

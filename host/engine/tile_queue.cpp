@@ -61,13 +61,13 @@ TileQueue::TileQueue(const Film &film, std::uint32_t samplesPerPixel) {
     }
 }
 
-std::optional<Crop> TileQueue::take(std::uint64_t mostPixels) {
+std::optional<Crop> TileQueue::take(std::uint64_t maxPixels) {
     if (waiting_.empty())
         return std::nullopt;
     Crop tile = waiting_.back();
     waiting_.pop_back();
     pixelCount_ -= pixelsOf(tile);
-    while (pixelsOf(tile) > mostPixels && canBeHalved(tile)) {
+    while (pixelsOf(tile) > maxPixels && canBeHalved(tile)) {
         const auto [first, second] = halves(tile);
         giveBack(second);
         tile = first;
@@ -81,22 +81,22 @@ void TileQueue::giveBack(const Crop &tile) {
 }
 
 std::uint64_t tilePixels(const TileWish &wish) {
-    constexpr double leastSeconds = 0.05;
-    constexpr double mostSeconds = 2.0;
+    constexpr double minSeconds = 0.05;
+    constexpr double maxSeconds = 2.0;
     constexpr double growth = 8.0;
-    constexpr double leastPixels = 64.0;
+    constexpr double minPixels = 64.0;
     constexpr double firstPixels = 4096.0;
     constexpr double firstSamples = 1 << 16; // of a tile for a renderer whose speed is not known
     if (wish.samplesPerSecond == 0.0)
         return static_cast<std::uint64_t>(
-            std::clamp(firstSamples / wish.samplesPerPixel, leastPixels, firstPixels));
+            std::clamp(firstSamples / wish.samplesPerPixel, minPixels, firstPixels));
     const double pixelsPerSecond = wish.samplesPerSecond / wish.samplesPerPixel;
     const double share = wish.samplesPerSecond / wish.allSamplesPerSecond;
     const double fair = wish.waitingPixels * (share < 1.0 ? share / 16.0 : 1.0);
     const double wanted =
-        std::min(std::clamp(fair, leastSeconds * pixelsPerSecond, mostSeconds * pixelsPerSecond),
+        std::min(std::clamp(fair, minSeconds * pixelsPerSecond, maxSeconds * pixelsPerSecond),
                  growth * wish.lastSamples / wish.samplesPerPixel);
-    return static_cast<std::uint64_t>(std::max(wanted, leastPixels));
+    return static_cast<std::uint64_t>(std::max(wanted, minPixels));
 }
 
 } // namespace hyalite

@@ -19,8 +19,8 @@ class TileQueue {
     /// pixels, too.
     TileQueue(const Film &film, std::uint32_t samplesPerPixel);
 
-    /// The next tile, of at most `mostPixels` unless it is a block of 8x8. Empty: none is left.
-    [[nodiscard]] std::optional<Crop> take(std::uint64_t mostPixels);
+    /// The next tile, of at most `maxPixels` unless it is a block of 8x8. Empty: none is left.
+    [[nodiscard]] std::optional<Crop> take(std::uint64_t maxPixels);
 
     /// A tile that was not finished: it is the next to be given out.
     void giveBack(const Crop &tile);

@@ -226,7 +226,7 @@ void renderTile(Ranks &ranks, PreparedScene &scene, Backend &backend, const json
 
 } // namespace
 
-RankCrew::~RankCrew() {
+RankPool::~RankPool() {
     try {
         for (int rank = 1; rank < ranks_.count(); ++rank)
             send(ranks_, rank, {{"kind", "end"}});
@@ -234,14 +234,14 @@ RankCrew::~RankCrew() {
     }
 }
 
-std::vector<std::unique_ptr<Backend>> RankCrew::backends(const PreparedScene &scene, const Backend &backend,
+std::vector<std::unique_ptr<Backend>> RankPool::backends(const PreparedScene &scene, const Backend &backend,
                                                          std::vector<std::string> &notes) {
     const std::string here = identityText(identityOf(scene, backend));
     std::vector<std::unique_ptr<Backend>> backends;
     for (int rank = 1; rank < ranks_.count(); ++rank) {
         Message message = waitFor(ranks_, rank);
         const json hello = message.header();
-        std::string why = hello.value("excuse", "");
+        std::string why = hello.value("reportFailure", "");
         if (const std::string there = hello.value("identity", here); why.empty() && there != here)
             why = describeDifferences(there, here);
         if (why.empty())
@@ -275,8 +275,8 @@ void serveTiles(Ranks &ranks, PreparedScene &scene, Backend &backend) {
     }
 }
 
-void excuse(Ranks &ranks, const std::string &why) {
-    send(ranks, 0, {{"excuse", why}});
+void reportFailure(Ranks &ranks, const std::string &why) {
+    send(ranks, 0, {{"reportFailure", why}});
     while (waitFor(ranks, 0).header().at("kind") != "end") {
     }
 }

@@ -11,13 +11,13 @@
 namespace hyalite {
 
 /// For rank 0: lets the other ranks go when it is destroyed, however rank 0 ends.
-class RankCrew {
+class RankPool {
   public:
     /// `ranks` must outlive it.
-    explicit RankCrew(Ranks &ranks) : ranks_(ranks) {}
-    ~RankCrew();
-    RankCrew(const RankCrew &) = delete;
-    RankCrew &operator=(const RankCrew &) = delete;
+    explicit RankPool(Ranks &ranks) : ranks_(ranks) {}
+    ~RankPool();
+    RankPool(const RankPool &) = delete;
+    RankPool &operator=(const RankPool &) = delete;
 
     /// Waits until each rank has said what it has, and makes a backend of it. One that could not load the scene or open a
     /// renderer, or that adds other samples to a film than `backend` does, is left out, with a note. They render what
@@ -34,6 +34,6 @@ class RankCrew {
 void serveTiles(Ranks &ranks, PreparedScene &scene, Backend &backend);
 
 /// In place of serveTiles(): tells rank 0 why there is no renderer here, and waits to be let go.
-void excuse(Ranks &ranks, const std::string &why);
+void reportFailure(Ranks &ranks, const std::string &why);
 
 } // namespace hyalite

@@ -122,8 +122,7 @@ class Reader {
                                             bytes, maxTextBytes));
         const Crop crop{header.x0, header.x1, header.y0, header.y1};
         if (header.partIndex < 1 || header.partIndex > header.partCount ||
-            header.partCount > Partition::mostParts(crop) || header.layerCount > maxLayers ||
-            header.zero != 0)
+            header.partCount > Partition::maxParts(crop) || header.layerCount > maxLayers || header.zero != 0)
             throw file_.bad(fmt::format("it is damaged: it would be part {} of {}, with {} layers",
                                         header.partIndex, header.partCount, header.layerCount));
         const std::uint64_t besidePixels =
@@ -133,7 +132,7 @@ class Reader {
             file_.sizeBytes() < besidePixels ? 0 : (file_.sizeBytes() - besidePixels) / bytesEach;
         // Before the squares are counted, which takes memory: parts are alike, but for few squares.
         const bool isPlausible = static_cast<std::uint64_t>(width * height) / 2 / header.partCount <
-                                 inFile + 2 * std::uint64_t{Partition::mostSide} * Partition::mostSide;
+                                 inFile + 2 * std::uint64_t{Partition::maxSide} * Partition::maxSide;
         const bool isKnown =
             known_ != nullptr && known_->crop() == crop && known_->partCount() == header.partCount;
         const std::uint64_t expected = isKnown ? known_->pixelCountOf(header.partIndex)

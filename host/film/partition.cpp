@@ -30,8 +30,8 @@ struct Squares {
 Squares divide(const Crop &crop, std::uint32_t partCount) {
     if (partCount == 1)
         return {crop, std::max(crop.width(), crop.height())};
-    int side = Partition::mostSide;
-    while (side > Partition::leastSide && Squares(crop, side).count() < squaresWanted * partCount)
+    int side = Partition::maxSide;
+    while (side > Partition::minSide && Squares(crop, side).count() < squaresWanted * partCount)
         side /= 2;
     return {crop, side};
 }
@@ -66,13 +66,13 @@ class SplitMix {
 
 } // namespace
 
-std::uint32_t Partition::mostParts(const Crop &crop) {
+std::uint32_t Partition::maxParts(const Crop &crop) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(
-        Squares(crop, leastSide).count(), static_cast<std::uint64_t>(limits::partCount.high)));
+        Squares(crop, minSide).count(), static_cast<std::uint64_t>(limits::partCount.high)));
 }
 
 Partition::Partition(const Crop &crop, std::uint32_t partCount) : crop_(crop) {
-    assert(partCount >= 1 && partCount <= mostParts(crop));
+    assert(partCount >= 1 && partCount <= maxParts(crop));
     const Squares squares = divide(crop, partCount);
     // Along Morton's curve squares that follow one another are near. Of each run of `partCount` every part gets one, in an
     // order that changes from run to run, so that no part has all squares of a column.

@@ -28,7 +28,7 @@ class DispatchSizer {
     /// at most `maxPixels` pixels.
     DispatchSizer(double seconds, std::uint32_t samplesAbreast, std::uint64_t maxPixels,
                   const DispatchCosts &known = {})
-        : seconds_(seconds), samplesAbreast_(samplesAbreast), mostPixels_(maxPixels),
+        : seconds_(seconds), samplesAbreast_(samplesAbreast), maxPixels_(maxPixels),
           sampleSeconds_(known.sampleSeconds), workSeconds_(known.workSeconds) {}
 
     [[nodiscard]] DispatchCosts costs() const { return {sampleSeconds_, workSeconds_}; }
@@ -38,13 +38,13 @@ class DispatchSizer {
     /// small.
     [[nodiscard]] std::uint64_t pixels(std::uint32_t samples) const {
         if (sampleSeconds_ == 0.0)
-            return std::min(firstPixels, mostPixels_);
+            return std::min(firstPixels, maxPixels_);
         const double sampleCount = seconds_ / sampleSeconds_;
         const double together = std::clamp(samples, samplesAbreast_, std::max(firstSamples, samplesAbreast_));
         const double wanted =
             std::max(sampleCount / together, std::min(sampleCount / samplesAbreast_, double{firstPixels}));
         return static_cast<std::uint64_t>(std::clamp(
-            wanted, static_cast<double>(std::min(minPixels, mostPixels_)), static_cast<double>(mostPixels_)));
+            wanted, static_cast<double>(std::min(minPixels, maxPixels_)), static_cast<double>(maxPixels_)));
     }
 
     /// Samples per pixel for a tile of `pixels` pixels.
@@ -98,7 +98,7 @@ class DispatchSizer {
 
     double seconds_;
     std::uint32_t samplesAbreast_;
-    std::uint64_t mostPixels_;
+    std::uint64_t maxPixels_;
     double sampleSeconds_; ///< as in DispatchCosts
     double workSeconds_;
 };

@@ -7,7 +7,7 @@ namespace hyalite::gpu {
 namespace {
 
 /// A picture with all layers needs a kernel for each, and a helper for some; a pipeline takes megabytes.
-constexpr std::size_t mostKept = 12;
+constexpr std::size_t maxKept = 12;
 
 } // namespace
 
@@ -25,7 +25,7 @@ std::shared_ptr<Pipeline> PipelineCache::get(Device &device, const std::string &
     }
     auto made = std::make_shared<Pipeline>(device, name, spirv, constants, bindings);
     kept_.push_front({spirv.data(), constants, {bindings.begin(), bindings.end()}, std::move(made)});
-    if (kept_.size() > mostKept)
+    if (kept_.size() > maxKept)
         kept_.pop_back();
     return kept_.front().pipeline;
 }

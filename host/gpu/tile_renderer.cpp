@@ -22,7 +22,7 @@ constexpr std::uint32_t samplesInPass = 64; // per pixel and pass over the image
 
 // Samples that a slot takes in turn in a dispatch: with more, fewer lanes are idle at the end; with fewer, dispatches
 // have enough workgroups for many threads.
-constexpr std::uint32_t mostSamplesPerSlot = 32;
+constexpr std::uint32_t maxSamplesPerSlot = 32;
 constexpr std::uint32_t groupsInTurn = 64;
 
 RayCounts raysOf(const layout::DispatchProgress &counters) {
@@ -165,7 +165,7 @@ void TileRenderer::moveTo(const Tile &tile) {
         workgroupSize * static_cast<std::uint32_t>(config_.slotsPerInvocation);
     groupCount_ = groupsFor(slotCount(tile), slotsPerGroup);
     dispatch_.samplesPerSlot =
-        std::clamp(slotCount(tile) / (slotsPerGroup * groupsInTurn), 1u, mostSamplesPerSlot);
+        std::clamp(slotCount(tile) / (slotsPerGroup * groupsInTurn), 1u, maxSamplesPerSlot);
     groupCountInTurn_ = groupsFor(slotCount(tile), slotsPerGroup * dispatch_.samplesPerSlot);
     addingGroupCount_ = groupsFor(static_cast<std::uint32_t>(tile.pixelCount()), workgroupSize);
 }

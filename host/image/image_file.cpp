@@ -110,9 +110,9 @@ std::string pixelHash(const Image &linear) {
 }
 
 bool isImageWith(const std::filesystem::path &path, const std::string &text, int width, int height) {
-    constexpr std::size_t mostBytes = std::size_t{1} << 20;
+    constexpr std::size_t maxBytes = std::size_t{1} << 20;
     try {
-        const std::vector<std::byte> head = InputFile(path).head(mostBytes);
+        const std::vector<std::byte> head = InputFile(path).head(maxBytes);
         const auto hasText = [&](const std::string &wanted) {
             const std::span<const std::byte> bytes = std::as_bytes(std::span(wanted));
             return std::search(head.begin(), head.end(), bytes.begin(), bytes.end()) != head.end();

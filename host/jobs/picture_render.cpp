@@ -43,7 +43,7 @@ Part partOf(const PictureFiles &files) { return files.request.part.value_or(Part
 
 Partition partitionFor(const PictureFiles &files, const Crop &crop) {
     const Part part = partOf(files);
-    if (const std::uint32_t most = Partition::mostParts(crop); part.count > most)
+    if (const std::uint32_t most = Partition::maxParts(crop); part.count > most)
         throw OverrideError("part",
                             fmt::format("found {}/{}; a picture of {} x {} pixels has at most {} parts",
                                         part.index, part.count, crop.width(), crop.height(), most));

@@ -25,9 +25,9 @@ void RenderSession::open() {
     if (!isFirstPicture_)
         return;
     opened_ = opening_.get();
-    if (crew_ == nullptr)
+    if (pool_ == nullptr)
         return;
-    std::vector<std::unique_ptr<Backend>> members = crew_->backends(*scene_, *opened_.backend, opened_.notes);
+    std::vector<std::unique_ptr<Backend>> members = pool_->backends(*scene_, *opened_.backend, opened_.notes);
     if (members.empty())
         return;
     members.insert(members.begin(), std::move(opened_.backend));

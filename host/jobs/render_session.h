@@ -1,7 +1,7 @@
 // A session: a scene and the renderers that are opened for it, for one picture or for many.
 #pragma once
 
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 #include "host/engine/prepare.h"
 #include "host/farm/rank_backend.h"
 #include "host/film/partition.h"
@@ -41,8 +41,8 @@ struct RenderRequest {
 
 class RenderSession {
   public:
-    /// With a crew, the other ranks share the pictures. Both must outlive this.
-    explicit RenderSession(Observer &observer, RankCrew *crew = nullptr) : observer_(observer), crew_(crew) {}
+    /// With a pool, the other ranks share the pictures. Both must outlive this.
+    explicit RenderSession(Observer &observer, RankPool *pool = nullptr) : observer_(observer), pool_(pool) {}
 
     /// Loads and builds the scene, and opens the renderers at the same time, as soon as the outline is known. Throws as
     /// prepareScene() does.
@@ -65,7 +65,7 @@ class RenderSession {
 
   private:
     Observer &observer_;
-    RankCrew *crew_;
+    RankPool *pool_;
     std::optional<PreparedScene> scene_;
     std::future<OpenedRenderers> opening_;
     OpenedRenderers opened_;

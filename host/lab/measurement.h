@@ -1,7 +1,7 @@
 // Measurement of renders, stage by stage, for a profile.
 #pragma once
 
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 #include "host/engine/prepare.h"
 #include "host/engine/time_limit.h"
 #include "host/film/film_file.h"

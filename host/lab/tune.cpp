@@ -1,7 +1,7 @@
 #include "host/lab/tune.h"
 
 #include "host/base/error.h"
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 #include "host/engine/prepare.h"
 #include "host/gpu/renderer.h"
 #include "host/image/metrics.h"

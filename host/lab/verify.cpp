@@ -1,7 +1,7 @@
 #include "host/lab/verify.h"
 
 #include "host/base/error.h"
-#include "host/lab/contest.h"
+#include "host/lab/comparison_run.h"
 
 #include <algorithm>
 #include <atomic>
@@ -177,7 +177,7 @@ DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shippe
     std::size_t filmCount = 0;
     for (const std::vector<Kernel> &kernels : groups)
         filmCount += tasksOf(kernels, shipped).size();
-    const unsigned mostWorkers =
+    const unsigned workerCount =
         isReference(device) ? 1 : std::clamp(std::thread::hardware_concurrency(), 1u, maxWorkers);
     DeviceVerdict verdict;
     std::mutex mutex;
@@ -187,7 +187,7 @@ DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shippe
         if (tasks.empty())
             continue;
         std::vector<Renderers> workers;
-        for (std::size_t i = 0; i < std::min<std::size_t>(mostWorkers, tasks.size()); ++i)
+        for (std::size_t i = 0; i < std::min<std::size_t>(workerCount, tasks.size()); ++i)
             workers.push_back(openAll(kernels, tasks, device, observer));
         const Backend &first = *workers.front()[tasks.front().kernel];
         verdict.device = first.name();

@@ -2,7 +2,7 @@
 // say.
 #pragma once
 
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 #include "host/lab/shipped_films.h"
 #include "host/reference/divergence.h"
 

@@ -20,8 +20,8 @@ void useOneHeap() {
 
 void keepFreedMemory() {
 #ifdef M_TRIM_THRESHOLD
-    constexpr int leastGivenBack = 4 << 20;
-    mallopt(M_MMAP_THRESHOLD, leastGivenBack);
+    constexpr int minGivenBack = 4 << 20;
+    mallopt(M_MMAP_THRESHOLD, minGivenBack);
     mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 #endif
 }

@@ -42,7 +42,7 @@ void keepWidthsApart() {
         setenv(name, flags.c_str(), 1);
 }
 
-void tellLavapipe(const gpu::ProcessorUse &use) {
+void configureLavapipe(const gpu::ProcessorUse &use) {
     if (use.threadCount > 0)
         setenv("LP_NUM_THREADS", std::to_string(use.threadCount).c_str(), 1);
     static const bool isUsers = std::getenv(width) != nullptr;

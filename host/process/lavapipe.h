@@ -17,6 +17,6 @@ void keepWidthsApart();
 /// twice the time if the glass is a mesh. Kernels with a stack have 256, as Mesa 25 takes 7 to 38 s to compile one for
 /// 512. The driver reads the variables each time that it is loaded, with the first instance. Do not call this while
 /// other threads read the environment.
-void tellLavapipe(const gpu::ProcessorUse &use);
+void configureLavapipe(const gpu::ProcessorUse &use);
 
 } // namespace hyalite

@@ -12,7 +12,7 @@ void prepareProcess() {
 
 void prepareDriver(const gpu::ProcessorUse &use) {
     reserveHeap();
-    tellLavapipe(use);
+    configureLavapipe(use);
 }
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 #include "host/engine/shared_backend.h"
 #include "host/film/film_file.h"
 #include "host/process/silent_observer.h"

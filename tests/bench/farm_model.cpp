@@ -9,7 +9,7 @@
 //
 // Parts are those of Partition, tiles those of TileQueue and tilePixels(): the program's own.
 #include "host/engine/cpu_backend.h"
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 #include "host/engine/tile_queue.h"
 #include "host/film/partition.h"
 #include "host/process/silent_observer.h"

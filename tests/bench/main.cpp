@@ -49,7 +49,7 @@ int main(int argumentCount, char **arguments) {
         benchmark::Initialize(&argumentCount, arguments);
         if (benchmark::ReportUnrecognizedArguments(argumentCount, arguments))
             return 2;
-        tellLavapipe({}); // vectors as wide as renders have them
+        configureLavapipe({}); // vectors as wide as renders have them
         bench::Context context(gpu::chooseDevice(gpu::listDevices(), deviceName));
         benchmark::AddCustomContext("device", context.device().name);
         benchmark::AddCustomContext("driver", context.device().driver);

@@ -1,5 +1,5 @@
 // The engine as another program calls it: quiet, several at once, and stopped from outside.
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 #include "host/report/render_report.h"
 #include "tests/fixtures/test_device.h"
 

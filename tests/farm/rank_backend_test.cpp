@@ -80,10 +80,10 @@ TEST_F(RankBackends, ShareAPictureAndItsLayers) {
     MemoryRanks ranks(mail, 0, 3);
     const std::jthread second = serving(1, 3);
     const std::jthread third = serving(2, 3);
-    RankCrew crew(ranks);
+    RankPool pool(ranks);
     std::vector<std::string> notes;
     const std::unique_ptr<Backend> here = oneThread();
-    std::vector<std::unique_ptr<Backend>> members = crew.backends(scene, *here, notes);
+    std::vector<std::unique_ptr<Backend>> members = pool.backends(scene, *here, notes);
     EXPECT_EQ(notes, std::vector<std::string>{});
     ASSERT_EQ(members.size(), 2u);
     EXPECT_EQ(members[1]->name(), "cpu of rank 2");
@@ -102,9 +102,9 @@ TEST_F(RankBackends, ShareAPictureAndItsLayers) {
 TEST_F(RankBackends, StopAndGoOn) {
     MemoryRanks ranks(mail, 0, 2);
     const std::jthread second = serving(1, 2);
-    RankCrew crew(ranks);
+    RankPool pool(ranks);
     std::vector<std::string> notes;
-    const std::unique_ptr<Backend> shared = shareBackends(crew.backends(scene, *oneThread(), notes));
+    const std::unique_ptr<Backend> shared = shareBackends(pool.backends(scene, *oneThread(), notes));
     std::atomic<int> questions = 0;
     BackendResult result = shared->render(scene, {}, nullptr, [&] { return ++questions > 20; }, {});
     EXPECT_GT(differingPixelCount(result.film, alone.film), 0u);
@@ -120,12 +120,12 @@ TEST_F(RankBackends, LeaveOutWhoHasNothingOrSomethingElse) {
     MemoryRanks ranks(mail, 0, 3);
     const std::jthread second([this] {
         MemoryRanks own(mail, 1, 3);
-        excuse(own, "no driver");
+        reportFailure(own, "no driver");
     });
     const std::jthread third = serving(2, 3, smallRoom(6, 7)); // another seed
-    RankCrew crew(ranks);
+    RankPool pool(ranks);
     std::vector<std::string> notes;
-    EXPECT_TRUE(crew.backends(scene, *oneThread(), notes).empty());
+    EXPECT_TRUE(pool.backends(scene, *oneThread(), notes).empty());
     ASSERT_EQ(notes.size(), 2u);
     EXPECT_EQ(notes[0], "left out rank 1: no driver");
     EXPECT_EQ(notes[1], "left out rank 2: seed: 7 there, 0 here");
@@ -134,7 +134,7 @@ TEST_F(RankBackends, LeaveOutWhoHasNothingOrSomethingElse) {
 TEST_F(RankBackends, AreLetGoBeforeAnythingIsRendered) {
     MemoryRanks ranks(mail, 0, 2);
     const std::jthread second = serving(1, 2);
-    const RankCrew crew(ranks);
+    const RankPool pool(ranks);
 }
 
 } // namespace

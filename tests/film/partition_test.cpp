@@ -26,7 +26,7 @@ TEST(Partition, HasEachPixelOnceForAnyCropAndNumberOfParts) {
     for (const Crop &crop : {Crop{0, 512, 0, 512}, Crop{3, 4, 7, 8}, Crop{5, 106, 11, 300},
                              Crop{0, 1, 0, 1000}, Crop{100, 1000, 0, 9}})
         for (const std::uint32_t wanted : {1u, 2u, 3u, 7u, 16u, 100u, 1000u}) {
-            const std::uint32_t count = std::min(wanted, Partition::mostParts(crop));
+            const std::uint32_t count = std::min(wanted, Partition::maxParts(crop));
             const Partition partition(crop, count);
             ASSERT_EQ(partition.partCount(), count);
             EXPECT_EQ(std::ranges::count(coverOf(crop, partition), 1), std::ssize(Film(crop).pixels))

@@ -11,13 +11,13 @@ namespace hyalite::fuzz {
 namespace {
 
 // A picture takes memory, and may, where its parts are small.
-constexpr std::int64_t mostPixels = std::int64_t{1} << 20;
+constexpr std::int64_t maxPixels = std::int64_t{1} << 20;
 
 bool isSmall(const std::filesystem::path &file) {
     bool isSmall = false;
     const auto refused = refusalOf([&] {
         const Crop crop = readCheckpointFile(file, nullptr).crop;
-        isSmall = std::int64_t{crop.width()} * crop.height() <= mostPixels;
+        isSmall = std::int64_t{crop.width()} * crop.height() <= maxPixels;
     });
     return refused || isSmall;
 }

@@ -173,7 +173,7 @@ TEST(RoughFurnace, PrincipledGlassDoes) {
 /// the angle at which it left it, so that cosines are all there is to follow.
 Albedo ballOf(double index, double roughness, std::uint64_t seed) {
     constexpr int count = 100000;
-    constexpr int mostSegments = 4000;
+    constexpr int maxSegments = 4000;
     Random random(seed);
     double sum = 0.0;
     double squares = 0.0;
@@ -181,7 +181,7 @@ Albedo ballOf(double index, double roughness, std::uint64_t seed) {
         double throughput = 1.0;
         bool isInside = false;
         double cosine = std::sqrt(random.uniform(0.0, 1.0)); // of even points of the disc
-        for (int segment = 0; segment < mostSegments; ++segment) {
+        for (int segment = 0; segment < maxSegments; ++segment) {
             const double eta = isInside ? index : 1.0 / index;
             const Bsdf<double> rough =
                 seenFrom(frostedGlass(roughness * roughness), viewAt(cosine), 0.5, eta);

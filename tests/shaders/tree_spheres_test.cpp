@@ -16,7 +16,7 @@ using hyalite::testing::Tally;
 
 struct Case {
     const char *name;
-    double leastRadius;
+    double minRadius;
     double greatestRadius;
     glm::dvec3 offset; ///< of all that is in a cube of edge 2
 
@@ -38,7 +38,7 @@ Scene sceneOf(const Case &each, Random &random) {
     for (int i = 0; i < 400; ++i) {
         Sphere sphere;
         sphere.centre = glm::vec3(each.offset + random.inCube(1.0));
-        sphere.radius = static_cast<float>(random.logUniform(each.leastRadius, each.greatestRadius));
+        sphere.radius = static_cast<float>(random.logUniform(each.minRadius, each.greatestRadius));
         sphere.materialIndex = static_cast<std::uint32_t>(i % 2);
         scene.spheres.push_back(sphere);
         if (i % 20 == 0)

@@ -91,7 +91,7 @@ void shootFromInside(const ClosedMesh &mesh, Random &random, bool isVertex, int 
 }
 
 /// A ray from outside through the target into the core must meet the mesh before it comes to the core's middle: a hit
-/// on the far side does not excuse a leak on the near side.
+/// on the far side does not reportFailure a leak on the near side.
 void shootFromOutside(const ClosedMesh &mesh, Random &random, bool isVertex, int count, Tally &leaks) {
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 target = targetOn(mesh, random, isVertex);

@@ -1,10 +1,11 @@
-#include "host/lab/contest.h"
+#include "host/lab/comparison_run.h"
 
 #include <utility>
 
 namespace hyalite {
 
-Contestants openContestants(const ContestRequest &request, const PreparedScene &scene, Observer &observer) {
+ComparisonRun openComparison(const ComparisonRequest &request, const PreparedScene &scene,
+                             Observer &observer) {
     const gpu::ProcessorUse processors = processorsFor(request.threadCount, scene);
     const gpu::RenderConfig config = renderConfigFor(request.deviceOptions);
     std::unique_ptr<Backend> first = openBackend(request.device, observer, processors, config);
@@ -25,12 +26,12 @@ std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, c
     return std::nullopt;
 }
 
-nlohmann::ordered_json contestToJson(const Contestants &contestants, const PreparedScene &scene,
-                                     const std::string &commandLine) {
+nlohmann::ordered_json comparisonRunToJson(const ComparisonRun &run, const PreparedScene &scene,
+                                           const std::string &commandLine) {
     const Integrator integrator = scene.loaded.scene.settings.integrator;
     nlohmann::ordered_json json = provenanceToJson(provenanceOf(scene, commandLine));
-    json["first"] = rendererToJson(contestants.first->identity(scene.packed, integrator));
-    json["second"] = rendererToJson(contestants.second->identity(scene.packed, integrator));
+    json["first"] = rendererToJson(run.first->identity(scene.packed, integrator));
+    json["second"] = rendererToJson(run.second->identity(scene.packed, integrator));
     return json;
 }
 

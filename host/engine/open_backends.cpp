@@ -1,4 +1,4 @@
-#include "host/engine/opening.h"
+#include "host/engine/open_backends.h"
 
 #include "host/base/error.h"
 #include "host/engine/cpu_backend.h"
@@ -67,7 +67,7 @@ std::vector<Choice> chooseNamed(const RendererNames &names, const std::vector<gp
     std::vector<Choice> chosen;
     for (const std::string &name : names) {
         if (name == "cpu-double" || name == "all")
-            throw OverrideError("device", name + " goes with no other");
+            throw OverrideError("device", name + " cannot be combined with other devices");
         Choice choice;
         if (name != "cpu")
             choice = gpu::chooseDevice(devices, name);
@@ -75,7 +75,7 @@ std::vector<Choice> chooseNamed(const RendererNames &names, const std::vector<gp
             return choice && other ? choice->index == other->index : choice.has_value() == other.has_value();
         };
         if (std::ranges::any_of(chosen, isSame))
-            throw OverrideError("device", name + " is there twice");
+            throw OverrideError("device", name + " is given twice");
         chosen.push_back(std::move(choice));
     }
     return chosen;
