@@ -47,13 +47,20 @@ std::string spelled(std::string_view word) {
 }
 
 bool isSynonym(std::string_view word, std::string_view candidate) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 7> synonyms{{{"colour", "albedo"},
-                                                                                     {"basecolour", "albedo"},
-                                                                                     {"albedo", "basecolour"},
-                                                                                     {"colour", "power"},
-                                                                                     {"intensity", "power"},
-                                                                                     {"fov", "horizontalfov"},
-                                                                                     {"samples", "spp"}}};
+    constexpr auto synonyms =
+        std::to_array<std::pair<std::string_view, std::string_view>>({{"colour", "albedo"},
+                                                                      {"basecolour", "albedo"},
+                                                                      {"albedo", "basecolour"},
+                                                                      {"colour", "power"},
+                                                                      {"intensity", "power"},
+                                                                      {"fov", "horizontalfov"},
+                                                                      {"samples", "spp"},
+                                                                      {"lookat", "target"},
+                                                                      {"fovdegrees", "horizontalfov"},
+                                                                      {"size", "transform"},
+                                                                      {"position", "transform"},
+                                                                      {"position", "centre"},
+                                                                      {"radius", "transform"}});
     constexpr std::size_t shortest = 3;
     if (word.size() < shortest || word.size() > 64)
         return false;

@@ -112,7 +112,7 @@ void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet) 
         ->type_name("I/N");
     addTimeLimit(command, request.timeLimitSeconds, "stop after this time and write the partial image");
     addLongRenderOptions(command, request);
-    command.add_flag("--quiet", isQuiet, "print errors only");
+    command.add_flag("--quiet", isQuiet, "print errors and warnings only");
 }
 
 RenderRequest readRenderRequest(const std::vector<std::string> &words) {

@@ -119,18 +119,16 @@ void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
     }
 }
 
-/// The size of the image: of the options, or the scene's. Where the file gives the shape, a side that no option gives
-/// follows from the other one; without options the longer side is that of the scene.
+/// The size of the image: of the options, or the scene's. A side that no option gives follows from the other one by the
+/// scene's shape. Where the file gives only the shape, the longer side is that of the scene.
 void overrideSize(const SceneOptions &options, const std::optional<double> &aspectRatio, Camera &camera) {
     const auto toPixels = [](double side) {
         return static_cast<int>(std::clamp(std::round(side), limits::imageSize.low, limits::imageSize.high));
     };
-    if (!aspectRatio) {
-        camera.width = options.width.value_or(camera.width);
-        camera.height = options.height.value_or(camera.height);
+    if (!aspectRatio && !options.width && !options.height)
         return;
-    }
-    const double ratio = *aspectRatio;
+    const double ratio =
+        aspectRatio.value_or(static_cast<double>(camera.width) / static_cast<double>(camera.height));
     const int width =
         toPixels(options.height ? *options.height * ratio : camera.width * std::min(ratio, 1.0));
     const int height =

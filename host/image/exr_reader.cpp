@@ -154,7 +154,7 @@ class SafeHeader {
 class ExrInput : public Imf::IStream {
   public:
     ExrInput(const InputFile &file, const SafeHeader &header)
-        : Imf::IStream("it"), file_(file), header_(header.bytes()) {}
+        : Imf::IStream(file.path().c_str()), file_(file), header_(header.bytes()) {}
 
     bool read(char bytes[], int countBytes) override {
         const auto count = static_cast<std::uint64_t>(countBytes);

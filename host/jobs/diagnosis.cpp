@@ -126,4 +126,21 @@ std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Fil
     return std::nullopt;
 }
 
+std::optional<std::string> diagnoseExposure(const Film &film, double exposureStops) {
+    constexpr double farBeyondWhite = 8.0; // a white background is 1
+    constexpr double wanted = 0.5;
+    std::vector<double> darkest; // channel of each pixel, as it is shown
+    darkest.reserve(film.pixels.size());
+    for (const layout::FilmPixel &pixel : film.pixels) {
+        const glm::vec3 mean = meanOf(pixel);
+        darkest.push_back(std::min({mean.x, mean.y, mean.z}) * std::exp2(exposureStops));
+    }
+    const auto middle = darkest.begin() + static_cast<std::ptrdiff_t>(darkest.size() / 2);
+    std::nth_element(darkest.begin(), middle, darkest.end());
+    if (!std::isfinite(*middle) || *middle < farBeyondWhite)
+        return std::nullopt;
+    return fmt::format("most of the picture is far brighter than white: an exposure of {:.1f} shows it",
+                       exposureStops + std::log2(wanted / *middle));
+}
+
 } // namespace hyalite

@@ -15,4 +15,7 @@ namespace hyalite {
 [[nodiscard]] std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Film &film,
                                                          const RayCounts &rays);
 
+/// After a picture of light that is shown with `exposureStops`: it is white nearly everywhere, and the exposure that shows it.
+[[nodiscard]] std::optional<std::string> diagnoseExposure(const Film &film, double exposureStops);
+
 } // namespace hyalite

@@ -9,6 +9,7 @@
 #include "host/jobs/film_picture.h"
 #include "host/jobs/layers.h"
 #include "host/jobs/periodic_files.h"
+#include "host/scene/light_sources.h"
 
 #include <fmt/format.h>
 
@@ -161,7 +162,7 @@ class PictureRender {
         writeFiles(result.film, finished);
         writeReport();
         if (report_.finished.isComplete && !request_.part)
-            finished.diagnosis = diagnosePicture(scene, result.film, report_.rays);
+            finished.diagnosis = diagnose(result.film);
         finished.report = std::move(report_);
         return finished;
     }
@@ -191,6 +192,15 @@ class PictureRender {
         report_.timing = result.timing;
         report_.deviceBytes = result.memory.deviceBytes;
         report_.rays = begun_.rays + result.rays;
+    }
+
+    [[nodiscard]] std::optional<std::string> diagnose(const Film &film) const {
+        const PreparedScene &scene = session_.scene();
+        const RenderSettings &settings = scene.loaded.scene.settings;
+        std::optional<std::string> fault = diagnosePicture(scene, film, report_.rays);
+        if (!fault && formatOf(request_) == ImageFormat::Png && showsLight(settings.integrator))
+            fault = diagnoseExposure(film, settings.exposureStops);
+        return fault;
     }
 
     void writeCheckpoint(const Film &film, const RayCounts &rays) {

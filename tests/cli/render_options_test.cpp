@@ -27,6 +27,19 @@ class RenderOptions : public CommandLine {
 const std::string onCpu = " --device cpu";
 const std::string smallWithOptions = " --width 16 --height 12 --spp 1 --device cpu";
 
+TEST_F(RenderOptions, OneSideKeepsTheShapeOfThePicture) {
+    store("wide.json", R"({"camera": {"width": 200, "height": 100}})");
+    const auto sizeOf = [&](const std::string &options) {
+        const nlohmann::json image = renderReport("wide.json --spp 1" + onCpu + options).at("image");
+        return image.at("width").dump() + "x" + image.at("height").dump();
+    };
+    EXPECT_EQ(sizeOf(""), "200x100");
+    EXPECT_EQ(sizeOf(" --width 30"), "30x15");
+    EXPECT_EQ(sizeOf(" --height 30"), "60x30");
+    EXPECT_EQ(sizeOf(" --width 30 --height 40"), "30x40");
+    EXPECT_EQ(sizeOf(" --width 1"), "1x1");
+}
+
 TEST_F(RenderOptions, SppIsTheNumberOfPrimaryRaysInAPixel) {
     for (const char *spp : {"1", "5", "64"}) {
         const nlohmann::json report =

@@ -60,6 +60,17 @@ TEST_F(Warnings, NameTheIntegratorOfTheCommandLine) {
     EXPECT_TRUE(contains(told, "a sphere with emission, or use the integrator whitted")) << told;
 }
 
+TEST_F(Warnings, NameTheExposureOfAPictureThatIsWhite) {
+    store("square.obj", squareObj());
+    const std::string line =
+        "render square.obj --background 64,64,64 --width 8 --height 8 --spp 1 --device cpu -o a";
+    const std::string white = "most of the picture is far brighter than white: an exposure of -7.0 shows it";
+    EXPECT_TRUE(contains(run(line + ".png").errors, white)) << run(line + ".png");
+    EXPECT_TRUE(contains(run(line + ".png --exposure 2").errors, white));
+    for (const char *other : {".png --exposure -7", ".exr", ".png --integrator normal", ".png --quiet"})
+        EXPECT_FALSE(contains(run(line + other).errors, "brighter than white")) << other;
+}
+
 TEST_F(Warnings, SpeakOfMeshesOfGlass) {
     store("tile.obj", squareObj());
     store("tile.json", R"({ "materials": { "pane": { "type": "dielectric" } },
