@@ -3,6 +3,7 @@
 #include "shaders/math/vector.glsl"
 #include "shaders/math/sums.glsl"
 #include "shaders/math/functions.glsl"
+#include "shaders/math/dimensions.glsl"
 #include "shaders/math/random.glsl"
 #include "shaders/math/sampling.glsl"
 #include "shaders/math/colours.glsl"

@@ -55,14 +55,6 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
 
   private:
-    static constexpr std::uint32_t pairChoice =
-        0; // chooses an emitter, or a side of an interface; and Russian roulette
-    static constexpr std::uint32_t pairLight = 1;
-    static constexpr std::uint32_t pairScatter = 2;
-    static constexpr std::uint32_t pairsPerVertex = 3;
-    static constexpr std::uint32_t firstPairOfLobes =
-        1 +
-        pairsPerVertex * layout::maxPathDepth; // one more pair per vertex at rough surfaces, to choose a lobe
     static constexpr std::uint32_t firstRouletteDepth = 4; // every path may have this many segments
 
     void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
@@ -76,12 +68,12 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     }
 
     [[nodiscard]] glm::uvec2 vertexBits(std::uint32_t pair) const {
-        const std::uint32_t number = 1 + pairsPerVertex * (depth_ - 1) + pair;
+        const std::uint32_t number = vertexPair(depth_, pair);
         return sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_);
     }
 
     [[nodiscard]] Vec2<Real> lobeChoice() const {
-        const std::uint32_t number = firstPairOfLobes + depth_ - 1;
+        const std::uint32_t number = lobePair(depth_);
         return unitFloats<Real>(sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_));
     }
 

@@ -82,7 +82,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
-        const glm::uvec2 bits = sampleBits(pairKeys(pixel, scene_.frame.seed, 1), sampleIndex_);
+        const glm::uvec2 bits = sampleBits(pairKeys(pixel, scene_.frame.seed, occlusionPair), sampleIndex_);
         const Vec3<Real> direction = sampleCosine(surface.normal, unitFloats<Real>(bits));
         if (!(dotProduct(surface.geometricNormal, direction) > 0))
             return Vec3<Real>(Real(0));

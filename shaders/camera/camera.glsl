@@ -63,8 +63,6 @@ float filterQuantile(float u) {
     return texel.value.x + texel.value.y * (x - float(cell));
 }
 
-const uint lensPair = 1024u; // pair of random numbers, beyond those of paths
-
 // Position of a sample from the top left of its pixel: in [0,1)^2, or around it with a wider filter.
 vec2 sampleOffset(uvec2 pixel, uint sampleIndex) {
     vec2 offset = samplePixel(pixel, sampleIndex, frame.seed);

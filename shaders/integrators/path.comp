@@ -4,7 +4,7 @@
 // host/reference/path.h, where the same happens vertex by vertex.
 //
 // `maxDepth` bounds the segments of a path from the eye to the light, so that neither technique finds longer paths than
-// the other. Each vertex has three pairs of random numbers.
+// the other.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -16,21 +16,15 @@ const bool hasBounces = true;
 
 #include "shaders/kernels/stages.glsl"
 
-const uint pairChoice = 0u; // an emitter, or a side of an interface; and whether the path survives
-const uint pairLight = 1u;
-const uint pairScatter = 2u;
-const uint pairsPerVertex = 3u;
-const uint firstPairOfLobes = 1u + pairsPerVertex * maxPathDepth; // and one more at rough surfaces, which chooses lobes
-
 const uint firstRouletteDepth = 4u; // segments before Russian roulette begins
 
 uvec2 vertexBits(uint slot, uint pair) {
-    uint number = 1u + pairsPerVertex * (path[slot].rayDepth - 1u) + pair;
+    uint number = vertexPair(path[slot].rayDepth, pair);
     return sampleBits(pairKeys(imagePixel[slot], frame.seed, number), path[slot].sampleIndex);
 }
 
 vec2 lobeChoice(uint slot) {
-    uint number = firstPairOfLobes + path[slot].rayDepth - 1u;
+    uint number = lobePair(path[slot].rayDepth);
     return unitFloats(sampleBits(pairKeys(imagePixel[slot], frame.seed, number), path[slot].sampleIndex));
 }
 

@@ -62,7 +62,7 @@ void shadeHit(uint slot) {
 
 // Stage: send a ray to a random point of the sky.
 void aimAtLight(uint slot) {
-    uvec2 bits = sampleBits(pairKeys(imagePixel[slot], frame.seed, 1u), path[slot].sampleIndex);
+    uvec2 bits = sampleBits(pairKeys(imagePixel[slot], frame.seed, occlusionPair), path[slot].sampleIndex);
     vec3 direction = sampleCosine(path[slot].surfaceNormal, unitFloats(bits));
     path[slot].stage = stageSampleDone;
     if (dotProduct(surfaceAt(slot).geometricNormal, direction) > 0.0)

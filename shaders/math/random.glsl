@@ -39,10 +39,10 @@ uint secondSobolCoordinate(uint x) {
 // In [0, 1): the upper 24 bits, which a float holds exactly.
 float unitFloat(uint x) { return float(x >> 8u) * (1.0 / 16777216.0); }
 
-// Hash keys of a pair of dimensions of a pixel: each pair has a pattern of its own.
+// Hash keys of a pair of dimensions (dimensions.glsl) of a pixel: each pair has a pattern of its own.
 uvec3 pairKeys(uvec2 pixel, uint seed, uint pair) {
     uvec3 keys = hashKeys(uvec3(pixel, seed));
-    return pair == 0u ? keys : hashKeys(keys ^ pair);
+    return pair == pixelPair ? keys : hashKeys(keys ^ pair);
 }
 
 // Two coordinates of a sample, as fractions of 2^32: shuffled, scrambled Sobol points, so that any first 2^k samples of
@@ -55,16 +55,16 @@ uvec2 sampleBits(uvec3 keys, uint sampleIndex) {
 
 vec2 unitFloats(uvec2 bits) { return vec2(unitFloat(bits.x), unitFloat(bits.y)); }
 
-// Position of sample `sampleIndex` in its pixel, in [0,1)^2: pair 0.
+// Position of sample `sampleIndex` in its pixel, in [0,1)^2.
 vec2 samplePixel(uvec2 pixel, uint sampleIndex, uint seed) {
     if (samplerKind == samplerCentre)
         return vec2(0.5);
-    return unitFloats(sampleBits(pairKeys(pixel, seed, 0u), sampleIndex));
+    return unitFloats(sampleBits(pairKeys(pixel, seed, pixelPair), sampleIndex));
 }
 
 // Decides whether a ray passes through a sheer surface: a number in [0, 1) for each primitive at each vertex of a path,
 // whatever the order in which rays meet primitives. `vertex` counts rays: two for each segment, the second one to a light.
 float sheerChoice(uvec2 pixel, uint seed, uint sampleIndex, uint vertex, uint primitive) {
-    uvec3 keys = hashKeys(uvec3(pixel, seed)) ^ uvec3(primitive, vertex, 0x5EE7u);
+    uvec3 keys = hashKeys(uvec3(pixel, seed)) ^ uvec3(primitive, vertex, alphaTestPair);
     return unitFloat(sampleBits(hashKeys(keys), sampleIndex).x);
 }
