@@ -28,10 +28,12 @@ const uint maxListedTriangles = 32u; // of a tree that skip lists do without: a 
 const uint maxPathDepth = 32u;
 const uint maxTreeDepth = 64u; // and the size of a traversal stack: builders keep every tree below it
 
-// ---- Primitives A primitive's id orders all primitives of a scene: spheres first, then triangles, both by their index
-// in the input. Of two hits at the same distance, the one with the smaller id is the nearest. Triangles count from
-// FrameRecord::firstTriangleId on: from the same number in all scenes with few spheres, so that one more of them does not
-// change the colours of a view of ids.
+// ---- Primitives
+//
+// A primitive's id orders all primitives of a scene: spheres first, then triangles, both by their index in the input. Of
+// two hits at the same distance, the one with the smaller id is the nearest. Triangles count from
+// FrameRecord::firstTriangleId on: from the same number in all scenes with few spheres, so that one more of them does
+// not change the colours of a view of ids.
 
 const uint noPrimitive = 0xFFFFFFFFu;
 const uint minFirstTriangleId = 64u;
@@ -59,8 +61,8 @@ HYALITE_INLINE float normalSignOf(SphereRecord sphere) {
 
 // A primitive of the tree: a triangle, or a sphere whose other properties are in the SphereRecord with its id as index.
 struct TriangleRecord {
-    vec3
-        v0; // world space; counter-clockwise seen from outside. Of a sphere: its centre, and v1.x is its radius
+    // World space; counter-clockwise seen from outside. Of a sphere: v0 is its centre, v1.x its radius.
+    vec3 v0;
     uint primitiveId;
     vec3 v1;
     uint materialIndex;
@@ -97,7 +99,9 @@ struct NormalRecord {
     float pad2;
 };
 
-// ---- Instances A mesh that is stored once, in its own space, and placed many times. Its triangle records come after
+// ---- Instances
+//
+// An instance is a mesh that is stored once, in its own space, and placed many times. Its triangle records come after
 // those of the scene, and their primitiveId is the index in the mesh. Each coordinate of a vertex in world space is
 // ((m.x x + m.y y) + m.z z) + t, where every operation rounds: the host flattens instances by the same operations
 // (host/scene/instances.h), so that an instance and its flattened copy are hit alike, bit for bit.
@@ -126,10 +130,12 @@ struct InstanceRecord {
     uint listEnd;
 };
 
-// ---- The tree An inner node holds the boxes of both children, so that one fetch decides about two subtrees. A child
-// is an inner node (its index in the node array), a leaf (leafFlag | index of its first triangle; triangleEndsLeaf
-// marks the last one), an instance (leafFlag | instanceFlag | its index), or nothing (noNode). Node 0 is the root;
-// every scene has one. The trees of meshes with instances come after it.
+// ---- The tree
+//
+// An inner node holds the boxes of both children, so that one fetch decides about two subtrees. A child is an inner node
+// (its index in the node array), a leaf (leafFlag | index of its first triangle; triangleEndsLeaf marks the last one),
+// an instance (leafFlag | instanceFlag | its index), or nothing (noNode). Node 0 is the root; every scene has one. The
+// trees of meshes with instances come after it.
 
 const uint leafFlag = 0x80000000u;
 const uint instanceFlag = 0x40000000u; // beside leafFlag
@@ -157,12 +163,13 @@ struct NodePair {
 // Skip list: the same tree for traversal without a stack. Nodes are in depth-first order, each followed by its subtree,
 // and know where a ray continues that misses them. There are two lists: lower siblings come first in one, upper
 // siblings in the other. Boxes are rounded outward to a grid over all triangles, whose planes are signed 16-bit
-// integers: the low half of a word is the lower plane, the high half the upper one. `link` of an inner node is the
-// index to continue at; of a leaf it is leafFlag | index of its first triangle, and traversal continues with the next
-// node. Where scenes have pairs, the link of a leaf of two triangles with a common edge, whose ids follow each other and
-// which are alike but for emitters, also says where the edge is: it begins at the first one's corner number `leafFirstCorner`,
-// and runs from corner to corner the other way in the second one, there from corner `leafSecondCorner` - 1.
-
+// integers: the low half of a word is the lower plane, the high half the upper one.
+//
+// `link` of an inner node is the index to continue at; of a leaf it is leafFlag | index of its first triangle, and
+// traversal continues with the next node. Where scenes have pairs, the link of a leaf of two triangles with a common
+// edge, whose ids follow each other and which are alike but for emitters, also says where the edge is: it begins at the
+// first one's corner number `leafFirstCorner`, and runs the other way in the second one, there from corner
+// `leafSecondCorner` - 1.
 struct SkipNode {
     uint x;
     uint y;
@@ -291,8 +298,7 @@ struct LookupRow {
 //   of each corner, then one with the tangent of each corner;
 // - for each material with textures, a TextureRecord for each slot;
 // - the texels of the images, from the top row down: one a row, as floats; or four a row, with 8 bits each for red,
-//   green,
-//   blue and alpha from the lowest bits up.
+//   green, blue and alpha from the lowest bits up.
 struct TextureRow {
     uint x;
     uint y;
@@ -368,8 +374,8 @@ const uint texturesSecondUv = texturesLevels << 1u;
 const uint texturesColours = texturesLevels << 2u;  // of vertices
 const uint texturesTangents = texturesLevels << 3u; // of vertices
 const uint texturesPlaced = texturesLevels << 4u; // images that are turned, mirrored, clamped or not filtered
-const uint texturesChannels = texturesLevels
-                              << 5u; // a channel that is not the red one, where one number is wanted
+// A channel that is not the red one, where one number is wanted.
+const uint texturesChannels = texturesLevels << 5u;
 const uint texturesTransmission = 1u << slotTransmission;
 const uint texturesClearcoatNormal = 1u << slotClearcoatNormal;
 const uint texturesAnisotropy = 1u << slotAnisotropy;
@@ -396,7 +402,6 @@ const uint glassTexelCount = 2u * energyIndices * energyCellCount; // they follo
 const uint sheenTexelCount = energyCellCount; // of scenes with sheen, from FrameRecord::sheenTexels on
 
 // Lights without size, for the Whitted and the path integrator.
-
 const uint lightPoint = 0u;
 const uint lightSpot = 1u;
 const uint lightDirectional = 2u;
@@ -408,14 +413,13 @@ struct LightRecord {
     vec3 intensity;
     float cosineOuter; // of a spot: it is dark beyond this angle to its axis
     vec3 axis;         // unit direction in which light leaves
-    float
-        falloffScale; // of a spot: 1 / (cosine where it begins to fade - cosineOuter); negative: it fades by a square
+    // Of a spot: 1 / (cosine where it begins to fade - cosineOuter); negative: it fades by a square.
+    float falloffScale;
 };
 
 // Emitters: targets of the path integrator's shadow rays. Each shadow ray chooses one, with a probability in proportion
-// to its power, or by the light tree. They are in the order of the input: lights, spheres, triangles, the environment. Where
-// there is a light tree, directional lights and the environment, which are not in it, come before the others.
-
+// to its power, or by the light tree. They are in the order of the input: lights, spheres, triangles, the environment.
+// Where there is a light tree, directional lights and the environment, which are not in it, come before the others.
 const uint emitterPoint = 0u;
 const uint emitterSphere = 1u;
 const uint emitterTriangle = 2u;
@@ -472,11 +476,10 @@ const uint cameraLens = 1u;         // a thin lens
 const uint cameraOrthographic = 2u; // parallel rays
 const uint cameraPanorama = 3u;     // all directions, by longitude and latitude
 const uint kindOfCamera = 3u;
-const uint cameraOriginsMeetGlass =
-    4u; // beside the kind: origins of primary rays may lie on both sides of glass
+// Beside the kind: origins of primary rays may lie on both sides of glass.
+const uint cameraOriginsMeetGlass = 4u;
 
 // Views: what they show of the first hit.
-
 const uint viewNormal = 0u; // for shading, from [-1, 1] to [0, 1]
 const uint viewDepth = 1u;  // distance from the eye
 const uint viewAlbedo = 2u; // base colour, or the reflectance of a metal; 1 for glass and mirrors
@@ -529,8 +532,8 @@ struct FrameRecord {
     float focusDistance;          // along the view direction
     float radianceLimit; // path: maximum that indirect light adds to a sample, per channel; or infinity
     uint filterTexels;   // the first one
-    uint
-        topListLength; // nodes of the scene's own tree in each skip list; those of meshes with instances follow
+    // Nodes of the scene's own tree in each skip list; those of meshes with instances follow.
+    uint topListLength;
     uint firstTriangleId; // of the triangle with input index 0
     uint sheenTexels;     // the first one
     uint mediaAtEye;      // the glass around the eye (shaders/bsdf/media.glsl)
@@ -539,11 +542,11 @@ struct FrameRecord {
     uint pad2;
 };
 
-// ---- Dispatch constants A dispatch works on one tile of the film, with `samplesAbreast` path slots for each pixel.
-// `stepBudget` bounds the loop iterations of a slot, and `workBudget` the work of all slots together: a slot that
-// starts after it is spent makes only one pass. Unfinished slots wait in the path buffer for a dispatch with
-// `isResumed` set.
-
+// ---- Dispatch constants
+//
+// A dispatch works on one tile of the film, with `samplesAbreast` path slots for each pixel. `stepBudget` bounds the loop
+// iterations of a slot, and `workBudget` the work of all slots together: a slot that starts after it is spent makes only
+// one pass. Unfinished slots wait in the path buffer for a dispatch with `isResumed` set.
 struct DispatchConstants {
     uint cropX; // pixel of the whole image where the film begins
     uint cropY;
