@@ -609,7 +609,7 @@ const LeafTwin leafTwins[] = {
          input << x;
          expected << reference::secondSobolCoordinate(x);
      }},
-    {"RandomUnitReal", probeUnitReal,
+    {"RandomUnitFloat", probeUnitFloat,
      [](Draw &draw, Words &input, Words &expected) {
          const std::uint32_t x = draw.word();
          input << x;
@@ -718,7 +718,7 @@ const LeafTwin leafTwins[] = {
          input << triangle.v0 << triangle.v1 << triangle.v2 << normals.n0 << normals.n1 << normals.n2 << uv;
          expected << reference::triangleSurface<float>(triangle, normals, uv.x, uv.y);
      }},
-    {"SurfaceSpawnPoint", probeOffsetRayOrigin,
+    {"SurfaceOffsetRayOrigin", probeOffsetRayOrigin,
      [](Draw &draw, Words &input, Words &expected) {
          reference::Surface<float> surface{};
          surface.position = draw.point();
@@ -745,7 +745,7 @@ const LeafTwin leafTwins[] = {
          input << turns;
          expected << angle.sine << angle.cosine;
      }},
-    {"FunctionDecay", probeExpNegative,
+    {"FunctionExpNegative", probeExpNegative,
      [](Draw &draw, Words &input, Words &expected) {
          const float x = draw.chance(4) ? std::abs(draw.coordinate()) : draw.unit() * 90.0f;
          input << x;
@@ -788,7 +788,7 @@ const LeafTwin leafTwins[] = {
          input << a << b;
          expected << reference::powerHeuristic(a, b);
      }},
-    {"DielectricMeetInterface", probeMeetInterface,
+    {"DielectricFresnelDielectric", probeFresnelDielectric,
      [](Draw &draw, Words &input, Words &expected) {
          const vec3 normal = draw.direction();
          vec3 direction = draw.direction();
@@ -807,7 +807,7 @@ const LeafTwin leafTwins[] = {
          expected << reference::mediumAround(inside) << reference::mediumCount(inside, material)
                   << reference::enterMedium(inside, material) << reference::leaveMedium(inside, material);
      }},
-    {"FunctionTurnsOf", probeAtan2Turns,
+    {"FunctionAtan2Turns", probeAtan2Turns,
      [](Draw &draw, Words &input, Words &expected) {
          const vec3 direction = draw.direction();
          const float y = draw.chance(2) ? direction.y : draw.coordinate();

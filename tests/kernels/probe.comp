@@ -178,7 +178,7 @@ void main() {
     case probeSecondSobolCoordinate:
         give(secondSobolCoordinate(takeUint()));
         break;
-    case probeUnitReal:
+    case probeUnitFloat:
         give(unitFloat(takeUint()));
         break;
     case probeSamplePixel: {
@@ -379,7 +379,7 @@ void main() {
         give(powerHeuristic(a, takeFloat()));
         break;
     }
-    case probeMeetInterface: {
+    case probeFresnelDielectric: {
         vec3 direction = takeVec3();
         vec3 facing = takeVec3();
         DielectricFresnel glass = fresnelDielectric(direction, facing, takeFloat());
