@@ -112,12 +112,13 @@ function(hyalite_pixel_sources target header)
     target_sources(${target} PRIVATE ${output})
 endfunction()
 
-# hyalite_leaves(TARGET HEADER LEAVES)
+# hyalite_leaf_functions(TARGET HEADER LEAVES)
 #
-# Compiles the leaf functions that the shader LEAVES includes to C++ for TARGET (cmake/glsl_to_cpp.cpp).
+# Compiles the leaf functions that the shader LEAVES includes to C++ for TARGET, an interface library
+# (cmake/glsl_to_cpp.cpp).
 set(HYALITE_LEAVES_ROOT ${PROJECT_SOURCE_DIR} CACHE PATH "Folder whose shaders/ the CPU's leaf functions are read from")
 mark_as_advanced(HYALITE_LEAVES_ROOT)
-function(hyalite_leaves target header leaves)
+function(hyalite_leaf_functions target header leaves)
     set(output ${PROJECT_BINARY_DIR}/kernels/${header})
     set(layout ${PROJECT_SOURCE_DIR}/shaders/layout/layout.h)
     set(leaves ${HYALITE_LEAVES_ROOT}/${leaves})
@@ -128,7 +129,7 @@ function(hyalite_leaves target header leaves)
         DEPENDS glsl_to_cpp ${layout} ${shaders}
         COMMENT "Compiling leaf functions to C++"
         VERBATIM)
-    add_custom_target(${target}_leaves DEPENDS ${output})
-    add_dependencies(${target} ${target}_leaves)
-    target_include_directories(${target} SYSTEM PUBLIC ${PROJECT_BINARY_DIR}/kernels)
+    add_custom_target(${target}_header DEPENDS ${output})
+    add_dependencies(${target} ${target}_header)
+    target_include_directories(${target} SYSTEM INTERFACE ${PROJECT_BINARY_DIR}/kernels)
 endfunction()

@@ -264,8 +264,11 @@ int main(int argumentCount, char **arguments) {
         std::vector<std::string> texts;
         addLeaves(arguments[1], arguments[3], file, texts);
         file = arguments[2];
+        std::string constants; // of the layout, by their names
         for (const Declaration &one : declarationsOf(tokensOf(glslPartOf(readText(file)))))
-            if (one.kind != Declaration::Constant)
+            if (one.kind == Declaration::Constant)
+                constants += "using layout::" + one.name + ";\n";
+            else
                 translator.add(one, one.kind == Declaration::Struct);
         file = arguments[3];
         for (const std::string &text : texts)
@@ -274,7 +277,7 @@ int main(int argumentCount, char **arguments) {
         file = arguments[4];
         std::ofstream out(file);
         out << "// Made by cmake/glsl_to_cpp.cpp from the leaf functions of shaders/.\n"
-            << translator.text() << "\n";
+            << constants << translator.text() << "\n";
         if (!out.flush())
             throw std::runtime_error("it cannot be written");
     } catch (const std::exception &error) {

@@ -124,7 +124,7 @@ if [ "$1" = check ]; then
     cd "$root"
     git ls-files 'assets/*.cpp' 'assets/*.h' 'cmake/*.cpp' 'host/*.cpp' 'host/*.h' 'shaders/*.cpp' 'tests/*.cpp' 'tests/*.h' |
         xargs clang-format-14 --dry-run -Werror
-    target=hyalite_reference_leaves # the C++ that is made from shaders
+    target=hyalite_leaves_header # the C++ that is made from shaders
     build_all "$(tests_as_before)"
     check_by_clang_tidy
     exit
