@@ -1,6 +1,7 @@
 #include "host/packing/packed_scene.h"
 
 #include "host/base/hash.h"
+#include "host/leaves/leaves.h"
 #include "host/packing/emitters.h"
 #include "host/packing/environment.h"
 #include "host/packing/listed_triangles.h"
@@ -103,20 +104,6 @@ layout::LightRecord packLight(const Light &light) {
     return record;
 }
 
-/// Alpha of GGX. Roughness has a minimum, so that float32 resolves the peak of the reflection.
-float alphaOf(float roughness) {
-    constexpr float least = 0.04f;
-    const float used = std::max(roughness, least);
-    return used * used;
-}
-
-/// Alpha of the sheen's distribution: sheenAlphaOf in shaders/bsdf/sheen.glsl.
-float sheenAlphaOf(float roughness) {
-    constexpr float least = 0.07f;
-    const float used = std::max(roughness, least);
-    return used * used;
-}
-
 template <class Packed>
 void packKey(const Packed &key, const Material &material, layout::MaterialRecord &record) {
     if constexpr (requires { key.packed; })
@@ -138,7 +125,7 @@ std::uint32_t kindAndSidesOf(const Material &material) {
 void packGltf(const Material &material, layout::MaterialRecord &record) {
     const float ratio = (material.refractiveIndex - 1.0f) / (material.refractiveIndex + 1.0f);
     record.normalReflectance = material.isSpecularGlossy ? 1.0f : ratio * ratio;
-    record.sheenAlpha = sheenAlphaOf(material.sheenRoughness);
+    record.sheenAlpha = leaves::sheenAlphaOf(material.sheenRoughness);
     // In double: its sine and cosine are then rounded once, as everywhere.
     const auto rotation = static_cast<double>(material.anisotropyRotation);
     record.anisotropyCosine = static_cast<float>(std::cos(rotation));
@@ -156,7 +143,7 @@ layout::MaterialRecord packMaterial(const Material &material) {
                          : material.alphaMode == AlphaMode::CutOut ? material.alphaCutoff
                                                                    : 0.0f;
     const bool isMixture = material.kind == MaterialKind::Principled || material.kind == MaterialKind::Gltf;
-    record.alpha = material.roughness > 0.0f || isMixture ? alphaOf(material.roughness) : 0.0f;
+    record.alpha = material.roughness > 0.0f || isMixture ? leaves::alphaOf(material.roughness) : 0.0f;
     if (material.kind == MaterialKind::Conductor) {
         record.albedo = normalReflectance(material.conductorIndex, material.conductorExtinction);
         record.conductorIndex = material.conductorIndex;
@@ -168,7 +155,7 @@ layout::MaterialRecord packMaterial(const Material &material) {
     if (isMixture) {
         const float ratio = (material.refractiveIndex - 1.0f) / (material.refractiveIndex + 1.0f);
         record.normalReflectance = std::min(2.0f * material.specular * (ratio * ratio), 1.0f);
-        record.clearcoatAlpha = alphaOf(material.clearcoatRoughness);
+        record.clearcoatAlpha = leaves::alphaOf(material.clearcoatRoughness);
     }
     if (material.kind == MaterialKind::Gltf)
         packGltf(material, record);
@@ -183,7 +170,7 @@ GlassNodes glassNodesOf(const Scene &scene) {
         if (!isGlass(material))
             continue;
         indices.push_back(static_cast<double>(material.refractiveIndex));
-        const double roughness = std::sqrt(static_cast<double>(alphaOf(material.roughness)));
+        const double roughness = std::sqrt(static_cast<double>(leaves::alphaOf(material.roughness)));
         const bool isTextured = material.textures[layout::slotRoughness].has_value();
         const bool isGlossiness = isTextured && material.isSpecularGlossy;
         nodes.addRoughness(isTextured ? 0.0 : roughness, isGlossiness ? 1.0 : roughness);

@@ -1,5 +1,7 @@
 #include "host/packing/sheen_energy.h"
 
+#include "host/leaves/leaves.h"
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -11,9 +13,8 @@ namespace hyalite {
 
 namespace {
 
-constexpr double leastRoughness = 0.07; ///< sheenAlphaOf in sheen.glsl
-constexpr int heightSteps = 64;         ///< over the cosine of the light
-constexpr int sheenAzimuths = 32;       ///< over half a turn
+constexpr int heightSteps = 64;   ///< over the cosine of the light
+constexpr int sheenAzimuths = 32; ///< over half a turn
 
 /// ln x for x > 0: the exponent, and the series of the inverse hyperbolic tangent.
 double logarithm(double x) {
@@ -106,11 +107,12 @@ std::vector<layout::LookupRow> makeSheenTexels() {
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t j = 0; j < layout::energyRoughnesses; ++j)
         for (std::size_t i = 0; i < layout::energyCosines; ++i) {
-            const double roughness = std::fmax(
-                static_cast<double>(j) / static_cast<double>(layout::energyRoughnesses - 1), leastRoughness);
+            const double roughness =
+                static_cast<double>(j) / static_cast<double>(layout::energyRoughnesses - 1);
             const double root =
                 std::fmax(static_cast<double>(i) / static_cast<double>(layout::energyCosines - 1), 1e-3);
-            albedos[j][i] = static_cast<float>(albedoOf(root * root, roughness * roughness, azimuthCosines));
+            albedos[j][i] =
+                static_cast<float>(albedoOf(root * root, leaves::sheenAlphaOf(roughness), azimuthCosines));
         }
     std::vector<layout::LookupRow> texels;
     texels.reserve(layout::sheenTexelCount);
