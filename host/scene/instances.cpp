@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/base/host_memory.h"
 #include "host/base/quantities.h"
+#include "host/leaves/leaves.h"
 #include "host/scene/limits.h"
 
 #include <fmt/format.h>
@@ -22,15 +23,17 @@ namespace {
 
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
-// The operations of shaders/math/vector.glsl, in their order; GLM leaves it open.
-
-float dotProduct(const glm::vec3 &a, const glm::vec3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-glm::vec3 crossProduct(const glm::vec3 &a, const glm::vec3 &b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+/// The map as leaf functions read it.
+leaves::InstanceRecord<float> recordOf(const Placement &placement) {
+    leaves::InstanceRecord<float> record;
+    record.toX = placement.rows[0];
+    record.offsetX = placement.offset.x;
+    record.toY = placement.rows[1];
+    record.offsetY = placement.offset.y;
+    record.toZ = placement.rows[2];
+    record.offsetZ = placement.offset.z;
+    return record;
 }
-
-float largestComponent(const glm::vec3 &v) { return std::max({v.x, v.y, v.z}); }
 
 bool emitsLight(const TriangleMesh &mesh, const std::vector<Material> &materials) {
     const auto emits = [&](std::uint32_t index) { return materials[index].emission != glm::vec3(0.0f); };
@@ -43,7 +46,7 @@ bool emitsLight(const TriangleMesh &mesh, const std::vector<Material> &materials
 bool isNearlyFlat(const Placement &placement) {
     const std::array<glm::vec3, 3> &rows = placement.rows;
     const double largest =
-        largestComponent(glm::max(glm::max(glm::abs(rows[0]), glm::abs(rows[1])), glm::abs(rows[2])));
+        leaves::largestComponent(glm::max(glm::max(glm::abs(rows[0]), glm::abs(rows[1])), glm::abs(rows[2])));
     return std::abs(determinant(placement)) < 1e-18 * largest * largest * largest;
 }
 
@@ -116,35 +119,15 @@ double determinant(const Placement &placement) {
 }
 
 glm::vec3 placedPoint(const Placement &placement, const glm::vec3 &point) {
-    const auto coordinate = [&](glm::length_t i) {
-        const glm::vec3 &row = placement.rows[static_cast<std::size_t>(i)];
-        return row.x * point.x + row.y * point.y + row.z * point.z + placement.offset[i];
-    };
-    return {coordinate(0), coordinate(1), coordinate(2)};
+    return leaves::placedPoint(recordOf(placement), point);
 }
 
 glm::vec3 placedNormal(const Placement &placement, const glm::vec3 &normal) {
-    const std::array<glm::vec3, 3> &rows = placement.rows;
-    const float scale =
-        1.0f / largestComponent(glm::max(glm::max(glm::abs(rows[0]), glm::abs(rows[1])), glm::abs(rows[2])));
-    const glm::vec3 x = rows[0] * scale;
-    const glm::vec3 y = rows[1] * scale;
-    const glm::vec3 z = rows[2] * scale;
-    const glm::vec3 turned(dotProduct(crossProduct(y, z), normal), dotProduct(crossProduct(z, x), normal),
-                           dotProduct(crossProduct(x, y), normal));
-    const float largest = largestComponent(glm::abs(turned));
-    if (!(largest > 0.0f))
-        return glm::vec3(0.0f);
-    const glm::vec3 scaled = turned * (1.0f / largest);
-    return scaled * (1.0f / std::sqrt(dotProduct(scaled, scaled)));
+    return leaves::placedNormal(recordOf(placement), normal);
 }
 
 glm::vec4 placedTangent(const Placement &placement, const glm::vec4 &tangent) {
-    const auto coordinate = [&](std::size_t i) {
-        const glm::vec3 &row = placement.rows[i];
-        return row.x * tangent.x + row.y * tangent.y + row.z * tangent.z;
-    };
-    return {coordinate(0), coordinate(1), coordinate(2), tangent.w};
+    return leaves::placedTangent(recordOf(placement), tangent);
 }
 
 TriangleMesh mirrored(TriangleMesh mesh) {

@@ -26,13 +26,13 @@ struct InputOrder {
 [[nodiscard]] double determinant(const Placement &placement);
 [[nodiscard]] inline bool isMirroring(const Placement &placement) { return determinant(placement) < 0.0; }
 
-/// The point in world space. Twin: placedPoint in shaders/geometry/instance.glsl.
+/// The point in world space. As shaders/geometry/instance.glsl places it.
 [[nodiscard]] glm::vec3 placedPoint(const Placement &placement, const glm::vec3 &point);
 
-/// The unit normal in world space, or 0 for a normal of 0. Twin: placedNormal in shaders/geometry/instance.glsl.
+/// The unit normal in world space, or 0 for a normal of 0. As shaders/geometry/instance.glsl places it.
 [[nodiscard]] glm::vec3 placedNormal(const Placement &placement, const glm::vec3 &normal);
 
-/// The tangent in world space, of any length; w stays. Twin: placedTangent in shaders/geometry/instance.glsl.
+/// The tangent in world space, of any length; w stays. As shaders/geometry/instance.glsl places it.
 [[nodiscard]] glm::vec4 placedTangent(const Placement &placement, const glm::vec4 &tangent);
 
 /// The mesh for mirroring instances: other winding, negative normals, and tangents with the other side. So its places
