@@ -1,5 +1,7 @@
 #include "host/image/tone_curve.h"
 
+#include "host/base/portable_math.h"
+
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -9,8 +11,6 @@
 namespace hyalite {
 
 namespace {
-
-constexpr double ln2 = 0.693147180559945309417;
 
 /// A matrix from its rows, as papers print it; GLM takes columns.
 glm::dmat3 rows(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c) {
@@ -51,29 +51,6 @@ glm::dvec3 agx(const glm::dvec3 &radiance) {
 double bounded(double radiance) { return radiance > 0.0 ? std::min(radiance, 0x1p60) : 0.0; } // NaN: 0
 
 } // namespace
-
-double exp2Portable(double x) {
-    constexpr int termCount = 20; // |r| <= ln2 / 2, and r^20 / 20! < 2^-90
-    const double whole = std::round(x);
-    const double r = (x - whole) * ln2;
-    double sum = 1.0; // Horner's form of the sum of r^k / k!
-    for (int k = termCount; k >= 1; --k) {
-        sum = 1.0 + r * sum / k;
-    }
-    return std::ldexp(sum, static_cast<int>(whole));
-}
-
-double log2Portable(double x) {
-    int exponent = 0;
-    const double mantissa = std::frexp(x, &exponent) * 2.0; // in [1, 2)
-    const bool isUpper = mantissa > 1.4142135623730951;
-    const double m = isUpper ? mantissa * 0.5 : mantissa;
-    const double s = (m - 1.0) / (m + 1.0); // |s| < 0.172: ln m = 2 (s + s^3 / 3 + s^5 / 5 + ...)
-    double sum = 0.0;
-    for (int k = 23; k >= 1; k -= 2)
-        sum = sum * s * s + 1.0 / k;
-    return (isUpper ? exponent : exponent - 1) + 2.0 * s * sum / ln2;
-}
 
 double srgbEncoded(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * exp2Portable(log2Portable(linear) / 2.4) - 0.055;

@@ -1,4 +1,4 @@
-// Tone curves in double precision, made of + - * / only, because pow() and log() of C libraries differ in the last bit.
+// Tone curves in double precision, made of + - * / and host/base/portable_math.h: the same bytes on every machine.
 #pragma once
 
 #include "host/image/tone_map.h"
@@ -6,11 +6,6 @@
 #include <glm/vec3.hpp>
 
 namespace hyalite {
-
-/// 2^x, for |x| <= 1000.
-[[nodiscard]] double exp2Portable(double x);
-/// log2(x), for finite x > 0, to a few ulps.
-[[nodiscard]] double log2Portable(double x);
 
 /// The transfer function of IEC 61966-2-1, from linear light in [0, 1] to the display encoding.
 [[nodiscard]] double srgbEncoded(double linear);

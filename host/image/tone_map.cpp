@@ -1,5 +1,6 @@
 #include "host/image/tone_map.h"
 
+#include "host/base/portable_math.h"
 #include "host/image/tone_curve.h"
 
 #include <algorithm>
