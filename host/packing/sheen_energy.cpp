@@ -1,5 +1,6 @@
 #include "host/packing/sheen_energy.h"
 
+#include "host/base/portable_math.h"
 #include "host/leaves/leaves.h"
 
 #include <array>
@@ -16,33 +17,10 @@ namespace {
 constexpr int heightSteps = 64;   ///< over the cosine of the light
 constexpr int sheenAzimuths = 32; ///< over half a turn
 
-/// ln x for x > 0: the exponent, and the series of the inverse hyperbolic tangent.
-double logarithm(double x) {
-    int exponent = 0;
-    double m = std::frexp(x, &exponent); // in [1/2, 1)
-    if (m < std::numbers::sqrt2 / 2.0) {
-        m *= 2.0;
-        --exponent;
-    }
-    const double t = (m - 1.0) / (m + 1.0);
-    double sum = 0.0;
-    for (int k = 25; k >= 1; k -= 2)
-        sum = sum * (t * t) + 1.0 / k;
-    return exponent * std::numbers::ln2 + 2.0 * t * sum;
-}
-
-/// e^x, for |x| < 700: a power of two, and Taylor's series.
-double exponential(double x) {
-    const double k = std::floor(x / std::numbers::ln2 + 0.5);
-    const double y = x - k * std::numbers::ln2;
-    double sum = 1.0;
-    for (int n = 16; n >= 1; --n)
-        sum = 1.0 + sum * y / n;
-    return std::ldexp(sum, static_cast<int>(k));
-}
+double exponential(double x) { return exp2Portable(x / std::numbers::ln2); }
 
 double power(double base, double exponent) {
-    return base > 0.0 ? exponential(exponent * logarithm(base)) : 0.0;
+    return base > 0.0 ? exp2Portable(exponent * log2Portable(base)) : 0.0;
 }
 
 /// Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017 courses, table 1 and equation 4.
