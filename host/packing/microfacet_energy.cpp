@@ -1,5 +1,7 @@
 #include "host/packing/microfacet_energy.h"
 
+#include "host/leaves/leaves.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -25,11 +27,8 @@ struct Energy {
 
 using EnergyRow = std::array<Energy, cosineCount>;
 
-/// Cosines and sines of the midpoints of `azimuthSteps` intervals over half a turn.
-struct Azimuths {
-    std::array<double, azimuthSteps> cosine;
-    std::array<double, azimuthSteps> sine;
-
+/// The midpoints of `azimuthSteps` intervals over half a turn. Sines of leaves would be those of float32.
+struct Azimuths : std::array<leaves::SineCosine<double>, azimuthSteps> {
     Azimuths() {
         static_assert(azimuthSteps == 32);
         double c = 0.0; // cosine of a quarter turn, halved to a 128th of a turn, which is half a step
@@ -38,50 +37,30 @@ struct Azimuths {
         const double s = std::sqrt(1.0 - c * c);
         const double stepCosine = c * c - s * s;
         const double stepSine = 2.0 * s * c;
-        cosine[0] = c;
-        sine[0] = s;
+        front() = {s, c};
         for (std::size_t i = 1; i < azimuthSteps; ++i) {
-            cosine[i] = cosine[i - 1] * stepCosine - sine[i - 1] * stepSine;
-            sine[i] = sine[i - 1] * stepCosine + cosine[i - 1] * stepSine;
+            const auto [sine, cosine] = (*this)[i - 1];
+            (*this)[i] = {sine * stepCosine + cosine * stepSine, cosine * stepCosine - sine * stepSine};
         }
     }
 };
 
 double fifthPower(double x) { return x * x * (x * x) * x; }
 
-/// A facet of the distribution of visible normals: `normal` / `length` is its normal, `cosine` that of the viewer to it.
-struct Facet {
-    glm::dvec3 normal;
-    double length;
-    double cosine;
-};
-
 /// Looks at a surface of GGX facets.
 struct Viewer {
     double cosine; ///< to the surface's normal
     double alpha;
-    double sine = std::sqrt(1.0 - cosine * cosine);
-    double stretch = std::sqrt(alpha * alpha * sine * sine + cosine * cosine);
-    double x = alpha * sine / stretch; ///< the direction, stretched to alpha 1
-    double z = cosine / stretch;
+    glm::dvec3 wo{std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
+    double stretch = leaves::stretchOf(wo, alpha);
 
-    /// A point of the cap of Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023: `share` in
-    /// (0, 1) of it is above.
-    [[nodiscard]] Facet facetAt(double share, double azimuthCosine, double azimuthSine) const {
-        const double capHeight = (1.0 - share) * (1.0 + z) - z;
-        const double capSine = std::sqrt(1.0 - capHeight * capHeight);
-        const double facetX = alpha * (capSine * azimuthCosine + x);
-        const double facetY = alpha * (capSine * azimuthSine);
-        const double facetZ = capHeight + z;
-        const double length = std::sqrt(facetX * facetX + facetY * facetY + facetZ * facetZ);
-        return {{facetX, facetY, facetZ}, length, (sine * facetX + cosine * facetZ) / length};
+    [[nodiscard]] glm::dvec3 facetAt(double share, const leaves::SineCosine<double> &azimuth) const {
+        return leaves::visibleGgxNormal(wo, glm::dvec2(alpha), azimuth, share);
     }
 
-    /// How much of what a visible facet sends in a direction of the height `height` > 0, on either side, is not masked;
-    /// `squaredSine` is that of the direction to the normal.
-    [[nodiscard]] double litShare(double height, double squaredSine) const {
-        const double lightStretch = std::sqrt(alpha * alpha * squaredSine + height * height);
-        return height * (cosine + stretch) / (cosine * lightStretch + height * stretch);
+    /// How much of what a visible facet sends to `wi`, on either side, is not masked.
+    [[nodiscard]] double litShare(const glm::dvec3 &wi) const {
+        return leaves::smithG2OverG1(cosine, stretch, wi.z, leaves::stretchOf(wi, alpha));
     }
 };
 
@@ -102,16 +81,15 @@ Energy energyOf(double cosine, double alpha, const Azimuths &azimuths) {
     for (std::size_t k = 0; k < heightSteps; ++k) {
         const CapStep step((static_cast<double>(k) + 0.5) / heightSteps);
         totalWeight += step.weight;
-        for (std::size_t i = 0; i < azimuthSteps; ++i) {
-            const Facet facet = viewer.facetAt(step.share, azimuths.cosine[i], azimuths.sine[i]);
-            const double lightX = 2.0 * facet.cosine * facet.normal.x / facet.length - viewer.sine;
-            const double lightY = 2.0 * facet.cosine * facet.normal.y / facet.length;
-            const double lightZ = 2.0 * facet.cosine * facet.normal.z / facet.length - cosine;
-            if (lightZ <= 0.0)
+        for (const leaves::SineCosine<double> &azimuth : azimuths) {
+            const glm::dvec3 facet = viewer.facetAt(step.share, azimuth);
+            const glm::dvec3 wi = leaves::mirrorDirection(-viewer.wo, facet);
+            if (wi.z <= 0.0)
                 continue;
-            const double lit = viewer.litShare(lightZ, lightX * lightX + lightY * lightY);
+            const double lit = viewer.litShare(wi);
             sum.white += step.weight * lit;
-            sum.grazing += step.weight * lit * fifthPower(1.0 - std::fmin(facet.cosine, 1.0));
+            sum.grazing +=
+                step.weight * lit * fifthPower(1.0 - std::fmin(leaves::dotProduct(viewer.wo, facet), 1.0));
         }
     }
     const double total = totalWeight * static_cast<double>(azimuthSteps);
@@ -125,9 +103,6 @@ double glassEnergyOf(double cosine, double alpha, double eta, const Azimuths &az
     constexpr std::size_t heightSteps = 20;
     constexpr double goldenStep = 0.6180339887498949;
     const Viewer viewer{cosine, alpha};
-    const auto lit = [&](double height) {
-        return viewer.litShare(height, std::fmax(1.0 - height * height, 0.0));
-    };
     double sum = 0.0;
     double totalWeight = 0.0;
     for (std::size_t i = 0; i < azimuthSteps; ++i) {
@@ -136,22 +111,13 @@ double glassEnergyOf(double cosine, double alpha, double eta, const Azimuths &az
         for (std::size_t k = 0; k < heightSteps; ++k) {
             const CapStep step((static_cast<double>(k) + offset) / heightSteps);
             totalWeight += step.weight;
-            const Facet facet = viewer.facetAt(step.share, azimuths.cosine[i], azimuths.sine[i]);
-            const double facetHeight = facet.normal.z / facet.length;
-            const double radicand = 1.0 - eta * eta * (1.0 - facet.cosine * facet.cosine);
-            double reflectance = 1.0;
-            if (radicand > 0.0) { // Fresnel's equations
-                const double beyond = std::sqrt(radicand);
-                const double across = (eta * facet.cosine - beyond) / (eta * facet.cosine + beyond);
-                const double along = (facet.cosine - eta * beyond) / (facet.cosine + eta * beyond);
-                reflectance = 0.5 * (across * across + along * along);
-                const double depth = eta * cosine - (eta * facet.cosine - beyond) * facetHeight;
-                if (depth > 0.0)
-                    sum += step.weight * (1.0 - reflectance) * lit(depth);
-            }
-            const double height = 2.0 * facet.cosine * facetHeight - cosine;
-            if (height > 0.0)
-                sum += step.weight * reflectance * lit(height);
+            const glm::dvec3 facet = viewer.facetAt(step.share, azimuths[i]);
+            const auto glass = leaves::fresnelDielectric(-viewer.wo, facet, eta);
+            if (glass.reflectance < 1.0 && glass.refracted.z < 0.0)
+                sum += step.weight * (1.0 - glass.reflectance) * viewer.litShare(glass.refracted);
+            const glm::dvec3 reflected = leaves::mirrorDirection(-viewer.wo, facet);
+            if (reflected.z > 0.0)
+                sum += step.weight * glass.reflectance * viewer.litShare(reflected);
         }
     }
     return sum / totalWeight;

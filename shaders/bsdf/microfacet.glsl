@@ -23,17 +23,19 @@ float ggxD(vec3 m, float alpha) {
     return divide(scaled, squared);
 }
 
-// Samples a visible normal, with the pdf ggxD G1 (wo.m) / wo.z: Dupuy and Benyoub,
-// "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
-vec3 sampleGgxVndf(vec3 wo, vec2 alphas, vec2 u) {
+// The visible normal at a point of the spherical cap: at this azimuth, with the share `above` of the cap above it. Dupuy
+// and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
+vec3 visibleGgxNormal(vec3 wo, vec2 alphas, SineCosine azimuth, float above) {
     vec3 stretched = unitVector(vec3(vec2(wo) * alphas, wo.z));
-    float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+    float z = (1.0 - above) * (1.0 + stretched.z) - stretched.z;
     float squaredSine = 1.0 - z * z;
     float sine = squareRoot(greater(squaredSine, 0.0));
-    SineCosine angle = sineCosine(u.x);
-    vec3 cap = vec3(sine * angle.cosine, sine * angle.sine, z) + stretched;
+    vec3 cap = vec3(sine * azimuth.cosine, sine * azimuth.sine, z) + stretched;
     return unitVector(vec3(vec2(cap) * alphas, cap.z));
 }
+
+// Samples a visible normal, with the pdf ggxD G1 (wo.m) / wo.z.
+vec3 sampleGgxVndf(vec3 wo, vec2 alphas, vec2 u) { return visibleGgxNormal(wo, alphas, sineCosine(u.x), u.y); }
 
 vec3 sampleGgxVndf(vec3 wo, float alpha, vec2 u) { return sampleGgxVndf(wo, vec2(alpha), u); }
 
