@@ -23,16 +23,10 @@ double power(double base, double exponent) {
     return base > 0.0 ? exp2Portable(exponent * log2Portable(base)) : 0.0;
 }
 
-/// Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017 courses, table 1 and equation 4.
-double lambda(double cosine, double roughnessAlpha) {
-    const double share = 1.0 - (1.0 - roughnessAlpha) * (1.0 - roughnessAlpha);
-    const auto between = [&](double smooth, double rough) { return smooth + (rough - smooth) * share; };
-    const double a = between(25.3245, 21.5473);
-    const double b = between(3.32435, 3.82987);
-    const double c = between(0.16801, 0.19823);
-    const double d = between(-1.27393, -1.97760);
-    const double e = between(-4.85967, -4.32054);
-    const auto curve = [&](double x) { return a / (1.0 + b * power(x, c)) + d * x + e; };
+/// sheenLambda of shaders/bsdf/sheen.glsl, with powers in double precision.
+double lambda(double cosine, double alpha) {
+    const auto fit = leaves::sheenFit(alpha);
+    const auto curve = [&](double x) { return leaves::sheenCurve(fit, x, power(x, fit.c)); };
     return exponential(cosine < 0.5 ? curve(cosine) : 2.0 * curve(0.5) - curve(1.0 - cosine));
 }
 

@@ -20,24 +20,38 @@ float charlieD(float cosine, float alpha) {
     return (2.0 + exponent) * power * (0.5 * inversePi);
 }
 
-// The fitted curve of the masking term, at a cosine in [0, 1]; its coefficients are those for roughness 0 and 1.
-float sheenCurve(float cosine, float share) {
-    float a = mixture(25.3245, 21.5473, share);
-    float b = mixture(3.32435, 3.82987, share);
-    float c = mixture(0.16801, 0.19823, share);
-    float d = mixture(-1.27393, -1.97760, share);
-    float e = mixture(-4.85967, -4.32054, share);
-    float power = cosine > 1e-12 ? expNegative(c * negativeLog(cosine)) : 0.0;
-    float below = 1.0 + b * power;
-    return divide(a, below) + d * cosine + e;
+// The curve a / (1 + b x^c) + d x + e that is fitted to the masking term, by coefficients for roughness 0 and 1.
+struct SheenFit {
+    float a;
+    float b;
+    float c;
+    float d;
+    float e;
+};
+
+SheenFit sheenFit(float alpha) {
+    float rest = 1.0 - alpha;
+    float share = 1.0 - rest * rest;
+    return SheenFit(mixture(25.3245, 21.5473, share), mixture(3.32435, 3.82987, share),
+                    mixture(0.16801, 0.19823, share), mixture(-1.27393, -1.97760, share),
+                    mixture(-4.85967, -4.32054, share));
+}
+
+// At a cosine in [0, 1], of which `power` is the power with the exponent c.
+float sheenCurve(SheenFit fit, float cosine, float power) {
+    float below = 1.0 + fit.b * power;
+    return divide(fit.a, below) + fit.d * cosine + fit.e;
+}
+
+float sheenCurve(SheenFit fit, float cosine) {
+    return sheenCurve(fit, cosine, cosine > 1e-12 ? expNegative(fit.c * negativeLog(cosine)) : 0.0);
 }
 
 // Lambda of the masking term, at a cosine in (0, 1].
 float sheenLambda(float cosine, float alpha) {
-    float rest = 1.0 - alpha;
-    float share = 1.0 - rest * rest;
-    float near = sheenCurve(cosine < 0.5 ? cosine : 1.0 - cosine, share);
-    float middle = 2.0 * sheenCurve(0.5, share);
+    SheenFit fit = sheenFit(alpha);
+    float near = sheenCurve(fit, cosine < 0.5 ? cosine : 1.0 - cosine);
+    float middle = 2.0 * sheenCurve(fit, 0.5);
     return exponential(cosine < 0.5 ? near : middle - near);
 }
 
