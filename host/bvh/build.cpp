@@ -4,6 +4,7 @@
 #include "host/bvh/joined_triangles.h"
 #include "host/bvh/split.h"
 #include "host/bvh/tree_spheres.h"
+#include "host/leaves/leaves.h"
 #include "host/scene/instances.h"
 #include "shaders/layout/layout.h"
 
@@ -276,7 +277,7 @@ void addTriangles(const TriangleMesh &mesh, std::vector<BuildTriangle> &triangle
 Box boxOf(const Sphere &sphere) {
     const glm::vec3 centre(sphere.centre);
     const auto radius = static_cast<float>(sphere.radius);
-    const glm::vec3 margin = (glm::abs(centre) + radius) * (4.0f / 16777216.0f);
+    const glm::vec3 margin = leaves::sphereBoxMargin(centre, radius);
     return {centre - radius - margin, centre + radius + margin};
 }
 

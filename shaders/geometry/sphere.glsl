@@ -37,12 +37,14 @@ float intersectSphere(vec3 origin, vec3 direction, SphereShape sphere, bool star
     return startsOnSphere || discriminant > 0.0 ? distance : -1.0;
 }
 
+// Margin of a sphere's own box on each side: 4 units of rounding, which cover the rounding of the corners.
+vec3 sphereBoxMargin(vec3 centre, float radius) { return (abs(centre) + radius) * (4.0 / 16777216.0); }
+
 // As intersectSphere, for a sphere in a tree. Like that of a triangle (triangle.glsl), the hit is confined to the interval
-// of the sphere's own box: so no tree can lose or change it (box.glsl). The host computes the same box, by the same
-// operations (host/bvh/build.cpp). Its margin of 4 units of rounding covers the rounding of the corners.
+// of the sphere's own box: so no tree can lose or change it (box.glsl). Trees are built over the same box.
 float intersectBoxedSphere(BoxRay ray, vec3 direction, vec3 centre, float radius, bool startsOnSphere) {
     float distance = intersectSphere(ray.origin, direction, makeSphereShape(centre, radius), startsOnSphere);
-    vec3 margin = (abs(centre) + radius) * (4.0 / 16777216.0);
+    vec3 margin = sphereBoxMargin(centre, radius);
     vec2 interval = boxInterval(ray, centre - radius - margin, centre + radius + margin);
     float confined = lesser(greater(distance, interval.x), interval.y);
     return distance > 0.0 && interval.x <= interval.y ? confined : 0.0;
