@@ -28,8 +28,8 @@ std::size_t hiddenBytes(std::string_view text) {
     if (byte(0) != 0xE2)
         return 0;
     const bool isMark = byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F); // U+200E, U+200F
-    const bool isSeparatorOrEmbedding =
-        byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE;                    // U+2028 to U+202E
+    // U+2028 to U+202E.
+    const bool isSeparatorOrEmbedding = byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE;
     const bool isIsolate = byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9; // U+2066 to U+2069
     return isMark || isSeparatorOrEmbedding || isIsolate ? 3 : 0;
 }

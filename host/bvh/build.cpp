@@ -191,8 +191,8 @@ class Builder {
         nodes[slot] = branch.node;
         if (branch.left) {
             Branch *const left = branch.left.get();
-            const auto leftCount =
-                static_cast<std::uint32_t>(nodeCountOf(*left)); // it shrinks as it is joined
+            // It shrinks as it is joined.
+            const auto leftCount = static_cast<std::uint32_t>(nodeCountOf(*left));
 #pragma omp task default(none) firstprivate(left, first, nodes)
             join(*left, first, first + 2, nodes);
             join(*branch.right, first + 1, first + 1 + leftCount, nodes);

@@ -40,8 +40,8 @@ struct Box {
 struct BuildTriangle {
     Box box;
     glm::vec3 centroid{0.0f};
-    std::uint32_t inputIndex =
-        0; ///< among the triangles of all meshes, in order; then the spheres in the tree, then the instances
+    /// Among the triangles of all meshes, in order; then the spheres in the tree, then the instances.
+    std::uint32_t inputIndex = 0;
 };
 
 struct BvhNode {

@@ -137,8 +137,8 @@ struct Cut {
 Cut bestCut(std::span<const BuildTriangle> range, const Binning &binning, std::size_t binCount, float unit) {
     Bins bins(binCount);
     fill(bins, range, binning);
-    std::array<Lanes, binCountMax>
-        rightCosts; // of each bin except the first, together with all bins after it
+    // Of each bin except the first, together with all bins after it.
+    std::array<Lanes, binCountMax> rightCosts;
     Side right;
     for (std::size_t bin = binCount - 1; bin > 0; --bin) {
         right.add(bins, bin);

@@ -11,8 +11,8 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::uint64_t squaresWanted =
-    64; // of each part: with fewer, one costly object decides what a part costs
+// Of each part: with fewer, one costly object decides what a part costs.
+constexpr std::uint64_t squaresWanted = 64;
 
 struct Squares {
     int side;

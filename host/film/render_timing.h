@@ -8,8 +8,8 @@ namespace hyalite {
 
 struct RenderTiming {
     double uploadSeconds = 0.0; ///< scene data to the device
-    double pipelineSeconds =
-        0.0; ///< building kernels, unless during the upload, and their first runs, without work
+    /// Building kernels, unless during the upload, and their first runs, without work.
+    double pipelineSeconds = 0.0;
     double renderSeconds = 0.0; ///< from the first ray to the last
     std::uint64_t dispatchCount = 0;
 };

@@ -18,8 +18,8 @@ struct Job {
     std::uint32_t sampleBegin;
     std::uint32_t sampleEnd;
     bool isTraced;
-    std::span<const layout::FilmPixel>
-        film{};             ///< samples are added to it; empty: start without samples. Read only at the start
+    /// Samples are added to it; empty: start without samples. Read only at the start.
+    std::span<const layout::FilmPixel> film{};
     bool showsWork = false; ///< in place of radiance
 };
 

@@ -32,8 +32,8 @@ struct WaitingPlan {
 struct JobPlan {
     std::uint32_t samplesAbreast = 1;
     std::uint32_t stackSize = 0; ///< entries for each ray
-    bool isDirect =
-        false; ///< dispatches end with whole samples; a resumable helper kernel does samples that are too long
+    /// Dispatches end with whole samples; a resumable helper kernel does samples that are too long.
+    bool isDirect = false;
     bool exchangesByBroadcast = false; ///< lanes do, not by shuffles
     bool takesSamplesInTurn = false; ///< the direct kernel's slots do not wait for the others of their pixel
     Tile largestTile;

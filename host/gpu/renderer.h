@@ -28,8 +28,8 @@ struct Result {
     WorkCounts work;     ///< all 0 unless the render config asks for counting, or samples show the work
     LaneCounts lanes{};  ///< likewise
     MemoryPlan memory{}; ///< peak memory
-    std::vector<std::string>
-        faults{};                   ///< failed Vulkan calls in their order, each with its object or dispatch
+    /// Failed Vulkan calls in their order, each with its object or dispatch.
+    std::vector<std::string> faults{};
     std::optional<Error> failure{}; ///< why the device ended the render early, or empty
 };
 

@@ -12,8 +12,8 @@ namespace hyalite {
 
 /// An image in opponent colours, a plane a channel. Rows are padded to a whole number of blocks.
 struct OpponentPlanes {
-    static constexpr int blockPixels =
-        16; ///< columns that are filtered at once; the compiler makes vectors of them
+    /// Columns that are filtered at once; the compiler makes vectors of them.
+    static constexpr int blockPixels = 16;
 
     OpponentPlanes(int imageWidth, int imageHeight);
 

@@ -20,8 +20,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "red is written to the lowest byte");
 
-constexpr int scanCountMax =
-    64; // each scan covers the whole image: a file of a few kilobytes can have thousands
+// Each scan covers the whole image: a file of a few kilobytes can have thousands.
+constexpr int scanCountMax = 64;
 
 /// libjpeg with error handlers. libjpeg reports errors through functions that must not return, and an exception must
 /// not cross its frames. The handlers jump back to decode(), which throws.

@@ -209,8 +209,8 @@ class ChunkReader {
     /// peak holds the levels from stb_image and the floats of an Image. Decompression takes less, except for interlaced
     /// images, whose reduced images exist beside the whole.
     void requireModestMemory() const {
-        constexpr std::uint64_t besideBytes = std::uint64_t{16}
-                                              << 20; // the compressed pixels and the other chunks
+        // The compressed pixels and the other chunks.
+        constexpr std::uint64_t besideBytes = std::uint64_t{16} << 20;
         const std::uint64_t levelBytes = header_.bitDepth == 16 ? 2 : 1;
         const std::uint64_t pixelBytes = sizeof(glm::vec3) + levelBytes * (header_.interlaced ? 8 : 4);
         requireReadingMemory(file_, header_.width, header_.height,

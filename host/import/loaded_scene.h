@@ -61,8 +61,8 @@ struct LoadedScene {
     std::optional<double> verticalFovDegrees{};
     std::optional<double> aspectRatio{}; ///< width / height of the image, where the file gives its camera one
     std::optional<glm::dvec3> worldUp{}; ///< of formats that know it; else the camera's own counts
-    bool autoFramed =
-        false; ///< no camera in the file: where the image size is overridden, call frameCamera again
+    /// No camera in the file: where the image size is overridden, call frameCamera again.
+    bool autoFramed = false;
     bool isAutoLit = false; ///< no lights in the file: where the camera is overridden, call frameLights
 };
 

@@ -161,8 +161,8 @@ void MeshBuilder::addNormal(const glm::dvec3 &normalObject) {
     glm::vec3 normal = lostNormal;
     if (size > 0.0 && std::isfinite(normalObject.x + normalObject.y + normalObject.z)) {
         const glm::dvec3 turned = rotation * (normalObject / (scale < 0.0 ? -size : size));
-        const double length =
-            std::sqrt(turned.x * turned.x + turned.y * turned.y + turned.z * turned.z); // in [1, sqrt 3]
+        // In [1, sqrt 3].
+        const double length = std::sqrt(turned.x * turned.x + turned.y * turned.y + turned.z * turned.z);
         normal = glm::vec3(turned / length);
     }
     result.mesh.normals.push_back(normal);

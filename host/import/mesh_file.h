@@ -45,8 +45,8 @@ struct MeshReport {
 
     std::size_t unknownMaterialCount = 0;       ///< `usemtl` with a name that no library of the file has
     std::vector<std::filesystem::path> files{}; ///< the mesh and its libraries
-    std::vector<std::string>
-        lostLibraries{};                  ///< `mtllib` files that are missing or outside the mesh's folder
+    /// `mtllib` files that are missing or outside the mesh's folder.
+    std::vector<std::string> lostLibraries{};
     std::size_t uvLessCount = 0;          ///< triangles without texture coordinates, if others have some
     std::vector<std::string> warnings{};  ///< ignored statements of materials that would be visible
     std::size_t unusedStatementCount = 0; ///< `l`, `p`, unknown keywords: skipped

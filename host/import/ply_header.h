@@ -36,8 +36,8 @@ enum class PlyFormat { Text, LittleEndian, BigEndian };
 struct PlyHeader {
     PlyFormat format{};
     std::vector<PlyElement> elements; ///< in the order of the file; names are distinct
-    std::vector<std::string>
-        textureFiles;           ///< of the comments `TextureFile NAME`, as MeshLab and scanners write them
+    /// Of the comments `TextureFile NAME`, as MeshLab and scanners write them.
+    std::vector<std::string> textureFiles;
     std::size_t bodyOffset = 0; ///< of the first value, in bytes
     std::size_t bodyLine = 0;   ///< the line of the first value, from 1
 };

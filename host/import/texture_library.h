@@ -18,8 +18,8 @@ namespace hyalite {
 /// What the pixels of a texture of 8-bit levels show. All false for one of floats.
 struct TextureLook {
     bool isGrey = false; ///< as height maps are, but not normal maps
-    bool isNormalMap =
-        false;               ///< nearly all colours are unit vectors on the side of +z, in the usual encoding
+    /// Nearly all colours are unit vectors on the side of +z, in the usual encoding.
+    bool isNormalMap = false;
     bool hasCutOuts = false; ///< an alpha below a half
 };
 

@@ -5,8 +5,8 @@
 namespace hyalite {
 
 std::uint32_t pairingOf(const layout::TriangleRecord &first, const layout::TriangleRecord &second) {
-    constexpr std::uint32_t ownFlags =
-        ~0u << layout::triangleEmitterShift | layout::triangleEndsLeaf; // they may differ
+    // They may differ.
+    constexpr std::uint32_t ownFlags = ~0u << layout::triangleEmitterShift | layout::triangleEndsLeaf;
     if (second.primitiveId != first.primitiveId + 1 || second.materialIndex != first.materialIndex ||
         ((first.flags ^ second.flags) & ~ownFlags) != 0)
         return 0;

@@ -25,8 +25,8 @@ struct TreeLight {
 
 struct LightTree {
     std::vector<layout::LightNode> nodes;
-    std::vector<std::uint32_t>
-        turns; ///< of each light, by its index in the input: layout::EmitterRecord::cumulative
+    /// Of each light, by its index in the input: layout::EmitterRecord::cumulative.
+    std::vector<std::uint32_t> turns;
 };
 
 /// Builds the tree over at least two lights, on all threads; it depends on the lights only. Splits are those of the lowest

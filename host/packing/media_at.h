@@ -10,8 +10,8 @@ namespace hyalite {
 
 struct MediaAt {
     std::uint32_t around = 0;
-    bool isSurfaceNear =
-        false; ///< boxes around glass reach into that of the origins: they may lie on both sides
+    /// Boxes around glass reach into that of the origins: they may lie on both sides.
+    bool isSurfaceNear = false;
 };
 
 /// The glass around a point in world space, as shaders/bsdf/media.glsl counts it. `packedMaterial` has the packed index of

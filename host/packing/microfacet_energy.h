@@ -15,8 +15,8 @@ namespace hyalite {
 
 /// The part of the table of rough glass that a scene reads.
 struct GlassNodes {
-    std::bitset<2 * layout::energyIndices>
-        layers; ///< by the index, for light from the thinner and the denser side
+    /// By the index, for light from the thinner and the denser side.
+    std::bitset<2 * layout::energyIndices> layers;
     std::bitset<layout::energyRoughnesses> roughnesses;
 
     /// For light from the refractive index `before` to another one, `beyond`; both in [1, 10].

@@ -17,8 +17,8 @@ namespace hyalite {
 
 namespace {
 
-constexpr std::uint32_t nowhere =
-    std::numeric_limits<std::uint32_t>::max(); // triangles that the tree dropped
+// Triangles that the tree dropped.
+constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
 /// Whether a loop of `count` iterations is long enough for several threads.
 bool isLong(std::int64_t count) { return count > 8192; }

@@ -23,8 +23,8 @@ struct SkipTree {
 };
 
 struct SkipList {
-    UnsetVector<layout::SkipNode>
-        nodes;                   ///< two lists of `length`, and a node for rays that have reached the end
+    /// Two lists of `length`, and a node for rays that have reached the end.
+    UnsetVector<layout::SkipNode> nodes;
     std::uint32_t length = 0;    ///< of one list
     std::vector<SkipTree> trees; ///< in the order of PackedScene::trees
 };

@@ -16,8 +16,8 @@ namespace hyalite::reference {
 struct SheerKeys {
     glm::uvec2 pixel{0}; ///< of the whole image
     std::uint32_t sampleIndex = 0;
-    std::uint32_t vertex =
-        0; ///< as in sheerChoice(): twice the number of the segment, or 1 more for a shadow ray
+    /// As in sheerChoice(): twice the number of the segment, or 1 more for a shadow ray.
+    std::uint32_t vertex = 0;
 };
 
 template <class Real> struct Ray {

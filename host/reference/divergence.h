@@ -16,8 +16,8 @@ struct Divergence {
     std::string quantity;       ///< "hit primitive", "surface normal", ...
     std::string valueA;         ///< in decimal and, for floats, in hexadecimal
     std::string valueB;
-    bool isDiscrete =
-        false; ///< a decision went the other way: another primitive, another visibility, total reflection
+    /// A decision went the other way: another primitive, another visibility, total reflection.
+    bool isDiscrete = false;
     std::uint32_t eventIndex = 0; ///< in both traces
 };
 

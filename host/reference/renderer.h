@@ -14,9 +14,9 @@ namespace hyalite::reference {
 enum class Precision { Float32, Float64 };
 
 struct Options {
-    Precision precision =
-        Precision::Float32; ///< Float64 results are rounded to float when they reach the film
-    int threadCount = 0;    ///< chosen by OpenMP
+    /// Float64 results are rounded to float when they reach the film.
+    Precision precision = Precision::Float32;
+    int threadCount = 0; ///< chosen by OpenMP
     /// Called occasionally, never by two threads at once, with the finished fraction of the work, in [0, 1].
     std::function<void(double)> onProgress = {};
     bool isCounting = false; ///< count the work of the traversal

@@ -39,8 +39,8 @@ struct RenderReport {
     RendererIdentity device;
     std::string output;
     FinishedWork finished;
-    std::vector<std::string>
-        faults;            ///< failed Vulkan calls; the render continued after each, except perhaps the last
+    /// Failed Vulkan calls; the render continued after each, except perhaps the last.
+    std::vector<std::string> faults;
     std::string stoppedBy; ///< what ended the render early, or empty
     std::optional<ResumedWork> resumed;
     std::vector<RendererShare> shares; ///< of several renderers, if there are several

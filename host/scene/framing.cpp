@@ -23,8 +23,8 @@ constexpr double frameFovDegrees = 40.0;
 constexpr double margin = 0.08; ///< fraction of half the image that stays free at each edge
 constexpr float neutralAlbedo = 0.8f;
 constexpr float backgroundGrey = 0.05f;
-constexpr double lightDistance =
-    10.0; ///< in half diagonals: far enough to light near and far side about equally
+/// In half diagonals: far enough to light near and far side about equally.
+constexpr double lightDistance = 10.0;
 constexpr double keyRadiance = 0.7;
 constexpr double fillRadiance = 0.2;
 
@@ -120,8 +120,8 @@ Bounds triangleBounds(const Scene &scene, const std::string &name) {
 Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees,
                    const glm::dvec3 &worldUp) {
     assert(width >= 1 && height >= 1 && limits::horizontalFovDegrees.contains(horizontalFovDegrees));
-    const glm::dvec3 backwards =
-        towards(axesOf(worldUp), cameraAzimuthDegrees, 20.0); // from the box to the camera
+    // From the box to the camera.
+    const glm::dvec3 backwards = towards(axesOf(worldUp), cameraAzimuthDegrees, 20.0);
     const glm::dvec3 right = glm::normalize(glm::cross(worldUp, backwards));
     const glm::dvec3 up = glm::cross(backwards, right);
     const double tangentX = (1.0 - margin) * std::tan(glm::radians(0.5 * horizontalFovDegrees));

@@ -70,14 +70,14 @@ struct Material {
     bool twoSided = false;        ///< Diffuse, Principled, Gltf: reflects and emits on both sides
     bool reflectsBehind = false;  ///< likewise: reflects on both sides, but emits on that of the normal alone
     float refractiveIndex = 1.5f; ///< Dielectric, Principled: relative to the surroundings, in [1, 10]
-    glm::vec3 segmentTint{
-        1.0f}; ///< Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only
+    /// Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only.
+    glm::vec3 segmentTint{1.0f};
     glm::vec3 absorption{0.0f}; ///< Dielectric: per unit of length, >= 0; path only
     int priority = 0; ///< Dielectric: where several overlap, the glass of the highest is there; path only
-    glm::vec3 emission{
-        0.0f}; ///< Diffuse, Principled: radiance on the side of the normal, on both where twoSided; >= 0
-    glm::vec3 conductorIndex =
-        metalNames[0].second.index; ///< Conductor: real part of the refractive index, in [0, 20]
+    /// Diffuse, Principled: radiance on the side of the normal, on both where twoSided; >= 0.
+    glm::vec3 emission{0.0f};
+    /// Conductor: real part of the refractive index, in [0, 20].
+    glm::vec3 conductorIndex = metalNames[0].second.index;
     glm::vec3 conductorExtinction = metalNames[0].second.extinction; ///< and its imaginary part, in [0, 20]
     float roughness = 0.0f;    ///< Dielectric, Conductor, Principled: in [0, 1]
     float metallic = 0.0f;     ///< Principled: in [0, 1], as are those that follow
@@ -154,8 +154,8 @@ struct MetalKey {};
 
 struct MaterialKey {
     std::string_view key; ///< in scene files and messages
-    std::variant<NumberKey, ColourKey, WholeKey, FlagKey, SidesKey, MetalKey>
-        value; ///< its default is the member's
+    /// Its default is the member's.
+    std::variant<NumberKey, ColourKey, WholeKey, FlagKey, SidesKey, MetalKey> value;
     std::string_view help;
 };
 

@@ -48,8 +48,9 @@ class OriginFinder {
 /// more.
 template <class Read> [[nodiscard]] auto readNear(const Read &read) {
     auto loaded = read(glm::dvec3(0.0));
+    // Before the second one takes memory.
     if (const glm::dvec3 origin = originOf(loaded.mesh); origin != glm::dvec3(0.0)) {
-        loaded = {}; // before the second one takes memory
+        loaded = {};
         loaded = read(origin);
     }
     return loaded;

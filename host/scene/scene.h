@@ -48,9 +48,9 @@ enum class SpotFade { Smooth, Square };
 /// A light without size.
 struct Light {
     glm::dvec3 position{0.0}; ///< Point, Spot
-    glm::dvec3 power{
-        0.0}; ///< per colour channel, >= 0; the radiant intensity is power / (4 pi), of a Spot on its
-              ///< axis; Directional: the irradiance of a surface that faces it
+    /// Per colour channel, >= 0; the radiant intensity is power / (4 pi), of a Spot on its axis; Directional: the
+    /// irradiance of a surface that faces it.
+    glm::dvec3 power{0.0};
     LightKind kind = LightKind::Point;
     glm::dvec3 direction{0.0, -1.0, 0.0}; ///< Spot, Directional: in which light leaves; any length but zero
     double angleDegrees = 30.0;           ///< Spot: from its axis to the dark; in (0, 180]
@@ -75,8 +75,8 @@ struct Sphere {
 /// Corner indices into TriangleMesh::positions and ::normals; counter-clockwise seen from outside.
 struct MeshTriangle {
     glm::uvec3 positions{0};
-    glm::uvec3 normals{
-        noNormal}; ///< all three set, or all three `noNormal`: then the geometric normal is used
+    /// All three set, or all three `noNormal`: then the geometric normal is used.
+    glm::uvec3 normals{noNormal};
 
     static constexpr std::uint32_t noNormal = std::numeric_limits<std::uint32_t>::max();
 };
@@ -122,8 +122,8 @@ struct Placement {
     std::array<glm::vec3, 3> rows{glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f),
                                   glm::vec3(0.0f, 0.0f, 1.0f)};
     glm::vec3 offset{0.0f};
-    glm::dvec3 offsetRest{
-        0.0}; ///< what rounding took from the offset, while a scene is loaded (origin.h); then zero
+    /// What rounding took from the offset, while a scene is loaded (origin.h); then zero.
+    glm::dvec3 offsetRest{0.0};
 };
 
 /// A place of a prototype. addInstances in instances.h adds them.
@@ -153,11 +153,11 @@ struct RenderSettings {
     TreeKind tree = TreeKind::Midpoint;
     int leafSize = 8; ///< maximum number of triangles in a leaf, where they can be separated
     SamplerKind sampler = SamplerKind::Sobol;
-    FilterKind filter =
-        FilterKind::Box; ///< Sobol only: samples at the centre are at the centre of any filter
+    /// Sobol only: samples at the centre are at the centre of any filter.
+    FilterKind filter = FilterKind::Box;
     std::uint32_t seed = 0;
-    double radianceLimit =
-        0.0; ///< Path: maximum that indirect light adds to a sample, per channel; 0: no limit
+    /// Path: maximum that indirect light adds to a sample, per channel; 0: no limit.
+    double radianceLimit = 0.0;
     LightChoice lightChoice = LightChoice::Auto; ///< Path
     double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
     /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
@@ -176,8 +176,8 @@ struct Scene {
     std::vector<Light> lights;
     Environment environment;    ///< in place of the background, where there is one
     glm::vec3 background{0.0f}; ///< radiance of rays that leave the scene
-    float shadowThroughGlass =
-        1.0f; ///< factor on light that reaches a point through dielectrics alone; in [0, 1]
+    /// Factor on light that reaches a point through dielectrics alone; in [0, 1].
+    float shadowThroughGlass = 1.0f;
     std::vector<Texture> textures;
     std::vector<Material> materials;
     std::vector<Sphere> spheres;

@@ -129,8 +129,8 @@ template <class Number> [[nodiscard]] constexpr Interval rangeOf(Number RenderSe
 /// A change to the settings of the scene file.
 struct SettingChange {
     std::function<void(RenderSettings &)> apply;
-    const Setting *option =
-        nullptr; ///< that of the command line, which must have an effect; null: there is none
+    /// That of the command line, which must have an effect; null: there is none.
+    const Setting *option = nullptr;
 };
 using SettingChanges = std::vector<SettingChange>;
 

@@ -17,8 +17,8 @@ struct SpirvBlock {
     std::uint32_t label = 0;
     std::uint32_t merge = 0;          ///< merge block of the construct that this block heads, or 0
     std::uint32_t continueTarget = 0; ///< of the loop that this block heads, or 0
-    std::uint32_t continuedLoop =
-        0; ///< header of the innermost loop whose continue construct contains this block, or 0
+    /// Header of the innermost loop whose continue construct contains this block, or 0.
+    std::uint32_t continuedLoop = 0;
     bool isReached = false;
     std::uint32_t only = 0; ///< the only successor of a selection that can be taken, if known; or 0
     bool isPinned = false;  ///< all successors stay reachable, whatever is known

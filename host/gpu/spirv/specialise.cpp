@@ -108,8 +108,8 @@ class Specialiser {
                 append(words, spv::Op::OpUnreachable, {});
             return;
         }
-        const std::size_t end =
-            block.only != 0 ? block.end - 2 : block.end; // the merge instruction and the branch
+        // The merge instruction and the branch.
+        const std::size_t end = block.only != 0 ? block.end - 2 : block.end;
         for (std::size_t i = block.begin + 1; i < end; ++i) {
             if (instructions_[i].opcode() == spv::Op::OpPhi)
                 writePhi(words, block, instructions_[i].words);

@@ -32,16 +32,16 @@ struct DeviceInfo {
     std::uint32_t maxStorageImagesPerStage = 0; ///< storage texel buffers among them
     std::uint64_t maxAllocationBytes = 0;       ///< of one piece of memory
     std::uint64_t deviceMemoryBytes = 0;        ///< largest device-local heap
-    std::uint32_t consecutiveLanes =
-        1;                   ///< as the start-up check finds them (startup_check.h), once it has run
-    bool canShuffle = false; ///< subgroups of compute kernels exchange and add values
+    /// As the start-up check finds them (startup_check.h), once it has run.
+    std::uint32_t consecutiveLanes = 1;
+    bool canShuffle = false;               ///< subgroups of compute kernels exchange and add values
     std::optional<bool> hasSlowShuffles{}; ///< as lane_exchange.h finds; empty: not measured
     bool hasTimestamps = false;
     bool hasCalibratedTimestamps = false;
     bool isPortabilitySubset = false; ///< lacks a part of Vulkan, and says so by an extension
     std::uint32_t driverId = 0;       ///< VkDriverId; 0: unknown
-    bool hasExactDivisionListed =
-        false; ///< its / and sqrt are known to be correctly rounded: see arithmetic.h
+    /// Its / and sqrt are known to be correctly rounded: see arithmetic.h.
+    bool hasExactDivisionListed = false;
     // Float controls for float32. Equal bits are promised only with both.
     bool canRoundToNearestEven = false;
     bool canPreserveSignedZeroInfNan = false;

@@ -76,8 +76,8 @@ Variables readVariables() {
 } // namespace
 
 void requireAddressSpace() {
-    constexpr std::uint64_t neededBytes = std::uint64_t{256}
-                                          << 20; // lavapipe waits forever for threads that have none
+    // lavapipe waits forever for threads that have none.
+    constexpr std::uint64_t neededBytes = std::uint64_t{256} << 20;
     if (const std::optional<std::uint64_t> left = addressSpaceLeft(); left && *left < neededBytes)
         throw Error(
             ErrorKind::LimitExceeded,

@@ -73,8 +73,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEX
 
 Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
     requireVectorWidth();
-    [[maybe_unused]] static const bool isChecked =
-        (requireAddressSpace(), true); // later the driver has its share
+    // Later the driver has its share.
+    [[maybe_unused]] static const bool isChecked = (requireAddressSpace(), true);
     explainDriverFiles([this] { create(); });
 }
 

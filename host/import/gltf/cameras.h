@@ -19,8 +19,8 @@ namespace hyalite::gltf {
 
 struct PlacedCamera {
     Camera camera;
-    std::optional<double>
-        verticalFovDegrees{};            ///< of a perspective one: the image's shape gives the horizontal one
+    /// Of a perspective one: the image's shape gives the horizontal one.
+    std::optional<double> verticalFovDegrees{};
     std::optional<double> aspectRatio{}; ///< width / height of what it sees, if the file says it
     std::size_t node = 0;                ///< that has it
 };

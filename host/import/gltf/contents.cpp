@@ -87,8 +87,8 @@ class StatedBounds {
     }
 
     const Document &document_;
-    std::vector<std::optional<Bounds>>
-        boxes_; ///< of meshes that were asked for; empty ones: nothing is stated
+    /// Of meshes that were asked for; empty ones: nothing is stated.
+    std::vector<std::optional<Bounds>> boxes_;
 };
 
 /// The places of a node's mesh: one, or those of its instances.
