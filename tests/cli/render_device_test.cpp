@@ -78,9 +78,10 @@ TEST_F(RenderDevice, AllLeavesTheCpuToTheSoftwareDeviceOnIt) {
 
 TEST_F(RenderDevice, NamesThatDoNotGoTogetherAreRefused) {
     const std::string line = "render spheres -o a.pfm --device " + softwareDevice();
-    expectFailure(line + " --device " + softwareDevice(), 2, {"--device: ", " is there twice"});
-    expectFailure(line + " --device cpu-double", 2, {"--device: cpu-double goes with no other"});
-    expectFailure(line + " --device all", 2, {"--device: all goes with no other"});
+    expectFailure(line + " --device " + softwareDevice(), 2, {"--device: ", " is given twice"});
+    expectFailure(line + " --device cpu-double", 2,
+                  {"--device: cpu-double cannot be combined with other devices"});
+    expectFailure(line + " --device all", 2, {"--device: all cannot be combined with other devices"});
     expectFailure(line + " --device nothing", 4, {"no device matches 'nothing'"});
 }
 
