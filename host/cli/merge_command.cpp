@@ -3,7 +3,6 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/cli/part_command.h"
-#include "host/cli/progress.h"
 #include "host/cli/render_request.h"
 #include "host/cli/terminal_observer.h"
 #include "host/engine/identity.h"
@@ -106,11 +105,10 @@ void requireAllowed(const SceneOptions &scene, const std::vector<std::filesystem
 }
 
 /// Whether all tiles that are drawn have the bits that this machine computes.
-bool passesAudit(const Merger &merger, const MergeOptions &options) {
+bool passesAudit(const Merger &merger, const MergeOptions &options, Observer &observer) {
     RenderRequest request = readRenderRequest(merger.origin().words);
     request.scene.load.allowedPaths = options.allowedPaths; // what a part says opens no others
     requireAllowed(request.scene, options.allowedPaths);
-    TerminalObserver observer(options.isQuiet);
     OpenedRenderers opened = openRenderers(options.devices, observer);
     for (const std::string &note : opened.notes)
         printMessage("note: {}\n", note);
@@ -181,9 +179,10 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
                     fmt::format("--tone is for .png files: --output is {}", options.output));
     requireDistinctFiles({{"--output", options.output}}, options.parts);
     AtomicFile file(options.output);
+    TerminalObserver observer(options.isQuiet);
     Merger merger;
     {
-        ProgressLine progress("merge", options.isQuiet);
+        ObservedTask progress(observer, "merge");
         for (std::size_t i = 0; i < options.parts.size(); ++i) {
             merger.add(options.parts[i]);
             progress.update(static_cast<double>(i + 1) / static_cast<double>(options.parts.size()));
@@ -193,7 +192,7 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
     const std::vector<std::string> &differences = merger.faults().differences;
     for (const std::string &difference : differences)
         printResult("{}\n", difference);
-    if (!differences.empty() || (options.auditPercent && !passesAudit(merger, options))) {
+    if (!differences.empty() || (options.auditPercent && !passesAudit(merger, options, observer))) {
         printResult("{} is not written\n", options.output);
         return ExitCode::AnswerIsNo;
     }

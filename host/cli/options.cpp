@@ -81,15 +81,11 @@ CLI::Option *addWord(CLI::App &command, const std::string &name, std::string &wo
 
 CLI::Option *addOutput(CLI::App &command, const std::string &name, std::string &path,
                        const std::string &typeName, const std::string &help) {
-    const auto read = [name, &path](const CLI::results_t &words) {
-        if (words.front().empty())
-            refuseValue(name, "", "the name of a file, or - for standard output");
-        path = words.front();
-        if (isStandardStream(path))
-            resultStream = stderr;
-        return true;
-    };
-    return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);
+    return addWord(command, name, path, "the name of a file, or - for standard output", typeName, help)
+        ->each([](const std::string &word) {
+            if (isStandardStream(word))
+                resultStream = stderr;
+        });
 }
 
 CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,

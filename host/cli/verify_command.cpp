@@ -3,7 +3,6 @@
 #include "host/base/message.h"
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
-#include "host/cli/progress.h"
 #include "host/cli/terminal_observer.h"
 #include "host/cli/verify_files.h"
 #include "host/engine/tuning.h"
@@ -151,8 +150,7 @@ void keep(const gpu::DeviceInfo &device, bool isPassed, Observer &observer) {
 
 DeviceVerdict verifyWithProgress(const Subject &subject, const ShippedFilms &shipped,
                                  const VerifyOptions &options, Observer &observer) {
-    ProgressLine progress("verify " + (subject.device ? subject.device->name : subject.name),
-                          options.isQuiet);
+    ObservedTask progress(observer, "verify " + (subject.device ? subject.device->name : subject.name));
     return verifyDevice(subject.name, shipped, observer, options.kernels,
                         [&](const FilmVerdict &, double share) { progress.update(share); });
 }

@@ -20,36 +20,36 @@ Drawing drawCost(const Film &cost) {
                         "box and triangle tests per sample");
 }
 
-Drawing drawFilm(const Film &film, const RenderSettings &settings) {
+namespace {
+
+/// `image` is that of the film.
+Drawing draw(const Film &film, const Image &image, const RenderSettings &settings, ToneCurve tone) {
     if (settings.integrator == Integrator::Cost)
         return drawCost(film);
-    const Image image = film.toImage();
     Drawing drawing;
     drawing.width = image.width();
     drawing.height = image.height();
-    drawing.rgb = toneMap(image, settings.exposureStops);
+    drawing.rgb = toneMap(image, settings.exposureStops, tone);
     return drawing;
+}
+
+} // namespace
+
+Drawing drawFilm(const Film &film, const RenderSettings &settings) {
+    return draw(film, film.toImage(), settings, ToneCurve::Gamma);
 }
 
 void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
                const RenderSettings &settings, ToneCurve tone) {
     constexpr const char *pixelsAttribute = "pixels";
-    std::vector<Attribute> &attributes = picture.attributes;
-    if (format != ImageFormat::Png) {
-        attributes.emplace_back(pixelsAttribute, pixelHash(picture.colour));
-        writeImage(file, format, picture, settings.exposureStops, tone);
-        return;
-    }
-    Drawing drawing;
-    if (settings.integrator == Integrator::Cost) {
-        drawing = drawCost(film);
+    if (format == ImageFormat::Png) {
+        const Drawing drawing = draw(film, picture.colour, settings, tone);
+        picture.attributes.emplace_back(pixelsAttribute, pixelHash(drawing.rgb));
+        writePng(file, drawing.width, drawing.height, drawing.rgb, picture.attributes);
     } else {
-        drawing.width = picture.colour.width();
-        drawing.height = picture.colour.height();
-        drawing.rgb = toneMap(picture.colour, settings.exposureStops, tone);
+        picture.attributes.emplace_back(pixelsAttribute, pixelHash(picture.colour));
+        writeImage(file, format, picture, settings.exposureStops, tone);
     }
-    attributes.emplace_back(pixelsAttribute, pixelHash(drawing.rgb));
-    writePng(file, drawing.width, drawing.height, drawing.rgb, attributes);
 }
 
 } // namespace hyalite

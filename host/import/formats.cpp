@@ -14,7 +14,7 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <span>
 
 namespace hyalite {
 namespace {
@@ -62,14 +62,15 @@ constexpr auto table = std::to_array<Format>({
 });
 
 /// Throws Error{BadInput} for contents of no format.
-const Format &formatOf(const InputFile &file) {
-    std::vector<char> bytes(static_cast<std::size_t>(file.sizeBytes()));
-    file.read(0, std::as_writable_bytes(std::span(bytes)));
+const Format &formatOfStandardInput() {
+    const std::span<const std::byte> input = standardInput();
+    const std::span bytes(reinterpret_cast<const char *>(input.data()), input.size());
     const auto found =
         std::ranges::find_if(table, [&](const Format &format) { return format.hasContent(bytes); });
-    if (found == table.end())
-        throw file.bad(foreignContent(file, fmt::format("it is no {}", listOfExtensions())));
-    return *found;
+    if (found != table.end())
+        return *found;
+    const InputFile file("-");
+    throw file.bad(foreignContent(file, fmt::format("it is no {}", listOfExtensions())));
 }
 
 } // namespace
@@ -78,7 +79,7 @@ std::span<const Format> formats() { return table; }
 
 const Format *formatOf(const std::filesystem::path &file) {
     if (isStandardStream(file))
-        return &formatOf(InputFile(file));
+        return &formatOfStandardInput();
     const auto found = std::ranges::find_if(
         table, [&](const Format &format) { return hasExtension(file, format.extension); });
     return found == table.end() ? nullptr : &*found;

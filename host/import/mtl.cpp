@@ -341,30 +341,30 @@ struct NumberStatement {
     void (*take)(MtlStatements &mtl, std::string_view keyword, Words &words);
 };
 
+template <auto member> void takeColour(MtlStatements &mtl, std::string_view keyword, Words &words) {
+    mtl.*member = words.colour(keyword);
+}
+
+template <auto member> void takeNumber(MtlStatements &mtl, std::string_view keyword, Words &words) {
+    mtl.*member = words.number(keyword);
+}
+
 constexpr NumberStatement numberStatements[] = {
-    {"kd", limits::fraction,
-     [](auto &mtl, auto keyword, Words &words) { mtl.diffuse = words.colour(keyword); }},
-    {"ks", limits::fraction,
-     [](auto &mtl, auto keyword, Words &words) { mtl.specular = words.colour(keyword); }},
-    {"ke", limits::radiance,
-     [](auto &mtl, auto keyword, Words &words) { mtl.emission = words.colour(keyword); }},
-    {"ns", anyNumber, [](auto &mtl, auto keyword, Words &words) { mtl.exponent = words.number(keyword); }},
-    {"pr", limits::fraction,
-     [](auto &mtl, auto keyword, Words &words) { mtl.roughness = words.number(keyword); }},
-    {"pm", limits::fraction,
-     [](auto &mtl, auto keyword, Words &words) { mtl.metallic = words.number(keyword); }},
-    {"pc", limits::fraction,
-     [](auto &mtl, auto keyword, Words &words) { mtl.clearcoat = words.number(keyword); }},
-    {"pcr", limits::fraction,
-     [](auto &mtl, auto keyword, Words &words) { mtl.clearcoatRoughness = words.number(keyword); }},
+    {"kd", limits::fraction, takeColour<&MtlStatements::diffuse>},
+    {"ks", limits::fraction, takeColour<&MtlStatements::specular>},
+    {"ke", limits::radiance, takeColour<&MtlStatements::emission>},
+    {"ns", anyNumber, takeNumber<&MtlStatements::exponent>},
+    {"pr", limits::fraction, takeNumber<&MtlStatements::roughness>},
+    {"pm", limits::fraction, takeNumber<&MtlStatements::metallic>},
+    {"pc", limits::fraction, takeNumber<&MtlStatements::clearcoat>},
+    {"pcr", limits::fraction, takeNumber<&MtlStatements::clearcoatRoughness>},
+    {"tr", limits::fraction, takeNumber<&MtlStatements::transparency>},
     {"d", limits::fraction,
      [](auto &mtl, auto keyword, Words &words) {
          if (words.isAtOption())
              (void)words.next(); // -halo: opaque only where it is seen head on
          mtl.dissolve = words.number(keyword);
      }},
-    {"tr", limits::fraction,
-     [](auto &mtl, auto keyword, Words &words) { mtl.transparency = words.number(keyword); }},
     // Programs write 0 for what does not refract, and numbers of their own for how they shade.
     {"ni", anyNumber,
      [](auto &mtl, auto keyword, Words &words) {

@@ -67,6 +67,17 @@ void expectSquare(const ObjMesh &loaded) {
 
 TEST_F(Ply, IsReadAsText) { expectSquare(read(textHead + vertexHead + faceHead + square)); }
 
+/// The body of a binary file with `square`.
+std::string squareBytes(bool isBig) {
+    std::string bytes;
+    for (const float number : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
+        bytes += bytesOf(number, isBig);
+    bytes += '\x04';
+    for (const std::int32_t index : {0, 1, 2, 3})
+        bytes += bytesOf(index, isBig);
+    return bytes;
+}
+
 TEST_F(Ply, MayHaveAnyLineEnds) {
     for (const char *end : {"\r\n", "\r"}) {
         std::string text;
@@ -81,12 +92,7 @@ TEST_F(Ply, MayHaveAnyLineEnds) {
 TEST_F(Ply, BytesMayFollowALineEndThatIsNotLikeTheOthers) {
     std::string text = "ply\nformat binary_little_endian 1.0\n" + vertexHead + faceHead;
     text.insert(text.size() - 1, "\r");
-    for (const float number : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
-        text += bytesOf(number, false);
-    text += '\x04';
-    for (const std::int32_t index : {0, 1, 2, 3})
-        text += bytesOf(index, false);
-    expectSquare(read(text));
+    expectSquare(read(text + squareBytes(false)));
 }
 
 TEST_F(Ply, HeadersMayBeInAnyLetterCase) {
@@ -108,12 +114,7 @@ TEST_F(Ply, IsReadAsBytesOfEitherOrder) {
             for (const char c : std::string("ply\nformat binary_") + (isBig ? "big" : "little") +
                                     "_endian 1.0\n" + vertexHead + faceHead)
                 text += c == '\n' ? std::string(end) : std::string(1, c);
-            for (const float number : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
-                text += bytesOf(number, isBig);
-            text += '\x04';
-            for (const std::int32_t index : {0, 1, 2, 3})
-                text += bytesOf(index, isBig);
-            expectSquare(read(text));
+            expectSquare(read(text + squareBytes(isBig)));
         }
 }
 

@@ -1,24 +1,19 @@
 // The table of random dimensions, shaders/math/dimensions.glsl.
 #include "tests/fixtures/leaves.h"
+#include "tests/house/source_text.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace hyalite::reference {
 namespace {
 
-std::string textOf(const std::filesystem::path &file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
+using hyalite::testing::textOf;
 
 void expectDistinct(const std::vector<uint> &pairs) {
     EXPECT_EQ(std::set<uint>(pairs.begin(), pairs.end()).size(), pairs.size());
