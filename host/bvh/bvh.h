@@ -3,6 +3,7 @@
 
 #include "host/base/unset_vector.h"
 #include "host/scene/scene.h"
+#include "host/scene/settings.h"
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>

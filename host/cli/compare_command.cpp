@@ -32,7 +32,7 @@ void addStatisticalOptions(CLI::App &command, CompareOptions &options) {
 
 void printRenderers(const PreparedScene &scene, const ComparisonRun &run) {
     printResult("scene        {}: {}x{}, {} spp\n", scene.loaded.file.string(), scene.crop.width(),
-                scene.crop.height(), scene.loaded.scene.settings.samplesPerPixel);
+                scene.crop.height(), scene.loaded.settings.samplesPerPixel);
     printResult("first        {}\nsecond       {}\n", run.first->description(), run.second->description());
     for (const Backend *backend : {run.first.get(), run.second.get()})
         if (const gpu::BitGuarantee bits = backend->bits(); bits.degree != gpu::BitDegree::Promised)

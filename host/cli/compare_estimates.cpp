@@ -36,7 +36,7 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     PreparedScene scene = prepareScene(options.scene, Source::Dropped, observer);
     requireDistinctFiles({{"--report", options.report}}, scene.loaded.inputFiles);
     requireFilmMemory(scene.crop, 4); // two films, and two estimates of about the same size
-    RenderSettings &settings = scene.loaded.scene.settings;
+    RenderSettings &settings = scene.loaded.settings;
     const std::uint32_t firstSeed = settings.seed;
     const std::uint32_t secondSeed = secondSeedOf(options, firstSeed);
     const ComparisonRun run = openComparison(options.comparison, scene, observer);
@@ -45,14 +45,14 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
         printResult("seeds        {} and {}\n", firstSeed, secondSeed);
     }
     const auto estimate = [&](Backend &backend, std::uint32_t seed) {
-        settings.seed = scene.packed.frame.seed = seed;
+        settings.seed = seed;
         return estimateOf(unlessFailed(render(backend, scene, backend.name(), observer)).film);
     };
     const Estimate a = estimate(*run.first, firstSeed);
     const Estimate b = estimate(*run.second, secondSeed);
     const WelchResult result = testAndPrint(a, b, options.welch, scene.loaded.file.string());
     if (reportFile) {
-        settings.seed = scene.packed.frame.seed = firstSeed;
+        settings.seed = firstSeed;
         nlohmann::ordered_json json = comparisonRunToJson(run, scene, commandLine);
         json["seeds"] = {firstSeed, secondSeed};
         json["statistical"] = welchToJson(result, options.welch);

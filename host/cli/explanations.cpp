@@ -63,7 +63,7 @@ std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers) 
     for (std::size_t i = 0; i < std::min(outliers.size(), maxExplained); ++i) {
         const glm::uvec2 pixel = imagePixel(scene.crop, outliers[i]);
         const reference::Explanation why =
-            reference::explainOutlier(scene.packed, scene.loaded.scene.settings, pixel);
+            reference::explainOutlier(scene.packed, scene.loaded.settings, pixel);
         ++counts[static_cast<std::size_t>(why.cause)];
         const bool isExplained = why.cause != reference::Cause::Rounding && why.marginPixels;
         unexplained += isExplained ? 0u : 1u;

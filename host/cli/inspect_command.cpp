@@ -54,7 +54,7 @@ void printMeshes(const PreparedScene &prepared) {
 }
 
 void printTree(const PreparedScene &prepared, std::size_t droppedCount, const std::string &fault) {
-    const RenderSettings &settings = prepared.loaded.scene.settings;
+    const RenderSettings &settings = prepared.loaded.settings;
     const BvhStatistics statistics = measureBvh(prepared.bvh);
     printResult("tree         {}, leaf size {}\n", nameOf(settings.tree), settings.leafSize);
     printResult("  nodes      {} inner, {}, depth {}\n", statistics.innerCount,

@@ -120,7 +120,7 @@ bool passesAudit(const Merger &merger, const MergeOptions &options, Observer &ob
                         "judge them; --device cpu can",
                         backend->description(), bits.reason));
     PreparedScene scene = prepareScene(request.scene, Source::Dropped, observer);
-    scene.loaded.scene.settings.samplesPerPixel = static_cast<int>(merger.samplesPerPixel());
+    scene.loaded.settings.samplesPerPixel = static_cast<int>(merger.samplesPerPixel());
     requireFilmMemory(scene.crop, 3);
     const std::string here = identityText(identityOf(scene, *backend, &merger.origin().layers));
     if (here != merger.identity() || scene.crop != merger.film().crop)

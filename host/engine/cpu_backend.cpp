@@ -38,7 +38,7 @@ class CpuBackend : public Backend {
                                        const std::function<void(double)> &onProgress, Timeline *timeline,
                                        const std::function<bool()> &shouldStop,
                                        Continuation continuation) override {
-        const RenderSettings &settings = scene.loaded.scene.settings;
+        const RenderSettings &settings = scene.loaded.settings;
         Stopwatch watch;
         reference::Result result = reference::render(
             scene.packed, settings, scene.crop, {precision_, threadCount_, onProgress, false, shouldStop},
@@ -55,7 +55,7 @@ class CpuBackend : public Backend {
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
-        return reference::trace(scene.packed, scene.loaded.scene.settings, pixel, sampleIndex, precision_);
+        return reference::trace(scene.packed, scene.loaded.settings, pixel, sampleIndex, precision_);
     }
 
   private:
@@ -68,7 +68,7 @@ class CpuBackend : public Backend {
         record.tileY = scene.crop.y0;
         record.tileWidth = scene.crop.width();
         record.tileHeight = scene.crop.height();
-        record.sampleEnd = static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel);
+        record.sampleEnd = static_cast<std::uint32_t>(scene.loaded.settings.samplesPerPixel);
         record.rays = rays;
         record.invocations =
             static_cast<std::uint64_t>(record.tileWidth) * static_cast<std::uint64_t>(record.tileHeight);

@@ -54,14 +54,14 @@ class DeviceBackend : public Backend {
                                        const std::function<void(double)> &onProgress, Timeline *timeline,
                                        const std::function<bool()> &shouldStop,
                                        Continuation continuation) override {
-        gpu::Result result = renderer_.render(scene.packed, scene.loaded.scene.settings, scene.crop,
-                                              onProgress, timeline, shouldStop, std::move(continuation));
+        gpu::Result result = renderer_.render(scene.packed, scene.loaded.settings, scene.crop, onProgress,
+                                              timeline, shouldStop, std::move(continuation));
         return {std::move(result.film), result.rays,   result.timing, result.work,
                 result.lanes,           result.memory, result.faults, result.failure};
     }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
-        return renderer_.trace(scene.packed, scene.loaded.scene.settings, pixel, sampleIndex);
+        return renderer_.trace(scene.packed, scene.loaded.settings, pixel, sampleIndex);
     }
 
   private:

@@ -21,10 +21,10 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
     for (const Setting &setting : settingsTable) {
         if (setting.changes != Changes::Samples)
             continue;
-        const nlohmann::ordered_json value = settingToJson(setting, scene.loaded.scene.settings);
+        const nlohmann::ordered_json value = settingToJson(setting, scene.loaded.settings);
         identity.emplace_back(setting.key, value.is_string() ? value.get<std::string>() : value.dump());
     }
-    const RenderSettings &settings = scene.loaded.scene.settings;
+    const RenderSettings &settings = scene.loaded.settings;
     if (settings.integrator == Integrator::Cost) // a picture of the tree
         identity.emplace_back("tree",
                               fmt::format("{}, leaf size {}", nameOf(settings.tree), settings.leafSize));

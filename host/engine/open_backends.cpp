@@ -158,7 +158,7 @@ gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline) {
 }
 
 gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene) {
-    return processorsFor(threadCount, SceneOutline{scene.packed.hasTriangles, scene.loaded.scene.settings});
+    return processorsFor(threadCount, SceneOutline{scene.packed.hasTriangles, scene.loaded.settings});
 }
 
 std::unique_ptr<Backend> openBackend(const std::string &name, Observer &observer,

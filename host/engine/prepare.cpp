@@ -139,7 +139,7 @@ void overrideSize(const SceneOptions &options, const std::optional<double> &aspe
 
 void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
-    RenderSettings &settings = scene.settings;
+    RenderSettings &settings = loaded.settings;
     // A mesh without lights of its own is lit by an environment that is given.
     const bool isLitAround = loaded.autoFramed && loaded.isAutoLit && !options.environment.empty();
     if (isLitAround)
@@ -189,11 +189,13 @@ std::string cameraOverride(const SceneOptions &options) {
 
 /// Validates the scene with its overrides. It was valid as loaded, and each override is in range, so any failure is a
 /// conflict between them.
-void validateWithOverrides(const SceneOptions &options, const Scene &scene, const std::string &file) {
+void validateWithOverrides(const SceneOptions &options, const LoadedScene &loaded) {
     const std::string name = cameraOverride(options);
     try {
-        validateScene(scene,
-                      fmt::format("{} with {}", file, name.empty() ? "these settings" : "this camera"));
+        const std::string source =
+            fmt::format("{} with {}", loaded.file.string(), name.empty() ? "these settings" : "this camera");
+        validateScene(loaded.scene, source);
+        validateSettings(loaded.settings, loaded.scene, source);
     } catch (const Error &error) {
         if (name.empty())
             throw Error(ErrorKind::Usage, error.what());
@@ -249,8 +251,8 @@ bool hasSmoothGlass(const Scene &scene) {
 }
 
 /// `path` meets a light without size by shadow rays only, and smooth glass bends light in one direction only.
-void adviseOnLightsBehindGlass(const Scene &scene, Observer &observer) {
-    if (scene.settings.integrator == Integrator::Path && !scene.lights.empty() && hasSmoothGlass(scene))
+void adviseOnLightsBehindGlass(const Scene &scene, Integrator integrator, Observer &observer) {
+    if (integrator == Integrator::Path && !scene.lights.empty() && hasSmoothGlass(scene))
         observer.advice("path does not find the light of lights without size (point, spot, "
                         "directional) through smooth glass: its shadow is dark, and it focuses none of that "
                         "light. Give the light a size, as a sphere with emission, or use the integrator "
@@ -296,20 +298,21 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
         for (const std::string &warning : report.warnings)
             observer.warning(warning);
     Scene &scene = prepared.loaded.scene;
-    validateWithOverrides(options, scene, prepared.loaded.file.string());
+    const RenderSettings &settings = prepared.loaded.settings;
+    validateWithOverrides(options, prepared.loaded);
     prepared.crop = chooseCrop(options.crop, scene.camera);
     prepared.sources = lightSourcesOf(scene);
-    adviseOnLightsBehindGlass(scene, observer);
-    if (const std::optional<std::string> dark = diagnoseLight(scene))
+    adviseOnLightsBehindGlass(scene, settings.integrator, observer);
+    if (const std::optional<std::string> dark = diagnoseLight(scene, settings.integrator))
         observer.advice(*dark);
     const Clock::time_point loaded = Clock::now();
     // Without a tree all triangles are tested one by one, and have to be in one space.
-    const bool isFlattened = options.isFlattened || scene.settings.tree == TreeKind::None;
+    const bool isFlattened = options.isFlattened || settings.tree == TreeKind::None;
     arrangeInstances(scene, isFlattened ? Flattening::All : Flattening::Useful);
     partContacts(scene);
-    prepared.bvh = buildBvh(scene.settings.tree, scene, scene.settings.leafSize);
+    prepared.bvh = buildBvh(settings.tree, scene, settings.leafSize);
     warnOfOverlaps(prepared.bvh, observer);
-    prepared.packed = packScene(scene, prepared.bvh);
+    prepared.packed = packScene(scene, prepared.bvh, {.lightChoice = settings.lightChoice});
     prepared.arraysHash = prepared.packed.arraysHash();
     if (source == Source::Dropped) {
         dropSource(scene);
@@ -329,7 +332,7 @@ Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLi
     origin.width = scene.crop.width();
     origin.height = scene.crop.height();
     origin.coordinateOrigin = scene.loaded.scene.origin;
-    origin.settings = scene.loaded.scene.settings;
+    origin.settings = scene.loaded.settings;
     return origin;
 }
 

@@ -59,7 +59,7 @@ class SharedRender {
                  Continuation continuation)
         : members_(members), scene_(scene), onProgress_(onProgress), shouldStop_(shouldStop),
           snapshots_(continuation.snapshots),
-          samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel)),
+          samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.settings.samplesPerPixel)),
           spotCheck_(scene, continuation.film ? continuation.film->crop : scene.crop, shouldStop),
           film_(continuation.film ? std::move(*continuation.film) : Film(scene.crop)),
           queue_(film_, samplesPerPixel_), finishedSamples_(static_cast<double>(samplesIn(film_))) {
@@ -177,7 +177,7 @@ class SharedRender {
     /// Throws if they are not the CPU's. A picture by one renderer has no seams, whatever its bits.
     void checkBits(Worker &worker, Stopwatch &watch) {
         Member &member = *worker.member;
-        const Integrator integrator = scene_.loaded.scene.settings.integrator;
+        const Integrator integrator = scene_.loaded.settings.integrator;
         if (workers_.size() == 1 || std::ranges::find(member.checked, integrator) != member.checked.end())
             return;
         if (spotCheck_.run(*member.backend, worker.total.faults))

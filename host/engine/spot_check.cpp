@@ -73,7 +73,7 @@ std::vector<Crop> spotsIn(const Crop &crop) {
 
 SpotCheck::SpotCheck(const PreparedScene &scene, const Crop &crop, const std::function<bool()> &shouldStop)
     : scene_(scene), shouldStop_(shouldStop),
-      samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.scene.settings.samplesPerPixel)),
+      samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.settings.samplesPerPixel)),
       checkedSamples_(std::min(samplesPerPixel_, maxSamples)), spots_(spotsIn(crop)),
       cpu_(makeCpuBackend(reference::Precision::Float32, 1)) {}
 

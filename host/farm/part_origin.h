@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/film/partition.h"
-#include "host/scene/scene.h"
+#include "host/scene/settings.h"
 
 #include <string>
 #include <string_view>

@@ -120,7 +120,7 @@ class RankBackend : public Backend {
                                        Timeline *, const std::function<bool()> &shouldStop,
                                        Continuation continuation) override {
         Film film = continuation.film ? std::move(*continuation.film) : Film(scene.crop);
-        const RenderSettings &settings = scene.loaded.scene.settings;
+        const RenderSettings &settings = scene.loaded.settings;
         const Crop &crop = film.crop;
         send(ranks_, rank_,
              {{"kind", "tile"},
@@ -195,7 +195,7 @@ class StopQuestion {
 /// Renders the tile of a message, and answers.
 void renderTile(Ranks &ranks, PreparedScene &scene, Backend &backend, const json &job,
                 std::vector<layout::FilmPixel> pixels) {
-    RenderSettings &settings = scene.loaded.scene.settings;
+    RenderSettings &settings = scene.loaded.settings;
     settings.integrator = static_cast<Integrator>(job.at("integrator").get<int>());
     settings.samplesPerPixel = job.at("samples");
     settings.sampler = static_cast<SamplerKind>(job.at("sampler").get<int>());
@@ -259,7 +259,7 @@ void serveTiles(Ranks &ranks, PreparedScene &scene, Backend &backend) {
           {"host", hostName()},
           {"description", backend.description()},
           {"identity", identityText(identityOf(scene, backend))},
-          {"renderer", toJson(backend.identity(scene.packed, scene.loaded.scene.settings.integrator))},
+          {"renderer", toJson(backend.identity(scene.packed, scene.loaded.settings.integrator))},
           {"bitDegree", static_cast<int>(bits.degree)},
           {"bitReason", bits.reason},
           {"precision", backend.precision()},

@@ -4,7 +4,7 @@
 #include "host/film/film.h"
 #include "host/image/bitmap_text.h"
 #include "host/image/image_file.h"
-#include "host/scene/scene.h"
+#include "host/scene/settings.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 
 #include "host/film/film.h"
 #include "host/packing/packed_scene.h"
-#include "host/scene/scene.h"
+#include "host/scene/settings.h"
 
 #include <cstdint>
 #include <span>
@@ -12,15 +12,13 @@ namespace hyalite::gpu {
 
 struct Job {
     const PackedScene &scene;
+    const RenderSettings &settings;
     Crop crop;
-    Integrator integrator;
-    std::uint32_t sampler; ///< layout::sampler...
     std::uint32_t sampleBegin;
     std::uint32_t sampleEnd;
     bool isTraced;
     /// Samples are added to it; empty: start without samples. Read only at the start.
     std::span<const layout::FilmPixel> film{};
-    bool showsWork = false; ///< in place of radiance
 };
 
 } // namespace hyalite::gpu

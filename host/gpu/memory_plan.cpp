@@ -50,8 +50,8 @@ std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
 
 /// For a kernel with `slots` path slots. `isResumable`: it can stop inside a sample.
 WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::uint64_t slots) {
-    const bool isSplitting = rowOf(job.integrator).splitsAtGlass && job.scene.hasDielectric;
-    const std::uint32_t maxPending = isSplitting ? job.scene.frame.maxDepth - 1 : 0;
+    const bool isSplitting = rowOf(job.settings.integrator).splitsAtGlass && job.scene.hasDielectric;
+    const std::uint32_t maxPending = isSplitting ? static_cast<std::uint32_t>(job.settings.maxDepth) - 1 : 0;
     const bool keepsPending = !isResumable && maxPending <= layout::maxPendingInRegisters;
     WaitingPlan waiting;
     waiting.paths =
@@ -147,8 +147,8 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
     // Where every pass takes the same time, lanes whose paths have ended cost as much as others. In a tree few rays take
     // less, and whitted's paths end together.
-    planned.takesSamplesInTurn =
-        planned.isDirect && rowOf(job.integrator).aimsAtEmitters && !job.scene.needsTree();
+    planned.takesSamplesInTurn = planned.isDirect && rowOf(job.settings.integrator).aimsAtEmitters &&
+                                 !job.scene.needsTree(job.settings.integrator);
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
     planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     planned.trace =

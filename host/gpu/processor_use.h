@@ -1,7 +1,7 @@
 // How software drivers are to use the processors, on which they compute.
 #pragma once
 
-#include "host/scene/scene.h"
+#include "host/scene/settings.h"
 
 namespace hyalite::gpu {
 

@@ -17,7 +17,7 @@ Workload workloadOf(const PackedScene &scene, Integrator integrator) {
     if (rowOf(integrator).aimsAtEmitters &&
         (scene.scattering != 0 || (scene.lighting & layout::lightsByEnvironment) != 0))
         return Workload::Shading;
-    return scene.needsTree() ? Workload::Triangles : Workload::Spheres;
+    return scene.needsTree(integrator) ? Workload::Triangles : Workload::Spheres;
 }
 
 RenderConfig completed(RenderConfig config, const DeviceInfo &device, Workload workload) {

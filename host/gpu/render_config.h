@@ -4,7 +4,7 @@
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/vk/device_list.h"
 #include "host/packing/packed_scene.h"
-#include "host/scene/scene.h"
+#include "host/scene/settings.h"
 
 #include <array>
 #include <cstdint>

@@ -154,15 +154,14 @@ struct Renderer::State {
     }
 
     /// The scene on the device, after keepOnly().
-    const SceneBuffers &buffersOf(const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
-        if (resident)
-            resident->buffers.setFrame(scene.frame);
-        else {
+    const SceneBuffers &buffersOf(const Job &job, const ScenePlan &plan, bool isSkipList) {
+        if (!resident) {
             const std::uint64_t before = device->allocatedBytes();
-            SceneBuffers buffers(*device, scene, plan, isSkipList);
-            resident.emplace(ResidentScene{scene.serial, isSkipList, device->allocatedBytes() - before,
+            SceneBuffers buffers(*device, job.scene, plan, isSkipList);
+            resident.emplace(ResidentScene{job.scene.serial, isSkipList, device->allocatedBytes() - before,
                                            std::move(buffers)});
         }
+        resident->buffers.setFrame(frameOf(job.scene, job.settings));
         return resident->buffers;
     }
 
@@ -265,15 +264,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
     const RenderConfig config = state_->configFor(scene, settings.integrator, showsWork(settings));
     const bool isSkipList = config.traversal == Traversal::SkipList;
     const auto jobOf = [&](const Crop &band) {
-        return Job{scene,
-                   band,
-                   settings.integrator,
-                   samplerOf(settings),
-                   0,
-                   static_cast<std::uint32_t>(settings.samplesPerPixel),
-                   false,
-                   {},
-                   showsWork(settings)};
+        return Job{scene, settings, band, 0, static_cast<std::uint32_t>(settings.samplesPerPixel), false};
     };
     const std::vector<Crop> bands = cutIntoBands(crop, state_->info);
     const ScenePlan scenePlan = planScene(scene, isSkipList);
@@ -286,7 +277,7 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         TileRenderer::makePipeline(*state_->device, state_->pipelines, config, firstJob, scenePlan,
                                    firstPlan);
     });
-    const SceneBuffers &buffers = state_->buffersOf(scene, scenePlan, isSkipList);
+    const SceneBuffers &buffers = state_->buffersOf(firstJob, scenePlan, isSkipList);
     result.timing.uploadSeconds = endStage("upload");
     DispatchCosts &costs = state_->resident->costs[settings.integrator];
 
@@ -355,15 +346,7 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
                                                 const glm::uvec2 &pixel, std::uint32_t sampleIndex) {
     const int x = static_cast<int>(pixel.x);
     const int y = static_cast<int>(pixel.y);
-    const Job job{scene,
-                  {x, x + 1, y, y + 1},
-                  settings.integrator,
-                  samplerOf(settings),
-                  sampleIndex,
-                  sampleIndex + 1,
-                  true,
-                  {},
-                  showsWork(settings)};
+    const Job job{scene, settings, {x, x + 1, y, y + 1}, sampleIndex, sampleIndex + 1, true};
     if (!state_->device)
         state_->reopen();
     const RenderConfig config = state_->configFor(scene, settings.integrator, showsWork(settings));
@@ -372,7 +355,7 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     const JobPlan jobPlan = planJob(job, config, state_->info);
     state_->keepOnly(scene, isSkipList);
     (void)state_->requireMemory(scenePlan, jobPlan);
-    const SceneBuffers &buffers = state_->buffersOf(scene, scenePlan, isSkipList);
+    const SceneBuffers &buffers = state_->buffersOf(job, scenePlan, isSkipList);
     TileRenderer tiles(*state_->device, state_->pipelines, buffers, config, job, scenePlan, jobPlan);
     tiles.makeKernel();
     (void)tiles.run({});

@@ -62,7 +62,6 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
                               ? std::move(tree.nodes)
                               : uploaded(device, plan.buffers[binding], bytes[binding]));
     ofTree_ = tree.constants;
-    setFrame(scene.frame);
 }
 
 void SceneBuffers::setFrame(const layout::FrameRecord &frame) {

@@ -14,7 +14,7 @@ struct SceneBuffers {
     /// made for the same choice. Throws as Buffer does.
     SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList);
 
-    /// Uploads the frame of a scene with the arrays of the one that is here: another camera, seed or maximum depth.
+    /// Uploads the frame of a render, before the first one and for each.
     void setFrame(const layout::FrameRecord &frame);
 
     std::vector<Buffer> buffers; ///< by binding

@@ -83,10 +83,12 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantTexturing] = scene.texturing;
     constants[layout::constantPassing] = scene.passing;
     constants[layout::constantTrianglePairs] =
-        config.traversal == Traversal::SkipList ? static_cast<std::uint32_t>(scene.trianglePairs.size()) : 0;
+        config.traversal == Traversal::SkipList
+            ? static_cast<std::uint32_t>(scene.listedPairs(job.settings.integrator))
+            : 0;
     constants[layout::constantHasPairs] = config.traversal == Traversal::SkipList && scene.hasPairs;
-    constants[layout::constantView] = rowOf(job.integrator).view;
-    constants[layout::constantSampler] = job.sampler;
+    constants[layout::constantView] = rowOf(job.settings.integrator).view;
+    constants[layout::constantSampler] = samplerOf(job.settings);
     constants[layout::constantStackSize] = plan.stackSize;
     constants[layout::constantIsTracing] = job.isTraced;
     constants[layout::constantExactDivision] = config.arithmetic == Arithmetic::Native;
@@ -95,7 +97,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantSamplesInTurn] = plan.takesSamplesInTurn && !isResumable;
     constants[layout::constantBroadcasts] = plan.exchangesByBroadcast;
     constants[layout::constantIsCounting] = config.isCounting;
-    constants[layout::constantShowsCost] = job.showsWork;
+    constants[layout::constantShowsCost] = showsWork(job.settings);
     constants[layout::constantPendingInRegisters] = waiting.pendingInRegisters;
     return constants;
 }
@@ -110,9 +112,9 @@ std::shared_ptr<Pipeline> pipelineOf(Device &device, PipelineCache &pipelines, c
                            uses.begin(), [](const BufferPlan *buffer) { return buffer->use; });
     return pipelines.get(
         device,
-        fmt::format("{} {}{}", nameOf(job.integrator), kernelName(config),
+        fmt::format("{} {}{}", nameOf(job.settings.integrator), kernelName(config),
                     isResumable && config.traversal == Traversal::SkipList ? ", resumable" : ""),
-        kernelWords(config, job.integrator), constantsOf(config, job, plan, isResumable), uses);
+        kernelWords(config, job.settings.integrator), constantsOf(config, job, plan, isResumable), uses);
 }
 
 } // namespace

@@ -91,6 +91,7 @@ LoadedScene loadScene(const std::string &argument, const LoadOptions &options) {
         loaded.inputFiles.push_back(texture.name);
     moveNear(loaded.scene, loaded.cameraPath, loaded.restOrigin);
     validateScene(loaded.scene, file.string());
+    validateSettings(loaded.settings, loaded.scene, file.string());
     return loaded;
 }
 

@@ -5,6 +5,7 @@
 #include "host/import/mesh_file.h"
 #include "host/scene/camera_path.h"
 #include "host/scene/scene.h"
+#include "host/scene/settings.h"
 
 #include <filesystem>
 #include <functional>
@@ -49,6 +50,7 @@ struct LoadOptions {
 
 struct LoadedScene {
     Scene scene;
+    RenderSettings settings;
     CameraPath cameraPath{};                ///< of its camera
     std::optional<glm::dvec3> restOrigin{}; ///< of a file with animations: its origin at all times (origin.h)
     bool movesByTime = false; ///< other frames of a sequence show other meshes or lights: load it for each

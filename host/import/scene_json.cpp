@@ -308,16 +308,16 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
         const JsonObject settings(*node);
         faults.collect([&] { settings.allowOnly(scene_keys::settings); });
         hasIntegrator = settings.find("integrator").has_value();
-        scene.settings = readSettings(settings, faults);
+        loaded.settings = readSettings(settings, faults);
         scene.shadowThroughGlass = static_cast<float>(
             settings.number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
     });
     if (!hasIntegrator && speaksOfEmission(document))
-        scene.settings.integrator = Integrator::Path;
+        loaded.settings.integrator = Integrator::Path;
     if (options.events.onOutline)
         options.events.onOutline({!top.elements("meshes", limits::meshCount).empty() ||
                                       !top.elements("shapes", limits::meshCount).empty(),
-                                  scene.settings});
+                                  loaded.settings});
 
     faults.collect([&] {
         scene.background =
@@ -349,7 +349,7 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
     scene.textures = textures.give();
     if (!hasIntegrator) {
         const LightSources sources = lightSourcesOf(scene);
-        scene.settings.integrator =
+        loaded.settings.integrator =
             sources.hasEmitters || sources.hasEnvironment ? Integrator::Path : RenderSettings{}.integrator;
     }
     return loaded;

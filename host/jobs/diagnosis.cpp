@@ -116,8 +116,10 @@ std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Fil
             "{:.0f} % of the pixels are not finite numbers: the light is too bright for floats; lower the "
             "powers of lights, or move them away from surfaces",
             share * 100.0);
-    const bool isKnown = diagnoseLight(scene.loaded.scene).has_value(); // and was said before the render
-    if (isBlack && showsLight(scene.loaded.scene.settings.integrator) && !isKnown)
+    const Integrator integrator = scene.loaded.settings.integrator;
+    const bool isKnown = // and was said before the render
+        diagnoseLight(scene.loaded.scene, integrator).has_value();
+    if (isBlack && showsLight(integrator) && !isKnown)
         return "the picture is black: " + reasonOfBlack(scene);
     const bool mayMeetNothing = rays.total() == rays.primary && !isKnown && hasSurfaces(scene.loaded.scene);
     if (mayMeetNothing && lookAround(scene.packed, scene.crop).hitCount == 0)

@@ -66,7 +66,7 @@ Layer layerOf(const ViewFilm &of) {
 std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
                                   const std::vector<Integrator> &views, std::span<const Crop> squares,
                                   std::span<const Film> begun, Observer &observer, const TimeLimit &limit) {
-    RenderSettings &settings = scene.loaded.scene.settings;
+    RenderSettings &settings = scene.loaded.settings;
     const RenderSettings ofImage = settings;
     std::vector<ViewFilm> films;
     for (const Integrator view : views) {

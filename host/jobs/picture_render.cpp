@@ -52,7 +52,7 @@ Partition partitionFor(const PictureFiles &files, const Crop &crop) {
 }
 
 std::string identityOfFrame(const RenderRequest &request, const RenderSession &session) {
-    const RenderSettings &settings = session.scene().loaded.scene.settings;
+    const RenderSettings &settings = session.scene().loaded.settings;
     const std::string whole =
         fmt::format("{}samples per pixel: {}\nexposure: {}\ntone: {}\n",
                     identityText(identityOf(session.scene(), session.backend(), &request.layers)),
@@ -107,7 +107,7 @@ bool isPartFinished(const PictureFiles &files, const PictureBeginning &begun, in
 void resume(const PictureFiles &files, const RenderSession &session, PictureBeginning &begun) {
     const RenderRequest &request = files.request;
     const PreparedScene &scene = session.scene();
-    const int samplesPerPixel = scene.loaded.scene.settings.samplesPerPixel;
+    const int samplesPerPixel = scene.loaded.settings.samplesPerPixel;
     const RenderIdentity identity =
         identityOf(scene, session.backend(), request.part ? &request.layers : nullptr);
     CheckpointSubject subject{scene.crop, partOf(files), static_cast<std::uint32_t>(samplesPerPixel), {}};
@@ -170,7 +170,7 @@ class PictureRender {
   private:
     void take(BackendResult &result, FinishedPicture &finished) {
         const std::optional<Stop> stop = session_.observer().wantsStop();
-        const int samplesPerPixel = session_.scene().loaded.scene.settings.samplesPerPixel;
+        const int samplesPerPixel = session_.scene().loaded.settings.samplesPerPixel;
         report_.finished = finishedWork(result.film, squares_, samplesPerPixel);
         for (const ViewFilm &layer : layers_)
             report_.finished.isComplete =
@@ -196,7 +196,7 @@ class PictureRender {
 
     [[nodiscard]] std::optional<std::string> diagnose(const Film &film) const {
         const PreparedScene &scene = session_.scene();
-        const RenderSettings &settings = scene.loaded.scene.settings;
+        const RenderSettings &settings = scene.loaded.settings;
         std::optional<std::string> fault = diagnosePicture(scene, film, report_.rays);
         if (!fault && formatOf(request_) == ImageFormat::Png && showsLight(settings.integrator))
             fault = diagnoseExposure(film, settings.exposureStops);
@@ -212,17 +212,17 @@ class PictureRender {
     }
 
     void writePicture(AtomicFile &file, const Film &film) const {
-        const Scene &scene = session_.scene().loaded.scene;
+        const LoadedScene &loaded = session_.scene().loaded;
         FilmPicture picture{.film = film, .views = layers_};
-        picture.wholeWidth = scene.camera.width;
-        picture.wholeHeight = scene.camera.height;
+        picture.wholeWidth = loaded.scene.camera.width;
+        picture.wholeHeight = loaded.scene.camera.height;
         picture.attributes = attributesOf(provenanceToJson(report_.origin, report_.device));
         if (request_.frame) {
             picture.attributes.emplace_back("frame", fmt::format("{}", *request_.frame));
             picture.attributes.emplace_back("identity", begun_.frameIdentity);
         }
-        picture.integrator = scene.settings.integrator;
-        picture.exposureStops = scene.settings.exposureStops;
+        picture.integrator = loaded.settings.integrator;
+        picture.exposureStops = loaded.settings.exposureStops;
         picture.tone = toneOf(request_);
         writeFilmPicture(file, formatOf(request_), picture);
     }
@@ -326,7 +326,7 @@ PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLin
     RenderReport &report = begun.report;
     report.output = files.request.output;
     report.origin = provenanceOf(scene, commandLine);
-    report.device = session.backend().identity(scene.packed, scene.loaded.scene.settings.integrator);
+    report.device = session.backend().identity(scene.packed, scene.loaded.settings.integrator);
     if (session.isFirstPicture()) {
         report.loadSeconds = scene.loadSeconds;
         report.buildSeconds = scene.buildSeconds;

@@ -15,7 +15,7 @@ ComparisonRun openComparison(const ComparisonRequest &request, const PreparedSce
 
 std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene,
                                               const glm::uvec2 &pixel) {
-    const int sampleCount = scene.loaded.scene.settings.samplesPerPixel;
+    const int sampleCount = scene.loaded.settings.samplesPerPixel;
     for (int sample = 0; sample < sampleCount; ++sample) {
         const std::uint32_t index = static_cast<std::uint32_t>(sample);
         if (std::optional<Divergence> divergence =
@@ -28,7 +28,7 @@ std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, c
 
 nlohmann::ordered_json comparisonRunToJson(const ComparisonRun &run, const PreparedScene &scene,
                                            const std::string &commandLine) {
-    const Integrator integrator = scene.loaded.scene.settings.integrator;
+    const Integrator integrator = scene.loaded.settings.integrator;
     nlohmann::ordered_json json = provenanceToJson(provenanceOf(scene, commandLine));
     json["first"] = rendererToJson(run.first->identity(scene.packed, integrator));
     json["second"] = rendererToJson(run.second->identity(scene.packed, integrator));

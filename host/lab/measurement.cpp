@@ -63,7 +63,7 @@ BackendResult Measurement::render(Backend &backend, const std::string &task, con
 }
 
 double Measurement::finishedShare(const Film &film) const {
-    const int samplesPerPixel = scene_.loaded.scene.settings.samplesPerPixel;
+    const int samplesPerPixel = scene_.loaded.settings.samplesPerPixel;
     const FinishedWork finished = finishedWork(film, std::span(&film.crop, 1), samplesPerPixel);
     return static_cast<double>(finished.sampleCount) / static_cast<double>(finished.wantedPixelCount) /
            samplesPerPixel;
@@ -145,7 +145,7 @@ void Measurement::cutCount(const char *what, double share) {
 void Measurement::countWork() {
     const std::unique_ptr<Backend> counter =
         openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_));
-    bool &isWorkShown = scene_.loaded.scene.settings.isWorkShown;
+    bool &isWorkShown = scene_.loaded.settings.isWorkShown;
     isWorkShown = true;
     const BackendResult result = render(*counter, "counting", limit_.share(request_.isCounting ? 0.5 : 1.0));
     isWorkShown = false;
@@ -174,7 +174,7 @@ void Measurement::countKernelWork() {
         cutCount("the work of the kernel: the samples", share);
     else
         profile_.kernelWork =
-            KernelWork{counter->identity(scene_.packed, scene_.loaded.scene.settings.integrator).kernel,
+            KernelWork{counter->identity(scene_.packed, scene_.loaded.settings.integrator).kernel,
                        result.work, result.lanes};
 }
 

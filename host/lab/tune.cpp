@@ -46,7 +46,7 @@ KernelRates measure(const Trial &trial, const std::string &deviceName, Observer 
     const PreparedScene scene = prepareScene(options, Source::Dropped, nobody());
     observer.beforeDriver(processorsFor(0, scene));
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
-    const RenderSettings &settings = scene.loaded.scene.settings;
+    const RenderSettings &settings = scene.loaded.settings;
 
     const gpu::Workload workload = gpu::workloadOf(scene.packed, settings.integrator);
     const std::string_view usual = gpu::kernelName(gpu::completed({}, device, workload));

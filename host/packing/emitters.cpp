@@ -249,7 +249,7 @@ std::uint32_t emitterKindOf(const layout::LightRecord &light) {
                                                     : layout::emitterPoint;
 }
 
-void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
+void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, PackedScene &packed) {
     std::vector<double> exitances; // of each material
     for (const layout::MaterialRecord &material : packed.materials)
         exitances.push_back(exitance(packed, material));
@@ -291,7 +291,7 @@ void packEmitters(const Scene &scene, bool isLitAround, PackedScene &packed) {
     for (const Candidate &candidate : found)
         packed.lighting |= 1u << candidate.emitter.kind;
     double total = 1.0; // of the light tree: emitterPdf > 0 marks what emits
-    if (isChosenByTree(scene.settings.lightChoice, found, packed))
+    if (isChosenByTree(choice, found, packed))
         chooseByTree(std::move(found), packed);
     else
         total = chooseByPower(std::move(found), packed);

@@ -57,12 +57,6 @@ void setCamera(const Camera &camera, layout::FrameRecord &frame) {
 layout::FrameRecord packFrame(const Scene &scene) {
     layout::FrameRecord frame{};
     setCamera(scene.camera, frame);
-    frame.radianceLimit = scene.settings.radianceLimit > 0.0
-                              ? static_cast<float>(scene.settings.radianceLimit)
-                              : std::numeric_limits<float>::infinity();
-    frame.seed = scene.settings.seed;
-    frame.maxDepth = static_cast<std::uint32_t>(scene.settings.maxDepth);
-    frame.occlusionDistance = static_cast<float>(scene.settings.occlusionDistance);
     frame.lightCount = static_cast<std::uint32_t>(scene.lights.size());
     frame.firstTriangleId =
         std::max(layout::minFirstTriangleId, static_cast<std::uint32_t>(scene.spheres.size()));
@@ -162,9 +156,12 @@ layout::MaterialRecord packMaterial(const Material &material) {
     return record;
 }
 
-/// What rough glass may meet: any two of the scene's media on its sides.
+/// What rough glass may meet: any two of the scene's media on its sides. Nothing where there are more media than the path
+/// integrator, which alone reads of them, can follow.
 GlassNodes glassNodesOf(const Scene &scene) {
     GlassNodes nodes;
+    if (std::ranges::count_if(scene.materials, isGlass) > std::int64_t{layout::maxMedia})
+        return nodes;
     std::vector<double> indices = {1.0};
     for (const Material &material : scene.materials) {
         if (!isGlass(material))
@@ -244,11 +241,7 @@ std::size_t PackedScene::sizeBytes() const {
 
 std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
     layout::FrameRecord seen = frame;
-    seen.seed = 0;
-    seen.maxDepth = 0;
-    seen.occlusionDistance = 0.0f;
-    seen.radianceLimit = 0.0f;
-    seen.environmentTexels = 0; // this and the next are for some integrators only
+    seen.environmentTexels = 0; // this and the next depend on how emitters are chosen
     seen.environmentProbability = 0.0f;
     seen.filterTexels = 0;
     const std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)), ofArrays);
@@ -258,7 +251,7 @@ std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
 std::uint64_t PackedScene::arraysHash() const {
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials)
-        material.emitterPdf = 0.0f; // for some integrators only
+        material.emitterPdf = 0.0f; // likewise
     std::vector<layout::SphereRecord> seenSpheres = spheres;
     for (layout::SphereRecord &sphere : seenSpheres)
         sphere.emitter = sphere.primitiveId = 0;
@@ -308,7 +301,17 @@ std::uint32_t samplerOf(const RenderSettings &settings) {
     return settings.filter == FilterKind::Box ? layout::samplerSobol : layout::samplerFiltered;
 }
 
-PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded) {
+layout::FrameRecord frameOf(const PackedScene &scene, const RenderSettings &settings) {
+    layout::FrameRecord frame = scene.frame;
+    frame.radianceLimit = settings.radianceLimit > 0.0 ? static_cast<float>(settings.radianceLimit)
+                                                       : std::numeric_limits<float>::infinity();
+    frame.seed = settings.seed;
+    frame.maxDepth = static_cast<std::uint32_t>(settings.maxDepth);
+    frame.occlusionDistance = static_cast<float>(settings.occlusionDistance);
+    return frame;
+}
+
+PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &options) {
     assert(bvh.order.size() <= triangleCount(scene) + bvh.spheres.size() + scene.instances.size());
     static std::atomic<std::uint64_t> count = 0;
     PackedScene packed;
@@ -372,23 +375,22 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, std::size_t maxDecoded
     if ((packed.texturing & turning) == 0 && (packed.scattering & layout::scattersAtAnisotropic) == 0)
         packed.texturing &= ~layout::texturesTangents;
     packTrees(scene, bvh, packedMaterial, packed);
-    packTextures(scene, order, maxDecoded, packed);
-    const bool aimsAtEmitters = rowOf(scene.settings.integrator).aimsAtEmitters;
-    if (aimsAtEmitters && (packed.scattering & layout::scattersAtRough) != 0)
-        packed.lookups = makeEnergyTexels();
-    if (aimsAtEmitters && (packed.scattering & layout::scattersAtRoughGlass) != 0)
+    packTextures(scene, order, options.maxDecoded, packed);
+    if ((packed.scattering & layout::scattersAtRough) != 0) {
+        static const std::vector<layout::LookupRow> ofMicrofacets = makeEnergyTexels();
+        packed.lookups = ofMicrofacets;
+    }
+    if ((packed.scattering & layout::scattersAtRoughGlass) != 0)
         std::ranges::copy(makeGlassTexels(glassNodesOf(scene)), std::back_inserter(packed.lookups));
-    if (aimsAtEmitters && (packed.scattering & layout::scattersAtSheen) != 0) {
+    if ((packed.scattering & layout::scattersAtSheen) != 0) {
         packed.frame.sheenTexels = static_cast<std::uint32_t>(packed.lookups.size());
-        std::ranges::copy(makeSheenTexels(), std::back_inserter(packed.lookups));
+        static const std::vector<layout::LookupRow> ofSheen = makeSheenTexels();
+        std::ranges::copy(ofSheen, std::back_inserter(packed.lookups));
     }
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
-    if (scene.settings.filter != FilterKind::Box)
-        packFilter(packed);
-    if (aimsAtEmitters)
-        packEmitters(scene, isLitAround, packed);
-    // Where light comes from within, paths are long and their rays go everywhere. Elsewhere the tree takes less time.
-    const bool isClosed = aimsAtEmitters && !isLitAround && scene.background == glm::vec3(0.0f);
+    packFilter(packed);
+    packEmitters(scene, isLitAround, options.lightChoice, packed);
+    const bool isClosed = !isLitAround && scene.background == glm::vec3(0.0f);
     if (isClosed && packed.treeSpheres == layout::treeHasTriangles && packed.instances.empty() &&
         packed.triangles.size() <= layout::maxListedTriangles)
         packed.trianglePairs = pairTriangles(packed.triangles);

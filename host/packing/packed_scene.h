@@ -4,6 +4,7 @@
 #include "host/base/unset_vector.h"
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
+#include "host/scene/settings.h"
 #include "shaders/layout/buffers.h"
 
 #include <array>
@@ -43,12 +44,12 @@ struct PackedScene {
     /// Given by packScene, and no other time to another scene: scenes of one serial number differ at most in `frame` and
     /// `camera`, so that a device that holds one holds the others. 0: unknown.
     std::uint64_t serial = 0;
-    layout::FrameRecord frame{};
+    layout::FrameRecord frame{};         ///< without what the settings of a render decide: frameOf() adds it
     UnsetVector<layout::NodePair> nodes; ///< never empty
     /// The scene's own tree, then those of the prototypes. The triangle records are in the same order.
     std::vector<PackedTree> trees;
     std::vector<layout::SphereRecord> loopSpheres; ///< those outside the tree
-    /// All triangles, where kernels are to test them in turn: few in a closed room, with nothing else in the tree.
+    /// All triangles, if they are few, in a closed room, with nothing else in the tree.
     std::vector<layout::TrianglePair> trianglePairs;
     int treeDepth = 0; ///< subtrees that can wait on a traversal stack
 
@@ -73,8 +74,15 @@ struct PackedScene {
     std::uint32_t passing = 0;   ///< bits of layout::passes...
     std::uint32_t camera = layout::cameraPinhole;
 
-    /// Whether rays of a kernel over skip lists go through a tree.
-    [[nodiscard]] bool needsTree() const { return hasTriangles && trianglePairs.empty(); }
+    /// How many of `trianglePairs` rays of a kernel over skip lists test in turn; 0: they go through the tree. Where light
+    /// comes from within, paths are long and their rays go everywhere. The tree takes less time for others.
+    [[nodiscard]] std::size_t listedPairs(Integrator integrator) const {
+        return rowOf(integrator).aimsAtEmitters ? trianglePairs.size() : 0;
+    }
+    /// Whether such rays go through a tree.
+    [[nodiscard]] bool needsTree(Integrator integrator) const {
+        return hasTriangles && listedPairs(integrator) == 0;
+    }
 
     /// A view of each scene array, in the order of the bindings.
     [[nodiscard]] std::array<SceneArray, layout::sceneArrayCount> arrays() const;
@@ -91,16 +99,25 @@ struct PackedScene {
     [[nodiscard]] std::uint64_t arraysHash() const;
 };
 
+/// The frame of a render of the scene.
+[[nodiscard]] layout::FrameRecord frameOf(const PackedScene &scene, const RenderSettings &settings);
+
 /// The sampler of the kernels, layout::sampler...
 [[nodiscard]] std::uint32_t samplerOf(const RenderSettings &settings);
 
 /// Maximum size of decoded 8-bit textures, at 16 bytes a pixel.
 inline constexpr std::size_t maxDecodedBytes = std::size_t{64} << 20;
 
-/// `scene` is valid, and `bvh` was built from its triangles. 8-bit textures are decoded to floats if all of them then
-/// take at most `maxDecoded` bytes: the image is the same, and a lookup reads 4 rows in place of 16.
-[[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh,
-                                    std::size_t maxDecoded = maxDecodedBytes);
+/// What of the packed bytes can be chosen. Images by light choices agree in their mean, and do not depend on the rest.
+struct PackOptions {
+    LightChoice lightChoice = LightChoice::Auto;
+    /// 8-bit textures are decoded to floats if all of them then take at most so many bytes: a lookup reads 4 rows in place
+    /// of 16.
+    std::size_t maxDecoded = maxDecodedBytes;
+};
+
+/// `scene` is valid, and `bvh` was built from its triangles.
+[[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &options = {});
 
 /// Moves the camera of a packed scene: `scene` is what it was packed from, but for its camera.
 void packCamera(const Scene &scene, PackedScene &packed);

@@ -13,7 +13,7 @@ inline constexpr double filterRadius = 1.5;
 /// Discrete Fourier Transform", Proc. IEEE 66(1), 1978, table 1.
 [[nodiscard]] double filterShareBelow(double x);
 
-/// Appends the quantiles of the filter to packed.lookups, and their position to packed.frame.
+/// Appends the quantiles of the Blackman-Harris filter to packed.lookups, and their position to packed.frame.
 void packFilter(PackedScene &packed);
 
 } // namespace hyalite

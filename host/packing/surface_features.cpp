@@ -40,7 +40,8 @@ std::uint32_t texturingOf(const Material &material, const std::vector<Texture> &
 }
 
 std::uint32_t texturingOf(const TriangleMesh &mesh) {
-    return (mesh.colours.corners.empty() ? 0u : layout::texturesColours) |
+    return (mesh.triangleUvs.empty() ? 0u : layout::texturesCoordinates) |
+           (mesh.colours.corners.empty() ? 0u : layout::texturesColours) |
            (mesh.tangents.corners.empty() ? 0u : layout::texturesTangents);
 }
 

@@ -308,7 +308,7 @@ bool hasTextures(const Material &material) {
 void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std::size_t maxDecoded,
                   PackedScene &packed) {
     const bool needsTangents = (packed.scattering & layout::scattersAtAnisotropic) != 0; // from coordinates
-    if (packed.texturing == 0 && scene.settings.integrator != Integrator::Uv && !needsTangents)
+    if (packed.texturing == 0 && !needsTangents)
         return;
     constexpr std::size_t rowsPerMaterial = layout::rowsPerTexture * layout::textureSlotCount;
     std::size_t firstTexelRow =

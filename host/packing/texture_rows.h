@@ -9,8 +9,8 @@
 namespace hyalite {
 
 /// Fills packed.textures, and sets the texture positions of the packed materials. `order` has the input index of each
-/// packed material. The triangles must be packed. Does nothing unless packed.texturing, the integrator or anisotropic
-/// materials need textures or coordinates. 8-bit images are decoded to floats if all decoded images take at most
+/// packed material. The triangles must be packed. Does nothing unless packed.texturing or anisotropic materials
+/// need them. 8-bit images are decoded to floats if all decoded images take at most
 /// `maxDecoded` bytes; otherwise texturesLevels is set in packed.texturing.
 void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std::size_t maxDecoded,
                   PackedScene &packed);

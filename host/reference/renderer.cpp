@@ -174,12 +174,11 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 /// Calls `use` with a factory of integrators of the requested kind.
 template <class Real, class Counter, class Use>
 auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, const Use &use) {
-    const auto useOf = [&]<class Integrator>(std::type_identity<Integrator>, const auto &...arguments) {
+    const auto useOf = [&]<class Integrator>(std::type_identity<Integrator>) {
         if constexpr (std::is_same_v<Counter, WorkCounter>)
             if (showsWork(settings))
-                return use(
-                    [&] { return WorkOf<Real, Integrator>(scene, samplerOf(settings), arguments...); });
-        return use([&] { return Integrator(scene, samplerOf(settings), arguments...); });
+                return use([&] { return WorkOf<Real, Integrator>(scene, settings); });
+        return use([&] { return Integrator(scene, settings); });
     };
     const IntegratorRow &row = rowOf(settings.integrator);
     if (row.kernel == "whitted")
@@ -187,7 +186,7 @@ auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, co
     if (row.kernel == "path")
         return useOf(std::type_identity<PathIntegrator<Real, Counter>>());
     assert(row.kernel == "view");
-    return useOf(std::type_identity<ViewIntegrator<Real, Counter>>(), row.view);
+    return useOf(std::type_identity<ViewIntegrator<Real, Counter>>());
 }
 
 template <class Real>

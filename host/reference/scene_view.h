@@ -13,9 +13,15 @@ namespace hyalite::leaves {
 /// The scene as leaf functions read it: what kernels have as specialization constants, uniforms and buffers, by the
 /// same names. The packed scene outlives it.
 template <class Real> struct SceneView {
+    SceneView(const PackedScene &packedScene, const RenderSettings &settings)
+        : SceneView(packedScene, frameOf(packedScene, settings), samplerOf(settings)) {}
     /// `samplerKind` is one of layout::sampler...
     explicit SceneView(const PackedScene &packedScene, uint samplerKindOfRender = layout::samplerSobol)
-        : packed(packedScene), frame(packedScene.frame), samplerKind(samplerKindOfRender),
+        : SceneView(packedScene, packedScene.frame, samplerKindOfRender) {}
+
+    SceneView(const PackedScene &packedScene, const layout::FrameRecord &frameOfRender,
+              uint samplerKindOfRender)
+        : packed(packedScene), frame(frameOfRender), samplerKind(samplerKindOfRender),
           scattering(packedScene.scattering), texturing(packedScene.texturing), passing(packedScene.passing),
           lighting(packedScene.lighting), camera(packedScene.camera),
           emitterCount(static_cast<uint>(packedScene.emitters.size())),

@@ -17,8 +17,8 @@ namespace hyalite::reference {
 template <class Real, class Counter = NoCounter> class ViewIntegrator {
   public:
     /// `view` is one of layout::view...
-    ViewIntegrator(const PackedScene &scene, std::uint32_t samplerKind, std::uint32_t view)
-        : scene_(scene, samplerKind), view_(view) {}
+    ViewIntegrator(const PackedScene &scene, const RenderSettings &settings)
+        : scene_(scene, settings), view_(rowOf(settings.integrator).view) {}
 
     /// The colour of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn
     /// how the picture changes around it.
@@ -46,7 +46,10 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         case layout::viewDepth:
             return show(Vec3<Real>(hit.distance));
         case layout::viewCoordinates: {
-            const Vec2<Real> uv = hitUvs(scene_, hit, surface.position).first;
+            const bool areThere = (scene_.texturing & layout::texturesCoordinates) != 0 ||
+                                  hit.primitive < scene_.frame.firstTriangleId;
+            const Vec2<Real> uv =
+                areThere ? hitUvs(scene_, hit, surface.position).first : Vec2<Real>(Real(0));
             return show({fractionOf(uv.x), fractionOf(uv.y), Real(0)});
         }
         case layout::viewId:

@@ -18,7 +18,7 @@ namespace hyalite::reference {
 /// Traces camera samples through the scene. Each thread has its own instance, because it keeps waiting rays and counts.
 template <class Real, class Counter = NoCounter> class WhittedIntegrator {
   public:
-    WhittedIntegrator(const PackedScene &scene, std::uint32_t samplerKind) : scene_(scene, samplerKind) {}
+    WhittedIntegrator(const PackedScene &scene, const RenderSettings &settings) : scene_(scene, settings) {}
 
     /// Radiance of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn how
     /// the picture changes around it.

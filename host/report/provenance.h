@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/image/attribute.h"
-#include "host/scene/scene.h"
+#include "host/scene/settings.h"
 
 #include <nlohmann/json.hpp>
 

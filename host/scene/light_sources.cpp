@@ -42,11 +42,11 @@ bool showsLight(Integrator integrator) {
     return integrator == Integrator::Whitted || integrator == Integrator::Path;
 }
 
-std::optional<std::string> diagnoseLight(const Scene &scene) {
-    if (!showsLight(scene.settings.integrator) || !hasSurfaces(scene))
+std::optional<std::string> diagnoseLight(const Scene &scene, Integrator integrator) {
+    if (!showsLight(integrator) || !hasSurfaces(scene))
         return std::nullopt;
     const LightSources sources = lightSourcesOf(scene);
-    const bool isWhitted = scene.settings.integrator == Integrator::Whitted;
+    const bool isWhitted = integrator == Integrator::Whitted;
     if (!sources.hasLights && !sources.hasEmitters && !sources.hasEnvironment && !sources.hasBackground)
         return "nothing lights this scene: it has no light, no material with an emission, no environment and "
                "a black background; the picture will be black";

@@ -1,6 +1,7 @@
 // Light sources of a scene, by kind.
 #pragma once
 
+#include "host/scene/integrators.h"
 #include "host/scene/scene.h"
 
 #include <optional>
@@ -24,8 +25,8 @@ struct LightSources {
 /// Whether it shows the light of a scene, and no view of it.
 [[nodiscard]] bool showsLight(Integrator integrator);
 
-/// What of the scene's light its integrator does not see, or that there is none at all, in words for warnings. Empty where
+/// What of the scene's light the integrator does not see, or that there is none at all, in words for warnings. Empty where
 /// all is well, and for integrators that show something else than light.
-[[nodiscard]] std::optional<std::string> diagnoseLight(const Scene &scene);
+[[nodiscard]] std::optional<std::string> diagnoseLight(const Scene &scene, Integrator integrator);
 
 } // namespace hyalite

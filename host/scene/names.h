@@ -3,6 +3,7 @@
 
 #include "host/scene/camera_path.h"
 #include "host/scene/scene.h"
+#include "host/scene/settings.h"
 #include "host/scene/shapes.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 
 #include "host/image/image.h"
 #include "host/image/texture.h"
-#include "host/scene/integrators.h"
 #include "host/scene/material.h"
 #include "shaders/layout/layout.h"
 
@@ -133,43 +132,6 @@ struct Instance {
     std::uint32_t meshesBefore = 0; ///< how many of Scene::meshes come before it in the input
 };
 
-enum class TreeKind { None, Midpoint, Sah };
-enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
-
-/// Reconstruction filters. Box: all samples of the pixel count the same. BlackmanHarris: weights fall off smoothly to
-/// 1.5 pixels from the centre.
-enum class FilterKind { Box, BlackmanHarris };
-
-/// How a shadow ray chooses its emitter. Power: always the brightest ones. Tree: by where they are. Auto: by a tree if there
-/// are many.
-enum class LightChoice { Auto, Power, Tree };
-
-/// How to render the scene. The command line may override each setting; settings_table.h has their ranges.
-struct RenderSettings {
-    Integrator integrator = Integrator::Whitted;
-    int samplesPerPixel = 16;
-    double occlusionDistance = 1e15; ///< AmbientOcclusion: occluders further away are ignored
-    int maxDepth = 7;                ///< segments of a path, the primary ray being the first
-    TreeKind tree = TreeKind::Midpoint;
-    int leafSize = 8; ///< maximum number of triangles in a leaf, where they can be separated
-    SamplerKind sampler = SamplerKind::Sobol;
-    /// Sobol only: samples at the centre are at the centre of any filter.
-    FilterKind filter = FilterKind::Box;
-    std::uint32_t seed = 0;
-    /// Path: maximum that indirect light adds to a sample, per channel; 0: no limit.
-    double radianceLimit = 0.0;
-    LightChoice lightChoice = LightChoice::Auto; ///< Path
-    double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
-    /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
-    /// Whitted.
-    bool isWorkShown = false;
-};
-
-/// Whether a sample is its traversal work, of a traversal with a stack: nodes, boxes and triangles.
-[[nodiscard]] inline bool showsWork(const RenderSettings &settings) {
-    return settings.isWorkShown || settings.integrator == Integrator::Cost;
-}
-
 struct Scene {
     glm::dvec3 origin{0.0}; ///< coordinates of the file are those of the scene + this (origin.h)
     Camera camera;
@@ -184,7 +146,6 @@ struct Scene {
     std::vector<TriangleMesh> meshes;     ///< in world space
     std::vector<TriangleMesh> prototypes; ///< meshes in a space of their own, seen only as instances
     std::vector<Instance> instances;      ///< in the order of the input
-    RenderSettings settings;
 };
 
 /// Triangles of all meshes together, without instances.

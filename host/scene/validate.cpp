@@ -309,7 +309,10 @@ void checkRange(const NumberSetting<Number> &number, const RenderSettings &setti
 template <class Value>
 void checkRange(const ChoiceSetting<Value> &, const RenderSettings &, std::string_view, const Checked &) {}
 
-void checkSettings(const RenderSettings &settings, const Checked &checked) {
+} // namespace
+
+void validateSettings(const RenderSettings &settings, const Scene &scene, const std::string &sourceName) {
+    const Checked checked(sourceName, "settings");
     for (const Setting &setting : settingsTable)
         std::visit([&](const auto &value) { checkRange(value, settings, setting.key, checked); },
                    setting.value);
@@ -317,9 +320,12 @@ void checkSettings(const RenderSettings &settings, const Checked &checked) {
         checked.refuse("filter",
                        std::string(nameOf(settings.filter)) + " with all samples at the pixel's centre",
                        "with the sampler sobol");
+    if (settings.integrator == Integrator::Path)
+        Checked(sourceName, "scene")
+            .atMost(limits::mediumCount,
+                    static_cast<std::size_t>(std::ranges::count_if(scene.materials, isGlass)),
+                    "materials that light passes for the integrator path");
 }
-
-} // namespace
 
 void validateScene(const Scene &scene, const std::string &sourceName) {
     const Checked whole(sourceName, "scene");
@@ -335,15 +341,7 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     checkEnvironment(scene.environment, {sourceName, "environment"});
     whole.within(limits::fraction, scene.shadowThroughGlass, "shadowThroughGlass");
 
-    if (scene.settings.integrator == Integrator::Path)
-        whole.atMost(limits::mediumCount,
-                     static_cast<std::size_t>(
-                         std::count_if(scene.materials.begin(), scene.materials.end(),
-                                       [](const Material &material) { return isGlass(material); })),
-                     "materials that light passes for the integrator path");
-
     checkCamera(scene.camera, {sourceName, "camera"});
-    checkSettings(scene.settings, {sourceName, "settings"});
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Checked checked(sourceName, "light", i);
         checked.within(limits::coordinate, scene.lights[i].position, "position");

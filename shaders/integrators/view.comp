@@ -43,7 +43,9 @@ void shadeHit(uint slot) {
     if (view == viewId)
         show(slot, idColour(path[slot].hitPrimitive));
     if (view == viewCoordinates) {
-        vec2 uv = hitUvs(slot, surface.position).first;
+        vec2 uv = vec2(0.0);
+        if ((texturing & texturesCoordinates) != 0u || !isTriangle(path[slot].hitPrimitive))
+            uv = hitUvs(slot, surface.position).first;
         show(slot, vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
     }
     if (view == viewAlbedo) {

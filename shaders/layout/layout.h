@@ -376,6 +376,8 @@ const uint texturesTangents = texturesLevels << 3u; // of vertices
 const uint texturesPlaced = texturesLevels << 4u; // images that are turned, mirrored, clamped or not filtered
 // A channel that is not the red one, where one number is wanted.
 const uint texturesChannels = texturesLevels << 5u;
+// Triangles have texture coordinates. Without this bit their rows may be missing, where nothing else needs them.
+const uint texturesCoordinates = texturesLevels << 6u;
 const uint texturesTransmission = 1u << slotTransmission;
 const uint texturesClearcoatNormal = 1u << slotClearcoatNormal;
 const uint texturesAnisotropy = 1u << slotAnisotropy;

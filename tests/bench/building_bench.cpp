@@ -8,6 +8,7 @@
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"
 #include "tests/bench/tinyobj_alone.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -36,7 +37,7 @@ const Build builds[] = {
     {"SAH, packed", TreeKind::Sah, false, true},
 };
 
-void buildOnce(const Scene &scene, const Build &build) {
+void buildOnce(const TestScene &scene, const Build &build) {
     Bvh bvh = buildBvh(build.tree, scene, scene.settings.leafSize);
     if (build.isPacked) {
         SkipList packed = makeSkipList(packScene(scene, bvh));
@@ -59,7 +60,7 @@ class OpenMpThreads {
 
 void measureBuild(benchmark::State &state, Context &context, const std::string &mesh, const Build &build) {
     const Subject &subject = context.subject(mesh);
-    const Scene &scene = subject.scene();
+    const TestScene &scene = subject.scene();
     if (const std::string fault =
             findBvhFault(buildBvh(build.tree, scene, scene.settings.leafSize), buildTriangles(scene));
         !fault.empty()) {

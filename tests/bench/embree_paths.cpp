@@ -2,6 +2,7 @@
 
 #include "host/reference/scene_view.h"
 #include "tests/bench/parallel.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -97,7 +98,7 @@ float powerWeight(float density, float other) {
 
 } // namespace
 
-EmbreePaths::EmbreePaths(const Scene &scene) : scene_(scene), embree_(joined(scene.meshes)) {
+EmbreePaths::EmbreePaths(const TestScene &scene) : scene_(scene), embree_(joined(scene.meshes)) {
     float reach = 0.0f;
     for (const TriangleMesh &mesh : scene.meshes)
         for (const MeshTriangle &triangle : mesh.triangles) {

@@ -6,6 +6,7 @@
 #include "host/image/image.h"
 #include "host/scene/scene.h"
 #include "tests/bench/embree.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <cstdint>
 #include <vector>
@@ -19,7 +20,7 @@ class EmbreePaths {
   public:
     /// `scene`, which outlives this, has triangles of diffuse materials without normals of their own, some of which emit,
     /// and a pinhole.
-    explicit EmbreePaths(const Scene &scene);
+    explicit EmbreePaths(const TestScene &scene);
 
     /// The mean of the samples of each pixel, of paths of at most settings.maxDepth segments.
     [[nodiscard]] Image render(int samplesPerPixel, std::uint32_t seed, PathSamples samples) const;
@@ -35,7 +36,7 @@ class EmbreePaths {
     };
     class Path;
 
-    const Scene &scene_;
+    const TestScene &scene_;
     std::vector<Facet> facets_;
     std::vector<unsigned> lights_; ///< facets that shine
     std::vector<float> lightEnds_; ///< where each ends on a line as long as their areas together

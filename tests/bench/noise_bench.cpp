@@ -10,6 +10,7 @@
 #include "tests/bench/race.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <glm/geometric.hpp>
 
@@ -71,17 +72,17 @@ class Contestant {
 };
 
 struct CornellBox {
-    Scene scene;
+    TestScene scene;
     PackedScene packed;
     Crop crop{0, imageSide, 0, imageSide};
 
-    CornellBox() : scene(loadScene("cornell").scene) {
+    CornellBox() : scene(loadTestScene("cornell")) {
         scene.camera.width = scene.camera.height = imageSide;
         scene.settings.samplesPerPixel = samplesPerPixel;
         packed = packScene(scene, buildBvh(scene.settings.tree, scene, scene.settings.leafSize));
     }
     const RenderSettings &withSeed(std::uint32_t seed) {
-        scene.settings.seed = packed.frame.seed = seed;
+        scene.settings.seed = seed;
         return scene.settings;
     }
 };

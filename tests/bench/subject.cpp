@@ -31,7 +31,7 @@ Subject::Subject(const std::string &meshName, const gpu::DeviceInfo &device)
 
 const PackedScene &Subject::packed() {
     if (!packed_)
-        packed_ = packScene(scene_, buildBvh(TreeKind::Sah, scene_, scene_.settings.leafSize));
+        packed_ = packScene(scene_, buildBvh(TreeKind::Sah, scene_, RenderSettings{}.leafSize));
     return *packed_;
 }
 

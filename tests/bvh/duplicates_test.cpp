@@ -125,7 +125,6 @@ TEST(Duplicates, WithoutThemEachRayMeetsTheSameTriangle) {
 TEST(Duplicates, ThePackedSceneAndItsHashAreThoseOfTheFirstOnes) {
     Random random(34);
     Scene scene = sceneWithCopies(random, 50, 30);
-    scene.settings.integrator = Integrator::Path;
     for (Material &material : scene.materials)
         material.emission = glm::vec3(1.0f);
     const std::set<std::uint32_t> expected = distinctIndices(scene);

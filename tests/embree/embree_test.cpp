@@ -10,6 +10,7 @@
 #include "tests/embree/exact_meeting.h"
 #include "tests/embree/meshes.h"
 #include "tests/fixtures/leaves.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ class Subject {
   public:
     Subject(const char *label, TriangleMesh triangles, TreeKind tree)
         : name(label), mesh(std::move(triangles)), embree(mesh) {
-        Scene scene;
+        TestScene scene;
         scene.materials.emplace_back();
         scene.meshes.push_back(mesh);
         ours = packScene(scene, buildBvh(tree, buildTriangles(scene), scene.settings.leafSize));
@@ -389,7 +390,7 @@ class RayMaker {
 
 /// The rays of a picture's pixel centres.
 std::vector<FloatRay> primaryRays(const Subject &subject, int size) {
-    Scene scene;
+    TestScene scene;
     scene.camera.position = subject.centre + dvec3(0.6, 0.45, 1.1) * subject.radius;
     scene.camera.direction = subject.centre - scene.camera.position;
     scene.camera.width = size;

@@ -114,7 +114,7 @@ TEST(Engine, StopsFromAnotherThreadWithWhatIsFinished) {
         const BackendResult result = rendering.get();
         EXPECT_FALSE(result.failure) << name;
         const FinishedWork finished = finishedWork(result.film, std::span(&result.film.crop, 1),
-                                                   endless.loaded.scene.settings.samplesPerPixel);
+                                                   endless.loaded.settings.samplesPerPixel);
         EXPECT_FALSE(finished.isComplete) << name;
         // And a render after it goes on from there, or anew, as ever.
         EXPECT_EQ(differingPixelCount(

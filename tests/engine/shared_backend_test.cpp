@@ -200,7 +200,7 @@ TEST_F(SharedBackends, AreComparedOnceForEachIntegrator) {
         EXPECT_EQ(a.spotCount(), 4);
         EXPECT_EQ(b.spotCount(), 4);
     }
-    scene.loaded.scene.settings.integrator = Integrator::Normal;
+    scene.loaded.settings.integrator = Integrator::Normal;
     static_cast<void>(render(*backend, scene));
     EXPECT_GE(a.spotCount() + b.spotCount(), 12) << "one of them may have come too late for a tile";
 }

@@ -92,9 +92,9 @@ TEST_F(RankBackends, ShareAPictureAndItsLayers) {
     EXPECT_EQ(differingPixelCount(result.film, alone.film), 0u);
     EXPECT_EQ(result.rays, alone.rays);
     // Settings that a render changes travel with its tiles.
-    scene.loaded.scene.settings.integrator = Integrator::Normal;
-    scene.loaded.scene.settings.samplesPerPixel = 1;
-    scene.loaded.scene.settings.sampler = SamplerKind::Centre;
+    scene.loaded.settings.integrator = Integrator::Normal;
+    scene.loaded.settings.samplesPerPixel = 1;
+    scene.loaded.settings.sampler = SamplerKind::Centre;
     const BackendResult normals = shared->render(scene, {}, nullptr, {}, {});
     EXPECT_EQ(differingPixelCount(normals.film, here->render(scene, {}, nullptr, {}, {}).film), 0u);
 }

@@ -28,7 +28,6 @@ PackedScene sceneOf(std::size_t triangleCount) {
     PackedScene scene;
     scene.hasTriangles = triangleCount > 0;
     scene.hasDielectric = true;
-    scene.frame.maxDepth = 5;
     scene.treeDepth = 20;
     scene.triangles.resize(triangleCount);
     scene.normals.resize(triangleCount);
@@ -37,8 +36,10 @@ PackedScene sceneOf(std::size_t triangleCount) {
     return scene;
 }
 
-Job jobOf(const PackedScene &scene, int side) {
-    return {scene, {0, side, 0, side}, Integrator::Whitted, layout::samplerSobol, 0, 16, false};
+const RenderSettings whitted{.integrator = Integrator::Whitted, .maxDepth = 5};
+
+Job jobOf(const PackedScene &scene, int side, const RenderSettings &settings = whitted) {
+    return {scene, settings, {0, side, 0, side}, 0, 16, false};
 }
 
 std::string refusal(const ScenePlan &scene, const JobPlan &job, const DeviceInfo &device) {
@@ -86,9 +87,8 @@ TEST(MemoryPlan, PathsWithoutATreeTakeSamplesInTurn) {
     const RenderConfig skip = completed({.tileWidth = 64, .tileHeight = 64, .traversal = Traversal::SkipList},
                                         device(), Workload::Spheres);
     const auto planOf = [&](const PackedScene &scene, Integrator integrator, const RenderConfig &config) {
-        Job job = jobOf(scene, 300);
-        job.integrator = integrator;
-        return planJob(job, config, device());
+        const RenderSettings settings{.integrator = integrator};
+        return planJob(jobOf(scene, 300, settings), config, device());
     };
     const PackedScene spheres = sceneOf(0);
     const JobPlan plan = planOf(spheres, Integrator::Path, skip);
@@ -123,15 +123,15 @@ TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
 }
 
 TEST(MemoryPlan, TilesAreSmallerWhereSlotsWouldTakeTooMuch) {
-    PackedScene scene = sceneOf(1000);
-    scene.frame.maxDepth = 32;
+    const PackedScene scene = sceneOf(1000);
+    const RenderSettings deep{.integrator = Integrator::Whitted, .maxDepth = 32};
     const RenderConfig stack =
         completed({.tileWidth = 512, .tileHeight = 512, .traversal = Traversal::Stack}, device());
     DeviceInfo small = device();
     small.deviceMemoryBytes = 256u << 20;
     small.maxStorageBufferBytes = 1u << 20;
     for (const DeviceInfo &info : {device(), small}) {
-        const JobPlan plan = planJob(jobOf(scene, 512), stack, info);
+        const JobPlan plan = planJob(jobOf(scene, 512, deep), stack, info);
         EXPECT_LT(plan.largestTile.pixelCount(), 512u * 512u);
         EXPECT_LE(plan.waiting.pending.sizeBytes, info.maxStorageBufferBytes);
         EXPECT_LE(plan.stacks.sizeBytes + plan.waiting.paths.sizeBytes + plan.waiting.pending.sizeBytes,

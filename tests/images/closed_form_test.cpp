@@ -3,6 +3,7 @@
 // Nothing here calls the code under test but to render: camera, intersections and light are written out again, in
 // double precision. Where a pixel sits so close to a boundary that float32 may see its other side, the boundary moves
 // with the sample: such pixels are found by asking the formula at points around the sample, and left out.
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <glm/geometric.hpp>
@@ -84,7 +85,7 @@ void expectImage(const char *renderer, const Image &image, const Formula &formul
 }
 
 /// Renders at pixel centres.
-void expectPicture(Scene scene, const Formula &formula, const Demands &demands = {}) {
+void expectPicture(TestScene scene, const Formula &formula, const Demands &demands = {}) {
     scene.settings.sampler = SamplerKind::Centre;
     scene.settings.samplesPerPixel = 1;
     expectImage("device", testing::renderOnDevice(scene).film.toImage(), formula, demands);
@@ -93,8 +94,8 @@ void expectPicture(Scene scene, const Formula &formula, const Demands &demands =
 
 // ---- Scenes
 
-Scene emptyScene(int width, int height, double fovDegrees = 60.0) {
-    Scene scene;
+TestScene emptyScene(int width, int height, double fovDegrees = 60.0) {
+    TestScene scene;
     scene.camera.position = dvec3(0.0);
     scene.camera.horizontalFovDegrees = fovDegrees;
     scene.camera.width = width;
@@ -102,25 +103,25 @@ Scene emptyScene(int width, int height, double fovDegrees = 60.0) {
     return scene;
 }
 
-std::uint32_t addMaterial(Scene &scene, const Material &material) {
+std::uint32_t addMaterial(TestScene &scene, const Material &material) {
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
-std::uint32_t addDiffuse(Scene &scene, const glm::vec3 &albedo, bool twoSided = false) {
+std::uint32_t addDiffuse(TestScene &scene, const glm::vec3 &albedo, bool twoSided = false) {
     Material material;
     material.albedo = albedo;
     material.twoSided = twoSided;
     return addMaterial(scene, material);
 }
 
-std::uint32_t addMirror(Scene &scene) {
+std::uint32_t addMirror(TestScene &scene) {
     Material material;
     material.kind = MaterialKind::Mirror;
     return addMaterial(scene, material);
 }
 
-std::uint32_t addGlass(Scene &scene, float index, const glm::vec3 &tint = glm::vec3(1.0f)) {
+std::uint32_t addGlass(TestScene &scene, float index, const glm::vec3 &tint = glm::vec3(1.0f)) {
     Material material;
     material.kind = MaterialKind::Dielectric;
     material.refractiveIndex = index;
@@ -128,12 +129,12 @@ std::uint32_t addGlass(Scene &scene, float index, const glm::vec3 &tint = glm::v
     return addMaterial(scene, material);
 }
 
-void addSphere(Scene &scene, const dvec3 &centre, double radius, std::uint32_t material,
+void addSphere(TestScene &scene, const dvec3 &centre, double radius, std::uint32_t material,
                bool inward = false) {
     scene.spheres.push_back({centre, radius, material, inward});
 }
 
-void addTriangle(Scene &scene, const std::array<dvec3, 3> &corners, std::uint32_t material) {
+void addTriangle(TestScene &scene, const std::array<dvec3, 3> &corners, std::uint32_t material) {
     TriangleMesh mesh;
     mesh.materialIndex = material;
     for (const dvec3 &corner : corners)
@@ -151,7 +152,7 @@ struct Wall {
     [[nodiscard]] dvec3 normal() const { return glm::normalize(glm::cross(edgeU, edgeV)); }
 };
 
-void addWall(Scene &scene, const Wall &wall, std::uint32_t material) {
+void addWall(TestScene &scene, const Wall &wall, std::uint32_t material) {
     const dvec3 opposite = wall.corner + wall.edgeU + wall.edgeV;
     addTriangle(scene, {wall.corner, wall.corner + wall.edgeU, opposite}, material);
     addTriangle(scene, {wall.corner, opposite, wall.corner + wall.edgeV}, material);
@@ -220,7 +221,7 @@ const glm::vec3 wallAlbedo(0.5f, 0.25f, 0.75f);
 const Wall wallAhead{{-32.0, -32.0, -10.0}, {64.0, 0.0, 0.0}, {0.0, 64.0, 0.0}};
 
 /// The light that a point of the wall reflects, were nothing else in the scene.
-Prediction wallPrediction(const Scene &scene, const Wall &wall, const dvec2 &position) {
+Prediction wallPrediction(const TestScene &scene, const Wall &wall, const dvec2 &position) {
     const dvec3 direction = directionThrough(scene.camera, position);
     const std::optional<double> t = meetWall(wall, scene.camera.position, direction);
     if (!t)
@@ -233,14 +234,14 @@ Prediction wallPrediction(const Scene &scene, const Wall &wall, const dvec2 &pos
 }
 
 TEST(FlatWall, LitHeadOn) {
-    Scene scene = emptyScene(64, 48);
+    TestScene scene = emptyScene(64, 48);
     scene.lights.push_back(warmLight);
     addWall(scene, wallAhead, addDiffuse(scene, wallAlbedo));
     expectPicture(scene, [&](const dvec2 &position) { return wallPrediction(scene, wallAhead, position); });
 }
 
 TEST(FlatWall, LitAndSeenObliquely) {
-    Scene scene = emptyScene(65, 49);
+    TestScene scene = emptyScene(65, 49);
     scene.camera.position = {3.0, 2.0, 1.0};
     scene.camera.direction = {-0.25, -0.125, -1.0};
     scene.camera.up = {0.25, 1.0, 0.0};
@@ -256,7 +257,7 @@ TEST(FlatWall, ShowsItsBackIfItHasOne) {
     const Wall away{{-32.0, -32.0, -10.0}, {0.0, 64.0, 0.0}, {64.0, 0.0, 0.0}};
     for (const bool twoSided : {false, true}) {
         for (const double lightZ : {0.0, -20.0}) {
-            Scene scene = emptyScene(16, 16);
+            TestScene scene = emptyScene(16, 16);
             scene.lights.push_back({{1.0, 2.0, lightZ}, warmLight.power});
             addWall(scene, away, addDiffuse(scene, wallAlbedo, twoSided));
             const bool isLit = twoSided == (lightZ == 0.0);
@@ -270,7 +271,7 @@ TEST(FlatWall, ShowsItsBackIfItHasOne) {
 
 // The inside of a large ball.
 TEST(RoundWall, LitOffItsCentre) {
-    Scene scene = emptyScene(101, 51, 90.0);
+    TestScene scene = emptyScene(101, 51, 90.0);
     scene.camera.position = {0.0, 0.0, 55.0};
     scene.lights.push_back({{-10.0, 20.0, 40.0}, {1e5, 2e5, 3e5}});
     const dvec3 centre(0.0, 0.0, -1000.0);
@@ -287,7 +288,7 @@ TEST(RoundWall, LitOffItsCentre) {
 }
 
 TEST(Lights, AddUp) {
-    Scene scene = emptyScene(33, 17);
+    TestScene scene = emptyScene(33, 17);
     addWall(scene, wallAhead, addDiffuse(scene, wallAlbedo));
     scene.settings.sampler = SamplerKind::Centre;
     scene.settings.samplesPerPixel = 1;
@@ -314,7 +315,8 @@ TEST(Lights, AddUp) {
 const Light lightAside{{8.0, 6.0, 0.0}, {3000.0, 2000.0, 1000.0}};
 
 /// The wall, where `factor` says how much of the light reaches a point of it; nothing: the region with no light.
-Formula shadowFormula(const Scene &scene, const std::function<std::pair<int, double>(const dvec3 &)> &visit) {
+Formula shadowFormula(const TestScene &scene,
+                      const std::function<std::pair<int, double>(const dvec3 &)> &visit) {
     return [&scene, visit](const dvec2 &position) {
         Prediction prediction = wallPrediction(scene, wallAhead, position);
         const dvec3 direction = directionThrough(scene.camera, position);
@@ -327,7 +329,7 @@ Formula shadowFormula(const Scene &scene, const std::function<std::pair<int, dou
 
 TEST(Shadow, OfABall) {
     for (const MaterialKind kind : {MaterialKind::Diffuse, MaterialKind::Mirror}) {
-        Scene scene = emptyScene(121, 91);
+        TestScene scene = emptyScene(121, 91);
         scene.lights.push_back(lightAside);
         addWall(scene, wallAhead, addDiffuse(scene, wallAlbedo));
         const dvec3 centre(4.0, 3.0, -4.0);
@@ -345,7 +347,7 @@ TEST(Shadow, OfABall) {
 }
 
 TEST(Shadow, OfATriangle) {
-    Scene scene = emptyScene(121, 91);
+    TestScene scene = emptyScene(121, 91);
     scene.lights.push_back(lightAside);
     addWall(scene, wallAhead, addDiffuse(scene, wallAlbedo));
     const std::array<dvec3, 3> corners = {dvec3(4.0, 2.25, -4.0), dvec3(5.0, 3.5, -4.25),
@@ -363,7 +365,7 @@ TEST(Shadow, OfATriangle) {
 
 // Two balls, a triangle of glass, and something opaque: glass counts once, opaque things always.
 TEST(Shadow, IsDimmedOnceByGlass) {
-    Scene scene = emptyScene(121, 91);
+    TestScene scene = emptyScene(121, 91);
     scene.lights.push_back(lightAside);
     scene.shadowThroughGlass = 0.625f;
     addWall(scene, wallAhead, addDiffuse(scene, wallAlbedo));
@@ -414,7 +416,7 @@ TEST(Furnace, GlassBallLosesWhatDepthCutsOff) {
     const glm::vec3 tint(1.0f, 0.75f, 0.25f);
     for (const float index : {1.0f, 1.5f, 2.5f}) {
         for (const int depth : {1, 2, 3, 32}) {
-            Scene scene = emptyScene(41, 31, 40.0);
+            TestScene scene = emptyScene(41, 31, 40.0);
             scene.background = glm::vec3(1.0f);
             scene.settings.maxDepth = depth;
             addSphere(scene, centre, 1.0, addGlass(scene, index, tint));
@@ -443,7 +445,7 @@ TEST(Furnace, MiddleOfABallIsAGeometricSeries) {
     for (const double index : {1.5, 3.0}) {
         const double reflectance = std::pow((index - 1.0) / (index + 1.0), 2.0);
         for (const int depth : {2, 3, 5, 8}) {
-            Scene scene = emptyScene(1, 1);
+            TestScene scene = emptyScene(1, 1);
             scene.background = glm::vec3(1.0f);
             scene.settings.maxDepth = depth;
             addSphere(scene, {0.0, 0.0, -4.0}, 1.0, addGlass(scene, static_cast<float>(index)));
@@ -454,7 +456,7 @@ TEST(Furnace, MiddleOfABallIsAGeometricSeries) {
 }
 
 TEST(Furnace, MirrorBallVanishes) {
-    Scene scene = emptyScene(40, 30);
+    TestScene scene = emptyScene(40, 30);
     scene.background = {0.25f, 0.5f, 1.0f};
     addSphere(scene, {0.25, 0.5, -4.0}, 1.5, addMirror(scene));
     expectPicture(scene,
@@ -471,7 +473,7 @@ TEST(BallOnTheAxis, ShowsTheWallBehind) {
     const double reflectance = 0.04;
     for (const bool isLightBehindBall : {false, true}) {
         for (const int depth : {1, 2, 3, 4, 5, 9}) {
-            Scene scene = emptyScene(1, 1);
+            TestScene scene = emptyScene(1, 1);
             scene.camera.position = {0.0, 0.0, 10.0};
             scene.background = {0.25f, 0.5f, 1.0f};
             scene.shadowThroughGlass = 0.375f;
@@ -500,7 +502,7 @@ TEST(BallOnTheAxis, ShowsTheWallBehind) {
 
 // A sheet that has no other side: what enters is lost in glass, and the background is seen through its tint.
 TEST(GlassSheet, TintsTheBackgroundBehind) {
-    Scene scene = emptyScene(37, 25, 100.0);
+    TestScene scene = emptyScene(37, 25, 100.0);
     scene.background = {0.25f, 0.5f, 1.0f};
     const dvec3 tint(0.75, 0.25, 0.5);
     addWall(scene, wallAhead, addGlass(scene, 1.5f, glm::vec3(tint)));
@@ -513,7 +515,7 @@ TEST(GlassSheet, TintsTheBackgroundBehind) {
 
 // Schlick's reflectance does not vanish for an index of 1, but away from the rim it is below rounding.
 TEST(HollowBall, OfIndexOneIsNotThere) {
-    Scene scene = emptyScene(49, 49);
+    TestScene scene = emptyScene(49, 49);
     scene.lights.push_back({{-3.0, 2.0, 1.0}, warmLight.power});
     const dvec3 centre(0.0, 0.0, -5.0);
     const std::uint32_t glass = addGlass(scene, 1.0f);
@@ -534,7 +536,7 @@ TEST(CriticalAngle, SplitsTheViewFromInsideGlass) {
     const double radius = 2.0;
     for (const float index : {1.25f, 1.5f, 2.5f}) {
         for (const int depth : {2, 3, 9}) {
-            Scene scene = emptyScene(97, 73, 110.0);
+            TestScene scene = emptyScene(97, 73, 110.0);
             scene.camera.position = {1.625, 0.25, -0.5};
             scene.camera.direction = {-0.5, 0.25, -1.0};
             scene.background = {1.0f, 0.5f, 0.25f};
@@ -561,7 +563,7 @@ TEST(CriticalAngle, SplitsTheViewFromInsideGlass) {
 // Between two parallel mirrors, unfolded: a ray that arrives k widths aside was reflected k times.
 TEST(Depth, EndsACorridorOfMirrors) {
     for (const int depth : {1, 2, 5, 32}) {
-        Scene scene = emptyScene(101, 15, 100.0);
+        TestScene scene = emptyScene(101, 15, 100.0);
         scene.camera.position = {0.25, 0.0, 0.0};
         scene.background = {0.25f, 0.5f, 1.0f};
         scene.settings.maxDepth = depth;
@@ -580,7 +582,7 @@ TEST(Depth, EndsACorridorOfMirrors) {
 
 TEST(Depth, LeavesAMirroredRoomDark) {
     for (const int depth : {1, 2, 32}) {
-        Scene scene = emptyScene(12, 9);
+        TestScene scene = emptyScene(12, 9);
         scene.background = glm::vec3(1.0f);
         scene.settings.maxDepth = depth;
         addSphere(scene, {0.5, 0.25, 0.0}, 4.0, addMirror(scene), true);
@@ -599,7 +601,7 @@ TEST(Silhouette, OfABallIsAConeAroundItsCentre) {
                                        {{0.0, 0.5, -1.0}, 1.0}};
     for (std::size_t i = 0; i < balls.size(); ++i) {
         for (const glm::ivec2 &size : pictureSizes) {
-            Scene scene = emptyScene(size.x, size.y, 40.0 + 30.0 * static_cast<double>(i));
+            TestScene scene = emptyScene(size.x, size.y, 40.0 + 30.0 * static_cast<double>(i));
             scene.camera.up = {0.25, 1.0, 0.125};
             scene.camera.direction = dvec3(0.0, 0.0625, -1.0) + balls[i].centre * 0.0625;
             scene.background = glm::vec3(1.0f);
@@ -626,7 +628,7 @@ TEST(Silhouette, OfTrianglesIsTheirEdges) {
         return static_cast<double>(low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)));
     };
     for (const glm::ivec2 &size : pictureSizes) {
-        Scene scene = emptyScene(size.x, size.y, 90.0);
+        TestScene scene = emptyScene(size.x, size.y, 90.0);
         scene.background = {1.0f, 0.0f, 0.5f};
         scene.lights.push_back({dvec3(0.0), dvec3(1e4)});
         std::vector<std::array<dvec3, 3>> triangles;
@@ -674,7 +676,7 @@ TEST(Silhouette, OfABoxIsThreeSlabs) {
     const std::vector<dvec3> eyes = {{7.0, 8.0, 9.0}, {-9.0, 4.0, 6.0}, {5.0, -7.0, -10.0}, {2.5, 3.5, 1.5}};
     for (const dvec3 &eye : eyes) {
         for (const glm::ivec2 &size : pictureSizes) {
-            Scene scene = emptyScene(size.x, size.y, eye == eyes.back() ? 120.0 : 50.0);
+            TestScene scene = emptyScene(size.x, size.y, eye == eyes.back() ? 120.0 : 50.0);
             scene.camera.position = eye;
             scene.camera.direction = dvec3(-0.25, 0.125, -1.0) - eye;
             scene.camera.up = {0.125, 1.0, -0.25};

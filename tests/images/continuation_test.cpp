@@ -1,4 +1,5 @@
 // A film that is not finished goes on anywhere, to the same bits and the same counts.
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ class Collector : public SnapshotTaker {
 };
 
 struct Continuations : ::testing::Test {
-    Scene scene = shippedScene("spheres", 40, 24, 20);
+    TestScene scene = shippedScene("spheres", 40, 24, 20);
     PackedScene packed = pack(scene);
     Crop crop{0, 40, 0, 24};
 

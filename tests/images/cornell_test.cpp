@@ -1,5 +1,6 @@
 // The Cornell box: its mean radiance is what paths find that are clever about nothing (plain_paths.h).
 #include "tests/fixtures/test_extent.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/plain_comparison.h"
 #include "tests/images/rendering.h"
 
@@ -26,7 +27,7 @@ void expectSameMean(const Film &film, const testing::Region &region, const Estim
 
 // In rows below the light: what is seen of it is a few bright pixels, and plain paths hit one of them now and then.
 TEST(CornellBox, HasTheMeanRadianceOfPlainPaths) {
-    const Scene scene = testing::shippedScene("cornell", 32, 32, 256);
+    const TestScene scene = testing::shippedScene("cornell", 32, 32, 256);
     const Film film = testing::renderOnDevice(scene).film;
     // The walls are red, white and green, and the floor has the shadows. All four quarters together are known best.
     Estimate whole;
@@ -42,7 +43,7 @@ TEST(CornellBox, HasTheMeanRadianceOfPlainPaths) {
 }
 
 TEST(CornellBox, HasItForEachNumberOfSegments) {
-    Scene scene = testing::shippedScene("cornell", 16, 16, 512);
+    TestScene scene = testing::shippedScene("cornell", 16, 16, 512);
     for (const int depth : {2, 3, 5}) {
         scene.settings.maxDepth = depth;
         expectSameMean(

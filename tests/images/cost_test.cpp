@@ -4,21 +4,22 @@
 #include "host/base/error.h"
 #include "host/film/film_file.h"
 #include "host/scene/names.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <gtest/gtest.h>
 
 namespace hyalite {
 namespace {
 
-Scene costOf(const std::string &name, int samplesPerPixel) {
-    Scene scene = testing::shippedScene(name, 40, 30, samplesPerPixel);
+TestScene costOf(const std::string &name, int samplesPerPixel) {
+    TestScene scene = testing::shippedScene(name, 40, 30, samplesPerPixel);
     scene.settings.integrator = Integrator::Cost;
     return scene;
 }
 
 TEST(Cost, IsEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
     for (const char *name : {"cat", "spheres-nested"}) {
-        const Scene scene = costOf(name, 3);
+        const TestScene scene = costOf(name, 3);
         const reference::Result onCpu = testing::renderOnCpu(scene);
         for (const gpu::RenderConfig &config :
              {gpu::RenderConfig{}, gpu::RenderConfig{.slotsPerInvocation = 1},
@@ -47,14 +48,14 @@ TEST(Cost, OfAllPixelsIsTheCountOfTheFrame) {
 }
 
 TEST(Cost, FollowsTheRaysOfThePicture) {
-    Scene scene = costOf("spheres-nested", 2);
+    TestScene scene = costOf("spheres-nested", 2);
     const reference::Result cost = testing::renderOnCpu(scene);
     scene.settings.integrator = Integrator::Whitted;
     EXPECT_EQ(cost.rays, testing::renderOnCpu(scene).rays);
 }
 
 TEST(Cost, IsThatOfTheIntegrator) {
-    Scene scene = costOf("cat", 2);
+    TestScene scene = costOf("cat", 2);
     for (const Integrator integrator : {Integrator::Path, Integrator::AmbientOcclusion}) {
         scene.settings.integrator = integrator;
         scene.settings.isWorkShown = false;
@@ -76,7 +77,7 @@ TEST(Cost, IsThatOfTheIntegrator) {
 }
 
 TEST(Cost, IsNotThatOfASkipList) {
-    const Scene scene = costOf("cat", 1);
+    const TestScene scene = costOf("cat", 1);
     try {
         (void)testing::renderOnDevice(scene, {.traversal = gpu::Traversal::SkipList});
         ADD_FAILURE() << "rendered";

@@ -12,6 +12,7 @@
 #include "faultInSphere.h"
 #include "faultInTint.h"
 #include "faultInTriangle.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ namespace hyalite {
 namespace {
 
 /// The first divergence of any sample of the first pixel that differs.
-std::optional<Divergence> findPlanted(const Scene &scene, std::span<const std::uint32_t> kernel) {
+std::optional<Divergence> findPlanted(const TestScene &scene, std::span<const std::uint32_t> kernel) {
     const PackedScene packed = testing::pack(scene);
     gpu::Renderer faulty(testing::testDevice(), {.kernel = kernel});
     const Crop crop{0, scene.camera.width, 0, scene.camera.height};
@@ -45,7 +46,7 @@ std::optional<Divergence> findPlanted(const Scene &scene, std::span<const std::u
     return std::nullopt;
 }
 
-void expectNamed(const Scene &scene, std::span<const std::uint32_t> kernel, const std::string &quantity) {
+void expectNamed(const TestScene &scene, std::span<const std::uint32_t> kernel, const std::string &quantity) {
     const std::optional<Divergence> divergence = findPlanted(scene, kernel);
     ASSERT_TRUE(divergence);
     EXPECT_EQ(divergence->quantity, quantity) << divergence->valueA << " and " << divergence->valueB;
@@ -53,7 +54,7 @@ void expectNamed(const Scene &scene, std::span<const std::uint32_t> kernel, cons
     EXPECT_GE(divergence->rayDepth, 1u);
 }
 
-Scene balls() { return testing::shippedScene("spheres", 40, 30, 2); }
+TestScene balls() { return testing::shippedScene("spheres", 40, 30, 2); }
 
 TEST(PlantedFault, InTheCamera) { expectNamed(balls(), faultInCamera, "ray direction"); }
 
@@ -71,7 +72,7 @@ TEST(PlantedFault, InTheTintOfGlass) { expectNamed(balls(), faultInTint, "throug
 
 TEST(PlantedFault, InTheShadow) { expectNamed(balls(), faultInShadow, "light visibility"); }
 
-Scene lamps() { return testing::shippedScene("lamps", 40, 30, 2); }
+TestScene lamps() { return testing::shippedScene("lamps", 40, 30, 2); }
 
 TEST(PlantedFault, InTheScatteredDirection) { expectNamed(lamps(), faultInScatter, "scattered direction"); }
 
@@ -82,7 +83,7 @@ TEST(PlantedFault, InTheChoiceOfAnEmitter) { expectNamed(lamps(), faultInEmitter
 // The same kernel, traced on both sides: every step is there, and equal.
 TEST(Trace, OfBothTwinsIsEqual) {
     for (const char *name : {"spheres-nested", "cat", "cornell", "lamps"}) {
-        const Scene scene = testing::shippedScene(name, 32, 32, 1);
+        const TestScene scene = testing::shippedScene(name, 32, 32, 1);
         const PackedScene packed = testing::pack(scene);
         gpu::Renderer &renderer = testing::rendererBy({});
         for (const glm::uvec2 pixel : {glm::uvec2(26, 16), glm::uvec2(16, 16), glm::uvec2(3, 30)}) {

@@ -2,6 +2,7 @@
 // picture is, closed forms and the plain path tracer say (sheer_test.cpp, plain_materials_test.cpp).
 #include "host/scene/instances.h"
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/fixtures/texture_fixture.h"
 #include "tests/images/rendering.h"
 
@@ -17,14 +18,14 @@ using testing::renderOnCpu;
 using testing::renderOnDevice;
 
 /// On both renderers, by the kernels of a turn.
-void expectOnePicture(const Scene &scene, const Film &wanted, std::size_t turn) {
+void expectOnePicture(const TestScene &scene, const Film &wanted, std::size_t turn) {
     EXPECT_EQ(differingPixels(renderOnCpu(scene).film, wanted), 0u);
     for (const gpu::RenderConfig &config : testing::kernelsInTurn(turn))
         EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, wanted), 0u) << gpu::kernelName(config);
 }
 
-Scene emptyScene(int width, int height, Integrator integrator) {
-    Scene scene;
+TestScene emptyScene(int width, int height, Integrator integrator) {
+    TestScene scene;
     scene.camera.position = {0, 0, 6};
     scene.camera.direction = {0, 0, -1};
     scene.camera.horizontalFovDegrees = 50.0;
@@ -119,9 +120,9 @@ void wearEverything(Material &material) {
 }
 
 /// Balls in all materials: culled, blended and cut out, with textures and without; instances of one, and meshes.
-Scene crowd(Integrator integrator, bool isTextured) {
+TestScene crowd(Integrator integrator, bool isTextured) {
     testing::Random random(5);
-    Scene scene = emptyScene(48, 40, integrator);
+    TestScene scene = emptyScene(48, 40, integrator);
     scene.materials = materials();
     scene.textures = {noise(8, 5), noise(3, 7)};
     scene.textures[0].hasAlpha = true;
@@ -155,13 +156,13 @@ Scene crowd(Integrator integrator, bool isTextured) {
     return scene;
 }
 
-Scene flattened(Scene scene) {
+TestScene flattened(TestScene scene) {
     arrangeInstances(scene, Flattening::All);
     return scene;
 }
 
 TEST(GltfTwins, AgreeOnEveryMaterial) {
-    Scene scene = emptyScene(48, 40, Integrator::Path);
+    TestScene scene = emptyScene(48, 40, Integrator::Path);
     scene.materials = materials();
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const double x = static_cast<double>(i % 5) - 2.0;
@@ -176,7 +177,7 @@ TEST(GltfTwins, AgreeOnEveryMaterial) {
 }
 
 void expectTwinsOfTheCrowd(Integrator integrator, std::size_t turn) {
-    const Scene scene = crowd(integrator, true);
+    const TestScene scene = crowd(integrator, true);
     expectOnePicture(scene, renderOnCpu(flattened(scene)).film, turn);
 }
 
@@ -190,19 +191,19 @@ TEST(GltfTwins, AgreeOnAttributesAndTexturesInViews) {
 }
 
 TEST(GltfTwins, AgreeOnColoursWithoutTextures) {
-    const Scene scene = crowd(Integrator::Path, false);
+    const TestScene scene = crowd(Integrator::Path, false);
     expectOnePicture(scene, renderOnCpu(flattened(scene)).film, 2);
 }
 
 TEST(GltfTwins, AgreeOnTexturesThatStayLevels) {
-    const Scene scene = flattened(crowd(Integrator::Path, true));
+    const TestScene scene = flattened(crowd(Integrator::Path, true));
     const Film wanted = renderOnCpu(scene).film;
     EXPECT_EQ(differingPixels(renderOnCpu(scene, reference::Precision::Float32, 0).film, wanted), 0u);
     EXPECT_EQ(differingPixels(renderOnDevice(scene, {}, 0).film, wanted), 0u);
 }
 
 TEST(GltfTwins, DoNotDependOnTheTree) {
-    Scene scene = flattened(crowd(Integrator::Path, true));
+    TestScene scene = flattened(crowd(Integrator::Path, true));
     const Film wanted = renderOnCpu(scene).film;
     for (const TreeKind tree : {TreeKind::Sah, TreeKind::None}) {
         scene.settings.tree = tree;

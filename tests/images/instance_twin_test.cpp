@@ -2,6 +2,7 @@
 // turn.
 #include "host/scene/instances.h"
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -47,9 +48,9 @@ TriangleMesh ball() {
 
 /// Instances of a ball with several materials and of a needle soup, between meshes and a sphere. Looked at from
 /// outside, around `offset`.
-Scene crowd(std::uint64_t seed, double condition = 3.0, const glm::dvec3 &offset = {}) {
+TestScene crowd(std::uint64_t seed, double condition = 3.0, const glm::dvec3 &offset = {}) {
     testing::Random random(seed);
-    Scene scene;
+    TestScene scene;
     scene.materials.resize(4);
     scene.materials[0].twoSided = true;
     scene.materials[1].kind = MaterialKind::Dielectric;
@@ -88,14 +89,14 @@ Scene crowd(std::uint64_t seed, double condition = 3.0, const glm::dvec3 &offset
     return scene;
 }
 
-Scene flattened(Scene scene) {
+TestScene flattened(TestScene scene) {
     arrangeInstances(scene, Flattening::All);
     EXPECT_TRUE(scene.instances.empty() && scene.prototypes.empty());
     return scene;
 }
 
 /// On both renderers, of the scene as it is and with a mesh for each instance; by the kernels of a turn for each tree.
-void expectOnePicture(Scene scene, std::size_t turn,
+void expectOnePicture(TestScene scene, std::size_t turn,
                       std::initializer_list<TreeKind> trees = {TreeKind::Midpoint, TreeKind::Sah}) {
     for (const TreeKind tree : trees) {
         scene.settings.tree = tree;
@@ -112,7 +113,7 @@ void expectOnePicture(Scene scene, std::size_t turn,
 }
 
 /// A picture that shows something.
-void expectManyHits(const Scene &scene) {
+void expectManyHits(const TestScene &scene) {
     const reference::Result result = renderOnCpu(scene);
     EXPECT_GE(result.rays.shadow, 400u);
 }
@@ -123,7 +124,7 @@ TEST(InstanceTwins, AgreeWithMeshesForWhitted) {
 }
 
 TEST(InstanceTwins, AgreeWithMeshesForPaths) {
-    Scene scene = crowd(2);
+    TestScene scene = crowd(2);
     scene.settings.integrator = Integrator::Path;
     expectOnePicture(scene, 0);
 }
@@ -138,20 +139,20 @@ TEST(InstanceTwins, AgreeWithMeshesThatAreNearlyFlat) { expectOnePicture(crowd(4
 TEST(InstanceTwins, AgreeWithMeshesInEveryView) {
     std::size_t turn = 1;
     for (const Integrator view : {Integrator::Normal, Integrator::Uv, Integrator::AmbientOcclusion}) {
-        Scene scene = crowd(5);
+        TestScene scene = crowd(5);
         scene.settings.integrator = view;
         expectOnePicture(scene, turn++, {TreeKind::Sah});
     }
 }
 
 TEST(InstanceTwins, AgreeWithMeshesThatAreLights) {
-    Scene scene = crowd(6);
+    TestScene scene = crowd(6);
     scene.settings.integrator = Integrator::Path;
     scene.materials[0].emission = {2.0f, 1.5f, 1.0f};
     arrangeInstances(scene, Flattening::Useful);
     EXPECT_FALSE(scene.instances.empty()); // those without emission
     expectOnePicture(scene, 0);
-    Scene other = crowd(6);
+    TestScene other = crowd(6);
     other.settings.integrator = Integrator::Path;
     other.materials[0].emission = {2.0f, 1.5f, 1.0f};
     EXPECT_EQ(differingPixels(renderOnCpu(flattened(other)).film, renderOnCpu(scene).film), 0u);
@@ -159,7 +160,7 @@ TEST(InstanceTwins, AgreeWithMeshesThatAreLights) {
 
 // A dispatch that ends inside of an instance goes on there.
 TEST(InstanceTwins, AgreeWhenEveryFewStepsEndADispatch) {
-    Scene scene = crowd(7);
+    TestScene scene = crowd(7);
     const reference::Result wanted = renderOnCpu(flattened(scene));
     for (const std::size_t turn : {1, 2}) // a stack, and a skip list
         for (gpu::RenderConfig config : testing::kernelsInTurn(turn)) {
@@ -169,7 +170,7 @@ TEST(InstanceTwins, AgreeWhenEveryFewStepsEndADispatch) {
 }
 
 TEST(InstanceTwins, AgreeOnTheWorkOfAStack) {
-    Scene scene = crowd(8);
+    TestScene scene = crowd(8);
     scene.settings.integrator = Integrator::Cost;
     const gpu::RenderConfig config{.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack};
     EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, renderOnCpu(scene).film), 0u);

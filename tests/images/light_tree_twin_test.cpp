@@ -1,5 +1,6 @@
 // Scenes whose lights are chosen by the light tree have one picture, for every kernel and on both renderers.
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -12,9 +13,9 @@ using testing::renderOnCpu;
 using testing::renderOnDevice;
 
 /// Lamps of every kind above a floor and, if `isRough`, a ball of rough glass.
-Scene lampShop(std::uint64_t seed, bool isRough) {
+TestScene lampShop(std::uint64_t seed, bool isRough) {
     testing::Random random(seed);
-    Scene scene;
+    TestScene scene;
     scene.materials.resize(4);
     scene.materials[1].emission = {6.0f, 5.0f, 4.0f};
     scene.materials[2].emission = {2.0f, 3.0f, 9.0f};
@@ -53,7 +54,7 @@ Scene lampShop(std::uint64_t seed, bool isRough) {
     return scene;
 }
 
-void expectOnePicture(const Scene &scene, std::uint32_t steps, std::size_t turn) {
+void expectOnePicture(const TestScene &scene, std::uint32_t steps, std::size_t turn) {
     const reference::Result wanted = renderOnCpu(scene);
     EXPECT_GE(wanted.rays.shadow, 1000u);
     for (gpu::RenderConfig config : testing::kernelsInTurn(turn)) {
@@ -71,7 +72,7 @@ TEST(LightTreeTwins, AgreeAroundRoughGlass) { expectOnePicture(lampShop(2, true)
 TEST(LightTreeTwins, AgreeWhenEveryFewStepsEndADispatch) { expectOnePicture(lampShop(3, true), 37, 1); }
 
 TEST(LightTreeTwins, AgreeForManyLightsByWhitted) {
-    Scene scene = lampShop(4, false);
+    TestScene scene = lampShop(4, false);
     scene.settings.integrator = Integrator::Whitted;
     expectOnePicture(scene, 0, 3);
 }

@@ -1,6 +1,7 @@
 // The device's image and the CPU twin's are equal bit for bit on meshes that are hard on float32, for every kernel and
 // every tree.
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,9 @@ using testing::renderOnCpu;
 using testing::renderOnDevice;
 
 /// Looks at the origin, or at `target`, from `position`. One light stands beside the camera, another one above.
-Scene lookingAt(const glm::dvec3 &target, const glm::dvec3 &position, double fovDegrees, TriangleMesh mesh) {
-    Scene scene = testing::sceneOf(std::move(mesh));
+TestScene lookingAt(const glm::dvec3 &target, const glm::dvec3 &position, double fovDegrees,
+                    TriangleMesh mesh) {
+    TestScene scene(testing::sceneOf(std::move(mesh)));
     scene.materials[0].twoSided = true;
     scene.camera.position = position;
     scene.camera.direction = target - position;
@@ -35,7 +37,7 @@ Scene lookingAt(const glm::dvec3 &target, const glm::dvec3 &position, double fov
 }
 
 /// A picture with fewer shadow rays than `minShadowRays` shows too little of the mesh to test anything.
-void expectTwins(Scene scene, std::uint64_t minShadowRays) {
+void expectTwins(TestScene scene, std::uint64_t minShadowRays) {
     for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
         scene.settings.tree = tree;
         const reference::Result cpu = renderOnCpu(scene);
@@ -73,7 +75,7 @@ TEST(MeshTwins, AgreeWithTheCameraOnAVertex) {
 }
 
 TEST(MeshTwins, AgreeWithTheCameraInsideOfGlass) {
-    Scene scene = lookingAt({1, 0.5, 0.2}, {0.1, 0.2, -0.3}, 90.0, testing::icosphere(3));
+    TestScene scene = lookingAt({1, 0.5, 0.2}, {0.1, 0.2, -0.3}, 90.0, testing::icosphere(3));
     scene.materials[0].kind = MaterialKind::Dielectric;
     scene.materials[0].segmentTint = {0.95f, 0.9f, 0.98f};
     scene.materials.push_back({});
@@ -87,7 +89,7 @@ TEST(MeshTwins, AgreeThatOfTrianglesThatCoincideTheFirstIsSeen) {
     testing::addQuad(walls, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
     testing::addQuad(walls, {-1, -1, 1}, {2, 0, 0}, {0, 0, -1});
     testing::addQuad(walls, {-0.9f, -1, 1}, {0.3f, 0.4f, -1}, {0, 1, 0.1f});
-    Scene scene = lookingAt({}, {0.3, 0.8, 2.5}, 60.0, walls);
+    TestScene scene = lookingAt({}, {0.3, 0.8, 2.5}, 60.0, walls);
     scene.materials[0].albedo = {0.9f, 0.2f, 0.1f};
     const Film first = renderOnCpu(scene).film;
     scene.materials.push_back({});
@@ -112,7 +114,7 @@ void addCopy(TriangleMesh &mesh, const TriangleMesh &shape, double scale, const 
 }
 
 /// Expects twins, and of each tree the picture that there is without one.
-void expectTwinsAsWithoutTree(Scene scene, std::uint64_t minShadowRays) {
+void expectTwinsAsWithoutTree(TestScene scene, std::uint64_t minShadowRays) {
     scene.settings.tree = TreeKind::None;
     const Film plain = renderOnCpu(scene).film;
     for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
@@ -122,7 +124,7 @@ void expectTwinsAsWithoutTree(Scene scene, std::uint64_t minShadowRays) {
     expectTwins(scene, minShadowRays);
 }
 
-Scene smallPicture(Scene scene) {
+TestScene smallPicture(TestScene scene) {
     scene.camera.width = 24;
     scene.camera.height = 20;
     scene.settings.samplesPerPixel = 1;

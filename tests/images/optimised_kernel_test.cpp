@@ -51,7 +51,7 @@ void expectSameBits(std::span<const std::uint32_t> kernel, gpu::RenderConfig con
     ASSERT_NE(optimised, Words(kernel.begin(), kernel.end())) << "nothing was optimised";
     config.kernel = optimised;
     for (const char *name : {"spheres-nested", "cat"}) {
-        const Scene scene = testing::shippedScene(name, 96, 64, 2);
+        const TestScene scene = testing::shippedScene(name, 96, 64, 2);
         const gpu::Result device = testing::renderOnDevice(scene, config);
         const reference::Result cpu = testing::renderOnCpu(scene);
         EXPECT_EQ(testing::differingPixels(device.film, cpu.film), 0u) << name;

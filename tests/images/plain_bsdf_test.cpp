@@ -27,7 +27,7 @@ struct Sight {
     double viewCosine;
 
     [[nodiscard]] Bsdf bsdf() const {
-        Scene scene;
+        TestScene scene;
         scene.materials = {material};
         const Substances substances(scene);
         return {substances.at(0, Vec2(0.0)), indexRatio, false};
@@ -316,7 +316,7 @@ TEST(PlainFacets, HaveConvergedEnergiesOfGlass) {
 }
 
 TEST(PlainPathTracer, FindsTheSameLightByAimingAndByScattering) {
-    Scene scene = emptyScene(4);
+    TestScene scene = emptyScene(4);
     Material metal = diffuse(glm::vec3(0.5f));
     metal.kind = MaterialKind::Conductor;
     metal.roughness = 0.6f;
@@ -337,7 +337,7 @@ TEST(PlainPathTracer, FindsTheSameLightByAimingAndByScattering) {
 
 // In a white world clear glass is as bright as what is around it, and a matt ball as its albedo.
 TEST(PlainPathTracer, IsAFurnace) {
-    Scene scene = emptyScene(32);
+    TestScene scene = emptyScene(32);
     scene.background = glm::vec3(1.0f);
     Material glass = diffuse(glm::vec3(1.0f));
     glass.kind = MaterialKind::Dielectric;

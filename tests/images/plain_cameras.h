@@ -1,6 +1,7 @@
 // Cameras of the plain path tracer.
 #pragma once
 
+#include "host/scene/settings.h"
 #include "tests/images/plain_geometry.h"
 
 namespace hyalite::testing::plain {

@@ -1,4 +1,5 @@
 // Cameras: what they see of glowing things near and far is what the plain path tracer sees.
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/plain_comparison.h"
 #include "tests/images/plain_scenes.h"
 
@@ -58,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(All, PlainCameras,
                          [](const auto &instance) { return instance.param.name; });
 
 TEST_P(PlainCameras, SeeTheSame) {
-    Scene scene = testing::emptyScene(1, 256);
+    TestScene scene = testing::emptyScene(1, 256);
     scene.environment = testing::studioEnvironment();
     GetParam().place(scene.camera);
     testing::addBall(scene, {-0.4, 0.3, 0.5}, 0.5, testing::lamp({2.0f, 0.1f, 0.3f}));
@@ -79,7 +80,7 @@ TEST_P(PlainCameras, SeeTheSame) {
 // Meridians of light, each edge inside of a pixel: how much of it is bright tells sine and arc tangent to a tenth of a
 // degree.
 TEST(PlainPanorama, HasItsMeridiansWhereTheyAre) {
-    Scene scene = testing::emptyScene(1, 16384);
+    TestScene scene = testing::emptyScene(1, 16384);
     scene.camera.kind = CameraKind::Panorama;
     scene.camera.width = 36;
     scene.camera.height = 1;
@@ -94,7 +95,7 @@ TEST(PlainPanorama, HasItsMeridiansWhereTheyAre) {
 
 // A far small ball becomes an evenly bright disc, of which each point shows a point of the lens.
 TEST(PlainLens, IsEvenlyOpen) {
-    Scene scene = testing::emptyScene(1, 4096);
+    TestScene scene = testing::emptyScene(1, 4096);
     scene.camera.width = 9;
     scene.camera.height = 9;
     scene.camera.aperture = 0.6;
@@ -108,7 +109,7 @@ TEST(PlainLens, IsEvenlyOpen) {
 // Thin bars of light, which a filter that reaches into neighbouring pixels spreads.
 TEST(PlainFilter, SpreadsTheSame) {
     for (const FilterKind filter : {FilterKind::Box, FilterKind::BlackmanHarris}) {
-        Scene scene = testing::emptyScene(1, 4096);
+        TestScene scene = testing::emptyScene(1, 4096);
         scene.camera.width = 6;
         scene.camera.height = 6;
         scene.settings.filter = filter;

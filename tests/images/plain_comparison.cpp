@@ -1,6 +1,7 @@
 #include "tests/images/plain_comparison.h"
 
 #include "tests/fixtures/test_extent.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ constexpr double maxStandardErrors = 4.6;
 
 constexpr std::uint64_t plainSeed = 1;
 
-std::vector<Estimate> plainEstimates(const Scene &scene, const Comparison &comparison) {
+std::vector<Estimate> plainEstimates(const TestScene &scene, const Comparison &comparison) {
     std::vector<Estimate> estimates;
     for (const Region &region : comparison.regions)
         estimates.push_back(estimatePlainly(scene, region.x0, region.x1, region.y0, region.y1,
@@ -26,7 +27,7 @@ std::vector<Estimate> plainEstimates(const Scene &scene, const Comparison &compa
     return estimates;
 }
 
-void expectEqualMeans(const char *renderer, const Film &film, const Scene &scene,
+void expectEqualMeans(const char *renderer, const Film &film, const TestScene &scene,
                       const Comparison &comparison, const std::vector<Estimate> &plain) {
     for (std::size_t i = 0; i < plain.size(); ++i) {
         const Region &region = comparison.regions[i];
@@ -66,12 +67,12 @@ Estimate meanOf(const Film &film, const Region &region) {
     return estimate;
 }
 
-void expectPlainRadiance(const char *renderer, const Film &film, const Scene &scene,
+void expectPlainRadiance(const char *renderer, const Film &film, const TestScene &scene,
                          const Comparison &comparison) {
     expectEqualMeans(renderer, film, scene, comparison, plainEstimates(scene, comparison));
 }
 
-void expectPlainRadiance(const Scene &scene, const Comparison &comparison) {
+void expectPlainRadiance(const TestScene &scene, const Comparison &comparison) {
     const std::vector<Estimate> plain = plainEstimates(scene, comparison);
     if (isTestingAll())
         expectEqualMeans("device", renderOnDevice(scene).film, scene, comparison, plain);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/film/film.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/plain_paths.h"
 
 #include <vector>
@@ -35,11 +36,11 @@ struct Comparison {
 constexpr double energyAllowance = 3e-3;
 
 /// Expects the film to have the same mean radiance in each region and channel.
-void expectPlainRadiance(const char *renderer, const Film &film, const Scene &scene,
+void expectPlainRadiance(const char *renderer, const Film &film, const TestScene &scene,
                          const Comparison &comparison);
 
 /// Likewise of the film of the CPU, which has the device's bits (tests of twins); and of the device's if everything is
 /// tested.
-void expectPlainRadiance(const Scene &scene, const Comparison &comparison);
+void expectPlainRadiance(const TestScene &scene, const Comparison &comparison);
 
 } // namespace hyalite::testing

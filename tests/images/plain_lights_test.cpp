@@ -1,4 +1,5 @@
 // Lights: on matt and on metal surfaces, the renderers' mean radiance is that of the plain path tracer.
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/plain_comparison.h"
 #include "tests/images/plain_scenes.h"
 
@@ -18,7 +19,7 @@ using testing::Search;
 
 struct Lighting {
     std::string name;
-    std::function<void(Scene &)> install;
+    std::function<void(TestScene &)> install;
     Search search = Search::ByAiming;
 };
 
@@ -33,62 +34,63 @@ Light light(LightKind kind, const glm::dvec3 &position, const glm::dvec3 &power,
 }
 
 /// Above the floor to the left, facing down to the right.
-void addPanel(Scene &scene, const Material &material) {
+void addPanel(TestScene &scene, const Material &material) {
     testing::addQuad(scene, {-2.0f, 0.5f, 1.0f}, {0.0f, 0.0f, -2.0f}, {1.0f, 1.0f, 0.0f}, material);
 }
 
 std::vector<Lighting> lightings() {
     const Light spot = light(LightKind::Spot, {1.0, 2.0, 1.5}, {90.0, 80.0, 60.0}, {-0.4, -1.0, -0.5});
     std::vector<Lighting> all;
-    all.push_back({"Point", [](Scene &scene) {
+    all.push_back({"Point", [](TestScene &scene) {
                        scene.lights.push_back({{-1.0, 2.0, 2.0}, {50.0, 60.0, 70.0}});
                    }});
-    all.push_back({"Spot", [spot](Scene &scene) { scene.lights.push_back(spot); }});
-    all.push_back({"SquareSpot", [spot](Scene &scene) {
+    all.push_back({"Spot", [spot](TestScene &scene) { scene.lights.push_back(spot); }});
+    all.push_back({"SquareSpot", [spot](TestScene &scene) {
                        scene.lights.push_back(spot);
                        scene.lights.back().fade = SpotFade::Square;
                    }});
-    all.push_back({"SharpSpot", [spot](Scene &scene) {
+    all.push_back({"SharpSpot", [spot](TestScene &scene) {
                        scene.lights.push_back(spot);
                        scene.lights.back().blend = 0.0;
                    }});
     all.push_back(
-        {"Directional", [](Scene &scene) {
+        {"Directional", [](TestScene &scene) {
              scene.lights.push_back(light(LightKind::Directional, {}, {1.5, 1.0, 2.0}, {1.0, -1.0, -1.0}));
          }});
-    all.push_back({"Panel", [](Scene &scene) { addPanel(scene, lamp({6.0f, 5.0f, 4.0f})); }});
+    all.push_back({"Panel", [](TestScene &scene) { addPanel(scene, lamp({6.0f, 5.0f, 4.0f})); }});
     all.push_back(
-        {"PanelSeenFromBehind", [](Scene &scene) {
+        {"PanelSeenFromBehind", [](TestScene &scene) {
              Material paper = lamp({6.0f, 5.0f, 4.0f});
              paper.twoSided = true;
              testing::addQuad(scene, {-2.0f, 0.5f, 1.0f}, {1.0f, 1.0f, 0.0f}, {0.0f, 0.0f, -2.0f}, paper);
          }});
-    all.push_back({"PanelThatFacesAway", [](Scene &scene) {
+    all.push_back({"PanelThatFacesAway", [](TestScene &scene) {
                        scene.background = {0.3f, 0.4f, 0.5f};
                        testing::addQuad(scene, {-2.0f, 0.5f, 1.0f}, {1.0f, 1.0f, 0.0f}, {0.0f, 0.0f, -2.0f},
                                         lamp({9.0f, 9.0f, 9.0f}));
                    }});
-    all.push_back({"Bulb", [](Scene &scene) {
+    all.push_back({"Bulb", [](TestScene &scene) {
                        testing::addBall(scene, {-1.2, 1.0, 0.5}, 0.5, lamp({8.0f, 6.0f, 4.0f}));
                    }});
     all.push_back({"BulbOnTheFloor",
-                   [](Scene &scene) {
+                   [](TestScene &scene) {
                        testing::addBall(scene, {-1.0, -0.5, 0.4}, 0.5, lamp({3.0f, 4.0f, 5.0f}));
                    },
                    Search::ByScattering});
     all.push_back({"GlowingDome",
-                   [](Scene &scene) {
+                   [](TestScene &scene) {
                        testing::addBall(scene, {0.0, 0.0, 0.0}, 8.0, lamp({0.4f, 0.5f, 0.6f}), true);
                    },
                    Search::ByScattering});
-    all.push_back({"Background", [](Scene &scene) { scene.background = {0.3f, 0.5f, 0.7f}; }});
-    all.push_back({"Environment", [](Scene &scene) { scene.environment = testing::studioEnvironment(); }});
-    all.push_back({"TurnedEnvironment", [](Scene &scene) {
+    all.push_back({"Background", [](TestScene &scene) { scene.background = {0.3f, 0.5f, 0.7f}; }});
+    all.push_back(
+        {"Environment", [](TestScene &scene) { scene.environment = testing::studioEnvironment(); }});
+    all.push_back({"TurnedEnvironment", [](TestScene &scene) {
                        scene.environment = testing::studioEnvironment(75.0);
                        scene.environment.scale = 1.5f;
                    }});
     all.push_back(
-        {"AllOfThem", [spot](Scene &scene) {
+        {"AllOfThem", [spot](TestScene &scene) {
              scene.environment = testing::studioEnvironment(-30.0);
              scene.lights.push_back({{-1.0, 2.0, 2.0}, {5.0, 6.0, 7.0}});
              scene.lights.push_back(spot);
@@ -96,11 +98,11 @@ std::vector<Lighting> lightings() {
              addPanel(scene, lamp({2.0f, 1.0f, 1.0f}));
              testing::addBall(scene, {1.0, 0.5, -0.5}, 0.2, lamp({4.0f, 6.0f, 4.0f}));
          }});
-    all.push_back({"AllOfThemByTree", [everything = all.back().install](Scene &scene) {
+    all.push_back({"AllOfThemByTree", [everything = all.back().install](TestScene &scene) {
                        everything(scene);
                        scene.settings.lightChoice = LightChoice::Tree;
                    }});
-    all.push_back({"ManyByTree", [](Scene &scene) {
+    all.push_back({"ManyByTree", [](TestScene &scene) {
                        for (int i = 0; i < 12; ++i) {
                            const double x = 0.4 * (i - 6);
                            const float glow = 2.0f + static_cast<float>(i % 3);
@@ -125,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(All, PlainLights,
 // A floor and a ball. Matt ones alone and those among others are shaded by different code.
 TEST_P(PlainLights, FallTheSameOnAFloorAndABall) {
     const auto &[lighting, isMetal] = GetParam();
-    Scene scene = testing::emptyScene(3);
+    TestScene scene = testing::emptyScene(3);
     scene.camera.position = {0.0, 0.5, 4.0};
     scene.camera.direction = {0.0, -0.25, -1.0};
     Material ballMaterial = testing::diffuse({0.7f, 0.6f, 0.5f});
@@ -147,7 +149,7 @@ TEST_P(PlainLights, FallTheSameOnAFloorAndABall) {
 // A lamp in a ball of rough glass, which shadow rays from outside do not reach, and those from its surface do.
 TEST(PlainLights, PassRoughGlassFromInside) {
     for (const bool isPoint : {true, false}) {
-        Scene scene = testing::emptyScene(4);
+        TestScene scene = testing::emptyScene(4);
         Material glass;
         glass.kind = MaterialKind::Dielectric;
         glass.roughness = 0.5f;

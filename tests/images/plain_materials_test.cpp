@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(All, PlainMaterials, ::testing::ValuesIn(looks()),
 
 // Seen at all angles, lit from all around and by a point.
 TEST_P(PlainMaterials, LookTheSameOnABallInAStudio) {
-    Scene scene = testing::emptyScene(GetParam().maxDepth);
+    TestScene scene = testing::emptyScene(GetParam().maxDepth);
     scene.environment = testing::studioEnvironment();
     const float roughness = GetParam().material.roughness;
     if (roughness == 0.0f || roughness >= 0.3f) // between, its highlight is a few bright pixels
@@ -146,7 +146,7 @@ TEST_P(PlainMaterials, LookTheSameOnABallInAStudio) {
 
 // A tile that is seen obliquely and shows a large lamp behind it.
 TEST_P(PlainMaterials, LookTheSameOnATileUnderALamp) {
-    Scene scene = testing::emptyScene(GetParam().maxDepth);
+    TestScene scene = testing::emptyScene(GetParam().maxDepth);
     scene.background = {0.4f, 0.6f, 0.8f};
     testing::addQuad(scene, {-2.0f, -0.8f, 2.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.4f, -4.0f},
                      GetParam().material);
@@ -162,7 +162,7 @@ TEST_P(PlainMaterials, LookTheSameOnATileUnderALamp) {
 TEST(PlainFurnaces, AreAsBright) {
     for (const float roughness : {0.5f, 1.0f})
         for (const float metallic : {0.0f, 1.0f}) {
-            Scene scene = testing::emptyScene(2, 512);
+            TestScene scene = testing::emptyScene(2, 512);
             scene.background = glm::vec3(1.0f);
             Look white = principled("White", roughness);
             white.material.albedo = glm::vec3(1.0f);

@@ -26,21 +26,21 @@ Material glass(float index, const glm::vec3 &absorption, int priority = 0, float
 
 const testing::Comparison wholeAndParts{.regions = {{0, 16, 0, 16}, {4, 12, 4, 12}, {2, 8, 2, 8}}};
 
-Scene studio(int maxDepth) {
-    Scene scene = testing::emptyScene(maxDepth);
+TestScene studio(int maxDepth) {
+    TestScene scene = testing::emptyScene(maxDepth);
     scene.environment = testing::studioEnvironment();
     return scene;
 }
 
 TEST(PlainGlass, IsTheSameInALiquid) {
-    Scene scene = studio(7);
+    TestScene scene = studio(7);
     addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass(1.33f, {0.1f, 0.2f, 0.4f}));
     addBall(scene, {0.1, -0.1, 0.3}, 0.6, glass(1.8f, {0.5f, 0.2f, 0.1f}, 1));
     expectPlainRadiance(scene, wholeAndParts);
 }
 
 TEST(PlainGlass, IsTheSameWhereItOverlaps) {
-    Scene scene = studio(7);
+    TestScene scene = studio(7);
     addBall(scene, {-0.4, 0.0, 0.0}, 0.7, glass(1.3f, {0.6f, 0.1f, 0.1f}, 1));
     addBall(scene, {0.4, 0.1, 0.0}, 0.7, glass(2.0f, {0.1f, 0.3f, 0.9f}, 2));
     addBall(scene, {0.0, -0.3, 0.2}, 0.5, glass(1.6f, {0.1f, 0.9f, 0.1f}, 1));
@@ -48,14 +48,14 @@ TEST(PlainGlass, IsTheSameWhereItOverlaps) {
 }
 
 TEST(PlainGlass, IsTheSameAroundABallOfAir) {
-    Scene scene = studio(8);
+    TestScene scene = studio(8);
     addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass(1.5f, {0.2f, 0.3f, 0.4f}));
     addBall(scene, {0.0, 0.1, 0.0}, 0.7, glass(1.0f, glm::vec3(0.0f), 1));
     expectPlainRadiance(scene, wholeAndParts);
 }
 
 TEST(PlainGlass, IsTheSameWhereItIsHollow) {
-    Scene scene = studio(8);
+    TestScene scene = studio(8);
     const Material clear = glass(1.5f, {0.2f, 0.3f, 0.4f});
     addBall(scene, {0.0, 0.0, 0.0}, 1.0, clear);
     addBall(scene, {0.0, 0.1, 0.0}, 0.7, clear, true);
@@ -64,7 +64,7 @@ TEST(PlainGlass, IsTheSameWhereItIsHollow) {
 }
 
 TEST(PlainGlass, IsTheSameAroundTheEye) {
-    Scene scene = studio(6);
+    TestScene scene = studio(6);
     scene.camera.position = {0.3, 0.2, 0.4};
     scene.camera.horizontalFovDegrees = 100.0;
     addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass(1.5f, {0.2f, 0.3f, 0.4f}));
@@ -72,14 +72,14 @@ TEST(PlainGlass, IsTheSameAroundTheEye) {
 }
 
 TEST(PlainGlass, IsTheSameWhereRoughIsInSmooth) {
-    Scene scene = studio(6);
+    TestScene scene = studio(6);
     addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass(1.4f, {0.1f, 0.2f, 0.4f}));
     addBall(scene, {0.1, -0.1, 0.3}, 0.6, glass(1.9f, {0.3f, 0.2f, 0.1f}, 1, 0.5f));
     expectPlainRadiance(scene, wholeAndParts);
 }
 
 /// A wavy sheet whose normals are those of the wave, seen from the front.
-void addWave(Scene &scene, const Material &material, bool isClockwise = false) {
+void addWave(TestScene &scene, const Material &material, bool isClockwise = false) {
     TriangleMesh mesh;
     mesh.materialIndex = testing::addMaterial(scene, material);
     const auto index = [](int x, int y) { return static_cast<std::uint32_t>(y * 5 + x); };
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(All, PlainMeshes,
                                            MaterialKind::Principled));
 
 TEST_P(PlainMeshes, IsTheSameWithItsNormals) {
-    Scene scene = studio(3);
+    TestScene scene = studio(3);
     scene.camera.horizontalFovDegrees = 25.0;
     Material material;
     material.kind = GetParam();
@@ -127,7 +127,7 @@ TEST_P(PlainMeshes, IsTheSameWithItsNormals) {
 
 // Normals, not the order of corners, say where the front is.
 TEST(PlainMesh, FacesWhereItsNormalsPoint) {
-    Scene scene = studio(2);
+    TestScene scene = studio(2);
     scene.camera.horizontalFovDegrees = 25.0;
     addWave(scene, testing::diffuse({0.8f, 0.6f, 0.4f}), true);
     expectPlainRadiance(scene, wholeAndParts);
@@ -135,7 +135,7 @@ TEST(PlainMesh, FacesWhereItsNormalsPoint) {
 
 // A clear coat is on the front only; what is two-sided is lit from where it is seen.
 TEST(PlainMesh, IsTheSameFromBehind) {
-    Scene scene = studio(2);
+    TestScene scene = studio(2);
     Material paint = testing::diffuse({0.7f, 0.5f, 0.3f});
     paint.kind = MaterialKind::Principled;
     paint.roughness = 0.5f;
@@ -150,7 +150,7 @@ TEST(PlainMesh, IsTheSameFromBehind) {
 
 // Russian roulette begins at the fourth segment, in glass too.
 TEST(PlainLongPaths, AreTheSame) {
-    Scene scene = studio(9);
+    TestScene scene = studio(9);
     scene.camera.horizontalFovDegrees = 40.0;
     testing::addQuad(scene, {-3.0f, -0.6f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f},
                      testing::diffuse({0.8f, 0.6f, 0.4f}));

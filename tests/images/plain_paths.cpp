@@ -1,5 +1,6 @@
 #include "tests/images/plain_paths.h"
 
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/plain_bsdf.h"
 #include "tests/images/plain_cameras.h"
 #include "tests/images/plain_lights.h"
@@ -22,7 +23,7 @@ constexpr int chunkCount = 64; ///< of paths, each with a generator of its own
 
 /// A scene made ready for paths.
 struct World {
-    World(const Scene &plainScene, Search how)
+    World(const TestScene &plainScene, Search how)
         : scene(plainScene), search(how), shapes(shapesOf(plainScene)), substances(plainScene),
           emitters(plainScene, shapes) {}
 
@@ -51,7 +52,7 @@ struct World {
         return !meeting || meeting->distance >= distance;
     }
 
-    const Scene &scene;
+    const TestScene &scene;
     Search search;
     std::vector<Shape> shapes;
     Substances substances;
@@ -245,7 +246,7 @@ class Path {
 
 } // namespace
 
-Estimate estimatePlainly(const Scene &scene, int x0, int x1, int y0, int y1, int pathCount,
+Estimate estimatePlainly(const TestScene &scene, int x0, int x1, int y0, int y1, int pathCount,
                          std::uint64_t seed, Search search) {
     const World world(scene, search);
     std::vector<Vec> sums(chunkCount, Vec(0.0));

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "host/scene/scene.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <cstdint>
 
@@ -28,7 +29,7 @@ enum class Search {
 /// Mean radiance over columns [x0, x1) and rows [y0, y1) of the image, from `pathCount` paths through points of it that
 /// are distributed as the filter says. The result depends on the arguments alone. Of the settings it knows
 /// `maxDepth` and `filter`.
-[[nodiscard]] Estimate estimatePlainly(const Scene &scene, int x0, int x1, int y0, int y1, int pathCount,
+[[nodiscard]] Estimate estimatePlainly(const TestScene &scene, int x0, int x1, int y0, int y1, int pathCount,
                                        std::uint64_t seed, Search search = Search::ByAiming);
 
 } // namespace hyalite::testing

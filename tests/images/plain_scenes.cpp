@@ -1,9 +1,10 @@
 #include "tests/images/plain_scenes.h"
+#include "tests/fixtures/test_scene.h"
 
 namespace hyalite::testing {
 
-Scene emptyScene(int maxDepth, int samplesPerPixel) {
-    Scene scene;
+TestScene emptyScene(int maxDepth, int samplesPerPixel) {
+    TestScene scene;
     scene.camera.position = {0.0, 0.0, 4.0};
     scene.camera.horizontalFovDegrees = 30.0;
     scene.camera.focusDistance = 4.0;

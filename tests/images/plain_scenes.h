@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/scene.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <array>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace hyalite::testing {
 
 /// For the path integrator, with nothing in it, seen along -z from (0, 0, 4): a 16 x 16 image.
-[[nodiscard]] Scene emptyScene(int maxDepth, int samplesPerPixel = 512);
+[[nodiscard]] TestScene emptyScene(int maxDepth, int samplesPerPixel = 512);
 
 /// A dim room with a warm window and a cold one, of few pixels.
 [[nodiscard]] Environment studioEnvironment(double rotateDegrees = 0.0);

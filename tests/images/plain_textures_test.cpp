@@ -16,7 +16,7 @@ using testing::levelTexture;
 
 struct Wearing {
     std::string name;
-    std::function<void(Scene &, Material &)> put;
+    std::function<void(TestScene &, Material &)> put;
 };
 
 void PrintTo(const Wearing &wearing, std::ostream *stream) { *stream << wearing.name; }
@@ -49,38 +49,38 @@ void makePlastic(Material &material) {
 
 std::vector<Wearing> wearings() {
     std::vector<Wearing> all;
-    all.push_back({"BaseColour", [](Scene &scene, Material &material) {
+    all.push_back({"BaseColour", [](TestScene &scene, Material &material) {
                        testing::wear(scene, material, layout::slotBaseColour, colours);
                    }});
     all.push_back(
-        {"PlacedBaseColour", [](Scene &scene, Material &material) {
+        {"PlacedBaseColour", [](TestScene &scene, Material &material) {
              makePlastic(material);
              testing::wear(scene, material, layout::slotBaseColour, colours, {2.0f, -1.5f}, {0.3f, 0.1f});
          }});
-    all.push_back({"Emission", [](Scene &scene, Material &material) {
+    all.push_back({"Emission", [](TestScene &scene, Material &material) {
                        material.emission = {2.0f, 1.5f, 1.0f};
                        testing::wear(scene, material, layout::slotEmission, colours);
                    }});
     all.push_back(
-        {"EmissionOfFloats", [](Scene &scene, Material &material) {
+        {"EmissionOfFloats", [](TestScene &scene, Material &material) {
              material.emission = {1.0f, 1.0f, 1.0f};
              testing::wear(scene, material, layout::slotEmission, floatTexture(), {1.0f, 1.0f}, {0.2f, 0.0f});
          }});
-    all.push_back({"Roughness", [](Scene &scene, Material &material) {
+    all.push_back({"Roughness", [](TestScene &scene, Material &material) {
                        makePlastic(material);
                        material.roughness = 1.0f;
                        material.metallic = 1.0f;
                        testing::wear(scene, material, layout::slotRoughness, greys);
                    }});
-    all.push_back({"Metallic", [](Scene &scene, Material &material) {
+    all.push_back({"Metallic", [](TestScene &scene, Material &material) {
                        makePlastic(material);
                        material.metallic = 0.9f;
                        testing::wear(scene, material, layout::slotMetallic, greys);
                    }});
-    all.push_back({"Normal", [](Scene &scene, Material &material) {
+    all.push_back({"Normal", [](TestScene &scene, Material &material) {
                        testing::wear(scene, material, layout::slotNormal, slopes);
                    }});
-    all.push_back({"StrongNormalOfPlastic", [](Scene &scene, Material &material) {
+    all.push_back({"StrongNormalOfPlastic", [](TestScene &scene, Material &material) {
                        makePlastic(material);
                        material.normalStrength = 1.7f;
                        testing::wear(scene, material, layout::slotNormal, slopes, {1.0f, -1.0f});
@@ -93,8 +93,8 @@ class PlainTextures : public ::testing::TestWithParam<Wearing> {};
 INSTANTIATE_TEST_SUITE_P(All, PlainTextures, ::testing::ValuesIn(wearings()),
                          [](const auto &instance) { return instance.param.name; });
 
-Scene room() {
-    Scene scene = testing::emptyScene(2);
+TestScene room() {
+    TestScene scene = testing::emptyScene(2);
     scene.environment = testing::studioEnvironment();
     return scene;
 }
@@ -102,7 +102,7 @@ Scene room() {
 Material grey() { return testing::diffuse({0.8f, 0.7f, 0.6f}); }
 
 TEST_P(PlainTextures, LookTheSameOnATile) {
-    Scene scene = room();
+    TestScene scene = room();
     Material material = grey();
     GetParam().put(scene, material);
     testing::addQuad(scene, {-1.0f, -1.0f, 0.3f}, {2.0f, 0.0f, 0.0f}, {0.2f, 2.0f, -0.6f}, material);
@@ -113,7 +113,7 @@ TEST_P(PlainTextures, LookTheSameOnATile) {
 }
 
 TEST_P(PlainTextures, LookTheSameOnABall) {
-    Scene scene = room();
+    TestScene scene = room();
     Material material = grey();
     GetParam().put(scene, material);
     testing::addBall(scene, {0.0, 0.0, 0.0}, 1.0, material);
@@ -125,7 +125,7 @@ TEST_P(PlainTextures, LookTheSameOnABall) {
 
 // Where u grows to the left green still points along v.
 TEST(PlainTextures, BendTheSameWhereTheyAreMirrored) {
-    Scene scene = room();
+    TestScene scene = room();
     Material material = grey();
     testing::wear(scene, material, layout::slotNormal, slopes);
     testing::addQuad(scene, {-1.0f, -1.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f}, material).uvs = {
@@ -137,7 +137,7 @@ TEST(PlainTextures, BendTheSameWhereTheyAreMirrored) {
 // Steep maps that are seen at grazing angles: normals that face away from the eye, and ones that mirror into the
 // surface.
 TEST(PlainTextures, BendTheSameAtGrazingAngles) {
-    Scene scene = room();
+    TestScene scene = room();
     Material material = grey();
     makePlastic(material);
     material.roughness = 0.3f;
@@ -152,7 +152,7 @@ TEST(PlainTextures, BendTheSameAtGrazingAngles) {
 // Their light on a wall: the tile and the ball are emitters that are aimed at, and are not seen.
 TEST(PlainTextures, ShineTheSame) {
     for (const bool isCutOut : {false, true}) {
-        Scene scene = testing::emptyScene(2);
+        TestScene scene = testing::emptyScene(2);
         testing::addQuad(scene, {-2.0f, -2.0f, 0.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 4.0f, 0.0f}, grey());
         Material glowing = testing::lamp({3.0f, 2.0f, 1.0f});
         testing::wear(scene, glowing, layout::slotEmission, colours);
@@ -169,7 +169,7 @@ TEST(PlainTextures, ShineTheSame) {
 
 // Decoded and as levels.
 TEST(PlainTextures, CutTheSameHoles) {
-    Scene scene = room();
+    TestScene scene = room();
     scene.lights.push_back({{-1.0, 1.0, 3.0}, {30.0, 40.0, 50.0}});
     Material leaf = grey();
     leaf.twoSided = true;
@@ -187,7 +187,7 @@ TEST(PlainTextures, CutTheSameHoles) {
 
 // By chance, before a wall that they shade.
 TEST(PlainTextures, BlendTheSame) {
-    Scene scene = room();
+    TestScene scene = room();
     scene.lights.push_back({{-1.0, 1.0, 3.0}, {30.0, 40.0, 50.0}});
     Material leaf = grey();
     leaf.twoSided = true;

@@ -3,6 +3,7 @@
 #include "host/import/load.h"
 #include "host/scene/validate.h"
 #include "tests/fixtures/test_extent.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <array>
 #include <cassert>
@@ -14,21 +15,23 @@ namespace {
 
 const bool isHastened = (hastenLavapipe(), true);
 
-Crop wholeImage(const Scene &scene) { return {0, scene.camera.width, 0, scene.camera.height}; }
+Crop wholeImage(const TestScene &scene) { return {0, scene.camera.width, 0, scene.camera.height}; }
 
 } // namespace
 
-Scene shippedScene(const std::string &name, int width, int height, int samplesPerPixel) {
-    Scene scene = loadScene(name).scene;
+TestScene shippedScene(const std::string &name, int width, int height, int samplesPerPixel) {
+    TestScene scene = loadTestScene(name);
     scene.camera.width = width;
     scene.camera.height = height;
     scene.settings.samplesPerPixel = samplesPerPixel;
     return scene;
 }
 
-PackedScene pack(const Scene &scene, std::size_t maxDecoded) {
+PackedScene pack(const TestScene &scene, std::size_t maxDecoded) {
     validateScene(scene, "the test");
-    return packScene(scene, buildBvh(scene.settings.tree, scene, scene.settings.leafSize), maxDecoded);
+    validateSettings(scene.settings, scene, "the test");
+    return packScene(scene, buildBvh(scene.settings.tree, scene, scene.settings.leafSize),
+                     {scene.settings.lightChoice, maxDecoded});
 }
 
 gpu::Renderer &rendererBy(const gpu::RenderConfig &config) {
@@ -51,23 +54,26 @@ std::span<const gpu::RenderConfig> kernelsInTurn(std::size_t turn) {
     return isTestingAll() ? allKernels() : allKernels().subspan(turn % allKernels().size(), 1);
 }
 
-gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config, std::size_t maxDecoded) {
+gpu::Result renderOnDevice(const TestScene &scene, const gpu::RenderConfig &config, std::size_t maxDecoded) {
     return renderOnDevice(scene, pack(scene, maxDecoded), config);
 }
 
-gpu::Result renderOnDevice(const Scene &scene, const PackedScene &packed, const gpu::RenderConfig &config) {
+gpu::Result renderOnDevice(const TestScene &scene, const PackedScene &packed,
+                           const gpu::RenderConfig &config) {
     if (config.isStaged || !config.kernel.empty())
         return gpu::Renderer(testDevice(), config).render(packed, scene.settings, wholeImage(scene));
     return rendererBy(config).render(packed, scene.settings, wholeImage(scene));
 }
 
-reference::Result renderOnCpu(const Scene &scene, const PackedScene &packed, reference::Precision precision) {
+reference::Result renderOnCpu(const TestScene &scene, const PackedScene &packed,
+                              reference::Precision precision) {
     reference::Options options;
     options.precision = precision;
     return reference::render(packed, scene.settings, wholeImage(scene), options);
 }
 
-reference::Result renderOnCpu(const Scene &scene, reference::Precision precision, std::size_t maxDecoded) {
+reference::Result renderOnCpu(const TestScene &scene, reference::Precision precision,
+                              std::size_t maxDecoded) {
     return renderOnCpu(scene, pack(scene, maxDecoded), precision);
 }
 

@@ -7,6 +7,7 @@
 #include "host/reference/renderer.h"
 #include "host/scene/scene.h"
 #include "tests/fixtures/test_device.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <span>
 #include <string>
@@ -14,10 +15,10 @@
 namespace hyalite::testing {
 
 /// A shipped scene by its name, at another size and sample count.
-[[nodiscard]] Scene shippedScene(const std::string &name, int width, int height, int samplesPerPixel);
+[[nodiscard]] TestScene shippedScene(const std::string &name, int width, int height, int samplesPerPixel);
 
 /// Validates, builds the tree that the settings ask for, and packs.
-[[nodiscard]] PackedScene pack(const Scene &scene, std::size_t maxDecoded = maxDecodedBytes);
+[[nodiscard]] PackedScene pack(const TestScene &scene, std::size_t maxDecoded = maxDecodedBytes);
 
 /// The renderer of all tests of a process, on the device of test_device.h, by this configuration until the next call:
 /// drivers take longer to compile a kernel than to run it, and tests share what they have in common. `config` is neither
@@ -32,16 +33,16 @@ namespace hyalite::testing {
 [[nodiscard]] std::span<const gpu::RenderConfig> kernelsInTurn(std::size_t turn);
 
 /// Renders all of the image on the device of test_device.h.
-[[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const gpu::RenderConfig &config = {},
+[[nodiscard]] gpu::Result renderOnDevice(const TestScene &scene, const gpu::RenderConfig &config = {},
                                          std::size_t maxDecoded = maxDecodedBytes);
 
 /// The same of a scene that is packed already.
-[[nodiscard]] gpu::Result renderOnDevice(const Scene &scene, const PackedScene &packed,
+[[nodiscard]] gpu::Result renderOnDevice(const TestScene &scene, const PackedScene &packed,
                                          const gpu::RenderConfig &config);
-[[nodiscard]] reference::Result renderOnCpu(const Scene &scene, const PackedScene &packed,
+[[nodiscard]] reference::Result renderOnCpu(const TestScene &scene, const PackedScene &packed,
                                             reference::Precision precision = reference::Precision::Float32);
 
-[[nodiscard]] reference::Result renderOnCpu(const Scene &scene,
+[[nodiscard]] reference::Result renderOnCpu(const TestScene &scene,
                                             reference::Precision precision = reference::Precision::Float32,
                                             std::size_t maxDecoded = maxDecodedBytes);
 

@@ -1,6 +1,7 @@
 // Slots that take samples in turn (shaders/integrators/samples_in_turn.glsl) make the film and the counts of the
 // reference, whatever the dispatches.
 #include "tests/fixtures/test_extent.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ const std::array scenes{"cornell", "caustics", "metals"};
 class SamplesInTurn : public ::testing::TestWithParam<std::size_t> {
   protected:
     // Counts of samples and pixels that no power of two divides; of tiles, too.
-    Scene scene = testing::shippedScene(scenes.at(GetParam()), 37, 23, 13);
+    TestScene scene = testing::shippedScene(scenes.at(GetParam()), 37, 23, 13);
     PackedScene packed = testing::pack(scene);
     reference::Result whole = testing::renderOnCpu(scene, packed);
 };

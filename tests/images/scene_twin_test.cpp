@@ -1,4 +1,5 @@
 // The device's image and the CPU twin's are equal bit for bit, whatever the render config.
+#include "tests/fixtures/test_scene.h"
 #include "tests/fixtures/texture_fixture.h"
 #include "tests/images/rendering.h"
 
@@ -17,7 +18,7 @@ using testing::renderOnDevice;
 using testing::shippedScene;
 
 /// Of the CPU's picture and the device's with each render config.
-void expectTwins(const Scene &scene, std::span<const gpu::RenderConfig> configs) {
+void expectTwins(const TestScene &scene, std::span<const gpu::RenderConfig> configs) {
     const PackedScene packed = testing::pack(scene);
     const reference::Result cpu = renderOnCpu(scene, packed);
     for (const gpu::RenderConfig &config : configs) {
@@ -27,7 +28,7 @@ void expectTwins(const Scene &scene, std::span<const gpu::RenderConfig> configs)
     }
 }
 
-void expectTwins(const Scene &scene, const gpu::RenderConfig &config = {}) {
+void expectTwins(const TestScene &scene, const gpu::RenderConfig &config = {}) {
     expectTwins(scene, {&config, 1});
 }
 
@@ -42,7 +43,7 @@ TEST(Twins, AgreeOnTheShippedScenes) {
 }
 
 TEST(Twins, AgreeAtThePixelCentres) {
-    Scene scene = shippedScene("spheres", 96, 64, 3);
+    TestScene scene = shippedScene("spheres", 96, 64, 3);
     scene.settings.sampler = SamplerKind::Centre;
     expectTwins(scene);
 }
@@ -55,7 +56,7 @@ TEST(Twins, AgreeAtOddSizes) {
 
 TEST(Twins, AgreeAtEveryDepth) {
     for (int depth = 1; depth <= 12; ++depth) {
-        Scene scene = shippedScene("spheres-nested", 24, 24, 1);
+        TestScene scene = shippedScene("spheres-nested", 24, 24, 1);
         scene.settings.maxDepth = depth;
         expectTwins(scene);
     }
@@ -65,7 +66,7 @@ TEST(Twins, AgreeOnEveryTree) {
     std::size_t turn = 0;
     for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
         for (const int leafSize : {1, 2, 8, 64}) {
-            Scene scene = shippedScene("cat", 48, 48, 1);
+            TestScene scene = shippedScene("cat", 48, 48, 1);
             scene.settings.tree = tree;
             scene.settings.leafSize = leafSize;
             expectTwins(scene, testing::kernelsInTurn(turn++));
@@ -77,7 +78,7 @@ TEST(Twins, AgreeOnEveryTree) {
 TEST(Twins, AgreeWithManySamples) { expectTwins(shippedScene("spheres", 3, 3, 1024)); }
 
 TEST(Twins, AgreeWithACameraInsideGlass) {
-    Scene scene = shippedScene("spheres", 64, 64, 2);
+    TestScene scene = shippedScene("spheres", 64, 64, 2);
     scene.camera.position = {2.0, 1.0, 3.0};
     expectTwins(scene);
 }
@@ -85,7 +86,7 @@ TEST(Twins, AgreeWithACameraInsideGlass) {
 // A sphere so small that the point where it is met is its centre, which has no normal: a ray passes on, through glass of
 // higher priority around it, in a direction that has nothing to do with the normal.
 TEST(Twins, AgreeOnASphereWithoutANormal) {
-    Scene scene;
+    TestScene scene;
     scene.camera.direction = {0, 0, -1};
     scene.camera.width = 3;
     scene.camera.height = 3;
@@ -104,7 +105,7 @@ TEST(Twins, AgreeOnASphereWithoutANormal) {
 
 // More spheres than kernels unroll, and more than one light.
 TEST(Twins, AgreeOnManySpheresAndLights) {
-    Scene scene = shippedScene("spheres", 64, 48, 2);
+    TestScene scene = shippedScene("spheres", 64, 48, 2);
     const std::vector<Sphere> balls(scene.spheres.end() - 4, scene.spheres.end());
     for (int i = 0; i < 24; ++i) {
         Sphere ball = balls[static_cast<std::size_t>(i) % balls.size()];
@@ -119,8 +120,8 @@ TEST(Twins, AgreeOnManySpheresAndLights) {
 }
 
 /// What the path integrator knows: emitters of every kind, glass in glass, absorption, two-sided paper.
-Scene pathScene(int width, int height, int samplesPerPixel) {
-    Scene scene = shippedScene("spheres", width, height, samplesPerPixel);
+TestScene pathScene(int width, int height, int samplesPerPixel) {
+    TestScene scene = shippedScene("spheres", width, height, samplesPerPixel);
     scene.settings.integrator = Integrator::Path;
     scene.settings.maxDepth = 12;
     scene.background = {0.1f, 0.2f, 0.3f};
@@ -139,7 +140,7 @@ Scene pathScene(int width, int height, int samplesPerPixel) {
     scene.spheres.push_back({{-8, 12, 12}, 3.0, addMaterial(lamp), false});
     scene.spheres.push_back({{14, 18, 0}, 2.0, addMaterial(paper), true});
     scene.spheres.push_back({{2, -3, 6}, 7.0, addMaterial(amber), false});
-    const Scene cat = shippedScene("cat", 8, 8, 1);
+    const TestScene cat = shippedScene("cat", 8, 8, 1);
     TriangleMesh mesh = cat.meshes.front();
     mesh.triangles.resize(3000);
     for (glm::vec3 &position : mesh.positions)
@@ -150,7 +151,7 @@ Scene pathScene(int width, int height, int samplesPerPixel) {
 }
 
 TEST(Twins, AgreeOnPaths) {
-    const Scene scene = pathScene(64, 64, 4);
+    const TestScene scene = pathScene(64, 64, 4);
     for (const std::size_t turn : {0, 1}) // with two slots AgreeOnPathsOfEveryLength and ResumesInsidePaths
         expectTwins(scene, testing::kernelsInTurn(turn));
     expectTwins(scene, {.tileWidth = 16, .tileHeight = 8, .arithmetic = gpu::Arithmetic::Own});
@@ -160,33 +161,33 @@ TEST(Twins, AgreeOnPaths) {
 
 TEST(Twins, AgreeOnPathsOfEveryLength) {
     for (int depth = 1; depth <= 8; ++depth) {
-        Scene scene = pathScene(24, 24, 1);
+        TestScene scene = pathScene(24, 24, 1);
         scene.settings.maxDepth = depth;
         expectTwins(scene);
     }
 }
 
 TEST(Twins, AgreeOnPathsFromTheOtherSampler) {
-    Scene scene = pathScene(24, 24, 3);
+    TestScene scene = pathScene(24, 24, 3);
     scene.settings.sampler = SamplerKind::Centre;
     scene.settings.seed = 7;
     expectTwins(scene);
 }
 
 TEST(Twins, AgreeThroughTheFilterOfPixels) {
-    Scene scene = pathScene(24, 24, 3);
+    TestScene scene = pathScene(24, 24, 3);
     scene.settings.filter = FilterKind::BlackmanHarris;
     expectTwins(scene);
     for (const char *name : {"spheres", "many-lights"}) {
-        Scene shipped = shippedScene(name, 40, 30, 4);
+        TestScene shipped = shippedScene(name, 40, 30, 4);
         shipped.settings.filter = FilterKind::BlackmanHarris;
         expectTwins(shipped);
     }
 }
 
 /// Every kind of material and of light at once.
-Scene materialScene(int width, int height, int samplesPerPixel) {
-    Scene scene = pathScene(width, height, samplesPerPixel);
+TestScene materialScene(int width, int height, int samplesPerPixel) {
+    TestScene scene = pathScene(width, height, samplesPerPixel);
     scene.lights.push_back({.position = {0, 30, 30},
                             .power = glm::dvec3(2e4),
                             .kind = LightKind::Spot,
@@ -233,7 +234,7 @@ Scene materialScene(int width, int height, int samplesPerPixel) {
 
 TEST(Twins, AgreeOnEveryMaterialAndLight) {
     // Drivers take seconds for each of these kernels. AgreeOnPaths has those with other numbers of slots.
-    Scene scene = materialScene(48, 48, 3);
+    TestScene scene = materialScene(48, 48, 3);
     expectTwins(scene, skipList);
     expectTwins(scene, {.steps = 300, .traversal = gpu::Traversal::Stack}); // which resumes inside of paths
     scene.settings.radianceLimit = 0.5;
@@ -244,9 +245,9 @@ TEST(Twins, AgreeOnEveryMaterialAndLight) {
 
 TEST(Twins, AgreeOnEachMaterialAlone) {
     // Kernels leave out what a scene does not need, each in its own way.
-    const Scene all = materialScene(32, 32, 2);
+    const TestScene all = materialScene(32, 32, 2);
     for (std::size_t i = all.spheres.size() - 5; i < all.spheres.size(); ++i) {
-        Scene scene = all;
+        TestScene scene = all;
         scene.meshes.clear();
         scene.spheres = {all.spheres.front(), all.spheres[i]};
         scene.spheres.back().centre = {0, 0, 20};
@@ -255,8 +256,8 @@ TEST(Twins, AgreeOnEachMaterialAlone) {
 }
 
 /// Matt, so that kernels are small: a shader asks for a camera's ray before it knows of materials.
-Scene floorScene(int width, int height, int samplesPerPixel) {
-    Scene scene = shippedScene("spheres", width, height, samplesPerPixel);
+TestScene floorScene(int width, int height, int samplesPerPixel) {
+    TestScene scene = shippedScene("spheres", width, height, samplesPerPixel);
     scene.background = {0.1f, 0.2f, 0.3f};
     for (Material &material : scene.materials)
         material.kind = MaterialKind::Diffuse;
@@ -266,7 +267,7 @@ Scene floorScene(int width, int height, int samplesPerPixel) {
 TEST(Twins, AgreeOnEveryCamera) {
     for (const CameraKind kind : {CameraKind::Perspective, CameraKind::Orthographic, CameraKind::Panorama})
         for (const Integrator integrator : {Integrator::Path, Integrator::Whitted, Integrator::Depth}) {
-            Scene scene = floorScene(40, 32, 2);
+            TestScene scene = floorScene(40, 32, 2);
             scene.settings.integrator = integrator;
             scene.camera.kind = kind;
             scene.camera.aperture = 1.5;
@@ -279,7 +280,7 @@ TEST(Twins, AgreeOnEveryCamera) {
 TEST(Twins, AgreeOnEveryView) {
     for (const Integrator integrator : {Integrator::AmbientOcclusion, Integrator::Normal, Integrator::Depth,
                                         Integrator::Albedo, Integrator::Id}) {
-        Scene scene = pathScene(48, 40, 3);
+        TestScene scene = pathScene(48, 40, 3);
         scene.settings.integrator = integrator;
         scene.settings.occlusionDistance = 12.0;
         // A view knows of hits, not of how they were found.
@@ -291,11 +292,11 @@ TEST(Twins, AgreeOnEveryView) {
 }
 
 /// Textures in every slot, on meshes and on a ball: a floor, a cut-out lamp, and what is bumpy and of varied roughness.
-Scene texturedScene(int width, int height, int samplesPerPixel) {
+TestScene texturedScene(int width, int height, int samplesPerPixel) {
     using testing::drawnTexture;
     using testing::levels;
     using testing::texturedQuad;
-    Scene scene;
+    TestScene scene;
     scene.camera.position = {0, 2, 7};
     scene.camera.direction = {0, -0.2, -1};
     scene.camera.width = width;
@@ -361,7 +362,7 @@ TEST(Twins, AgreeOnTexturesWithOwnArithmetic) {
 }
 
 TEST(Twins, AgreeOnTexturesInViews) {
-    Scene scene = texturedScene(48, 40, 2);
+    TestScene scene = texturedScene(48, 40, 2);
     for (const Integrator integrator :
          {Integrator::Whitted, Integrator::Uv, Integrator::Albedo, Integrator::Normal, Integrator::Id,
           Integrator::AmbientOcclusion, Integrator::Cost}) {
@@ -372,20 +373,20 @@ TEST(Twins, AgreeOnTexturesInViews) {
 
 TEST(Twins, AgreeOnEachTextureAlone) {
     // Kernels leave out what a scene does not need, each in its own way.
-    const Scene all = texturedScene(32, 24, 2);
+    const TestScene all = texturedScene(32, 24, 2);
     for (std::uint32_t slot = 0; slot <= layout::slotOpacity; ++slot) {
-        Scene scene = all;
+        TestScene scene = all;
         for (Material &material : scene.materials)
             for (std::uint32_t other = 0; other < layout::textureSlotCount; ++other)
                 if (other != slot)
                     material.textures[other].reset();
-        EXPECT_EQ(testing::pack(scene).texturing, 1u << slot);
+        EXPECT_EQ(testing::pack(scene).texturing, 1u << slot | layout::texturesCoordinates);
         expectTwins(scene);
     }
 }
 
 TEST(Twins, AgreeOnTexturesDecodedOrNot) {
-    const Scene scene = texturedScene(48, 40, 4);
+    const TestScene scene = texturedScene(48, 40, 4);
     const reference::Result decoded = renderOnCpu(scene);
     const PackedScene levels = testing::pack(scene, 0);
     ASSERT_NE(levels.texturing & layout::texturesLevels, 0u);
@@ -393,25 +394,25 @@ TEST(Twins, AgreeOnTexturesDecodedOrNot) {
     EXPECT_EQ(differingPixels(renderOnCpu(scene, reference::Precision::Float32, 0).film, decoded.film), 0u);
     EXPECT_EQ(differingPixels(renderOnDevice(scene, skipList, 0).film, decoded.film), 0u);
     // Of the other kind of memory; a view's kernel is small and looks levels up by the same function.
-    Scene view = scene;
+    TestScene view = scene;
     view.settings.integrator = Integrator::Albedo;
     EXPECT_EQ(differingPixels(renderOnDevice(view, stack, 0).film, renderOnCpu(view).film), 0u);
 }
 
 TEST(Twins, AgreeOnCoordinatesOfWhatHasNoTextures) {
-    Scene scene = pathScene(48, 40, 2);
+    TestScene scene = pathScene(48, 40, 2);
     scene.settings.integrator = Integrator::Uv;
     expectTwins(scene, traversals);
 }
 
 TEST(Twins, AgreeOnWhittedEmission) {
-    Scene scene = pathScene(48, 48, 2);
+    TestScene scene = pathScene(48, 48, 2);
     scene.settings.integrator = Integrator::Whitted;
     expectTwins(scene);
 }
 
 void expectToResumeInsidePaths(gpu::Traversal traversal) {
-    const Scene scene = pathScene(24, 24, 3);
+    const TestScene scene = pathScene(24, 24, 3);
     const gpu::Result result = renderOnDevice(scene, {.steps = 60, .traversal = traversal});
     EXPECT_EQ(differingPixels(result.film, renderOnCpu(scene).film), 0u);
     EXPECT_GT(result.timing.dispatchCount, 5u);
@@ -422,7 +423,7 @@ TEST(RenderConfig, ResumesInsidePathsByAStack) { expectToResumeInsidePaths(gpu::
 TEST(RenderConfig, ResumesInsidePathsByASkipList) { expectToResumeInsidePaths(gpu::Traversal::SkipList); }
 
 TEST(Twins, AgreeOnAnEmptyScene) {
-    Scene scene;
+    TestScene scene;
     scene.camera.width = 20;
     scene.camera.height = 10;
     scene.background = {0.25f, 0.5f, 1.0f};
@@ -431,7 +432,7 @@ TEST(Twins, AgreeOnAnEmptyScene) {
 }
 
 TEST(RenderConfig, ChangesNoBit) {
-    const Scene scene = shippedScene("spheres", 70, 50, 3);
+    const TestScene scene = shippedScene("spheres", 70, 50, 3);
     const Film expected = renderOnCpu(scene).film;
     const auto expectSame = [&](const gpu::RenderConfig &config) {
         EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, expected), 0u);
@@ -459,7 +460,7 @@ TEST(RenderConfig, AddsSamplesAbreastInTheirOrder) {
 
 // With a budget of a few steps every ray of the cat stops in the middle of the tree, many times.
 TEST(RenderConfig, ResumesInsideTheTree) {
-    const Scene scene = shippedScene("cat", 24, 24, 2);
+    const TestScene scene = shippedScene("cat", 24, 24, 2);
     const Film expected = renderOnCpu(scene).film;
     for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
         for (const int slots : {1, 2}) {
@@ -473,7 +474,7 @@ TEST(RenderConfig, ResumesInsideTheTree) {
 
 // One ray meets more triangles than a subgroup of lavapipe may take loop iterations in a dispatch.
 TEST(RenderConfig, ResumesInsideBruteForce) {
-    Scene scene = shippedScene("cat", 8, 4, 1);
+    TestScene scene = shippedScene("cat", 8, 4, 1);
     const Film expected = renderOnCpu(scene).film;
     scene.settings.tree = TreeKind::None;
     for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
@@ -485,7 +486,7 @@ TEST(RenderConfig, ResumesInsideBruteForce) {
 
 // Films larger than a device's largest storage buffer are rendered in bands.
 TEST(RenderConfig, CutsTheFilmIntoBands) {
-    const Scene scene = shippedScene("spheres", 70, 50, 2);
+    const TestScene scene = shippedScene("spheres", 70, 50, 2);
     gpu::DeviceInfo device = testing::testDevice();
     device.maxStorageBufferBytes = 32 * 1024;
     gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8});
@@ -494,7 +495,7 @@ TEST(RenderConfig, CutsTheFilmIntoBands) {
 }
 
 TEST(Crop, IsThatPartOfTheWholeImage) {
-    const Scene scene = shippedScene("spheres", 60, 40, 2);
+    const TestScene scene = shippedScene("spheres", 60, 40, 2);
     const PackedScene packed = testing::pack(scene);
     const Image whole = renderOnCpu(scene).film.toImage();
     const Crop crop{11, 47, 5, 33};

@@ -1,5 +1,6 @@
 // Surfaces that are not there for every ray: cut out, blended and culled ones, by closed forms. And what meshes and
 // textures of glTF show, likewise.
+#include "tests/fixtures/test_scene.h"
 #include "tests/fixtures/texture_fixture.h"
 #include "tests/images/rendering.h"
 
@@ -14,8 +15,8 @@ namespace {
 using testing::texturedQuad;
 
 /// A camera that looks along -z at the square from -1 to 1, without light.
-Scene emptyScene(int samplesPerPixel = 1024) {
-    Scene scene;
+TestScene emptyScene(int samplesPerPixel = 1024) {
+    TestScene scene;
     scene.camera.kind = CameraKind::Orthographic;
     scene.camera.position = {0, 0, 5};
     scene.camera.direction = {0, 0, -1};
@@ -43,7 +44,7 @@ TriangleMesh wall(float z, std::uint32_t material = 0) {
 }
 
 /// The mean radiance of both renderers.
-void expectMean(const Scene &scene, double expected, double tolerance) {
+void expectMean(const TestScene &scene, double expected, double tolerance) {
     for (const Film &film : {testing::renderOnDevice(scene).film, testing::renderOnCpu(scene).film}) {
         double sum = 0.0;
         double count = 0.0;
@@ -56,7 +57,7 @@ void expectMean(const Scene &scene, double expected, double tolerance) {
 }
 
 TEST(Blended, ShowsItsShareOfWhatLiesBehind) {
-    Scene scene = emptyScene();
+    TestScene scene = emptyScene();
     scene.background = glm::vec3(3.0f);
     scene.materials = {sheerLamp(0.25f)};
     scene.meshes = {wall(0.0f)};
@@ -65,7 +66,7 @@ TEST(Blended, ShowsItsShareOfWhatLiesBehind) {
 
 TEST(Blended, CountsEachOfSeveralLayersAndEqualOnesToo) {
     for (const float distance : {0.5f, 0.0f}) { // 0: duplicates
-        Scene scene = emptyScene();
+        TestScene scene = emptyScene();
         scene.materials = {sheerLamp(0.5f)};
         scene.meshes = {wall(0.0f), wall(distance)};
         expectMean(scene, 0.75, 0.01);
@@ -73,7 +74,7 @@ TEST(Blended, CountsEachOfSeveralLayersAndEqualOnesToo) {
 }
 
 TEST(Blended, DoesNotDependOnTheOrderOfTriangles) {
-    Scene scene = emptyScene(64);
+    TestScene scene = emptyScene(64);
     scene.background = glm::vec3(0.5f);
     scene.materials = {sheerLamp(0.5f), sheerLamp(0.3f)};
     scene.materials[1].emission = {0.0f, 2.0f, 5.0f};
@@ -85,7 +86,7 @@ TEST(Blended, DoesNotDependOnTheOrderOfTriangles) {
 }
 
 TEST(Blended, CastsItsShareOfAShadow) {
-    Scene scene = emptyScene();
+    TestScene scene = emptyScene();
     scene.materials.resize(2);
     scene.materials[0].albedo = glm::vec3(1.0f);
     scene.materials[1] = sheerLamp(0.4f);
@@ -104,7 +105,7 @@ TEST(Blended, CastsItsShareOfAShadow) {
 
 TEST(CutOut, IsThereFromItsCutoffOn) {
     for (const float cutoff : {0.3f, 0.300001f, 0.9f}) {
-        Scene scene = emptyScene(4);
+        TestScene scene = emptyScene(4);
         scene.materials = {sheerLamp(0.3f)};
         scene.materials[0].alphaMode = AlphaMode::CutOut;
         scene.materials[0].alphaCutoff = cutoff;
@@ -114,7 +115,7 @@ TEST(CutOut, IsThereFromItsCutoffOn) {
 }
 
 TEST(CutOut, FollowsTheColoursOfVertices) {
-    Scene scene = emptyScene(64);
+    TestScene scene = emptyScene(64);
     scene.materials = {sheerLamp(1.0f)};
     scene.materials[0].alphaMode = AlphaMode::CutOut;
     TriangleMesh mesh = wall(0.0f);
@@ -129,7 +130,7 @@ TEST(CutOut, FollowsTheColoursOfVertices) {
 }
 
 TEST(Opaque, HasNoOpacity) {
-    Scene scene = emptyScene(4);
+    TestScene scene = emptyScene(4);
     scene.materials = {sheerLamp(0.1f)};
     scene.materials[0].alphaMode = AlphaMode::Opaque;
     scene.meshes = {wall(0.0f)};
@@ -139,7 +140,7 @@ TEST(Opaque, HasNoOpacity) {
 TEST(Culled, IsNotThereFromBehind) {
     for (const bool isCulled : {false, true})
         for (const bool isBehind : {false, true}) {
-            Scene scene = emptyScene(4);
+            TestScene scene = emptyScene(4);
             scene.background = glm::vec3(7.0f);
             scene.materials = {sheerLamp(1.0f)};
             scene.materials[0].isCulled = isCulled;
@@ -150,7 +151,7 @@ TEST(Culled, IsNotThereFromBehind) {
 
 TEST(Culled, CastsNoShadowFromBehind) {
     for (const float facing : {1.0f, -1.0f}) {
-        Scene scene = emptyScene(4);
+        TestScene scene = emptyScene(4);
         scene.materials.resize(2);
         scene.materials[0].albedo = glm::vec3(1.0f);
         scene.materials[1].isCulled = true;
@@ -168,7 +169,7 @@ TEST(Culled, CastsNoShadowFromBehind) {
 }
 
 TEST(VertexColours, TintTheBaseColour) {
-    Scene scene = emptyScene(16);
+    TestScene scene = emptyScene(16);
     scene.settings.integrator = Integrator::Albedo;
     scene.materials.resize(1);
     scene.materials[0].albedo = {0.5f, 1.0f, 1.0f};
@@ -181,7 +182,7 @@ TEST(VertexColours, TintTheBaseColour) {
 
 TEST(Unlit, ShowsItsBaseColourInTheDark) {
     for (const Integrator integrator : {Integrator::Path, Integrator::Whitted}) {
-        Scene scene = emptyScene(4);
+        TestScene scene = emptyScene(4);
         scene.settings.integrator = integrator;
         scene.materials.resize(1);
         scene.materials[0].kind = MaterialKind::Gltf;
@@ -203,8 +204,8 @@ double lightOfTexel(int index, Wrap wrap) {
 }
 
 /// A wall that shows those levels, seen by 64 pixels from u = -1.3 to 1.7.
-Scene greyWall(Wrap wrap, bool isNearest) {
-    Scene scene = emptyScene(1);
+TestScene greyWall(Wrap wrap, bool isNearest) {
+    TestScene scene = emptyScene(1);
     scene.settings.sampler = SamplerKind::Centre;
     scene.settings.integrator = Integrator::Albedo;
     scene.camera.width = 64;
@@ -229,7 +230,7 @@ Scene greyWall(Wrap wrap, bool isNearest) {
 TEST(Wraps, RepeatMirrorAndClamp) {
     for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
         for (const bool isNearest : {false, true}) {
-            const Scene scene = greyWall(wrap, isNearest);
+            const TestScene scene = greyWall(wrap, isNearest);
             for (const Film &film : {testing::renderOnDevice(scene).film, testing::renderOnCpu(scene).film})
                 for (int x = 0; x < 64; ++x) {
                     const double place = 4.0 * (3.0 * (x + 0.5) / 64.0 - 1.3) - 0.5; // in texels
@@ -248,7 +249,7 @@ TEST(Wraps, RepeatMirrorAndClamp) {
 
 TEST(Shear, TurnsTexturesByAQuarter) {
     // u' = v, v' = -u: what was at the bottom is at the left.
-    Scene scene = emptyScene(1);
+    TestScene scene = emptyScene(1);
     scene.settings.sampler = SamplerKind::Centre;
     scene.settings.integrator = Integrator::Albedo;
     scene.textures = {
@@ -268,7 +269,7 @@ TEST(Shear, TurnsTexturesByAQuarter) {
 }
 
 TEST(SecondCoordinates, AreThoseOfTexturesThatAskForThem) {
-    Scene scene = emptyScene(1);
+    TestScene scene = emptyScene(1);
     scene.settings.integrator = Integrator::Albedo;
     scene.textures = {
         testing::drawnTexture(2, 1, [](int x, int) { return x == 0 ? 0xFF000000u : 0xFFFFFFFFu; })};

@@ -1,6 +1,7 @@
 // No picture depends on whether numbers below 2^-126 are flushed to zero, as some drivers do and Vulkan allows.
 #include "host/import/assets.h"
 #include "tests/fixtures/subnormals.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 namespace hyalite::testing {
 namespace {
 
-void expectNoChange(const Scene &scene, const std::string &name) {
+void expectNoChange(const TestScene &scene, const std::string &name) {
     const PackedScene packed = pack(scene);
     const auto film = [&] {
         return reference::render(packed, scene.settings, {0, scene.camera.width, 0, scene.camera.height},
@@ -27,7 +28,7 @@ TEST(Subnormals, ChangeNoBitOfTheShippedScenes) {
 // Light so faint that the squares of radiance, or radiance itself, are subnormal.
 TEST(Subnormals, ChangeNoBitOfFaintLight) {
     for (const double factor : {1e-19, 1e-38}) {
-        Scene scene = shippedScene("spheres", 48, 32, 2);
+        TestScene scene = shippedScene("spheres", 48, 32, 2);
         scene.background *= static_cast<float>(factor);
         for (Light &light : scene.lights)
             light.power *= factor;

@@ -1,4 +1,5 @@
 // What a render on the device writes down of itself.
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ struct Recorded {
     Span frame; ///< the whole call
 };
 
-Recorded record(const Scene &scene, const Crop &crop, const gpu::RenderConfig &config = {}) {
+Recorded record(const TestScene &scene, const Crop &crop, const gpu::RenderConfig &config = {}) {
     const PackedScene packed = testing::pack(scene);
     Timeline timeline;
     gpu::Renderer &renderer = testing::rendererBy(config);
@@ -58,7 +59,7 @@ TEST(Timeline, HasARecordOfEachDispatch) {
 
 TEST(Timeline, ShortDispatchesAreManyAndChangeNoBit) {
     for (const Integrator integrator : {Integrator::Whitted, Integrator::Path}) {
-        Scene scene = testing::shippedScene("spheres-nested", 48, 32, 2);
+        TestScene scene = testing::shippedScene("spheres-nested", 48, 32, 2);
         scene.settings.maxDepth = 8;
         scene.settings.integrator = integrator;
         const reference::Result wanted = testing::renderOnCpu(scene);

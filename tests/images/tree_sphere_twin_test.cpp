@@ -1,6 +1,7 @@
 // Scenes with more spheres than kernels test in turn have one picture, for every kernel and on both renderers.
 #include "host/scene/instances.h"
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -13,9 +14,9 @@ using testing::renderOnCpu;
 using testing::renderOnDevice;
 
 /// Spheres of every kind of material, some of them lamps, some of them twice.
-Scene heap(std::uint64_t seed) {
+TestScene heap(std::uint64_t seed) {
     testing::Random random(seed);
-    Scene scene;
+    TestScene scene;
     scene.materials.resize(5);
     scene.materials[0].twoSided = true;
     scene.materials[1].kind = MaterialKind::Dielectric;
@@ -44,8 +45,8 @@ Scene heap(std::uint64_t seed) {
     return scene;
 }
 
-Scene heapWithMeshes(std::uint64_t seed) {
-    Scene scene = heap(seed);
+TestScene heapWithMeshes(std::uint64_t seed) {
+    TestScene scene = heap(seed);
     testing::Random random(seed);
     scene.meshes.push_back(testing::placed(testing::gridCube(3), 1.5, {0, 5, 0}));
     std::vector<Placement> placements(12);
@@ -55,7 +56,7 @@ Scene heapWithMeshes(std::uint64_t seed) {
     return scene;
 }
 
-void expectOnePicture(Scene scene, TreeKind tree, Integrator integrator, std::size_t turn) {
+void expectOnePicture(TestScene scene, TreeKind tree, Integrator integrator, std::size_t turn) {
     scene.settings.tree = tree;
     scene.settings.integrator = integrator;
     const reference::Result wanted = renderOnCpu(scene);
@@ -85,12 +86,12 @@ TEST(TreeSphereTwins, AgreeInViews) {
 
 // The nearest hit is defined without the tree, so that it does not matter how spheres are found.
 TEST(TreeSphereTwins, AgreeWithFewSpheresByTheOtherWay) {
-    Scene few = heap(8);
+    TestScene few = heap(8);
     few.spheres.resize(layout::maxUnrolledSpheres);
-    Scene many = few;
+    TestScene many = few;
     for (int i = 0; i < 100; ++i) // behind the camera's back, and not seen by anything
         many.spheres.push_back({{0, 0, 1000.0 + 10 * i}, 0.1, 0, false});
-    for (Scene *const scene : {&few, &many}) {
+    for (TestScene *const scene : {&few, &many}) {
         scene->materials[0].twoSided = false;
         scene->settings.integrator = Integrator::Normal;
     }

@@ -1,4 +1,5 @@
 // A renderer keeps its last scene and pipelines on the device. No picture shows it.
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ using testing::shippedScene;
 struct WarmRenderer : ::testing::Test {
     gpu::Renderer renderer{testing::testDevice()};
 
-    void expectBitsOfTheCpu(const Scene &scene, const PackedScene &packed, const Crop &crop) {
+    void expectBitsOfTheCpu(const TestScene &scene, const PackedScene &packed, const Crop &crop) {
         const gpu::Result result = renderer.render(packed, scene.settings, crop);
         const reference::Result twin = reference::render(packed, scene.settings, crop);
         EXPECT_EQ(differingPixels(result.film, twin.film), 0u);
@@ -22,7 +23,7 @@ struct WarmRenderer : ::testing::Test {
 };
 
 TEST_F(WarmRenderer, FollowsTheCamera) {
-    Scene scene = shippedScene("cat", 40, 32, 2);
+    TestScene scene = shippedScene("cat", 40, 32, 2);
     PackedScene packed = pack(scene);
     const Crop whole{0, 40, 0, 32};
     expectBitsOfTheCpu(scene, packed, whole);
@@ -36,8 +37,8 @@ TEST_F(WarmRenderer, FollowsTheCamera) {
 }
 
 TEST_F(WarmRenderer, RendersOtherScenesInBetween) {
-    const Scene cat = shippedScene("cat", 40, 32, 2);
-    const Scene room = shippedScene("cornell", 40, 32, 2);
+    const TestScene cat = shippedScene("cat", 40, 32, 2);
+    const TestScene room = shippedScene("cornell", 40, 32, 2);
     const PackedScene packedCat = pack(cat);
     const PackedScene packedRoom = pack(room);
     for (int time = 0; time < 2; ++time) {
@@ -48,7 +49,7 @@ TEST_F(WarmRenderer, RendersOtherScenesInBetween) {
 }
 
 TEST_F(WarmRenderer, UploadsASceneOnce) {
-    const Scene scene = shippedScene("cat", 40, 32, 1);
+    const TestScene scene = shippedScene("cat", 40, 32, 1);
     const PackedScene packed = pack(scene);
     const auto bytesAfterUpload = [&] {
         Timeline timeline;

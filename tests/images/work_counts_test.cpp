@@ -1,4 +1,5 @@
 // The kernels over a stack and the CPU twin do the same work: node by node, box by box, triangle by triangle.
+#include "tests/fixtures/test_scene.h"
 #include "tests/images/rendering.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 namespace hyalite {
 namespace {
 
-WorkCounts countOnCpu(const Scene &scene) {
+WorkCounts countOnCpu(const TestScene &scene) {
     reference::Options options;
     options.isCounting = true;
     const Crop crop{0, scene.camera.width, 0, scene.camera.height};
@@ -26,7 +27,7 @@ gpu::RenderConfig counting(gpu::Traversal traversal, int slotsPerInvocation, std
 
 TEST(WorkCounts, AreEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
     for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
-        Scene scene = testing::shippedScene("cat", 40, 30, 2);
+        TestScene scene = testing::shippedScene("cat", 40, 30, 2);
         scene.settings.tree = tree;
         const WorkCounts onCpu = countOnCpu(scene);
         EXPECT_GT(onCpu.nodesVisited, 40u * 30u * 2u);
@@ -42,7 +43,7 @@ TEST(WorkCounts, AreEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
 
 TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
     for (const std::string name : {"cat", "studio-cat", "cornell"}) {
-        Scene scene = testing::shippedScene(name, 40, 30, 3);
+        TestScene scene = testing::shippedScene(name, 40, 30, 3);
         const gpu::Result whole = testing::renderOnDevice(scene, counting(gpu::Traversal::SkipList, 1));
         if (name ==
             "cornell") { // few triangles in a room: each ray is tested with all of them, without a tree
@@ -64,13 +65,13 @@ TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
 
 // One ray keeps one of the lanes busy, however many there are; and every node and every triangle is looked at in a pass.
 TEST(LaneCounts, AreThoseOfTheRaysThatAreTraced) {
-    const Scene scene = testing::shippedScene("cat", 64, 64, 8);
+    const TestScene scene = testing::shippedScene("cat", 64, 64, 8);
     const gpu::Result result = testing::renderOnDevice(scene, counting(gpu::Traversal::SkipList, 2));
     EXPECT_EQ(result.lanes.busySlots, result.work.nodesVisited + result.work.trianglesTested);
     EXPECT_GE(result.lanes.slotsPerSubgroup, 2u);
     EXPECT_GT(result.lanes.busyShare(), 1.0 / result.lanes.slotsPerSubgroup);
     EXPECT_LT(result.lanes.busyShare(), 1.0);
-    const Scene onePixel = testing::shippedScene("cat", 1, 1, 1);
+    const TestScene onePixel = testing::shippedScene("cat", 1, 1, 1);
     const gpu::Result alone = testing::renderOnDevice(onePixel, counting(gpu::Traversal::SkipList, 1));
     EXPECT_EQ(alone.lanes.passes, alone.lanes.busySlots);
     const gpu::Result withStack = testing::renderOnDevice(onePixel, counting(gpu::Traversal::Stack, 1));
@@ -78,13 +79,13 @@ TEST(LaneCounts, AreThoseOfTheRaysThatAreTraced) {
 }
 
 TEST(WorkCounts, AreLeftOutUnlessAskedFor) {
-    const Scene scene = testing::shippedScene("cat", 16, 16, 1);
+    const TestScene scene = testing::shippedScene("cat", 16, 16, 1);
     EXPECT_EQ(testing::renderOnCpu(scene).work, WorkCounts{});
     EXPECT_EQ(testing::renderOnDevice(scene, {.traversal = gpu::Traversal::Stack}).work, WorkCounts{});
 }
 
 TEST(WorkCounts, ChangeNoPixel) {
-    const Scene scene = testing::shippedScene("cat", 40, 30, 1);
+    const TestScene scene = testing::shippedScene("cat", 40, 30, 1);
     EXPECT_EQ(testing::differingPixels(testing::renderOnDevice(scene, {.isCounting = true}).film,
                                        testing::renderOnCpu(scene).film),
               0u);

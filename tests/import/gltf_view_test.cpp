@@ -103,8 +103,8 @@ TEST_F(GltfView, WithoutLightsThereIsTheNeutralEnvironment) {
     const LoadedScene loaded = load(oneTriangle());
     const Image &image = loaded.scene.environment.radiance;
     ASSERT_FALSE(image.pixels().empty());
-    EXPECT_EQ(loaded.scene.settings.integrator, Integrator::Path);
-    EXPECT_EQ(loaded.scene.settings.tree, TreeKind::Sah);
+    EXPECT_EQ(loaded.settings.integrator, Integrator::Path);
+    EXPECT_EQ(loaded.settings.tree, TreeKind::Sah);
     double sum = 0.0;
     double weights = 0.0;
     for (int y = 0; y < image.height(); ++y)

@@ -2,6 +2,7 @@
 #include "host/scene/validate.h"
 #include "tests/fixtures/png_fixture.h"
 #include "tests/fixtures/scene_json_fixture.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <sys/stat.h>
 
@@ -29,7 +30,7 @@ TEST_F(SceneJson, NumbersBeyondTheirRangeByRoundingAreItsEnds) {
 }
 
 TEST_F(SceneJson, EveryValueReachesTheScene) {
-    Scene scene = load(completeScene().dump());
+    TestScene scene = load(completeScene().dump());
     EXPECT_EQ(scene.camera.position, glm::dvec3(1, 2, 3));
     EXPECT_EQ(scene.camera.direction, glm::dvec3(0, 0, -7));
     EXPECT_EQ(scene.camera.up, glm::dvec3(0, 2, 0));
@@ -132,9 +133,11 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(scene.settings.radianceLimit, 9.0);
     EXPECT_EQ(scene.settings.exposureStops, -1.5);
     EXPECT_EQ(scene.shadowThroughGlass, 0.5f);
-    EXPECT_THROW(validateScene(scene, "complete"), Error) << "a filter is for samples beside the centre";
-    scene.settings.sampler = SamplerKind::Sobol;
     EXPECT_NO_THROW(validateScene(scene, "complete"));
+    EXPECT_THROW(validateSettings(scene.settings, scene, "complete"), Error)
+        << "a filter is for samples beside the centre";
+    scene.settings.sampler = SamplerKind::Sobol;
+    EXPECT_NO_THROW(validateSettings(scene.settings, scene, "complete"));
 }
 
 TEST_F(SceneJson, AnEmptyObjectIsAnEmptyBlackScene) {

@@ -1,6 +1,7 @@
 // assets/hyalite-scene.schema.json tells editors what the loader takes: the same keys, names, limits and defaults.
 #include "host/scene/limits.h"
 #include "tests/fixtures/scene_json_fixture.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <set>
 #include <span>
@@ -235,8 +236,8 @@ TEST_F(SceneSchema, TheDefaultsOfTheSchemaAreThoseOfTheScene) {
     file["materials"]["given"]["type"] = "principled";
     file["materials"]["left out"]["type"] = "principled";
 
-    const Scene scene = load(file.dump());
-    const Scene expected;
+    const TestScene scene = load(file.dump());
+    const TestScene expected;
     EXPECT_EQ(scene.camera.position, expected.camera.position);
     EXPECT_EQ(scene.camera.direction, expected.camera.direction);
     EXPECT_EQ(scene.camera.up, expected.camera.up);

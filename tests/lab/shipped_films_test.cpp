@@ -105,7 +105,7 @@ TEST_F(Shipped, ScenesReachEveryMaterialLightAndCamera) {
         for (const Light &light : scene.lights)
             lights.insert(light.kind);
         cameras.insert(scene.camera.kind);
-        filters.insert(scene.settings.filter);
+        filters.insert(prepared.loaded.settings.filter);
         hasLens = hasLens || scene.camera.aperture > 0.0;
         lighting |= prepared.packed.lighting;
         hasTreeBehindThin =

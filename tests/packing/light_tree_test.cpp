@@ -38,12 +38,12 @@ Scene manyLights(std::uint64_t seed, int count) {
     for (std::size_t i = 0; i < soup.triangles.size(); ++i)
         soup.triangleMaterials.push_back(lamp());
     scene.meshes.push_back(soup);
-    scene.settings.integrator = Integrator::Path;
-    scene.settings.lightChoice = LightChoice::Tree;
     return scene;
 }
 
-PackedScene packed(const Scene &scene) { return packScene(scene, buildBvh(TreeKind::Sah, scene, 4)); }
+PackedScene packed(const Scene &scene) {
+    return packScene(scene, buildBvh(TreeKind::Sah, scene, 4), {.lightChoice = LightChoice::Tree});
+}
 
 LitPoint<float> randomPoint(Random &random) {
     return {glm::vec3(random.inCube(random.logUniform(1.0, 100.0))), glm::vec3(random.direction()),

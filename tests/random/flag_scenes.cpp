@@ -1,6 +1,7 @@
 #include "tests/random/flag_scenes.h"
 
 #include "host/scene/instances.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/fixtures/texture_fixture.h"
 
 #include <fmt/format.h>
@@ -11,8 +12,8 @@ namespace hyalite::testing {
 namespace {
 
 /// A square that the camera sees from the front; the sun and the background light both of its sides.
-Scene base() {
-    Scene scene;
+TestScene base() {
+    TestScene scene;
     scene.camera.kind = CameraKind::Orthographic;
     scene.camera.position = {0, 0, 5};
     scene.camera.viewWidth = 3.0;
@@ -41,16 +42,16 @@ Light light(LightKind kind, const glm::dvec3 &position = {1, 2, 3}) {
     return light;
 }
 
-Scene litBy(LightKind kind) {
-    Scene scene = base();
+TestScene litBy(LightKind kind) {
+    TestScene scene = base();
     scene.background = glm::vec3(0.0f);
     scene.lights = {light(kind)};
     return scene;
 }
 
 /// The base's square and a wall behind it, which is seen through it.
-Scene beforeAWall(MaterialKind kind) {
-    Scene scene = base();
+TestScene beforeAWall(MaterialKind kind) {
+    TestScene scene = base();
     scene.lights = {light(LightKind::Directional)};
     scene.meshes.push_back(texturedQuad({-2, -2, -2}, {4, 0, 0}, {0, 4, 0}, 1));
     scene.materials[0].kind = kind;
@@ -68,8 +69,8 @@ Texture image(bool hasAlpha = false) {
 }
 
 /// A glTF material, with all lobes for the slots that lobes have.
-Scene textured(std::uint32_t slot) {
-    Scene scene = beforeAWall(MaterialKind::Gltf);
+TestScene textured(std::uint32_t slot) {
+    TestScene scene = beforeAWall(MaterialKind::Gltf);
     Material &material = scene.materials[0];
     material.metallic = 0.5f;
     material.emission = glm::vec3(0.2f);
@@ -87,7 +88,7 @@ Scene textured(std::uint32_t slot) {
 }
 
 /// Spheres that are too many to be tested by every ray.
-void addManySpheres(Scene &scene, std::uint32_t material = 1) {
+void addManySpheres(TestScene &scene, std::uint32_t material = 1) {
     for (int i = 0; i < 20; ++i)
         scene.spheres.push_back({{i % 5 * 0.5 - 1.0, i / 5 * 0.5 - 0.7, 1.0}, 0.2, material, false});
 }
@@ -97,19 +98,19 @@ class Rows {
     using Word = std::uint32_t PackedScene::*;
 
     /// A bit of a word, which has `others` beside it.
-    void bit(std::string flag, Word word, std::uint32_t value, Scene scene, std::uint32_t others = 0,
+    void bit(std::string flag, Word word, std::uint32_t value, TestScene scene, std::uint32_t others = 0,
              bool isEncoded = false) {
         rows_.push_back({std::move(flag), std::move(scene),
                          [word](const PackedScene &packed) { return packed.*word; }, value | others,
                          [word, value](PackedScene &packed) { packed.*word &= ~value; }, isEncoded});
     }
-    void flag(std::string flag, bool PackedScene::*member, Scene scene) {
+    void flag(std::string flag, bool PackedScene::*member, TestScene scene) {
         rows_.push_back({std::move(flag), std::move(scene),
                          [member](const PackedScene &packed) { return packed.*member ? 1u : 0u; }, 1,
                          [member](PackedScene &packed) { packed.*member = false; }});
     }
     template <class Read>
-    void value(std::string flag, std::uint32_t expected, Scene scene, const Read &read) {
+    void value(std::string flag, std::uint32_t expected, TestScene scene, const Read &read) {
         rows_.push_back(
             {std::move(flag), std::move(scene),
              [read](const PackedScene &packed) { return static_cast<std::uint32_t>(read(packed)); },
@@ -123,79 +124,79 @@ class Rows {
 
 void addScattering(Rows &rows) {
     const auto add = [&](const char *flag, std::uint32_t value, std::uint32_t others, MaterialKind kind,
-                         const std::function<void(Scene &, Material &)> &edit) {
-        Scene scene = beforeAWall(kind);
+                         const std::function<void(TestScene &, Material &)> &edit) {
+        TestScene scene = beforeAWall(kind);
         edit(scene, scene.materials[0]);
         rows.bit(flag, &PackedScene::scattering, value, std::move(scene), others);
     };
     using namespace layout;
     add("scattersAtConductors", scattersAtConductors, 0, MaterialKind::Conductor,
-        [](Scene &, Material &m) { m.roughness = 0.0f; });
+        [](TestScene &, Material &m) { m.roughness = 0.0f; });
     add("scattersAtRoughConductors", scattersAtRoughConductors, scattersAtConductors, MaterialKind::Conductor,
-        [](Scene &, Material &) {});
+        [](TestScene &, Material &) {});
     add("scattersAtRoughGlass", scattersAtRoughGlass, 0, MaterialKind::Dielectric,
-        [](Scene &, Material &) {});
+        [](TestScene &, Material &) {});
     add("scattersAtPrincipled", scattersAtPrincipled, 0, MaterialKind::Principled,
-        [](Scene &, Material &) {});
-    add("scattersAtGltf", scattersAtGltf, 0, MaterialKind::Gltf, [](Scene &, Material &) {});
-    add("scattersAtSheen", scattersAtSheen, scattersAtGltf, MaterialKind::Gltf, [](Scene &, Material &m) {
+        [](TestScene &, Material &) {});
+    add("scattersAtGltf", scattersAtGltf, 0, MaterialKind::Gltf, [](TestScene &, Material &) {});
+    add("scattersAtSheen", scattersAtSheen, scattersAtGltf, MaterialKind::Gltf, [](TestScene &, Material &m) {
         m.sheenColour = {0.2f, 0.9f, 0.5f};
     });
     add("scattersAtAnisotropic", scattersAtAnisotropic, scattersAtGltf, MaterialKind::Gltf,
-        [](Scene &, Material &m) {
+        [](TestScene &, Material &m) {
             m.metallic = 1.0f;
             m.anisotropy = 0.9f;
         });
-    const auto makeThin = [](Scene &scene, Material &m) {
+    const auto makeThin = [](TestScene &scene, Material &m) {
         m.transmission = 0.9f;
         m.isThin = true;
         scene.lights.push_back(light(LightKind::Point, {0, 0, -1}));
     };
     add("scattersAtThin", scattersAtThin, scattersAtGltf, MaterialKind::Gltf, makeThin);
     // Light from behind, chosen by a tree: what kernels ask of the scene and of the material must agree.
-    Scene lit = beforeAWall(MaterialKind::Gltf);
+    TestScene lit = beforeAWall(MaterialKind::Gltf);
     makeThin(lit, lit.materials[0]);
     lit.lights.push_back(light(LightKind::Point, {1, 1, -1}));
     lit.settings.lightChoice = LightChoice::Tree;
     rows.value("constantHasLightTree", 1, lit,
                [](const PackedScene &packed) { return !packed.lightNodes.empty(); });
     add("scattersAtCoatNormals", scattersAtCoatNormals, scattersAtGltf, MaterialKind::Gltf,
-        [](Scene &scene, Material &m) {
+        [](TestScene &scene, Material &m) {
             m.clearcoat = 1.0f;
             scene.textures = {image()};
             m.textures[slotClearcoatNormal] = TextureUse{};
         });
     add("scattersAtUnlit", scattersAtUnlit, 0, MaterialKind::Gltf,
-        [](Scene &, Material &m) { m.isUnlit = true; });
-    add("scattersAtUnlit", scattersAtUnlit, 0, MaterialKind::Gltf, [](Scene &scene, Material &m) {
+        [](TestScene &, Material &m) { m.isUnlit = true; });
+    add("scattersAtUnlit", scattersAtUnlit, 0, MaterialKind::Gltf, [](TestScene &scene, Material &m) {
         m.isUnlit = true;
         scene.settings.integrator = Integrator::Cost;
     });
 }
 
 void addLighting(Rows &rows) {
-    const auto add = [&](const char *flag, std::uint32_t value, Scene scene) {
+    const auto add = [&](const char *flag, std::uint32_t value, TestScene scene) {
         rows.bit(flag, &PackedScene::lighting, value, std::move(scene));
     };
     add("lightsByPoints", layout::lightsByPoints, litBy(LightKind::Point));
     add("lightsBySpots", layout::lightsBySpots, litBy(LightKind::Spot));
     add("lightsByDirections", layout::lightsByDirections, litBy(LightKind::Directional));
-    Scene spheres = base();
+    TestScene spheres = base();
     spheres.materials[1].emission = glm::vec3(5.0f);
     spheres.spheres = {{{1, 1, 2}, 0.3, 1, false}};
     add("lightsBySpheres", layout::lightsBySpheres, spheres);
-    Scene triangles = base();
+    TestScene triangles = base();
     triangles.materials[1].emission = glm::vec3(5.0f);
     triangles.meshes.push_back(texturedQuad({1.2f, -1, 0}, {0, 0, 1}, {0, 2, 0}, 1));
     add("lightsByTriangles", layout::lightsByTriangles, triangles);
-    Scene sky = base();
+    TestScene sky = base();
     sky.environment.radiance = Image(4, 2);
     for (std::size_t i = 0; i < 8; ++i)
         sky.environment.radiance.pixels()[i] = glm::vec3(static_cast<float>(i) * 0.5f, 1.0f, 0.5f);
     add("lightsByEnvironment", layout::lightsByEnvironment, sky);
 
     const auto lightTree = [](bool hasSun) {
-        Scene scene = litBy(LightKind::Point);
+        TestScene scene = litBy(LightKind::Point);
         scene.lights.push_back(light(LightKind::Point, {-3, 1, 2}));
         if (hasSun)
             scene.lights.push_back(light(LightKind::Directional));
@@ -206,7 +207,7 @@ void addLighting(Rows &rows) {
                [](const PackedScene &packed) { return !packed.lightNodes.empty(); });
     rows.value("constantInfiniteEmitters", 1, lightTree(true),
                [](const PackedScene &packed) { return packed.infiniteEmitterCount; });
-    Scene whitted = lightTree(true);
+    TestScene whitted = lightTree(true);
     whitted.settings.integrator = Integrator::Whitted;
     rows.value("constantLightCount", 3, whitted,
                [](const PackedScene &packed) { return packed.lights.size(); });
@@ -216,36 +217,40 @@ void addLighting(Rows &rows) {
 }
 
 void addTexturing(Rows &rows) {
-    const auto add = [&](std::string flag, std::uint32_t value, Scene scene, std::uint32_t others = 0,
+    const auto add = [&](std::string flag, std::uint32_t value, TestScene scene, std::uint32_t others = 0,
                          bool isEncoded = false) {
-        rows.bit(std::move(flag), &PackedScene::texturing, value, std::move(scene), others, isEncoded);
+        rows.bit(std::move(flag), &PackedScene::texturing, value, std::move(scene),
+                 others | layout::texturesCoordinates, isEncoded);
     };
     using namespace layout;
     for (const TextureSlot &slot : textureSlots)
         add(fmt::format("slot {}", slot.name), 1u << slot.slot, textured(slot.slot));
     add("texturesLevels", texturesLevels, textured(slotBaseColour), texturesBaseColour, true);
-    Scene second = textured(slotBaseColour);
+    TestScene second = textured(slotBaseColour);
     second.materials[0].textures[slotBaseColour]->uvSet = 1;
     second.meshes[0].secondUvs = {{{0, 0}, {0, 2}, {2, 2}}, {{0, 1, 2}, {0, 2, 1}}};
     add("texturesSecondUv", texturesSecondUv, second, texturesBaseColour);
-    Scene coloured = beforeAWall(MaterialKind::Diffuse);
+    TestScene coloured = beforeAWall(MaterialKind::Diffuse);
     coloured.meshes[0].colours = {{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}, {{0, 1, 2}, {0, 2, 1}}};
     add("texturesColours", texturesColours, coloured);
-    Scene tangents = textured(slotNormal);
+    TestScene tangents = textured(slotNormal);
     tangents.meshes[0].tangents = {{{0, 1, 0, 1}, {0, 1, 0, -1}, {1, 0, 0, 1}}, {{0, 1, 2}, {0, 2, 1}}};
     add("texturesTangents", texturesTangents, tangents, texturesNormal);
-    Scene placed = textured(slotBaseColour);
+    TestScene placed = textured(slotBaseColour);
     placed.materials[0].textures[slotBaseColour]->wrapU = Wrap::Mirror;
     placed.materials[0].textures[slotBaseColour]->offset = glm::vec2(0.6f);
     add("texturesPlaced", texturesPlaced, placed, texturesBaseColour);
-    Scene channels = textured(slotRoughness);
+    TestScene channels = textured(slotRoughness);
     channels.materials[0].textures[slotRoughness]->channel = Channel::Green;
+    TestScene coordinates = beforeAWall(MaterialKind::Diffuse);
+    coordinates.settings.integrator = Integrator::Uv;
+    add("texturesCoordinates", texturesCoordinates, coordinates);
     add("texturesChannels", texturesChannels, channels, texturesRoughness);
 }
 
 void addPassing(Rows &rows) {
     const auto add = [&](const char *flag, std::uint32_t value, const std::function<void(Material &)> &edit) {
-        Scene scene = beforeAWall(MaterialKind::Diffuse);
+        TestScene scene = beforeAWall(MaterialKind::Diffuse);
         edit(scene.materials[0]);
         rows.bit(flag, &PackedScene::passing, value, std::move(scene));
     };
@@ -254,28 +259,28 @@ void addPassing(Rows &rows) {
         m.opacity = 0.25f;
         m.alphaMode = AlphaMode::Blend;
     });
-    Scene culled = beforeAWall(MaterialKind::Diffuse);
+    TestScene culled = beforeAWall(MaterialKind::Diffuse);
     culled.materials[0].isCulled = true;
     culled.meshes[0] = texturedQuad({1, -1, 0}, {-2, 0, 0}, {0, 2, 0}); // from behind
     rows.bit("passesCulled", &PackedScene::passing, layout::passesCulled, culled);
 }
 
 void addGeometry(Rows &rows) {
-    const Scene square = base();
+    const TestScene square = base();
     rows.flag("constantHasTriangles", &PackedScene::hasTriangles, square);
-    Scene balls = base();
+    TestScene balls = base();
     balls.meshes.clear();
     balls.spheres = {{{0, 0, 0}, 1.0, 0, false}, {{0.5, 0, 1}, 0.3, 1, false}};
     rows.value("constantSphereCount", 2, balls,
                [](const PackedScene &packed) { return packed.loopSpheres.size(); });
     const auto treeSpheres = [](const PackedScene &packed) { return packed.treeSpheres; };
     rows.value("treeHasTriangles", layout::treeHasTriangles, square, treeSpheres);
-    Scene many = base();
+    TestScene many = base();
     addManySpheres(many);
     rows.value("treeHasSpheresToo", layout::treeHasSpheresToo, many, treeSpheres);
     many.meshes.clear();
     rows.value("treeHasSpheresOnly", layout::treeHasSpheresOnly, many, treeSpheres);
-    Scene instances = base();
+    TestScene instances = base();
     const TriangleMesh mesh = std::exchange(instances.meshes, {}).front();
     Placement small;
     small.rows[0].x = 0.5f;
@@ -284,29 +289,29 @@ void addGeometry(Rows &rows) {
     addInstances(instances, mesh, placements);
     rows.value("constantHasInstances", 2, instances,
                [](const PackedScene &packed) { return packed.instances.size(); });
-    Scene smooth = base();
+    TestScene smooth = base();
     smooth.lights = {light(LightKind::Directional)};
     TriangleMesh &curved = smooth.meshes[0];
     for (const float x : {-0.3f, 0.3f})
         curved.normals.push_back(glm::normalize(glm::vec3(x, 0.2f, 1.0f)));
     curved.triangles[0].normals = {0, 1, 0};
     rows.flag("constantHasNormals", &PackedScene::hasNormals, smooth);
-    Scene grid = base();
+    TestScene grid = base();
     grid.meshes[0] = {};
     for (int i = 0; i < 40; ++i)
         addQuad(grid.meshes[0], glm::vec3(glm::dvec3(i % 8 * 0.3 - 1.2, i / 8 * 0.3 - 0.7, i % 3 * 0.1)),
                 {0.2f, 0, 0}, {0, 0.2f, 0.1f});
     grid.settings.tree = TreeKind::Sah;
     rows.value("constantHasPairs", 1, grid, [](const PackedScene &packed) { return packed.hasPairs; });
-    Scene closed = base();
+    TestScene closed = base();
     closed.background = glm::vec3(0.0f);
     closed.materials[1].emission = glm::vec3(5.0f);
     closed.meshes.push_back(texturedQuad({1.2f, -1, 0}, {0, 0, 1}, {0, 2, 0}, 1));
     rows.value("constantTrianglePairs", 2, closed,
                [](const PackedScene &packed) { return packed.trianglePairs.size(); });
-    Scene mirror = beforeAWall(MaterialKind::Mirror);
+    TestScene mirror = beforeAWall(MaterialKind::Mirror);
     rows.flag("constantHasSpecular", &PackedScene::hasSpecular, mirror);
-    Scene glass = beforeAWall(MaterialKind::Dielectric);
+    TestScene glass = beforeAWall(MaterialKind::Dielectric);
     glass.materials[0].roughness = 0.0f;
     rows.flag("constantHasDielectric", &PackedScene::hasDielectric, glass);
     glass.settings.integrator = Integrator::Whitted;
@@ -315,7 +320,7 @@ void addGeometry(Rows &rows) {
 
 void addCameras(Rows &rows) {
     const auto add = [&](const char *flag, std::uint32_t value, CameraKind kind, double aperture) {
-        Scene scene = base();
+        TestScene scene = base();
         scene.camera.kind = kind;
         scene.camera.aperture = aperture;
         rows.value(flag, value, std::move(scene), [](const PackedScene &packed) { return packed.camera; });
@@ -324,7 +329,7 @@ void addCameras(Rows &rows) {
     add("cameraLens", layout::cameraLens, CameraKind::Perspective, 0.5);
     add("cameraOrthographic", layout::cameraOrthographic, CameraKind::Orthographic, 0.0);
     add("cameraPanorama", layout::cameraPanorama, CameraKind::Panorama, 0.0);
-    Scene half = beforeAWall(MaterialKind::Dielectric); // of the orthographic view in glass
+    TestScene half = beforeAWall(MaterialKind::Dielectric); // of the orthographic view in glass
     half.materials[0].roughness = 0.0f;
     half.materials[0].absorption = {0.1f, 0.5f, 0.9f};
     half.materials[0].segmentTint = {0.9f, 0.5f, 0.1f};
@@ -339,7 +344,7 @@ void addCameras(Rows &rows) {
 /// What settings choose.
 void addSettings(Rows &rows) {
     for (const IntegratorRow &row : integratorTable) {
-        Scene scene = base();
+        TestScene scene = base();
         scene.settings.integrator = row.integrator;
         scene.settings.occlusionDistance = 3.0;
         scene.meshes.push_back(texturedQuad({-1, -1, 0}, {2, 0, 0}, {0, 0, 2}, 1));
@@ -347,7 +352,7 @@ void addSettings(Rows &rows) {
                    [view = row.view](const PackedScene &) { return view; });
     }
     const auto sampler = [&](const char *flag, std::uint32_t value, SamplerKind kind, FilterKind filter) {
-        Scene scene = base();
+        TestScene scene = base();
         scene.settings.sampler = kind;
         scene.settings.filter = filter;
         const RenderSettings settings = scene.settings;

@@ -3,6 +3,7 @@
 
 #include "host/packing/packed_scene.h"
 #include "host/scene/scene.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +15,7 @@ namespace hyalite::testing {
 
 struct FlagScene {
     std::string flag; ///< its constant in shaders/layout/layout.h; of a texture slot that of the slot
-    Scene scene;
+    TestScene scene;
     /// What the flag's word is of the packed scene, and what it is of this scene, where nothing else needs it.
     std::function<std::uint32_t(const PackedScene &)> word;
     std::uint32_t expected;

@@ -44,10 +44,11 @@ class Flag : public ::testing::TestWithParam<FlagScene> {};
 
 TEST_P(Flag, IsSetForTheSceneThatNeedsItAndMakesItsPicture) {
     const FlagScene &row = GetParam();
-    validateScene(row.scene, row.flag);
     const RenderSettings &settings = row.scene.settings;
+    validateScene(row.scene, row.flag);
+    validateSettings(settings, row.scene, row.flag);
     PackedScene packed = packScene(row.scene, buildBvh(settings.tree, row.scene, settings.leafSize),
-                                   row.isEncoded ? 0 : maxDecodedBytes);
+                                   {settings.lightChoice, row.isEncoded ? 0 : maxDecodedBytes});
     EXPECT_EQ(row.word(packed), row.expected);
     const Crop crop{0, row.scene.camera.width, 0, row.scene.camera.height};
     const reference::Result cpu = reference::render(packed, settings, crop);

@@ -17,18 +17,17 @@ double maxFurnaceRadiance(const PackedScene &packed) {
     return index * index;
 }
 
-bool gains(PackedScene &packed, const RenderSettings &settings, const glm::ivec2 &pixel) {
+bool gains(const PackedScene &packed, const RenderSettings &settings, const glm::ivec2 &pixel) {
     constexpr int sampleCount = 2000;
     constexpr std::array weights{0.02, 0.1, 0.3, 0.9};
     const double limit = maxFurnaceRadiance(packed) * (1.0 + furnaceAllowance);
     RenderSettings single = settings;
     single.samplesPerPixel = 1;
-    const std::uint32_t seed = packed.frame.seed;
     std::array<double, weights.size()> products{};
     products.fill(1.0);
     bool isAbove = false;
     for (int i = 1; i <= sampleCount && !isAbove; ++i) {
-        packed.frame.seed = seed + 7919u * static_cast<std::uint32_t>(i);
+        single.seed = settings.seed + 7919u * static_cast<std::uint32_t>(i);
         reference::Options options;
         options.threadCount = 1;
         const glm::vec3 sample =
@@ -43,7 +42,6 @@ bool gains(PackedScene &packed, const RenderSettings &settings, const glm::ivec2
         }
         isAbove = mean >= 1.0 / furnaceErrorRate;
     }
-    packed.frame.seed = seed;
     return isAbove;
 }
 

@@ -21,6 +21,6 @@ inline constexpr double furnaceAllowance = 0.003;
 /// samples x, divided by their bound, has an expectation of at most 1 if theirs is, for each w in [0, 1], and so has the
 /// mean of products of several w. By Markov's and Ville's inequalities it ever reaches 1 / r with a probability of at most r. (Waudby-Smith
 /// and Ramdas, "Estimating means of bounded random variables by betting", J. R. Stat. Soc. B 86, 2024, section 3.)
-[[nodiscard]] bool gains(PackedScene &packed, const RenderSettings &settings, const glm::ivec2 &pixel);
+[[nodiscard]] bool gains(const PackedScene &packed, const RenderSettings &settings, const glm::ivec2 &pixel);
 
 } // namespace hyalite::testing

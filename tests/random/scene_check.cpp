@@ -7,6 +7,7 @@
 #include "host/scene/names.h"
 #include "tests/fixtures/subnormals.h"
 #include "tests/fixtures/test_device.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/random/furnace.h"
 #include "tests/random/scene_document.h"
 
@@ -40,7 +41,7 @@ std::optional<Fault> impossibleRadiance(const Film &film, bool isExtreme) {
 }
 
 /// Tries the two brightest pixels.
-std::optional<Fault> gain(const Film &film, PackedScene &packed, const RenderSettings &settings) {
+std::optional<Fault> gain(const Film &film, const PackedScene &packed, const RenderSettings &settings) {
     std::vector<std::size_t> order(film.pixels.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = i;
@@ -134,24 +135,24 @@ std::optional<Fault> SceneCheck::faultOfFile(const RandomScene &drawn, const Way
     options.scene = file.string();
     options.isFlattened = way.isFlattened;
     PreparedScene prepared = prepareScene(options, Source::Kept, nobody());
-    const Scene &scene = prepared.loaded.scene;
+    const RenderSettings &settings = prepared.loaded.settings;
     const Crop &crop = prepared.crop;
-    PackedScene packed = way.isEncoded ? packScene(scene, prepared.bvh, 0) : std::move(prepared.packed);
-    const reference::Result cpu = reference::render(packed, scene.settings, crop);
+    PackedScene packed = way.isEncoded
+                             ? packScene(prepared.loaded.scene, prepared.bvh, {settings.lightChoice, 0})
+                             : std::move(prepared.packed);
+    const reference::Result cpu = reference::render(packed, settings, crop);
     if (std::optional<Fault> fault = impossibleRadiance(cpu.film, drawn.isExtreme))
         return fault;
     if (drawn.isFurnace)
-        if (std::optional<Fault> fault = gain(cpu.film, packed, scene.settings))
+        if (std::optional<Fault> fault = gain(cpu.film, packed, settings))
             return fault;
-    const auto onOneThread = [&] {
-        return reference::render(packed, scene.settings, crop, {.threadCount = 1});
-    };
+    const auto onOneThread = [&] { return reference::render(packed, settings, crop, {.threadCount = 1}); };
     const reference::Result flushed = withSubnormalsFlushed(onOneThread);
     if (std::optional<Fault> fault = difference(flushed.film, flushed.rays, "CPU without subnormals", cpu))
         return fault;
     if (way.kernel == noKernel)
         return {};
-    const gpu::Result device = rendererOf(way).render(packed, scene.settings, crop);
+    const gpu::Result device = rendererOf(way).render(packed, settings, crop);
     if (device.failure)
         throw *device.failure;
     return difference(device.film, device.rays, "device", cpu);

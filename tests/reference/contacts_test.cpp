@@ -7,6 +7,7 @@
 #include "host/scene/solids.h"
 #include "tests/fixtures/geometry_fixture.h"
 #include "tests/fixtures/radiance_fixture.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -33,8 +34,8 @@ TriangleMesh box(std::uint32_t material, const glm::dvec3 &centre, const glm::dv
 }
 
 /// An even sky, seen from an eye at +z through what is at the origin.
-Scene furnace(std::vector<Material> materials, double size) {
-    Scene scene;
+TestScene furnace(std::vector<Material> materials, double size) {
+    TestScene scene;
     scene.materials = std::move(materials);
     scene.background = glm::vec3(1.0f);
     scene.camera.position = glm::dvec3(0.1, 0.2, 5.0) * size;
@@ -49,8 +50,8 @@ Scene furnace(std::vector<Material> materials, double size) {
 }
 
 /// Two boxes, the first on top of the second.
-Scene twoBoxes(std::vector<Material> materials, double size, double gap, bool isTurnedRound = false) {
-    Scene scene = furnace(std::move(materials), size);
+TestScene twoBoxes(std::vector<Material> materials, double size, double gap, bool isTurnedRound = false) {
+    TestScene scene = furnace(std::move(materials), size);
     const auto last = static_cast<std::uint32_t>(scene.materials.size() - 1);
     scene.meshes = {box(0, glm::dvec3(0.0, 0.0, 0.5 * size + gap), size * glm::dvec3(4.0, 4.0, 0.5)),
                     box(last, glm::dvec3(0.0, 0.0, -0.5 * size), size * glm::dvec3(4.0, 4.0, 0.5))};
@@ -66,7 +67,7 @@ TEST(Contacts, OfGlassAreInvisible) {
         for (const double size : {1.0, 1000.0})
             for (const double gap : {0.0, 1e-7, 1e-6, 3e-6, 1e-5, 1e-4, -1e-6})
                 for (const bool isTurnedRound : {false, true}) {
-                    Scene scene = twoBoxes(materials, size, gap, isTurnedRound);
+                    TestScene scene = twoBoxes(materials, size, gap, isTurnedRound);
                     partContacts(scene);
                     SCOPED_TRACE(::testing::Message()
                                  << materials.size() << " glasses, size " << size << ", gap " << gap
@@ -76,7 +77,7 @@ TEST(Contacts, OfGlassAreInvisible) {
 }
 
 TEST(Contacts, OfRoughGlassAreInvisible) {
-    Scene scene = twoBoxes({glassOf(1.5f, 0, 0.3f), glassOf(1.33f, 0, 0.2f)}, 1.0, 0.0);
+    TestScene scene = twoBoxes({glassOf(1.5f, 0, 0.3f), glassOf(1.33f, 0, 0.2f)}, 1.0, 0.0);
     scene.settings.samplesPerPixel = 2000;
     partContacts(scene);
     EXPECT_NEAR(estimate(scene).mean, 1.0, 0.01);
@@ -85,7 +86,7 @@ TEST(Contacts, OfRoughGlassAreInvisible) {
 TEST(Contacts, OfCurvedSurfacesAreInvisible) {
     // Water in a hollow ball: of spheres, and of meshes.
     for (const bool isOfMeshes : {false, true}) {
-        Scene scene = furnace({glassOf(1.5f, 1), glassOf(1.33f)}, 1.0);
+        TestScene scene = furnace({glassOf(1.5f, 1), glassOf(1.33f)}, 1.0);
         scene.camera.direction = -scene.camera.position;
         for (const auto &[radius, material, isInward] :
              {std::tuple(1.0f, 0u, false), std::tuple(0.9f, 0u, true), std::tuple(0.9f, 1u, false)}) {
@@ -108,7 +109,7 @@ TEST(Contacts, OfCurvedSurfacesAreInvisible) {
 }
 
 TEST(Contacts, OfGlassInstancesAreInvisible) {
-    Scene scene = furnace({glassOf(1.5f)}, 1.0);
+    TestScene scene = furnace({glassOf(1.5f)}, 1.0);
     Placement above;
     above.offset.z = 1.0f;
     Placement below;
@@ -126,7 +127,7 @@ TEST(Contacts, WithATableLeakNothing) {
     // Of a white sky, a black table under glass lets nothing through that does not leave by the sides or the top.
     std::vector<double> means;
     for (const double height : {0.0, 1e-7, -1e-3}) {
-        Scene scene = furnace({glassOf(1.5f), Material{}}, 1.0);
+        TestScene scene = furnace({glassOf(1.5f), Material{}}, 1.0);
         scene.materials[1].albedo = glm::vec3(0.0f);
         scene.meshes = {box(0, {0.0, 0.0, 0.5 + height}, {1.0, 1.0, 0.5}),
                         box(1, {0.0, 0.0, -1.0}, {20.0, 20.0, 1.0})};
@@ -140,8 +141,8 @@ TEST(Contacts, WithATableLeakNothing) {
 }
 
 TEST(Contacts, MoveNothingElse) {
-    const auto keepsItsPlace = [](Scene scene) {
-        const Scene before = scene;
+    const auto keepsItsPlace = [](TestScene scene) {
+        const TestScene before = scene;
         partContacts(scene);
         for (std::size_t i = 0; i < scene.meshes.size(); ++i)
             for (std::size_t k = 0; k < scene.meshes[i].triangles.size(); ++k)
@@ -152,18 +153,18 @@ TEST(Contacts, MoveNothingElse) {
         return true;
     };
     EXPECT_TRUE(keepsItsPlace(twoBoxes({glassOf(1.5f)}, 1.0, 1e-4)));
-    Scene overlapping = twoBoxes({glassOf(1.5f)}, 1.0, 0.0);
+    TestScene overlapping = twoBoxes({glassOf(1.5f)}, 1.0, 0.0);
     overlapping.meshes[0] = box(0, {0.0, 0.0, 0.5}, {3.0, 3.0, 0.6});
     EXPECT_TRUE(keepsItsPlace(overlapping));
     EXPECT_TRUE(keepsItsPlace(twoBoxes({Material{}}, 1.0, 0.0))); // opaque
-    Scene beside = twoBoxes({glassOf(1.5f)}, 1.0, 0.0);           // with an edge in common
+    TestScene beside = twoBoxes({glassOf(1.5f)}, 1.0, 0.0);       // with an edge in common
     beside.meshes[0] = box(0, {8.0, 0.0, 0.5}, {4.0, 4.0, 0.5});
     EXPECT_TRUE(keepsItsPlace(beside));
     EXPECT_FALSE(keepsItsPlace(twoBoxes({glassOf(1.5f)}, 1.0, 0.0)));
 }
 
 TEST(Contacts, MoveTheGlassOfLowerPriority) {
-    Scene scene = twoBoxes({glassOf(1.33f, 0), glassOf(1.5f, 1)}, 1.0, 0.0);
+    TestScene scene = twoBoxes({glassOf(1.33f, 0), glassOf(1.5f, 1)}, 1.0, 0.0);
     const std::vector<glm::vec3> before = scene.meshes[1].positions;
     partContacts(scene);
     EXPECT_EQ(scene.meshes[1].positions, before);

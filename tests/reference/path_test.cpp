@@ -4,6 +4,7 @@
 #include "host/reference/renderer.h"
 #include "tests/fixtures/geometry_fixture.h"
 #include "tests/fixtures/radiance_fixture.h"
+#include "tests/fixtures/test_scene.h"
 
 namespace hyalite::reference {
 namespace {
@@ -17,8 +18,8 @@ using hyalite::testing::packed;
 constexpr double pi = std::numbers::pi;
 
 /// A picture of few pixels from the eye along -z; every sample counts as one estimate.
-Scene sceneFrom(const glm::dvec3 &eye, int samplesPerPixel) {
-    Scene scene;
+TestScene sceneFrom(const glm::dvec3 &eye, int samplesPerPixel) {
+    TestScene scene;
     scene.camera.position = eye;
     scene.camera.width = 8;
     scene.camera.height = 8;
@@ -29,7 +30,7 @@ Scene sceneFrom(const glm::dvec3 &eye, int samplesPerPixel) {
     return scene;
 }
 
-std::uint32_t addMaterial(Scene &scene, const Material &material) {
+std::uint32_t addMaterial(TestScene &scene, const Material &material) {
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
@@ -51,7 +52,7 @@ Material glass(float index, float absorption = 0.0f, int priority = 0) {
 }
 
 /// A square with corner, and sides a and b, facing a x b.
-void addWall(Scene &scene, std::uint32_t material, const glm::vec3 &corner, const glm::vec3 &a,
+void addWall(TestScene &scene, std::uint32_t material, const glm::vec3 &corner, const glm::vec3 &a,
              const glm::vec3 &b) {
     scene.meshes.emplace_back();
     scene.meshes.back().materialIndex = material;
@@ -59,7 +60,7 @@ void addWall(Scene &scene, std::uint32_t material, const glm::vec3 &corner, cons
 }
 
 TEST(PathFurnace, ABallUnderAnEvenSkyHasItsAlbedo) {
-    Scene scene = sceneFrom({0.3, 0.2, 5}, 16);
+    TestScene scene = sceneFrom({0.3, 0.2, 5}, 16);
     scene.background = glm::vec3(1.0f);
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, diffuse(0.6f)), false});
     expectRadiance(scene, 0.6);
@@ -68,7 +69,7 @@ TEST(PathFurnace, ABallUnderAnEvenSkyHasItsAlbedo) {
 TEST(PathFurnace, InsideAShellThatEmits) {
     // L = e (1 + a + a^2 + ...), cut off after maxDepth segments.
     for (const int depth : {1, 2, 3, 8, 32}) {
-        Scene scene = sceneFrom({0.3, 0.2, 0.1}, depth < 8 ? 4096 : 1024);
+        TestScene scene = sceneFrom({0.3, 0.2, 0.1}, depth < 8 ? 4096 : 1024);
         scene.settings.maxDepth = depth;
         scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, diffuse(0.5f, 1.0f)), true});
         expectRadiance(scene, 2.0 * (1.0 - std::pow(0.5, depth)), 3e-3);
@@ -76,7 +77,7 @@ TEST(PathFurnace, InsideAShellThatEmits) {
 }
 
 TEST(PathFurnace, GlassIsInvisibleUnderAnEvenSky) {
-    Scene scene = sceneFrom({0.7, 0.2, 5}, 64);
+    TestScene scene = sceneFrom({0.7, 0.2, 5}, 64);
     scene.background = glm::vec3(1.0f);
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, glass(1.5f)), false});
     expectRadiance(scene, 1.0);
@@ -89,7 +90,7 @@ TEST(PathFurnace, GlassIsInvisibleUnderAnEvenSky) {
 TEST(PathFurnace, RoughGlassIsInvisibleToo) {
     for (const float index : {1.1f, 1.5f, 1.8f})
         for (const float roughness : {0.3f, 0.6f, 1.0f}) {
-            Scene scene = sceneFrom({0.3, 0.2, 5}, 10'000);
+            TestScene scene = sceneFrom({0.3, 0.2, 5}, 10'000);
             scene.background = glm::vec3(1.0f);
             scene.settings.maxDepth = layout::maxPathDepth;
             Material rough = glass(index);
@@ -101,7 +102,7 @@ TEST(PathFurnace, RoughGlassIsInvisibleToo) {
 
 TEST(PathFurnace, AWhiteBallUnderAClearCoatIsInvisibleToo) {
     for (const float roughness : {0.0f, 0.5f, 1.0f}) {
-        Scene scene = sceneFrom({0.3, 0.2, 5}, 10'000);
+        TestScene scene = sceneFrom({0.3, 0.2, 5}, 10'000);
         scene.background = glm::vec3(1.0f);
         Material white = diffuse(1.0f);
         white.kind = MaterialKind::Principled;
@@ -114,7 +115,7 @@ TEST(PathFurnace, AWhiteBallUnderAClearCoatIsInvisibleToo) {
 }
 
 TEST(PathFurnace, AWhiteBallInGlassIsInvisibleToo) {
-    Scene scene = sceneFrom({0.1, 0.2, 5}, 1024);
+    TestScene scene = sceneFrom({0.1, 0.2, 5}, 1024);
     scene.background = glm::vec3(1.0f);
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, glass(1.5f)), false});
     scene.spheres.push_back({{0, 0, 0}, 0.7, addMaterial(scene, diffuse(1.0f)), false});
@@ -124,7 +125,7 @@ TEST(PathFurnace, AWhiteBallInGlassIsInvisibleToo) {
 TEST(Path, BeginsInTheGlassAroundEachOrigin) {
     // A block of what absorbs and does not refract, down to x = 0: rays along -z that begin in it are in it for 10 units.
     const double inside = std::exp(-1.0);
-    Scene scene = sceneFrom({0.5, 0, 0}, 1024);
+    TestScene scene = sceneFrom({0.5, 0, 0}, 1024);
     scene.background = glm::vec3(1.0f);
     scene.meshes.emplace_back();
     scene.meshes[0].materialIndex = addMaterial(scene, glass(1.0f, 0.1f));
@@ -154,7 +155,7 @@ TEST(Path, ADiffuseSilhouetteDoesNotDependOnOtherMaterials) {
     // The shading normals lean 60 degrees to the left, and the eye is 60 degrees to the right: it sees the wall, but they
     // face away. Of an even sky a surface that leans by an angle sees (1 + cos) / 2 (Lambert's law).
     for (const bool isBesideMetal : {false, true}) {
-        Scene scene = sceneFrom({5.0 * std::sqrt(3.0), 0, 5.0}, 4096);
+        TestScene scene = sceneFrom({5.0 * std::sqrt(3.0), 0, 5.0}, 4096);
         scene.camera.direction = -scene.camera.position;
         scene.background = glm::vec3(1.0f);
         addWall(scene, addMaterial(scene, diffuse(0.6f)), {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
@@ -177,7 +178,7 @@ TEST(PathLight, ASphereAboveAFloor) {
     // Irradiance pi L (r / d)^2 under a sphere, whatever its size: here by cones, and by areas from inside a shell of
     // light.
     for (const double radius : {0.01, 1.0, 1.9}) {
-        Scene scene = sceneFrom({0, 0, 0.5}, 1024);
+        TestScene scene = sceneFrom({0, 0, 0.5}, 1024);
         scene.settings.maxDepth = 2;
         addWall(scene, addMaterial(scene, diffuse(0.5f)), {-3, -3, 0}, {6, 0, 0}, {0, 6, 0});
         scene.spheres.push_back({{0, 0, 2.0}, radius, addMaterial(scene, diffuse(0.0f, 3.0f)), false});
@@ -195,7 +196,7 @@ double cornerFactor(double a, double b) { // times pi, for sides a and b in unit
 }
 
 TEST(PathLight, ARectangleAboveAFloor) {
-    Scene scene = sceneFrom({0, 0, 0.5}, 2048);
+    TestScene scene = sceneFrom({0, 0, 0.5}, 2048);
     scene.settings.maxDepth = 2;
     addWall(scene, addMaterial(scene, diffuse(0.5f)), {-3, -3, 0}, {6, 0, 0}, {0, 6, 0});
     addWall(scene, addMaterial(scene, diffuse(0.0f, 2.0f)), {-1, -1, 2}, {0, 4, 0}, {3, 0, 0}); // faces down
@@ -207,7 +208,7 @@ TEST(PathLight, ARectangleAboveAFloor) {
 
 TEST(PathLight, EmissionIsOneSidedUnlessSaidOtherwise) {
     for (const bool isTwoSided : {false, true}) {
-        Scene scene = sceneFrom({0, 0, 5}, 4);
+        TestScene scene = sceneFrom({0, 0, 5}, 4);
         Material material = diffuse(0.0f, 2.0f);
         material.twoSided = isTwoSided;
         addWall(scene, addMaterial(scene, material), {-1, -1, 0}, {0, 2, 0}, {2, 0, 0}); // faces away
@@ -219,7 +220,7 @@ TEST(PathLight, EmissionIsOneSidedUnlessSaidOtherwise) {
 }
 
 TEST(PathLight, APointLightIsThatOfTheWhittedIntegrator) {
-    Scene scene = sceneFrom({0, 0, 5}, 1);
+    TestScene scene = sceneFrom({0, 0, 5}, 1);
     scene.camera.horizontalFovDegrees = 40.0;
     scene.settings.sampler = SamplerKind::Centre;
     scene.settings.maxDepth = 2;
@@ -234,7 +235,7 @@ TEST(PathLight, APointLightIsThatOfTheWhittedIntegrator) {
 }
 
 TEST(PathLight, SeveralEmittersAddUp) {
-    Scene scene = sceneFrom({0, 0, 0.5}, 4096);
+    TestScene scene = sceneFrom({0, 0, 0.5}, 4096);
     scene.settings.maxDepth = 2;
     addWall(scene, addMaterial(scene, diffuse(0.5f)), {-3, -3, 0}, {6, 0, 0}, {0, 6, 0});
     scene.spheres.push_back({{0, 0, 2.0}, 0.5, addMaterial(scene, diffuse(0.0f, 3.0f)), false});
@@ -245,7 +246,7 @@ TEST(PathLight, SeveralEmittersAddUp) {
 }
 
 TEST(PathMedia, BeersLawThroughABall) {
-    Scene scene = sceneFrom({0, 0, 5}, 4);
+    TestScene scene = sceneFrom({0, 0, 5}, 4);
     scene.background = glm::vec3(2.0f);
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, glass(1.0f, 0.7f)), false});
     expectRadiance(scene, 2.0 * std::exp(-1.4));
@@ -254,7 +255,7 @@ TEST(PathMedia, BeersLawThroughABall) {
 TEST(PathMedia, WhatOverlapsIsTheGlassOfHigherPriority) {
     // Along the axis: 0.5 of the weak glass alone, 1.5 where both are, 0.5 of the strong one alone.
     for (const int priority : {-1, 1}) {
-        Scene scene = sceneFrom({0, 0, 5}, 4096);
+        TestScene scene = sceneFrom({0, 0, 5}, 4096);
         scene.background = glm::vec3(1.0f);
         scene.spheres.push_back({{0, 0, 0.25}, 1.0, addMaterial(scene, glass(1.0f, 0.1f)), false});
         scene.spheres.push_back({{0, 0, -0.25}, 1.0, addMaterial(scene, glass(1.0f, 0.9f, priority)), false});
@@ -264,7 +265,7 @@ TEST(PathMedia, WhatOverlapsIsTheGlassOfHigherPriority) {
 
 TEST(PathMedia, AHollowBallIsABallOfAirInGlass) {
     // By a normal that points inward, or by air of higher priority.
-    Scene scene = sceneFrom({0.4, 0.3, 5}, 256);
+    TestScene scene = sceneFrom({0.4, 0.3, 5}, 256);
     scene.camera.horizontalFovDegrees = 8.0;
     scene.background = glm::vec3(1.0f);
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, glass(1.5f, 2.0f)), false});

@@ -3,6 +3,7 @@
 
 #include "host/reference/renderer.h"
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/test_scene.h"
 
 namespace hyalite::reference {
 namespace {
@@ -11,8 +12,8 @@ using hyalite::testing::addQuad;
 using hyalite::testing::packed;
 
 /// One pixel that looks from (0, 0, 5) along -z at a ball of radius 2.
-Scene ball(Integrator integrator) {
-    Scene scene;
+TestScene ball(Integrator integrator) {
+    TestScene scene;
     scene.camera.position = {0, 0, 5};
     scene.camera.width = 1;
     scene.camera.height = 1;
@@ -27,7 +28,7 @@ Scene ball(Integrator integrator) {
     return scene;
 }
 
-glm::vec3 pixelOf(const Scene &scene) {
+glm::vec3 pixelOf(const TestScene &scene) {
     return render(packed(scene), scene.settings, {0, 1, 0, 1}).film.toImage().at(0, 0);
 }
 
@@ -35,7 +36,7 @@ TEST(View, ShowsTheFirstHit) {
     EXPECT_EQ(pixelOf(ball(Integrator::Normal)), glm::vec3(0.5f, 0.5f, 1.0f));
     EXPECT_EQ(pixelOf(ball(Integrator::Depth)), glm::vec3(3.0f));
     EXPECT_EQ(pixelOf(ball(Integrator::Albedo)), glm::vec3(0.25f, 0.5f, 0.75f));
-    Scene mirror = ball(Integrator::Albedo);
+    TestScene mirror = ball(Integrator::Albedo);
     mirror.spheres[0].materialIndex = 1;
     EXPECT_EQ(pixelOf(mirror), glm::vec3(1.0f));
 }
@@ -43,7 +44,7 @@ TEST(View, ShowsTheFirstHit) {
 TEST(View, IsBlackWhereThereIsNothing) {
     for (const Integrator integrator :
          {Integrator::Normal, Integrator::Depth, Integrator::Albedo, Integrator::Id}) {
-        Scene scene = ball(integrator);
+        TestScene scene = ball(integrator);
         scene.background = glm::vec3(1.0f);
         scene.spheres.clear();
         EXPECT_EQ(pixelOf(scene), glm::vec3(0.0f));
@@ -51,7 +52,7 @@ TEST(View, IsBlackWhereThereIsNothing) {
 }
 
 TEST(View, PrimitivesHaveColoursOfTheirOwn) {
-    Scene scene = ball(Integrator::Id);
+    TestScene scene = ball(Integrator::Id);
     const glm::vec3 first = pixelOf(scene);
     scene.spheres.push_back({{0, 0, 3}, 1.0, 0, false});
     const glm::vec3 second = pixelOf(scene);
@@ -63,8 +64,8 @@ TEST(View, PrimitivesHaveColoursOfTheirOwn) {
 }
 
 /// The floor z = 0, seen from below the ceiling.
-Scene room(double occlusionDistance) {
-    Scene scene = ball(Integrator::AmbientOcclusion);
+TestScene room(double occlusionDistance) {
+    TestScene scene = ball(Integrator::AmbientOcclusion);
     scene.settings.samplesPerPixel = 4096;
     scene.settings.occlusionDistance = occlusionDistance;
     scene.spheres.clear();
@@ -76,7 +77,7 @@ Scene room(double occlusionDistance) {
 TEST(AmbientOcclusion, OfAnOpenFloorIsOne) { EXPECT_EQ(pixelOf(room(1e15)), glm::vec3(1.0f)); }
 
 TEST(AmbientOcclusion, UnderABallIsOneLessTheSquareOfItsSine) {
-    Scene scene = room(1e15);
+    TestScene scene = room(1e15);
     scene.camera.position = {0, 0, 0.5};
     scene.spheres.push_back({{0, 0, 2}, 1.2, 0, false});
     EXPECT_NEAR(pixelOf(scene).x, 1.0 - 0.36, 1e-3);
@@ -89,7 +90,7 @@ TEST(AmbientOcclusion, UnderABallIsOneLessTheSquareOfItsSine) {
 }
 
 TEST(AmbientOcclusion, IsThatOfTheSideThatIsSeen) {
-    Scene scene = room(1e15);
+    TestScene scene = room(1e15);
     scene.spheres.push_back({{0, 0, -2}, 1.2, 0, false});
     EXPECT_EQ(pixelOf(scene), glm::vec3(1.0f));
     scene.camera.position = {0, 0, -0.5};

@@ -2,6 +2,7 @@
 
 #include "host/reference/renderer.h"
 #include "tests/fixtures/geometry_fixture.h"
+#include "tests/fixtures/test_scene.h"
 
 namespace hyalite::reference {
 namespace {
@@ -12,8 +13,8 @@ using hyalite::testing::packed;
 constexpr double pi = std::numbers::pi;
 
 /// One pixel that looks from the eye along -z, through its centre.
-Scene onePixel(const glm::dvec3 &eye) {
-    Scene scene;
+TestScene onePixel(const glm::dvec3 &eye) {
+    TestScene scene;
     scene.camera.position = eye;
     scene.camera.width = 1;
     scene.camera.height = 1;
@@ -23,7 +24,7 @@ Scene onePixel(const glm::dvec3 &eye) {
     return scene;
 }
 
-std::uint32_t addMaterial(Scene &scene, const Material &material) {
+std::uint32_t addMaterial(TestScene &scene, const Material &material) {
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
@@ -47,7 +48,7 @@ Material glass(float index, const glm::vec3 &tint = glm::vec3(1.0f)) {
     return material;
 }
 
-void addWall(Scene &scene, std::uint32_t material, const glm::vec3 &corner, const glm::vec3 &a,
+void addWall(TestScene &scene, std::uint32_t material, const glm::vec3 &corner, const glm::vec3 &a,
              const glm::vec3 &b) {
     scene.meshes.emplace_back();
     scene.meshes.back().materialIndex = material;
@@ -55,17 +56,17 @@ void addWall(Scene &scene, std::uint32_t material, const glm::vec3 &corner, cons
 }
 
 /// A square of side 20 at the given z that faces +z, its diagonal off the axis.
-void addWallFacingUs(Scene &scene, std::uint32_t material, float z) {
+void addWallFacingUs(TestScene &scene, std::uint32_t material, float z) {
     addWall(scene, material, {-11, -9, z}, {20, 0, 0}, {0, 20, 0});
 }
 
-Result renderAll(const Scene &scene, Precision precision = Precision::Float32, int threadCount = 1) {
+Result renderAll(const TestScene &scene, Precision precision = Precision::Float32, int threadCount = 1) {
     const Crop crop{0, scene.camera.width, 0, scene.camera.height};
     return render(packed(scene), scene.settings, crop, {.precision = precision, .threadCount = threadCount});
 }
 
 /// The only pixel, in both precisions, against the closed form.
-void expectPixel(const Scene &scene, const glm::dvec3 &expected, const RayCounts &rays) {
+void expectPixel(const TestScene &scene, const glm::dvec3 &expected, const RayCounts &rays) {
     for (const Precision precision : {Precision::Float32, Precision::Float64}) {
         const Result result = renderAll(scene, precision);
         const glm::vec3 pixel = result.film.toImage().at(0, 0);
@@ -85,7 +86,7 @@ glm::dvec3 lambert(const glm::dvec3 &albedo, const glm::dvec3 &power, double cos
 }
 
 TEST(Whitted, ALitSphereHeadOn) {
-    Scene scene = onePixel({0, 0, 5});
+    TestScene scene = onePixel({0, 0, 5});
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, diffuse({0.8f, 0.4f, 0.2f})), false});
     scene.lights.push_back({{0, 0, 4}, {100, 200, 300}});
     expectPixel(scene, lambert({0.8f, 0.4f, 0.2f}, {100, 200, 300}, 1.0, 3.0), {1, 1, 0, 0});
@@ -99,20 +100,20 @@ TEST(Whitted, ALitSphereHeadOn) {
 }
 
 TEST(Whitted, ALitWall) {
-    Scene scene = onePixel({0, 0, 5});
+    TestScene scene = onePixel({0, 0, 5});
     addWallFacingUs(scene, addMaterial(scene, diffuse(glm::vec3(0.5f))), -2.0f);
     scene.lights.push_back({{3, 0, 2}, glm::dvec3(1000.0)});
     expectPixel(scene, lambert(glm::dvec3(0.5), glm::dvec3(1000.0), 0.8, 5.0), {1, 1, 0, 0});
 }
 
 TEST(Whitted, TheBackgroundIsSeenWhereThereIsNothing) {
-    Scene scene = onePixel({0, 0, 5});
+    TestScene scene = onePixel({0, 0, 5});
     scene.background = {0.25f, 0.5f, 4.0f};
     expectPixel(scene, {0.25, 0.5, 4.0}, {1, 0, 0, 0});
 }
 
 TEST(Whitted, SeveralLightsAddUp) {
-    Scene scene = onePixel({0, 0, 5});
+    TestScene scene = onePixel({0, 0, 5});
     addWallFacingUs(scene, addMaterial(scene, diffuse({0.5f, 0.25f, 1.0f})), 0.0f);
     glm::dvec3 expected(0.0);
     for (int i = 0; i < 16; ++i) {
@@ -128,7 +129,7 @@ TEST(Whitted, SeveralLightsAddUp) {
 TEST(Whitted, AnOpaqueThingBetweenBlocksTheLight) {
     for (const bool isSphere : {true, false}) {
         for (const bool isMirror : {true, false}) {
-            Scene scene = onePixel({0, 0, 5});
+            TestScene scene = onePixel({0, 0, 5});
             addWallFacingUs(scene, addMaterial(scene, diffuse(glm::vec3(0.5f))), 0.0f);
             scene.lights.push_back({{4, 0, 4}, glm::dvec3(1000.0)});
             const std::uint32_t blocker = addMaterial(scene, isMirror ? mirror() : diffuse(glm::vec3(0.5f)));
@@ -147,7 +148,7 @@ TEST(Whitted, AnOpaqueThingBetweenBlocksTheLight) {
 
 TEST(Whitted, GlassBetweenDimsTheLightOnce) {
     for (const int sphereCount : {1, 2, 5}) {
-        Scene scene = onePixel({0, 0, 5});
+        TestScene scene = onePixel({0, 0, 5});
         scene.shadowThroughGlass = 0.25f;
         addWallFacingUs(scene, addMaterial(scene, diffuse(glm::vec3(0.5f))), 0.0f);
         scene.lights.push_back({{8, 0, 8}, glm::dvec3(1000.0)});
@@ -166,7 +167,7 @@ TEST(Whitted, GlassBetweenDimsTheLightOnce) {
 
 TEST(Whitted, AMirrorShowsTheWallBehindUs) {
     for (const bool isSphere : {true, false}) {
-        Scene scene = onePixel({0, 0, 0});
+        TestScene scene = onePixel({0, 0, 0});
         const std::uint32_t silver = addMaterial(scene, mirror());
         const std::uint32_t wall = addMaterial(scene, diffuse({0.5f, 0.25f, 0.125f}));
         if (isSphere)
@@ -186,7 +187,7 @@ TEST(Whitted, AMirrorShowsTheWallBehindUs) {
 }
 
 TEST(Whitted, DepthCountsSegmentsBetweenTwoMirrors) {
-    Scene scene = onePixel({0, 0, 0});
+    TestScene scene = onePixel({0, 0, 0});
     scene.background = glm::vec3(1.0f);
     const std::uint32_t silver = addMaterial(scene, mirror());
     addWallFacingUs(scene, silver, -2.0f);
@@ -214,7 +215,7 @@ TEST(Whitted, AGlassBallHeadOnAtEveryDepth) {
     for (const float index : {1.0f, 1.5f, 2.4f}) {
         for (int depth = 1; depth <= 12; ++depth) {
             SCOPED_TRACE(fmt::format("index {}, depth {}", index, depth));
-            Scene scene = onePixel({0, 0, 5});
+            TestScene scene = onePixel({0, 0, 5});
             scene.background = glm::vec3(1.0f);
             scene.settings.maxDepth = depth;
             scene.spheres.push_back(
@@ -232,7 +233,7 @@ TEST(Whitted, AGlassBallHeadOnAtEveryDepth) {
 TEST(Whitted, AWhiteFurnaceOfGlassIsWhite) {
     // All that is reflected and refracted adds up to what came in: 1, less what is still inside at the last segment.
     for (const bool isMesh : {false, true}) {
-        Scene scene;
+        TestScene scene;
         scene.camera.position = {0, 0, 5};
         scene.camera.width = 33;
         scene.camera.height = 33;
@@ -282,7 +283,7 @@ TEST(Whitted, AWhiteFurnaceOfGlassIsWhite) {
 TEST(Whitted, TheBackgroundThroughAPaneAndAWallBehindGlass) {
     // A ball of glass between the eye and a lit wall, tinted by half for each segment inside. The light is in front
     // of the ball and off the axis, so that nothing casts a shadow on what is seen.
-    Scene scene = onePixel({0, 0, 5});
+    TestScene scene = onePixel({0, 0, 5});
     scene.settings.maxDepth = 3; // straight through, and nothing else that could see anything
     const double r = 0.04;
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, glass(1.5f, glm::vec3(0.5f))), false});
@@ -295,7 +296,7 @@ TEST(Whitted, TheBackgroundThroughAPaneAndAWallBehindGlass) {
 
 TEST(Whitted, TintCountsForEachSegmentInside) {
     // Along the axis of a ball: segment inside, total tint T once, T^3 for the light that was reflected twice inside.
-    Scene scene = onePixel({0, 0, 5});
+    TestScene scene = onePixel({0, 0, 5});
     scene.background = glm::vec3(1.0f);
     scene.settings.maxDepth = 12;
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, glass(1.5f, {0.95f, 0.9f, 0.0f})), false});
@@ -307,7 +308,7 @@ TEST(Whitted, TintCountsForEachSegmentInside) {
 
 TEST(Whitted, ARayThatEndsInGlassIsTinted) {
     // A pane with nothing behind it: the segment beyond it never leaves the glass and carries the tint.
-    Scene scene = onePixel({0, 0, 5});
+    TestScene scene = onePixel({0, 0, 5});
     scene.background = glm::vec3(1.0f);
     addWallFacingUs(scene, addMaterial(scene, glass(1.5f, glm::vec3(0.5f))), 0.0f);
     expectPixel(scene, glm::dvec3(0.04 + 0.96 * 0.5), {1, 0, 1, 1});
@@ -315,7 +316,7 @@ TEST(Whitted, ARayThatEndsInGlassIsTinted) {
 
 TEST(Whitted, TheEyeMayBeInsideOfGlass) {
     // Outside of the glass is where the camera is thought to be until a surface says otherwise.
-    Scene scene = onePixel({0, 0, 0});
+    TestScene scene = onePixel({0, 0, 0});
     scene.background = glm::vec3(1.0f);
     scene.settings.maxDepth = 2;
     scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, glass(1.5f, glm::vec3(0.5f))), false});
@@ -325,7 +326,7 @@ TEST(Whitted, TheEyeMayBeInsideOfGlass) {
 
 TEST(Whitted, TwoSidedSurfacesAreLitFromTheViewersSide) {
     for (const bool isTwoSided : {false, true}) {
-        Scene scene = onePixel({0, 0, 5});
+        TestScene scene = onePixel({0, 0, 5});
         const std::uint32_t paper = addMaterial(scene, diffuse(glm::vec3(0.5f), isTwoSided));
         addWall(scene, paper, {-9, -11, 0}, {0, 20, 0}, {20, 0, 0}); // faces -z, away from us
         scene.lights.push_back({{3, 0, 4}, glm::dvec3(1000.0)});
@@ -338,8 +339,8 @@ TEST(Whitted, TwoSidedSurfacesAreLitFromTheViewersSide) {
 }
 
 /// A bit of everything, small enough to render often.
-Scene busyScene() {
-    Scene scene;
+TestScene busyScene() {
+    TestScene scene;
     scene.camera.position = {0, 0, 6};
     scene.camera.width = 37;
     scene.camera.height = 23;
@@ -367,7 +368,7 @@ bool isSameFilm(const Film &a, const Film &b) {
 }
 
 TEST(Whitted, ThreadsDoNotChangeABit) {
-    const Scene scene = busyScene();
+    const TestScene scene = busyScene();
     for (const Precision precision : {Precision::Float32, Precision::Float64}) {
         const Result alone = renderAll(scene, precision, 1);
         for (const int threadCount : {0, 2, 3, 8}) {
@@ -379,7 +380,7 @@ TEST(Whitted, ThreadsDoNotChangeABit) {
 }
 
 TEST(Whitted, TreesDoNotChangeABit) {
-    const Scene scene = busyScene();
+    const TestScene scene = busyScene();
     const Crop crop{0, scene.camera.width, 0, scene.camera.height};
     const Result flat = render(packed(scene, TreeKind::None), scene.settings, crop);
     for (const TreeKind kind : {TreeKind::Midpoint, TreeKind::Sah}) {
@@ -392,7 +393,7 @@ TEST(Whitted, TreesDoNotChangeABit) {
 }
 
 TEST(Whitted, DoublePrecisionAgreesUpToRounding) {
-    const Scene scene = busyScene();
+    const TestScene scene = busyScene();
     const Image narrow = renderAll(scene, Precision::Float32).film.toImage();
     const Image wide = renderAll(scene, Precision::Float64).film.toImage();
     std::size_t differing = 0;
@@ -403,7 +404,7 @@ TEST(Whitted, DoublePrecisionAgreesUpToRounding) {
 }
 
 TEST(Whitted, ACropIsAPieceOfTheWholeImage) {
-    const Scene scene = busyScene();
+    const TestScene scene = busyScene();
     const Film whole = renderAll(scene).film;
     const Crop crop{5, 19, 7, 22};
     const Film piece = render(packed(scene), scene.settings, crop).film;
@@ -421,7 +422,7 @@ TEST(Whitted, ACropIsAPieceOfTheWholeImage) {
 }
 
 TEST(Film, KeepsTheSumTheSumOfSquaresAndTheCountOfSamples) {
-    Scene scene = onePixel({0, 0, 5});
+    TestScene scene = onePixel({0, 0, 5});
     scene.background = {0.25f, 0.5f, 2.0f};
     scene.settings.samplesPerPixel = 100;
     const Result result = renderAll(scene);
@@ -434,10 +435,10 @@ TEST(Film, KeepsTheSumTheSumOfSquaresAndTheCountOfSamples) {
 }
 
 TEST(Film, SumsTheSamplesInTheirOrder) {
-    Scene scene = busyScene();
+    TestScene scene = busyScene();
     const PackedScene data = packed(scene);
     const Film film = renderAll(scene).film;
-    WhittedIntegrator<float> integrator(data, layout::samplerSobol);
+    WhittedIntegrator<float> integrator(data, scene.settings);
     for (const glm::uvec2 pixel : {glm::uvec2(18, 11), {3, 4}, {36, 22}, {20, 15}}) {
         FilmPixel<float> sums(layout::FilmPixel{});
         for (std::uint32_t sample = 0; sample < 5; ++sample)
@@ -456,7 +457,7 @@ TEST(Film, APixelWithoutSamplesIsBlack) {
 }
 
 TEST(Whitted, ProgressEndsAtOne) {
-    Scene scene = busyScene();
+    TestScene scene = busyScene();
     double last = 0.0;
     bool isRising = true;
     Options options;

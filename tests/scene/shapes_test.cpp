@@ -133,13 +133,13 @@ TEST(Shapes, HaveTextureCoordinatesThatAreNotMirrored) {
 
 // ---- Light from shapes, on the floor at the origin that faces +z
 
-Scene litBy(TriangleMesh lamp) {
+TestScene litBy(TriangleMesh lamp) {
     Material floor;
     floor.albedo = glm::vec3(0.5f);
     Material glow;
     glow.albedo = glm::vec3(0.0f);
     glow.emission = glm::vec3(3.0f);
-    Scene scene = floorScene(floor, 4096);
+    TestScene scene = floorScene(floor, 4096);
     scene.materials.push_back(glow);
     scene.meshes.push_back(std::move(lamp));
     scene.meshes[1].materialIndex = 1;

@@ -3,6 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/limits.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +17,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Scene validScene() {
-    Scene scene;
+TestScene validScene() {
+    TestScene scene;
     scene.lights = {{glm::dvec3(-10.0, 20.0, 40.0), glm::dvec3(1e5)}};
     scene.materials.resize(1);
     scene.materials[0].name = "wall";
@@ -31,9 +32,14 @@ Scene validScene() {
     return scene;
 }
 
+void validate(const TestScene &scene) {
+    validateScene(scene, "source");
+    validateSettings(scene.settings, scene, "source");
+}
+
 struct Breakage {
     const char *message; ///< all of it up to what is allowed, less the source's name
-    std::function<void(Scene &)> spoil;
+    std::function<void(TestScene &)> spoil;
 };
 
 void PrintTo(const Breakage &breakage, std::ostream *stream) { *stream << breakage.message; }
@@ -41,11 +47,11 @@ void PrintTo(const Breakage &breakage, std::ostream *stream) { *stream << breaka
 class Validate : public ::testing::TestWithParam<Breakage> {};
 
 TEST_P(Validate, NamesTheObject) {
-    Scene scene = validScene();
-    EXPECT_NO_THROW(validateScene(scene, "source"));
+    TestScene scene = validScene();
+    EXPECT_NO_THROW(validate(scene));
     GetParam().spoil(scene);
     try {
-        validateScene(scene, "source");
+        validate(scene);
         FAIL() << "accepted";
     } catch (const Error &error) {
         EXPECT_EQ(error.kind, ErrorKind::BadInput);
@@ -57,112 +63,113 @@ TEST_P(Validate, NamesTheObject) {
 INSTANTIATE_TEST_SUITE_P(Table, Validate,
                          ::testing::
                              Values(Breakage{"scene: meshes: found 1048577",
-                                             [](Scene &s) { s.meshes.resize(1048577); }},
+                                             [](TestScene &s) { s.meshes.resize(1048577); }},
                                     Breakage{"scene: materials: found 65537",
-                                             [](Scene &s) { s.materials.resize(65537); }},
+                                             [](TestScene &s) { s.materials.resize(65537); }},
                                     Breakage{"scene: background: found (0, nan, 0)",
-                                             [](Scene &s) { s.background.y = float(nan); }},
+                                             [](TestScene &s) { s.background.y = float(nan); }},
                                     Breakage{"scene: background: found (-1, 0, 0)",
-                                             [](Scene &s) { s.background.x = -1; }},
+                                             [](TestScene &s) { s.background.x = -1; }},
                                     Breakage{"scene: shadowThroughGlass: found 1.5",
-                                             [](Scene &s) { s.shadowThroughGlass = 1.5f; }},
+                                             [](TestScene &s) { s.shadowThroughGlass = 1.5f; }},
 
                                     Breakage{"camera: position: found (0, 0, inf)",
-                                             [](Scene &s) { s.camera.position.z = infinity; }},
+                                             [](TestScene &s) { s.camera.position.z = infinity; }},
                                     Breakage{"camera: position: found (-2e+20, 0, 55)",
-                                             [](Scene &s) { s.camera.position.x = -2e20; }},
+                                             [](TestScene &s) { s.camera.position.x = -2e20; }},
                                     Breakage{"camera: direction: found (nan, 0, -1)",
-                                             [](Scene &s) { s.camera.direction.x = nan; }},
+                                             [](TestScene &s) { s.camera.direction.x = nan; }},
                                     Breakage{"camera: length of direction: found 0",
-                                             [](Scene &s) { s.camera.direction = glm::dvec3(0); }},
+                                             [](TestScene &s) { s.camera.direction = glm::dvec3(0); }},
                                     Breakage{"camera: length of up: found 0",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  s.camera.up = {1e-300, 0, 0};
                                              }},
                                     Breakage{"camera: up: found the view direction's own axis",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  s.camera.up = {0, 0, 1};
                                              }},
                                     Breakage{"camera: up: found the view direction's own axis",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  s.camera.up = {0, 1e-8, -3};
                                              }},
                                     Breakage{"camera: horizontal field of view: found 0",
-                                             [](Scene &s) { s.camera.horizontalFovDegrees = 0; }},
+                                             [](TestScene &s) { s.camera.horizontalFovDegrees = 0; }},
                                     Breakage{"camera: horizontal field of view: found 180",
-                                             [](Scene &s) { s.camera.horizontalFovDegrees = 180; }},
+                                             [](TestScene &s) { s.camera.horizontalFovDegrees = 180; }},
                                     Breakage{"camera: horizontal field of view: found nan",
-                                             [](Scene &s) { s.camera.horizontalFovDegrees = nan; }},
-                                    Breakage{"camera: width: found 0", [](Scene &s) { s.camera.width = 0; }},
+                                             [](TestScene &s) { s.camera.horizontalFovDegrees = nan; }},
+                                    Breakage{
+                                        "camera: width: found 0", [](TestScene &s) { s.camera.width = 0; }},
                                     Breakage{"camera: height: found 32769",
-                                             [](Scene &s) { s.camera.height = 32769; }},
+                                             [](TestScene &s) { s.camera.height = 32769; }},
 
                                     Breakage{
                                         "settings: spp: found 0",
-                                        [](Scene &s) { s.settings.samplesPerPixel = 0; }},
+                                        [](TestScene &s) { s.settings.samplesPerPixel = 0; }},
                                     Breakage{"settings: spp: found 65537",
-                                             [](Scene &s) { s.settings.samplesPerPixel = 65537; }},
+                                             [](TestScene &s) { s.settings.samplesPerPixel = 65537; }},
                                     Breakage{"settings: maxDepth: found 33",
-                                             [](Scene &s) { s.settings.maxDepth = 33; }},
+                                             [](TestScene &s) { s.settings.maxDepth = 33; }},
                                     Breakage{"settings: leafSize: found 65",
-                                             [](Scene &s) { s.settings.leafSize = 65; }},
+                                             [](TestScene &s) { s.settings.leafSize = 65; }},
                                     Breakage{
                                         "settings: exposure: found inf",
-                                        [](Scene &s) { s.settings.exposureStops = infinity; }},
+                                        [](TestScene &s) { s.settings.exposureStops = infinity; }},
 
                                     Breakage{"light 0: position: found (nan, 20, 40)",
-                                             [](Scene &s) { s.lights[0].position.x = nan; }},
+                                             [](TestScene &s) { s.lights[0].position.x = nan; }},
                                     Breakage{"light 0: power: found (100000, -1, 100000)",
-                                             [](Scene &s) { s.lights[0].power.y = -1; }},
+                                             [](TestScene &s) { s.lights[0].power.y = -1; }},
 
                                     Breakage{"material 0 (wall): albedo: found (0.5, 0.5, 1.5)",
-                                             [](Scene &s) { s.materials[0].albedo.z = 1.5f; }},
+                                             [](TestScene &s) { s.materials[0].albedo.z = 1.5f; }},
                                     Breakage{"material 0 (wall): index: found 0.5",
-                                             [](Scene &s) { s.materials[0].refractiveIndex = 0.5f; }},
+                                             [](TestScene &s) { s.materials[0].refractiveIndex = 0.5f; }},
                                     Breakage{"material 0 (wall): segmentTint: found (1, nan, 1)",
-                                             [](Scene &s) { s.materials[0].segmentTint.y = float(nan); }},
+                                             [](TestScene &s) { s.materials[0].segmentTint.y = float(nan); }},
                                     Breakage{"material 0 (wall): emission: found (0, -1, 0)",
-                                             [](Scene &s) { s.materials[0].emission.y = -1.0f; }},
+                                             [](TestScene &s) { s.materials[0].emission.y = -1.0f; }},
                                     Breakage{"material 0 (wall): absorption: found (nan, 0, 0)",
-                                             [](Scene &s) { s.materials[0].absorption.x = float(nan); }},
+                                             [](TestScene &s) { s.materials[0].absorption.x = float(nan); }},
                                     Breakage{"material 0 (wall): roughness: found 1.5",
-                                             [](Scene &s) { s.materials[0].roughness = 1.5f; }},
+                                             [](TestScene &s) { s.materials[0].roughness = 1.5f; }},
                                     Breakage{"material 0 (wall): extinction: found (21, 21, 21)",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  s.materials[0].conductorExtinction = glm::vec3(21.0f);
                                              }},
                                     Breakage{"material 0 (wall): clearcoat: found 1, and a transmission "
                                              "of 0.5",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  s.materials[0].kind = MaterialKind::Principled;
                                                  s.materials[0].clearcoat = 1.0f;
                                                  s.materials[0].transmission = 0.5f;
                                              }},
                                     Breakage{"camera: aperture: found -1",
-                                             [](Scene &s) { s.camera.aperture = -1; }},
+                                             [](TestScene &s) { s.camera.aperture = -1; }},
                                     Breakage{"camera: focusDistance: found 0",
-                                             [](Scene &s) { s.camera.focusDistance = 0; }},
+                                             [](TestScene &s) { s.camera.focusDistance = 0; }},
                                     Breakage{"camera: viewWidth: found 0",
-                                             [](Scene &s) { s.camera.viewWidth = 0; }},
+                                             [](TestScene &s) { s.camera.viewWidth = 0; }},
                                     Breakage{
                                         "settings: clamp: found -1",
-                                        [](Scene &s) { s.settings.radianceLimit = -1; }},
+                                        [](TestScene &s) { s.settings.radianceLimit = -1; }},
                                     Breakage{"light 0: length of direction: found 0",
-                                             [](Scene &s) { s.lights[0].direction = glm::dvec3(0); }},
+                                             [](TestScene &s) { s.lights[0].direction = glm::dvec3(0); }},
                                     Breakage{
                                         "light 0: angle: found 181",
-                                        [](Scene &s) { s.lights[0].angleDegrees = 181; }},
+                                        [](TestScene &s) { s.lights[0].angleDegrees = 181; }},
                                     Breakage{"light 0: blend: found 2",
-                                             [](Scene &s) { s.lights[0].blend = 2; }},
+                                             [](TestScene &s) { s.lights[0].blend = 2; }},
                                     Breakage{"environment: radiance of pixel 1: found (-2, 0, 0)",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  s.environment.radiance = Image(2, 1);
                                                  s.environment.radiance.at(1, 0).x = -1.0f;
                                                  s.environment.scale = 2.0f;
                                              }},
                                     Breakage{"scene: materials that light passes for the integrator "
                                              "path: found 9",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  s.settings.integrator = Integrator::Path;
                                                  for (int i = 0; i < 9; ++i)
                                                      s.materials.emplace_back().kind =
@@ -170,37 +177,37 @@ INSTANTIATE_TEST_SUITE_P(Table, Validate,
                                              }},
 
                                     Breakage{"sphere 1: centre: found (inf, 0, 0)",
-                                             [](Scene &s) { s.spheres[1].centre.x = infinity; }},
+                                             [](TestScene &s) { s.spheres[1].centre.x = infinity; }},
                                     Breakage{"sphere 1: radius: found 0",
-                                             [](Scene &s) { s.spheres[1].radius = 0; }},
+                                             [](TestScene &s) { s.spheres[1].radius = 0; }},
                                     Breakage{"sphere 1: radius: found -1",
-                                             [](Scene &s) { s.spheres[1].radius = -1; }},
+                                             [](TestScene &s) { s.spheres[1].radius = -1; }},
                                     Breakage{"sphere 1: material: found index 1",
-                                             [](Scene &s) { s.spheres[1].materialIndex = 1; }},
+                                             [](TestScene &s) { s.spheres[1].materialIndex = 1; }},
 
                                     Breakage{"mesh 0 (triangle.obj): material: found index 7",
-                                             [](Scene &s) { s.meshes[0].materialIndex = 7; }},
+                                             [](TestScene &s) { s.meshes[0].materialIndex = 7; }},
                                     Breakage{"mesh 0 (triangle.obj): vertex 2: found (0, nan, 0)",
-                                             [](Scene &s) { s.meshes[0].positions[2].y = float(nan); }},
+                                             [](TestScene &s) { s.meshes[0].positions[2].y = float(nan); }},
                                     Breakage{"mesh 0 (triangle.obj): vertex 0: found (2e+20, 0, 0)",
-                                             [](Scene &s) { s.meshes[0].positions[0].x = 2e20f; }},
+                                             [](TestScene &s) { s.meshes[0].positions[0].x = 2e20f; }},
                                     Breakage{"scene: extent of all meshes: found 9.99999983775159e-18",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  for (glm::vec3 &position : s.meshes[0].positions)
                                                      position *= 1e-17f;
                                              }},
                                     Breakage{"mesh 0 (triangle.obj): length of normal 0: found 2",
-                                             [](Scene &s) { s.meshes[0].normals[0].z = 2; }},
+                                             [](TestScene &s) { s.meshes[0].normals[0].z = 2; }},
                                     Breakage{"mesh 0 (triangle.obj): vertex of triangle 1: found index 3",
-                                             [](Scene &s) { s.meshes[0].triangles[1].positions.y = 3; }},
+                                             [](TestScene &s) { s.meshes[0].triangles[1].positions.y = 3; }},
                                     Breakage{"mesh 0 (triangle.obj): normal of triangle 0: found index "
                                              "4294967295",
-                                             [](Scene &s) {
+                                             [](TestScene &s) {
                                                  s.meshes[0].triangles[0].normals.y = MeshTriangle::noNormal;
                                              }}));
 
 TEST(Validate, TheEndsOfTheRangesAreAllowed) {
-    Scene scene = validScene();
+    TestScene scene = validScene();
     scene.camera.width = 32768;
     scene.camera.height = 1;
     scene.camera.horizontalFovDegrees = 179.999;
@@ -214,7 +221,7 @@ TEST(Validate, TheEndsOfTheRangesAreAllowed) {
     scene.lights.resize(1000);
     scene.spheres.resize(1000);
     scene.spheres[0].radius = 1e15;
-    EXPECT_NO_THROW(validateScene(scene, "source"));
+    EXPECT_NO_THROW(validate(scene));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "tests/fixtures/geometry_fixture.h"
 #include "tests/fixtures/leaves.h"
 #include "tests/fixtures/radiance_fixture.h"
+#include "tests/fixtures/test_scene.h"
 
 #include <functional>
 
@@ -27,13 +28,13 @@ Material grey(float albedo) {
 }
 
 /// What the Whitted integrator shows must be the same: these lights have no size.
-void expectBoth(Scene scene, double expected) {
+void expectBoth(TestScene scene, double expected) {
     expectRadiance(scene, expected);
     scene.settings.integrator = Integrator::Whitted;
     expectRadiance(scene, expected);
 }
 
-void expectDark(Scene scene) {
+void expectDark(TestScene scene) {
     for (const Integrator integrator : {Integrator::Path, Integrator::Whitted}) {
         scene.settings.integrator = integrator;
         EXPECT_EQ(estimate(scene).mean, 0.0);
@@ -41,7 +42,7 @@ void expectDark(Scene scene) {
 }
 
 TEST(DirectionalLight, LightsByTheCosine) {
-    Scene scene = floorScene(grey(0.5f), 1);
+    TestScene scene = floorScene(grey(0.5f), 1);
     for (const Direction &direction : {Direction(0, 0, -1), Direction(1, 0, -1), Direction(3, 4, -5)}) {
         scene.lights = {{.power = glm::dvec3(2.0), .kind = LightKind::Directional, .direction = direction}};
         expectBoth(scene, 0.5 / pi * 2.0 * -direction.z / glm::length(direction));
@@ -51,7 +52,7 @@ TEST(DirectionalLight, LightsByTheCosine) {
 }
 
 TEST(DirectionalLight, CastsShadowsHoweverFar) {
-    Scene scene = floorScene(grey(0.5f), 1);
+    TestScene scene = floorScene(grey(0.5f), 1);
     scene.lights = {{.power = glm::dvec3(2.0), .kind = LightKind::Directional, .direction = {1, 0, -1}}};
     scene.spheres.push_back({{-1000, 0, 1000}, 1.0, 0, false});
     expectDark(scene);
@@ -63,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Fades, SpotLight, ::testing::Values(SpotFade::Smooth, S
 TEST_P(SpotLight, FadesBetweenItsAngles) {
     // Straight above the origin, turned away from it by some degrees; it fades from 20 to 40.
     for (const double turned : {0.0, 19.9, 25.0, 30.0, 37.0, 40.1, 90.0}) {
-        Scene scene = floorScene(grey(0.5f), 1);
+        TestScene scene = floorScene(grey(0.5f), 1);
         const double angle = turned * pi / 180.0;
         scene.lights = {{.position = {0, 0, 2},
                          .power = glm::dvec3(100.0),
@@ -90,7 +91,7 @@ TEST(RoughMaterial, UnderAPointLightIsItsClosedForm) {
         material.kind = kind;
         material.roughness = 0.6f;
         material.metallic = 0.3f;
-        Scene scene = floorScene(material, 1);
+        TestScene scene = floorScene(material, 1);
         scene.camera.position = {0.02, 0, 0.05};
         scene.camera.direction = {-0.02, 0, -0.05};
         scene.lights = {{.position = {1, 2, 2}, .power = glm::dvec3(100.0)}};
@@ -154,9 +155,9 @@ double overSphere(const std::function<double(const Direction &)> &value, int ste
     return sum * 4.0 * pi / (2.0 * steps * steps);
 }
 
-Scene underSky(const Material &material, int samplesPerPixel, const Image &image,
-               double rotateDegrees = 0.0) {
-    Scene scene = floorScene(material, samplesPerPixel);
+TestScene underSky(const Material &material, int samplesPerPixel, const Image &image,
+                   double rotateDegrees = 0.0) {
+    TestScene scene = floorScene(material, samplesPerPixel);
     scene.environment.radiance = image;
     scene.environment.rotateDegrees = rotateDegrees;
     scene.environment.scale = 0.75f;
@@ -165,7 +166,7 @@ Scene underSky(const Material &material, int samplesPerPixel, const Image &image
 
 TEST(EnvironmentLight, LightsAFloorAsTheIntegralSays) {
     for (const double turned : {0.0, 100.0, -33.0}) {
-        const Scene scene = underSky(grey(0.5f), 4096, patchy(16, 8), turned);
+        const TestScene scene = underSky(grey(0.5f), 4096, patchy(16, 8), turned);
         const double irradiance = overSphere(
             [&](const Direction &d) { return std::max(d.z, 0.0) * skyRadiance(scene.environment, d); });
         expectRadiance(scene, 0.5 / pi * irradiance, 2e-3);
@@ -173,7 +174,7 @@ TEST(EnvironmentLight, LightsAFloorAsTheIntegralSays) {
 }
 
 TEST(EnvironmentLight, IsSeenBehindTheScene) {
-    Scene scene = underSky(grey(0.5f), 1, patchy(16, 8), 70.0);
+    TestScene scene = underSky(grey(0.5f), 1, patchy(16, 8), 70.0);
     scene.meshes.clear();
     scene.settings.sampler = SamplerKind::Centre;
     Random random(701);
@@ -188,7 +189,7 @@ TEST(EnvironmentLight, IsSeenBehindTheScene) {
 }
 
 TEST(EnvironmentLight, DirectionsHaveTheDensityThatTheySay) {
-    const Scene scene = underSky(grey(0.5f), 1, patchy(32, 16), 20.0);
+    const TestScene scene = underSky(grey(0.5f), 1, patchy(32, 16), 20.0);
     const PackedScene scenePacked = packed(scene);
     const SceneView<double> view(scenePacked);
     EXPECT_NEAR(overSphere([&](const Direction &d) { return environmentFrom(view, d).pdf; }), 1.0, 2e-3);
@@ -236,7 +237,7 @@ TEST(EnvironmentLight, APixelShinesIntoItsNeighboursAlike) {
 }
 
 TEST(EnvironmentLight, ABlackOneIsDark) {
-    const Scene scene = underSky(grey(0.5f), 16, Image(4, 2));
+    const TestScene scene = underSky(grey(0.5f), 16, Image(4, 2));
     EXPECT_EQ(estimate(scene).mean, 0.0);
 }
 
@@ -245,7 +246,7 @@ TEST(EnvironmentLight, AnEvenOneIsAFurnaceForEveryMaterial) {
     Image even(4, 2);
     std::fill(even.pixels().begin(), even.pixels().end(), glm::vec3(1.0f));
     const auto expectSame = [&](const Material &material, std::optional<double> known = {}) {
-        Scene scene = floorScene(material, 4096);
+        TestScene scene = floorScene(material, 4096);
         scene.meshes.clear();
         scene.settings.maxDepth = 32;
         scene.camera.position = {0.5, 0.3, 5};
@@ -284,7 +285,7 @@ TEST(EnvironmentLight, AnEvenOneIsAFurnaceForEveryMaterial) {
 }
 
 TEST(SeveralLights, AddUp) {
-    Scene scene = underSky(grey(0.5f), 4096, patchy(16, 8));
+    TestScene scene = underSky(grey(0.5f), 4096, patchy(16, 8));
     const double irradiance = overSphere(
         [&](const Direction &d) { return std::max(d.z, 0.0) * skyRadiance(scene.environment, d); });
     scene.lights = {{.position = {0, 0, 2}, .power = glm::dvec3(30.0)},
@@ -301,7 +302,7 @@ TEST(SeveralLights, AddUp) {
 
 TEST(RadianceLimit, HoldsBehindTheFirstSegmentOnly) {
     // A floor under a bright ball: lit directly it keeps all of it, by two bounces no more than the limit a path.
-    Scene scene = floorScene(grey(0.5f), 256);
+    TestScene scene = floorScene(grey(0.5f), 256);
     scene.lights = {{.position = {0, 0, 2}, .power = glm::dvec3(3000.0)}};
     const double direct = 0.5 / pi * 3000.0 / (4.0 * pi) / 4.0;
     scene.settings.radianceLimit = 0.25;

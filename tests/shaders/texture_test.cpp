@@ -3,6 +3,7 @@
 #include "host/reference/hit_surface.h"
 #include "host/scene/validate.h"
 #include "tests/fixtures/radiance_fixture.h"
+#include "tests/fixtures/test_scene.h"
 #include "tests/fixtures/texture_fixture.h"
 
 #include <limits>
@@ -16,8 +17,8 @@ using glm::vec2;
 using glm::vec3;
 
 /// A quad from (-1, -1, 0) to (1, 1, 0) that wears the texture in one slot.
-Scene quadScene(std::uint32_t slot, Texture texture) {
-    Scene scene = sceneOf(texturedQuad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+TestScene quadScene(std::uint32_t slot, Texture texture) {
+    TestScene scene(sceneOf(texturedQuad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0})));
     scene.textures = {std::move(texture)};
     scene.materials[0].albedo = vec3(1.0f);
     scene.materials[0].textures[slot] = TextureUse{};
@@ -29,7 +30,7 @@ Scene quadScene(std::uint32_t slot, Texture texture) {
 /// Looks up what the quad's material has in a slot.
 class Lookup {
   public:
-    explicit Lookup(const Scene &scene, std::uint32_t slot = layout::slotBaseColour)
+    explicit Lookup(const TestScene &scene, std::uint32_t slot = layout::slotBaseColour)
         : packed_(packed(scene)), row_(reference::textureRow(packed_.materials[0].textures, slot)) {}
 
     template <class Real> [[nodiscard]] reference::Vec3<Real> at(Real u, Real v) const {
@@ -87,7 +88,7 @@ TEST(Texture, FractionsAreLessThanOne) {
 }
 
 TEST(Texture, IsScaledThenMoved) {
-    Scene scene = quadScene(layout::slotBaseColour, numbered());
+    TestScene scene = quadScene(layout::slotBaseColour, numbered());
     const Lookup plain(scene);
     scene.materials[0].textures[layout::slotBaseColour]->scale = {2.0f, -1.0f};
     scene.materials[0].textures[layout::slotBaseColour]->offset = {0.25f, 0.5f};
@@ -109,13 +110,13 @@ TEST(Texture, OnlyColoursAreEncoded) {
 }
 
 TEST(Texture, IsDecodedWhereAllAreSmallEnough) {
-    Scene scene = quadScene(layout::slotBaseColour, drawnTexture(5, 3, [](int x, int y) {
-                                return levels(static_cast<std::uint32_t>(40 * x),
-                                              static_cast<std::uint32_t>(90 * y), 7);
-                            }));
+    TestScene scene = quadScene(layout::slotBaseColour, drawnTexture(5, 3, [](int x, int y) {
+                                    return levels(static_cast<std::uint32_t>(40 * x),
+                                                  static_cast<std::uint32_t>(90 * y), 7);
+                                }));
     const auto isOfLevels = [&](std::size_t maxDecoded) {
         const Bvh bvh = buildBvh(TreeKind::Midpoint, buildTriangles(scene), 8);
-        return (packScene(scene, bvh, maxDecoded).texturing & layout::texturesLevels) != 0;
+        return (packScene(scene, bvh, {.maxDecoded = maxDecoded}).texturing & layout::texturesLevels) != 0;
     };
     EXPECT_FALSE(isOfLevels(5 * 3 * 16));
     EXPECT_TRUE(isOfLevels(5 * 3 * 16 - 1));
@@ -146,7 +147,7 @@ TEST(Texture, GoesRoundSpheresAsSeenFromOutside) {
 }
 
 TEST(Texture, ChangesNothingWhereItIsWhite) {
-    Scene plain =
+    TestScene plain =
         quadScene(layout::slotBaseColour, drawnTexture(5, 3, [](int, int) { return levels(255, 255, 255); }));
     plain.camera.position = {0, 0, 3};
     plain.camera.width = 24;
@@ -157,17 +158,17 @@ TEST(Texture, ChangesNothingWhereItIsWhite) {
     plain.settings.integrator = Integrator::Path;
     plain.settings.samplesPerPixel = 4;
     plain.spheres.push_back({{0, 0, 0.5}, 0.3, 0, false});
-    Scene textured = plain;
+    TestScene textured = plain;
     plain.materials[0].textures = {};
     textured.materials[0].textures[layout::slotEmission] = TextureUse{};
-    const auto imageOf = [](const Scene &scene) {
+    const auto imageOf = [](const TestScene &scene) {
         return reference::render(packed(scene), scene.settings, {0, 24, 0, 24}).film.toImage().pixels();
     };
     EXPECT_EQ(imageOf(textured), imageOf(plain)) << "in any bit";
 }
 
 /// Looks straight at the quad, which fills the picture, from one side.
-void lookAtQuad(Scene &scene, double z) {
+void lookAtQuad(TestScene &scene, double z) {
     scene.camera.kind = CameraKind::Orthographic;
     scene.camera.position = {0, 0, z};
     scene.camera.direction = {0, 0, -z};
@@ -179,7 +180,7 @@ void lookAtQuad(Scene &scene, double z) {
 TEST(Texture, TheMeanOfAChequerboardIsThatOfItsLight) {
     const Texture board = drawnTexture(
         6, 6, [](int x, int y) { return (x + y) % 2 == 0 ? levels(250, 200, 30) : levels(20, 90, 130); });
-    Scene scene = quadScene(layout::slotBaseColour, board);
+    TestScene scene = quadScene(layout::slotBaseColour, board);
     lookAtQuad(scene, 5.0);
     scene.settings.integrator = Integrator::Albedo;
     scene.settings.samplesPerPixel = 256;
@@ -199,7 +200,7 @@ Texture flatMapTowards(const dvec3 &normal) {
                         [&](int, int) { return levels(level(normal.x), level(normal.y), level(normal.z)); });
 }
 
-vec3 normalSeen(const Scene &scene, const vec3 &origin, const vec3 &direction) {
+vec3 normalSeen(const TestScene &scene, const vec3 &origin, const vec3 &direction) {
     const PackedScene packedScene = packed(scene);
     const reference::Ray<float> ray{origin, direction};
     const auto hit = reference::closestHit(packedScene, ray);
@@ -215,20 +216,20 @@ void expectNear(const vec3 &found, const dvec3 &expected, double tolerance) {
 
 TEST(NormalMap, TurnsNormalsTowardsUAndV) {
     const dvec3 tilted = glm::normalize(dvec3(0.3, 0.2, 1.0));
-    const Scene scene = quadScene(layout::slotNormal, flatMapTowards(tilted));
+    const TestScene scene = quadScene(layout::slotNormal, flatMapTowards(tilted));
     expectNear(normalSeen(scene, {0.2f, 0.1f, 5}, {0, 0, -1}), tilted, 0.006);
     // From behind it is the same normal, which those who shade turn round.
     expectNear(normalSeen(scene, {0.2f, 0.1f, -5}, {0, 0, 1}), tilted, 0.006);
     // u may grow to any side, and v against it.
-    Scene mirrored = scene;
+    TestScene mirrored = scene;
     for (vec2 &uv : mirrored.meshes[0].uvs)
         uv = {7.0f - 3.0f * uv.x, uv.y};
     expectNear(normalSeen(mirrored, {0.2f, 0.1f, 5}, {0, 0, -1}), {-tilted.x, tilted.y, tilted.z}, 0.006);
-    Scene turned = scene;
+    TestScene turned = scene;
     for (vec2 &uv : turned.meshes[0].uvs)
         uv = {uv.y, -uv.x};
     expectNear(normalSeen(turned, {0.2f, 0.1f, 5}, {0, 0, -1}), {-tilted.y, tilted.x, tilted.z}, 0.006);
-    Scene strong = scene;
+    TestScene strong = scene;
     strong.materials[0].normalStrength = 2.0f;
     expectNear(normalSeen(strong, {0.2f, 0.1f, 5}, {0, 0, -1}), glm::normalize(tilted * dvec3(2.0, 2.0, 1.0)),
                0.01);
@@ -236,7 +237,7 @@ TEST(NormalMap, TurnsNormalsTowardsUAndV) {
 
 TEST(NormalMap, TurnsNormalsOfSpheres) {
     const dvec3 tilted = glm::normalize(dvec3(0.3, 0.2, 1.0));
-    Scene scene = quadScene(layout::slotNormal, flatMapTowards(tilted));
+    TestScene scene = quadScene(layout::slotNormal, flatMapTowards(tilted));
     scene.meshes.clear();
     scene.spheres.push_back({{0, 0, 0}, 1.0, 0, false});
     expectNear(normalSeen(scene, {0, 0, 5}, {0, 0, -1}), tilted, 0.006);
@@ -245,14 +246,14 @@ TEST(NormalMap, TurnsNormalsOfSpheres) {
 }
 
 TEST(NormalMap, LeavesNormalsWhereCoordinatesAreOfNoUse) {
-    const Scene scene = quadScene(layout::slotNormal, flatMapTowards({0.6, 0.0, 0.8}));
+    const TestScene scene = quadScene(layout::slotNormal, flatMapTowards({0.6, 0.0, 0.8}));
     for (const vec2 &scale : {vec2(0.0f), vec2(1.0f, 0.0f), vec2(0.0f, 1.0f), vec2(3e38f, 0.0f)}) {
-        Scene flat = scene;
+        TestScene flat = scene;
         for (vec2 &uv : flat.meshes[0].uvs)
             uv *= scale;
         expectNear(normalSeen(flat, {0.2f, 0.1f, 5}, {0, 0, -1}), {0, 0, 1}, 1e-6);
     }
-    Scene without = scene;
+    TestScene without = scene;
     without.meshes[0].triangleUvs.assign(2, glm::uvec3(TriangleMesh::noUv));
     expectNear(normalSeen(without, {0.2f, 0.1f, 5}, {0, 0, -1}), {0, 0, 1}, 1e-6);
 }
@@ -282,7 +283,7 @@ Texture halfOpaque() {
 }
 
 TEST(CutOut, RaysGoOnWhereNothingIs) {
-    Scene scene = quadScene(layout::slotOpacity, halfOpaque());
+    TestScene scene = quadScene(layout::slotOpacity, halfOpaque());
     scene.textures[0].hasAlpha = true;
     addQuad(scene.meshes.emplace_back(), {-9, -9, -2}, {18, 0, 0}, {0, 18, 0});
     const PackedScene packedScene = packed(scene);
@@ -303,7 +304,7 @@ TEST(CutOut, RaysGoOnWhereNothingIs) {
 
 TEST(CutOut, WhatIsCutAwayNeitherShinesNorShades) {
     // A floor under a lamp of which a half is cut away, as it is under half of the lamp.
-    Scene half = quadScene(layout::slotOpacity, halfOpaque());
+    TestScene half = quadScene(layout::slotOpacity, halfOpaque());
     half.textures[0].hasAlpha = true;
     half.materials[0].twoSided = true;
     half.materials[0].emission = vec3(3.0f);
@@ -320,7 +321,7 @@ TEST(CutOut, WhatIsCutAwayNeitherShinesNorShades) {
     half.camera.direction = {0, 0, -1};
     half.camera.viewWidth = 0.02;
     half.camera.width = half.camera.height = 8;
-    Scene smaller = half;
+    TestScene smaller = half;
     smaller.materials[0].textures = {};
     smaller.meshes[0] = texturedQuad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0});
     const Estimate cut = estimate(half);
@@ -335,9 +336,10 @@ TEST(EmissionTexture, LightsAsItsBrightPartsDo) {
     // Squares that shine, on a board as large as the squares that do not, and the same as meshes of their own.
     const auto isBright = [](int x, int y) { return (x + 2 * y) % 3 == 0; };
     constexpr int side = 96; // pixels: the blurred edges are thin
-    Scene board = quadScene(layout::slotEmission, drawnTexture(side, side, [&](int x, int y) {
-                                return isBright(x * 4 / side, 3 - y * 4 / side) ? levels(255, 255, 255) : 0u;
-                            }));
+    TestScene board =
+        quadScene(layout::slotEmission, drawnTexture(side, side, [&](int x, int y) {
+                      return isBright(x * 4 / side, 3 - y * 4 / side) ? levels(255, 255, 255) : 0u;
+                  }));
     board.materials[0].albedo = vec3(0.0f);
     board.materials[0].emission = vec3(4.0f);
     board.materials.push_back({});
@@ -352,7 +354,7 @@ TEST(EmissionTexture, LightsAsItsBrightPartsDo) {
     board.camera.direction = {0, 0, 1};
     board.camera.viewWidth = 0.02;
     board.camera.width = board.camera.height = 8;
-    Scene squares = board;
+    TestScene squares = board;
     squares.meshes.clear();
     squares.materials[0].textures = {};
     TriangleMesh &shining = squares.meshes.emplace_back();
@@ -373,7 +375,7 @@ TEST(EmissionTexture, LightsAsItsBrightPartsDo) {
 }
 
 TEST(EmissionTexture, IsAimedAtByItsMean) {
-    Scene scene =
+    TestScene scene =
         quadScene(layout::slotEmission,
                   drawnTexture(2, 1, [](int x, int) { return x == 0 ? levels(255, 255, 255) : 0u; }));
     scene.materials[0].emission = vec3(6.0f);
@@ -391,7 +393,7 @@ TEST(EmissionTexture, IsAimedAtByItsMean) {
 // ---- What is refused
 
 TEST(Texture, IsRefusedWhereItCannotBeWorn) {
-    const auto refusalOf = [](const Scene &scene) -> std::string {
+    const auto refusalOf = [](const TestScene &scene) -> std::string {
         try {
             validateScene(scene, "test");
         } catch (const Error &error) {
@@ -399,9 +401,9 @@ TEST(Texture, IsRefusedWhereItCannotBeWorn) {
         }
         return {};
     };
-    const Scene fine = quadScene(layout::slotBaseColour, numbered());
+    const TestScene fine = quadScene(layout::slotBaseColour, numbered());
     EXPECT_EQ(refusalOf(fine), "");
-    Scene scene = fine;
+    TestScene scene = fine;
     scene.meshes[0].triangleUvs.clear();
     EXPECT_NE(refusalOf(scene).find("no texture coordinates"), std::string::npos) << refusalOf(scene);
     scene = fine;
@@ -427,10 +429,10 @@ TEST(Texture, IsRefusedWhereItCannotBeWorn) {
 }
 
 TEST(Texture, IsPartOfTheScenesHashAndOfNothingElse) {
-    const Scene fine = quadScene(layout::slotBaseColour, numbered());
+    const TestScene fine = quadScene(layout::slotBaseColour, numbered());
     const PackedScene with = packed(fine);
-    EXPECT_EQ(with.texturing, layout::texturesBaseColour);
-    Scene other = fine;
+    EXPECT_EQ(with.texturing, layout::texturesBaseColour | layout::texturesCoordinates);
+    TestScene other = fine;
     other.textures[0].levels[3] ^= 1u;
     EXPECT_NE(packed(other).contentHash(), with.contentHash());
     other = fine;
@@ -440,10 +442,13 @@ TEST(Texture, IsPartOfTheScenesHashAndOfNothingElse) {
     Scene without = fine;
     without.materials[0].textures = {};
     const PackedScene plain = packed(without);
-    EXPECT_EQ(plain.texturing, 0u);
-    EXPECT_TRUE(plain.textures.empty());
-    without.settings.integrator = Integrator::Uv;
-    EXPECT_EQ(packed(without).contentHash(), plain.contentHash()) << "whatever is shown of it";
+    EXPECT_EQ(plain.texturing, layout::texturesCoordinates);
+    without.meshes[0].uvs[0].x = 0.5f;
+    EXPECT_NE(packed(without).contentHash(), plain.contentHash()) << "the integrator uv shows them";
+    without.meshes[0].triangleUvs.clear();
+    without.meshes[0].uvs.clear();
+    EXPECT_EQ(packed(without).texturing, 0u);
+    EXPECT_TRUE(packed(without).textures.empty());
 }
 
 } // namespace

@@ -55,10 +55,10 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     LoadedScene loaded;
     loaded.file = file;
     Scene &scene = loaded.scene;
-    scene.settings.integrator = Integrator::Path;
-    scene.settings.tree = TreeKind::Sah; // triangles of models differ in size, which midpoints do not see
+    loaded.settings.integrator = Integrator::Path;
+    loaded.settings.tree = TreeKind::Sah; // triangles of models differ in size, which midpoints do not see
     if (options.events.onOutline)
-        options.events.onOutline({true, scene.settings});
+        options.events.onOutline({true, loaded.settings});
     TextureLibrary textures;
     gltf::Contents contents = gltf::readContents(file, FileReach(file, options.allowedPaths), textures,
                                                  {.scene = options.gltfScene,
