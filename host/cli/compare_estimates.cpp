@@ -33,11 +33,10 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     if (!options.report.empty())
         reportFile.emplace(options.report);
     TerminalObserver observer(options.isQuiet);
-    PreparedScene scene = prepareScene(options.scene, Source::Dropped, observer);
+    const PreparedScene scene = prepareScene(options.scene, Source::Dropped, observer);
     requireDistinctFiles({{"--report", options.report}}, scene.loaded.inputFiles);
     requireFilmMemory(scene.crop, 4); // two films, and two estimates of about the same size
-    RenderSettings &settings = scene.loaded.settings;
-    const std::uint32_t firstSeed = settings.seed;
+    const std::uint32_t firstSeed = scene.loaded.settings.seed;
     const std::uint32_t secondSeed = secondSeedOf(options, firstSeed);
     const ComparisonRun run = openComparison(options.comparison, scene, observer);
     if (!options.isQuiet) {
@@ -45,14 +44,16 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
         printResult("seeds        {} and {}\n", firstSeed, secondSeed);
     }
     const auto estimate = [&](Backend &backend, std::uint32_t seed) {
+        RenderSettings settings = scene.loaded.settings;
         settings.seed = seed;
-        return estimateOf(unlessFailed(render(backend, scene, backend.name(), observer)).film);
+        return estimateOf(unlessFailed(render(backend, scene.packed, settings, scene.crop, observer,
+                                              {.name = backend.name()}))
+                              .film);
     };
     const Estimate a = estimate(*run.first, firstSeed);
     const Estimate b = estimate(*run.second, secondSeed);
     const WelchResult result = testAndPrint(a, b, options.welch, scene.loaded.file.string());
     if (reportFile) {
-        settings.seed = firstSeed;
         nlohmann::ordered_json json = comparisonRunToJson(run, scene, commandLine);
         json["seeds"] = {firstSeed, secondSeed};
         json["statistical"] = welchToJson(result, options.welch);

@@ -106,7 +106,8 @@ class CompareFiles {
 Compared compareRenders(const CompareOptions &options, const Tolerance &tolerance, const ComparisonRun &run,
                         const PreparedScene &scene, Observer &observer) {
     const auto renderAll = [&](Backend &backend) {
-        return unlessFailed(render(backend, scene, backend.name(), observer));
+        return unlessFailed(render(backend, scene.packed, scene.loaded.settings, scene.crop, observer,
+                                   {.name = backend.name()}));
     };
     const BackendResult a = renderAll(*run.first);
     const BackendResult b = renderAll(*run.second);

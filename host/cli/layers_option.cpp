@@ -7,20 +7,21 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <string_view>
 
 namespace hyalite {
 
 void addLayersOption(CLI::App &command, std::vector<Integrator> &views) {
-    std::array<std::string_view, layerViews.size()> words;
-    std::transform(layerViews.begin(), layerViews.end(), words.begin(),
-                   [](Integrator view) { return nameOf(view); });
+    std::vector<std::string_view> words;
+    for (const IntegratorRow &row : integratorTable)
+        if (!row.layerChannels.empty())
+            words.push_back(row.name);
     const auto read = [&views, words](const CLI::results_t &typed) {
         for (const std::string &word : typed) {
-            const auto found = std::find(words.begin(), words.end(), word);
-            if (found == words.end())
+            if (std::ranges::find(words, word) == words.end())
                 refuseValue("--layers", word, quotedList(words) + suggestion(word, words));
-            const Integrator view = layerViews[static_cast<std::size_t>(found - words.begin())];
+            const Integrator view =
+                std::ranges::find(integratorTable, word, &IntegratorRow::name)->integrator;
             if (std::find(views.begin(), views.end(), view) == views.end())
                 views.push_back(view);
         }

@@ -119,8 +119,10 @@ bool passesAudit(const Merger &merger, const MergeOptions &options, Observer &ob
             fmt::format("--audit: {} does not promise the bits of other devices ({}), so that it cannot "
                         "judge them; --device cpu can",
                         backend->description(), bits.reason));
-    PreparedScene scene = prepareScene(request.scene, Source::Dropped, observer);
-    scene.loaded.settings.samplesPerPixel = static_cast<int>(merger.samplesPerPixel());
+    request.scene.settings.push_back({[&](RenderSettings &settings) {
+        settings.samplesPerPixel = static_cast<int>(merger.samplesPerPixel());
+    }});
+    const PreparedScene scene = prepareScene(request.scene, Source::Dropped, observer);
     requireFilmMemory(scene.crop, 3);
     const std::string here = identityText(identityOf(scene, *backend, &merger.origin().layers));
     if (here != merger.identity() || scene.crop != merger.film().crop)

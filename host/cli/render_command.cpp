@@ -93,7 +93,7 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
                     fmt::format("--tone is for .png files: --output is {}, which holds radiance as it is; "
                                 "`hyalite tonemap` makes a PNG of it",
                                 request.output));
-    if (!request.layers.empty() && format != ImageFormat::Exr)
+    if (!request.scene.views.empty() && format != ImageFormat::Exr)
         throw Error(ErrorKind::Usage,
                     fmt::format("--layers are for .exr files: --output is {}", request.output));
 }

@@ -97,7 +97,7 @@ void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet) 
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->capture_default_str();
     addToneOption(command, request.tone);
-    addLayersOption(command, request.layers);
+    addLayersOption(command, request.scene.views);
     addThreadsOption(command, request.threadCount);
     addDeviceOptions(command, request.deviceOptions);
     addOutput(command, "--report", request.report, "FILE.json",

@@ -37,16 +37,18 @@ void requireFilmMemory(const Crop &crop, unsigned filmCount) {
         refuseFilm(crop, neededBytes, sizeText(*available) + " are available");
 }
 
-BackendResult render(Backend &backend, const PreparedScene &scene, const std::string &task,
-                     Observer &observer, const TimeLimit &limit, Timeline *timeline,
-                     Continuation continuation) {
-    ObservedTask progress(observer, task, backend.hasCompiler());
-    const double others = continuation.shareOfOthers;
+BackendResult render(Backend &backend, const PackedScene &scene, const RenderSettings &settings, Film begun,
+                     Observer &observer, const RenderTask &task) {
+    ObservedTask progress(observer, task.name, backend.hasCompiler());
+    const Crop crop = begun.crop;
+    const double others = task.shareOfOthers;
+    RenderHooks hooks;
+    hooks.onProgress = [&](double share) { progress.update(std::max(share - others, 0.0) / (1.0 - others)); };
+    hooks.shouldStop = [&] { return observer.wantsStop().has_value() || task.limit.isReached(); };
+    hooks.timeline = task.timeline;
+    hooks.snapshots = task.snapshots;
     try {
-        BackendResult result = backend.render(
-            scene, [&](double share) { progress.update(std::max(share - others, 0.0) / (1.0 - others)); },
-            timeline, [&] { return observer.wantsStop().has_value() || limit.isReached(); },
-            std::move(continuation));
+        BackendResult result = backend.render(scene, settings, std::move(begun), hooks);
         const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);
         for (std::size_t i = 0; i < survived; ++i)
             observer.note(result.faults[i] + "; reopened the device to do half as much at a time");
@@ -55,7 +57,7 @@ BackendResult render(Backend &backend, const PreparedScene &scene, const std::st
                 observer.note(fmt::format("left out {}: {}", share.name, share.failure));
         return result;
     } catch (const std::bad_alloc &) {
-        refuseFilm(scene.crop, filmBytes(scene.crop), "this machine cannot allocate that much");
+        refuseFilm(crop, filmBytes(crop), "this machine cannot allocate that much");
     }
 }
 

@@ -4,16 +4,14 @@
 #include "host/engine/observer.h"
 #include "host/engine/prepare.h"
 #include "host/engine/time_limit.h"
-#include "host/film/continuation.h"
 #include "host/film/ray_counts.h"
+#include "host/film/render_hooks.h"
 #include "host/film/render_timing.h"
-#include "host/film/timeline.h"
 #include "host/film/work_counts.h"
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/memory_plan.h"
 #include "host/report/provenance.h"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,25 +47,32 @@ class Backend {
     [[nodiscard]] virtual std::string precision() const { return "float32"; }
     /// Whether a driver may compile for long before the first ray.
     [[nodiscard]] virtual bool hasCompiler() const { return true; }
-    /// Renders the crop of the continuation's film, or else that of the scene. What a backend needs of a scene it may
+    /// Adds the missing samples to `begun`, whose crop is that of the scene's image. What a backend needs of a scene it may
     /// keep for the next render of the same one.
-    ///
-    /// `timeline`, if not null, records what happened when. `shouldStop` may be called by several threads at once; if
-    /// it returns true, the film has the samples finished so far.
-    [[nodiscard]] virtual BackendResult render(const PreparedScene &scene,
-                                               const std::function<void(double)> &onProgress,
-                                               Timeline *timeline, const std::function<bool()> &shouldStop,
-                                               Continuation continuation) = 0;
+    [[nodiscard]] virtual BackendResult render(const PackedScene &scene, const RenderSettings &settings,
+                                               Film begun, const RenderHooks &hooks = {}) = 0;
     /// Traces one sample of one pixel of the whole image.
-    [[nodiscard]] virtual std::vector<layout::TraceEvent>
-    trace(const PreparedScene &scene, const glm::uvec2 &pixel, std::uint32_t sampleIndex) = 0;
+    [[nodiscard]] virtual std::vector<layout::TraceEvent> trace(const PackedScene &scene,
+                                                                const RenderSettings &settings,
+                                                                const glm::uvec2 &pixel,
+                                                                std::uint32_t sampleIndex) = 0;
 };
 
-/// Renders as the observer's task `task`, until the observer wants it to stop or the limit is reached. Throws
-/// Error{LimitExceeded} with the size of the film if memory is too small for it. Device faults are noted.
-[[nodiscard]] BackendResult render(Backend &backend, const PreparedScene &scene, const std::string &task,
-                                   Observer &observer, const TimeLimit &limit = TimeLimit(),
-                                   Timeline *timeline = nullptr, Continuation continuation = {});
+/// How an observer sees a render, and what it may take.
+struct RenderTask {
+    std::string name; ///< of the observer's task
+    TimeLimit limit{};
+    Timeline *timeline = nullptr;       ///< records what happened when
+    SnapshotTaker *snapshots = nullptr; ///< takes copies of the film
+    /// Of the film's pixels, in [0, 1): they have all samples already, as others render them.
+    double shareOfOthers = 0.0;
+};
+
+/// Adds the missing samples to `begun`, until the observer wants a stop or the limit is reached. `begun` is of a crop of
+/// the scene's image; without samples, it is rendered from the beginning. Throws Error{LimitExceeded} with the size of the
+/// film if memory is too small for it. Device faults are noted.
+[[nodiscard]] BackendResult render(Backend &backend, const PackedScene &scene, const RenderSettings &settings,
+                                   Film begun, Observer &observer, const RenderTask &task);
 
 /// The result, whose film is of no use in part: throws its failure, if there is one.
 [[nodiscard]] BackendResult unlessFailed(BackendResult result);

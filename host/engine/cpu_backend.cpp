@@ -34,42 +34,41 @@ class CpuBackend : public Backend {
                    ? "cpu, the reference renderer"
                    : "cpu-double, the reference renderer in double precision";
     }
-    [[nodiscard]] BackendResult render(const PreparedScene &scene,
-                                       const std::function<void(double)> &onProgress, Timeline *timeline,
-                                       const std::function<bool()> &shouldStop,
-                                       Continuation continuation) override {
-        const RenderSettings &settings = scene.loaded.settings;
+    [[nodiscard]] BackendResult render(const PackedScene &scene, const RenderSettings &settings, Film begun,
+                                       const RenderHooks &hooks) override {
         Stopwatch watch;
-        reference::Result result = reference::render(
-            scene.packed, settings, scene.crop, {precision_, threadCount_, onProgress, false, shouldStop},
-            std::move(continuation));
+        reference::Result result =
+            reference::render(scene, settings, std::move(begun), {precision_, threadCount_}, hooks);
         const Span span = watch.lap();
-        if (timeline != nullptr) {
-            timeline->clock = "the host's clock, from call to return";
-            timeline->stages.push_back({"dispatches", span});
-            timeline->dispatches.push_back(describeCall(scene, result.rays, span));
+        if (hooks.timeline != nullptr) {
+            hooks.timeline->clock = "the host's clock, from call to return";
+            hooks.timeline->stages.push_back({"dispatches", span});
+            hooks.timeline->dispatches.push_back(describeCall(settings, result, span));
         }
         RenderTiming timing;
         timing.renderSeconds = span.seconds();
         return {std::move(result.film), result.rays, timing, result.work, {}};
     }
-    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,
+                                                        const RenderSettings &settings,
+                                                        const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
-        return reference::trace(scene.packed, scene.loaded.settings, pixel, sampleIndex, precision_);
+        return reference::trace(scene, settings, pixel, sampleIndex, precision_);
     }
 
   private:
     /// The whole render as one dispatch of one tile.
-    [[nodiscard]] DispatchRecord describeCall(const PreparedScene &scene, const RayCounts &rays,
+    [[nodiscard]] DispatchRecord describeCall(const RenderSettings &settings, const reference::Result &result,
                                               const Span &span) const {
+        const Crop &crop = result.film.crop;
         DispatchRecord record;
         record.kernel = name();
-        record.tileX = scene.crop.x0;
-        record.tileY = scene.crop.y0;
-        record.tileWidth = scene.crop.width();
-        record.tileHeight = scene.crop.height();
-        record.sampleEnd = static_cast<std::uint32_t>(scene.loaded.settings.samplesPerPixel);
-        record.rays = rays;
+        record.tileX = crop.x0;
+        record.tileY = crop.y0;
+        record.tileWidth = crop.width();
+        record.tileHeight = crop.height();
+        record.sampleEnd = static_cast<std::uint32_t>(settings.samplesPerPixel);
+        record.rays = result.rays;
         record.invocations =
             static_cast<std::uint64_t>(record.tileWidth) * static_cast<std::uint64_t>(record.tileHeight);
         record.times.host = span;

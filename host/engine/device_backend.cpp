@@ -50,18 +50,17 @@ class DeviceBackend : public Backend {
         return fmt::format("{}, {}{}{}{}", device_.index, device_.name, driver.empty() ? "" : ", ", driver,
                            device_.isSoftware() ? ": software, computes on the CPU" : "");
     }
-    [[nodiscard]] BackendResult render(const PreparedScene &scene,
-                                       const std::function<void(double)> &onProgress, Timeline *timeline,
-                                       const std::function<bool()> &shouldStop,
-                                       Continuation continuation) override {
-        gpu::Result result = renderer_.render(scene.packed, scene.loaded.settings, scene.crop, onProgress,
-                                              timeline, shouldStop, std::move(continuation));
+    [[nodiscard]] BackendResult render(const PackedScene &scene, const RenderSettings &settings, Film begun,
+                                       const RenderHooks &hooks) override {
+        gpu::Result result = renderer_.render(scene, settings, std::move(begun), hooks);
         return {std::move(result.film), result.rays,   result.timing, result.work,
                 result.lanes,           result.memory, result.faults, result.failure};
     }
-    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,
+                                                        const RenderSettings &settings,
+                                                        const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
-        return renderer_.trace(scene.packed, scene.loaded.settings, pixel, sampleIndex);
+        return renderer_.trace(scene, settings, pixel, sampleIndex);
     }
 
   private:

@@ -70,11 +70,14 @@ void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
         change.apply(settings);
 }
 
-/// Throws for an option that the integrator does not look at.
-void requireEffect(const SettingChanges &changes, Integrator integrator) {
-    for (const SettingChange &change : changes) {
-        if (change.option == nullptr || change.option->integrators.empty() ||
-            std::ranges::find(change.option->integrators, integrator) != change.option->integrators.end())
+/// Throws for an option that neither the integrator nor a view looks at.
+void requireEffect(const SceneOptions &options, Integrator integrator) {
+    for (const SettingChange &change : options.settings) {
+        const auto isUsedBy = [&](Integrator one) {
+            return std::ranges::find(change.option->integrators, one) != change.option->integrators.end();
+        };
+        if (change.option == nullptr || change.option->integrators.empty() || isUsedBy(integrator) ||
+            std::ranges::any_of(options.views, isUsedBy))
             continue;
         std::string users;
         for (const Integrator user : change.option->integrators)
@@ -149,7 +152,7 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
         scene.lights.clear();
         loaded.isAutoLit = false;
     }
-    requireEffect(options.settings, settings.integrator);
+    requireEffect(options, settings.integrator);
     if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
         throw OverrideError("filter", fmt::format("found {} with all samples at the pixel's centre; allowed: "
                                                   "with the sampler sobol, or the filter box",

@@ -61,17 +61,17 @@ class SharedBackend : public Backend {
         return std::ranges::any_of(members_, [](const Member &one) { return one.backend->hasCompiler(); });
     }
 
-    [[nodiscard]] BackendResult render(const PreparedScene &scene,
-                                       const std::function<void(double)> &onProgress, Timeline *timeline,
-                                       const std::function<bool()> &shouldStop,
-                                       Continuation continuation) override {
-        if (timeline != nullptr)
+    [[nodiscard]] BackendResult render(const PackedScene &scene, const RenderSettings &settings, Film begun,
+                                       const RenderHooks &hooks) override {
+        if (hooks.timeline != nullptr)
             throw Error(ErrorKind::Usage, "dispatches are measured on one device at a time");
-        return renderShared(members_, scene, onProgress, shouldStop, std::move(continuation));
+        return renderShared(members_, scene, settings, std::move(begun), hooks);
     }
-    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,
+                                                        const RenderSettings &settings,
+                                                        const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
-        return members_.front().backend->trace(scene, pixel, sampleIndex);
+        return members_.front().backend->trace(scene, settings, pixel, sampleIndex);
     }
 
   private:

@@ -54,14 +54,11 @@ template <class Work> std::optional<Error> failureOf(const Work &work) {
 /// One picture.
 class SharedRender {
   public:
-    SharedRender(std::vector<Member> &members, const PreparedScene &scene,
-                 const std::function<void(double)> &onProgress, const std::function<bool()> &shouldStop,
-                 Continuation continuation)
-        : members_(members), scene_(scene), onProgress_(onProgress), shouldStop_(shouldStop),
-          snapshots_(continuation.snapshots),
-          samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.settings.samplesPerPixel)),
-          spotCheck_(scene, continuation.film ? continuation.film->crop : scene.crop, shouldStop),
-          film_(continuation.film ? std::move(*continuation.film) : Film(scene.crop)),
+    SharedRender(std::vector<Member> &members, const PackedScene &scene, const RenderSettings &settings,
+                 Film begun, const RenderHooks &hooks)
+        : members_(members), scene_(scene), settings_(settings), hooks_(hooks),
+          samplesPerPixel_(static_cast<std::uint32_t>(settings.samplesPerPixel)),
+          spotCheck_(scene, settings, begun.crop, hooks.shouldStop), film_(std::move(begun)),
           queue_(film_, samplesPerPixel_), finishedSamples_(static_cast<double>(samplesIn(film_))) {
         for (Member &member : members)
             if (!member.isLeftOut()) {
@@ -141,17 +138,16 @@ class SharedRender {
     }
 
     void renderTile(Worker &worker, const Crop &tile) {
-        Continuation continuation;
-        continuation.film.emplace(tile);
+        Film begun(tile);
         std::uint64_t samplesBefore = 0;
         {
             const std::scoped_lock lock(mutex_);
-            continuation.film->pixels = pixelsIn(film_, std::span(&tile, 1));
-            samplesBefore = samplesIn(*continuation.film);
+            begun.pixels = pixelsIn(film_, std::span(&tile, 1));
+            samplesBefore = samplesIn(begun);
             worker.currentSamples = static_cast<double>(samplesBefore);
             finishedSamples_ -= worker.currentSamples;
         }
-        const double samplesInAll = static_cast<double>(continuation.film->pixels.size()) * samplesPerPixel_;
+        const double samplesInAll = static_cast<double>(begun.pixels.size()) * samplesPerPixel_;
         const auto onProgress = [&](double share) {
             const std::scoped_lock lock(mutex_);
             worker.currentSamples = share * samplesInAll;
@@ -160,8 +156,9 @@ class SharedRender {
         Stopwatch watch;
         const std::optional<Error> failure = failureOf([&] {
             checkBits(worker, watch);
-            BackendResult result = worker.member->backend->render(scene_, onProgress, nullptr, shouldStop_,
-                                                                  std::move(continuation));
+            BackendResult result =
+                worker.member->backend->render(scene_, settings_, std::move(begun),
+                                               {.onProgress = onProgress, .shouldStop = hooks_.shouldStop});
             const double seconds = watch.lap().seconds();
             const std::scoped_lock lock(mutex_);
             takeIn(worker, tile, samplesBefore, seconds, std::move(result));
@@ -177,7 +174,7 @@ class SharedRender {
     /// Throws if they are not the CPU's. A picture by one renderer has no seams, whatever its bits.
     void checkBits(Worker &worker, Stopwatch &watch) {
         Member &member = *worker.member;
-        const Integrator integrator = scene_.loaded.settings.integrator;
+        const Integrator integrator = settings_.integrator;
         if (workers_.size() == 1 || std::ranges::find(member.checked, integrator) != member.checked.end())
             return;
         if (spotCheck_.run(*member.backend, worker.total.faults))
@@ -225,8 +222,8 @@ class SharedRender {
         --busyCount_;
         changed_.notify_all();
         tellProgress();
-        if (snapshots_ != nullptr && snapshots_->isWanted())
-            snapshots_->take(
+        if (hooks_.snapshots != nullptr && hooks_.snapshots->isWanted())
+            hooks_.snapshots->take(
                 [this](std::span<layout::FilmPixel> copy) { std::ranges::copy(film_.pixels, copy.begin()); },
                 rays_);
     }
@@ -241,22 +238,21 @@ class SharedRender {
     }
 
     void tellProgress() {
-        if (!onProgress_)
+        if (!hooks_.onProgress)
             return;
         double samples = finishedSamples_;
         for (const Worker &worker : workers_)
             samples += worker.currentSamples;
-        onProgress_(samples / (static_cast<double>(film_.pixels.size()) * samplesPerPixel_));
+        hooks_.onProgress(samples / (static_cast<double>(film_.pixels.size()) * samplesPerPixel_));
     }
 
     /// Not before there is something to be kept: until then a signal ends the program, which may wait for a compiler.
-    [[nodiscard]] bool isToStop() const { return isBegun_ && shouldStop_ && shouldStop_(); }
+    [[nodiscard]] bool isToStop() const { return isBegun_ && hooks_.shouldStop && hooks_.shouldStop(); }
 
     const std::vector<Member> &members_;
-    const PreparedScene &scene_;
-    const std::function<void(double)> &onProgress_;
-    const std::function<bool()> &shouldStop_;
-    SnapshotTaker *snapshots_;
+    const PackedScene &scene_;
+    const RenderSettings &settings_;
+    const RenderHooks &hooks_;
     const std::uint32_t samplesPerPixel_;
     std::vector<Worker> workers_;
     SpotCheck spotCheck_;
@@ -273,10 +269,9 @@ class SharedRender {
 
 } // namespace
 
-BackendResult renderShared(std::vector<Member> &members, const PreparedScene &scene,
-                           const std::function<void(double)> &onProgress,
-                           const std::function<bool()> &shouldStop, Continuation continuation) {
-    return SharedRender(members, scene, onProgress, shouldStop, std::move(continuation)).render();
+BackendResult renderShared(std::vector<Member> &members, const PackedScene &scene,
+                           const RenderSettings &settings, Film begun, const RenderHooks &hooks) {
+    return SharedRender(members, scene, settings, std::move(begun), hooks).render();
 }
 
 } // namespace hyalite

@@ -20,8 +20,8 @@ struct Member {
 
 /// Renders by all members that are not left out, as Backend::render() does. Those that fail are left out from then on. So
 /// are those whose bits are not the CPU's, in a spot check before a member's first tile by each integrator.
-[[nodiscard]] BackendResult renderShared(std::vector<Member> &members, const PreparedScene &scene,
-                                         const std::function<void(double)> &onProgress,
-                                         const std::function<bool()> &shouldStop, Continuation continuation);
+[[nodiscard]] BackendResult renderShared(std::vector<Member> &members, const PackedScene &scene,
+                                         const RenderSettings &settings, Film begun,
+                                         const RenderHooks &hooks);
 
 } // namespace hyalite

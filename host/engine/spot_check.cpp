@@ -71,9 +71,10 @@ std::vector<Crop> spotsIn(const Crop &crop) {
     return spots;
 }
 
-SpotCheck::SpotCheck(const PreparedScene &scene, const Crop &crop, const std::function<bool()> &shouldStop)
-    : scene_(scene), shouldStop_(shouldStop),
-      samplesPerPixel_(static_cast<std::uint32_t>(scene.loaded.settings.samplesPerPixel)),
+SpotCheck::SpotCheck(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
+                     const std::function<bool()> &shouldStop)
+    : scene_(scene), settings_(settings), shouldStop_(shouldStop),
+      samplesPerPixel_(static_cast<std::uint32_t>(settings.samplesPerPixel)),
       checkedSamples_(std::min(samplesPerPixel_, maxSamples)), spots_(spotsIn(crop)),
       cpu_(makeCpuBackend(reference::Precision::Float32, 1)) {}
 
@@ -97,12 +98,11 @@ bool SpotCheck::run(Backend &backend, std::vector<std::string> &faults) {
 }
 
 BackendResult SpotCheck::render(Backend &backend, const Crop &spot) const {
-    Continuation continuation;
-    // All but the last samples count as finished. The scene's sample count stays, and with it the picture's kernel.
-    continuation.film.emplace(spot);
-    for (layout::FilmPixel &pixel : continuation.film->pixels)
+    // All but the last samples count as finished. The sample count stays, and with it the picture's kernel.
+    Film begun(spot);
+    for (layout::FilmPixel &pixel : begun.pixels)
         pixel.sampleCount = samplesPerPixel_ - checkedSamples_;
-    return backend.render(scene_, {}, nullptr, shouldStop_, std::move(continuation));
+    return backend.render(scene_, settings_, std::move(begun), {.shouldStop = shouldStop_});
 }
 
 Film SpotCheck::rightFilm(std::size_t spot) {

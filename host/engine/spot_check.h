@@ -21,8 +21,9 @@ class SpotCheck {
   public:
     static constexpr std::uint32_t maxSamples = 2; ///< of each pixel, the last ones
 
-    /// `scene` and `shouldStop` must outlive it.
-    SpotCheck(const PreparedScene &scene, const Crop &crop, const std::function<bool()> &shouldStop);
+    /// All but `crop` must outlive it.
+    SpotCheck(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
+              const std::function<bool()> &shouldStop);
 
     /// Compares all bits of the backend's films with the CPU's. Each thread may check a backend of its own. Throws
     /// Error{DeviceLost}, with backend, pixel and both values, at the first difference, and the failure of a backend that
@@ -36,7 +37,8 @@ class SpotCheck {
     [[nodiscard]] Film rightFilm(std::size_t spot);
     [[nodiscard]] bool isWhole(const Film &film) const;
 
-    const PreparedScene &scene_;
+    const PackedScene &scene_;
+    const RenderSettings &settings_;
     const std::function<bool()> &shouldStop_;
     const std::uint32_t samplesPerPixel_;
     const std::uint32_t checkedSamples_;

@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/engine/identity.h"
 #include "host/farm/part_origin.h"
+#include "host/scene/settings_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -116,23 +117,18 @@ class RankBackend : public Backend {
     [[nodiscard]] std::string precision() const override { return hello().at("precision"); }
     [[nodiscard]] bool hasCompiler() const override { return hello().at("hasCompiler"); }
 
-    [[nodiscard]] BackendResult render(const PreparedScene &scene, const std::function<void(double)> &,
-                                       Timeline *, const std::function<bool()> &shouldStop,
-                                       Continuation continuation) override {
-        Film film = continuation.film ? std::move(*continuation.film) : Film(scene.crop);
-        const RenderSettings &settings = scene.loaded.settings;
+    [[nodiscard]] BackendResult render(const PackedScene &, const RenderSettings &settings, Film film,
+                                       const RenderHooks &hooks) override {
         const Crop &crop = film.crop;
         send(ranks_, rank_,
              {{"kind", "tile"},
-              {"integrator", static_cast<int>(settings.integrator)},
-              {"samples", settings.samplesPerPixel},
-              {"sampler", static_cast<int>(settings.sampler)},
+              {"settings", settingsToJson(settings)},
               {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}}},
              film.pixels);
         std::optional<Clock::time_point> stopped;
         std::optional<Message> answer;
         while (!(answer = poll(ranks_, rank_))) {
-            if (!stopped && shouldStop && shouldStop()) {
+            if (!stopped && hooks.shouldStop && hooks.shouldStop()) {
                 send(ranks_, rank_, {{"kind", "stop"}});
                 stopped = Clock::now();
             }
@@ -155,8 +151,8 @@ class RankBackend : public Backend {
             result.failure.emplace(static_cast<ErrorKind>(header.at("failureKind").get<int>()), why);
         return result;
     }
-    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &, const glm::uvec2 &,
-                                                        std::uint32_t) override {
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &, const RenderSettings &,
+                                                        const glm::uvec2 &, std::uint32_t) override {
         throw Error(ErrorKind::Usage, "paths are traced in one process");
     }
 
@@ -193,21 +189,17 @@ class StopQuestion {
 };
 
 /// Renders the tile of a message, and answers.
-void renderTile(Ranks &ranks, PreparedScene &scene, Backend &backend, const json &job,
+void renderTile(Ranks &ranks, const PackedScene &scene, Backend &backend, const json &job,
                 std::vector<layout::FilmPixel> pixels) {
-    RenderSettings &settings = scene.loaded.settings;
-    settings.integrator = static_cast<Integrator>(job.at("integrator").get<int>());
-    settings.samplesPerPixel = job.at("samples");
-    settings.sampler = static_cast<SamplerKind>(job.at("sampler").get<int>());
     const json &crop = job.at("crop");
-    Continuation continuation;
-    continuation.film.emplace(Crop{});
-    continuation.film->crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
-    continuation.film->pixels = std::move(pixels);
+    Film film{Crop{}};
+    film.crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
+    film.pixels = std::move(pixels);
     StopQuestion shouldStop(ranks);
     try {
-        const BackendResult result = backend.render(
-            scene, {}, nullptr, [&] { return shouldStop(); }, std::move(continuation));
+        const BackendResult result =
+            backend.render(scene, settingsFromJson(job.at("settings")), std::move(film),
+                           {.shouldStop = [&] { return shouldStop(); }});
         send(ranks, 0,
              {{"error", ""},
               {"rays", toJson(result.rays)},
@@ -252,7 +244,7 @@ std::vector<std::unique_ptr<Backend>> RankPool::backends(const PreparedScene &sc
     return backends;
 }
 
-void serveTiles(Ranks &ranks, PreparedScene &scene, Backend &backend) {
+void serveTiles(Ranks &ranks, const PreparedScene &scene, Backend &backend) {
     const gpu::BitGuarantee bits = backend.bits();
     send(ranks, 0,
          {{"name", backend.name()},
@@ -271,7 +263,7 @@ void serveTiles(Ranks &ranks, PreparedScene &scene, Backend &backend) {
         if (kind == "end")
             return;
         if (kind == "tile") // a "stop" that comes after its tile means nothing
-            renderTile(ranks, scene, backend, header, std::move(message.pixels));
+            renderTile(ranks, scene.packed, backend, header, std::move(message.pixels));
     }
 }
 

@@ -20,9 +20,8 @@ class RankPool {
     RankPool &operator=(const RankPool &) = delete;
 
     /// Waits until each rank has said what it has, and makes a backend of it. One that could not load the scene or open a
-    /// renderer, or that adds other samples to a film than `backend` does, is left out, with a note. They render what
-    /// the scene's settings say of integrator, samples and sampler; all else is as the ranks have loaded it. The
-    /// backends must not outlive this.
+    /// renderer, or that adds other samples to a film than `backend` does, is left out, with a note. They render the
+    /// scene that the ranks have loaded, whichever they are given. The backends must not outlive this.
     [[nodiscard]] std::vector<std::unique_ptr<Backend>>
     backends(const PreparedScene &scene, const Backend &backend, std::vector<std::string> &notes);
 
@@ -31,7 +30,7 @@ class RankPool {
 };
 
 /// For the other ranks: renders tiles for rank 0, until it lets them go.
-void serveTiles(Ranks &ranks, PreparedScene &scene, Backend &backend);
+void serveTiles(Ranks &ranks, const PreparedScene &scene, Backend &backend);
 
 /// In place of serveTiles(): tells rank 0 why there is no renderer here, and waits to be let go.
 void reportFailure(Ranks &ranks, const std::string &why);

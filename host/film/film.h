@@ -49,7 +49,8 @@ struct Film {
     Crop crop;
     std::vector<layout::FilmPixel> pixels; ///< row by row from the top left
 
-    explicit Film(const Crop &region)
+    /// Without samples.
+    Film(const Crop &region)
         : crop(region),
           pixels(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height())) {}
 

@@ -11,10 +11,9 @@ struct ViewFilm {
     Film film;
 };
 
-/// The samples of a view for each pixel: those of the image for albedo, and pixel centres for the others, because a mean of
-/// depths or normals belongs to no surface.
+/// The samples of a view for each pixel: those of the image, or the pixel's centre.
 [[nodiscard]] constexpr int samplesOfView(Integrator view, int samplesPerPixel) {
-    return view == Integrator::Albedo ? samplesPerPixel : 1;
+    return rowOf(view).isOfCentres ? 1 : samplesPerPixel;
 }
 
 } // namespace hyalite

@@ -214,18 +214,16 @@ std::uint64_t Renderer::kernelHash(const PackedScene &scene, Integrator integrat
         kernelWords(state_->configFor(scene, integrator, integrator == Integrator::Cost), integrator)));
 }
 
-Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                        const std::function<void(double)> &onProgress, Timeline *timeline,
-                        const std::function<bool()> &shouldStop, Continuation continuation) {
-    bool isBegun = continuation.film.has_value();
+Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, Film begun,
+                        const RenderHooks &hooks) {
+    bool isBegun = std::ranges::any_of(begun.pixels, [](const auto &pixel) { return pixel.sampleCount > 0; });
     state_->config = state_->faultless; // a fault of a former render says little of this one
-    Result result{isBegun ? std::move(*continuation.film) : Film(crop), {}, {}, {}};
+    Result result{std::move(begun), {}, {}, {}};
     for (int retry = 0;; ++retry) {
         try {
             if (retry > 0 || !state_->device)
                 state_->reopen();
-            renderOnce(scene, settings, isBegun, onProgress, timeline, shouldStop, continuation.snapshots,
-                       result);
+            renderOnce(scene, settings, isBegun, hooks, result);
             return result;
         } catch (const DeviceFault &fault) {
             state_->forget();
@@ -240,27 +238,26 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
                                 fault.what(), maxRetries));
                 return result;
             }
-            if (shouldStop && shouldStop())
+            if (hooks.shouldStop && hooks.shouldStop())
                 return result;
         }
     }
 }
 
 void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settings, bool isBegun,
-                          const std::function<void(double)> &onProgress, Timeline *timeline,
-                          const std::function<bool()> &shouldStop, SnapshotTaker *snapshots, Result &result) {
+                          const RenderHooks &hooks, Result &result) {
     const Crop crop = result.film.crop;
     FilmKeeper keeper;
     Stopwatch watch;
     // Ends a stage and returns its time.
     const auto endStage = [&](const char *name) {
         const Span span = watch.lap();
-        if (timeline != nullptr)
-            timeline->stages.push_back({name, span, state_->device->allocatedBytes()});
+        if (hooks.timeline != nullptr)
+            hooks.timeline->stages.push_back({name, span, state_->device->allocatedBytes()});
         return span.seconds();
     };
-    if (timeline != nullptr)
-        timeline->clock = state_->device->timestamps().describe();
+    if (hooks.timeline != nullptr)
+        hooks.timeline->clock = state_->device->timestamps().describe();
     const RenderConfig config = state_->configFor(scene, settings.integrator, showsWork(settings));
     const bool isSkipList = config.traversal == Traversal::SkipList;
     const auto jobOf = [&](const Crop &band) {
@@ -304,10 +301,10 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
         const double rowsBefore = band.y0 - crop.y0;
         const TileTotals totals = tiles.run(
             [&](double share) {
-                if (onProgress)
-                    onProgress((rowsBefore + share * band.height()) / crop.height());
+                if (hooks.onProgress)
+                    hooks.onProgress((rowsBefore + share * band.height()) / crop.height());
             },
-            timeline, shouldStop,
+            hooks.timeline, hooks.shouldStop,
             [&](const RayCounts &rays) {
                 const RayCounts raysSoFar = raysBefore + rays;
                 // The work of lost dispatches is unknown, so a render that counts starts again.
@@ -315,9 +312,9 @@ void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settin
                     keeper.keep([&] { tiles.readFilm(bandPixels); });
                     result.rays = raysSoFar;
                 }
-                if (snapshots == nullptr || !snapshots->isWanted())
+                if (hooks.snapshots == nullptr || !hooks.snapshots->isWanted())
                     return;
-                snapshots->take(
+                hooks.snapshots->take(
                     [&](std::span<layout::FilmPixel> copy) {
                         // Other bands have all their samples, or those from before the render.
                         std::ranges::copy(pixels.first(bandBegin), copy.begin());

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "host/base/error.h"
-#include "host/film/continuation.h"
 #include "host/film/film.h"
 #include "host/film/ray_counts.h"
+#include "host/film/render_hooks.h"
 #include "host/film/render_timing.h"
 #include "host/film/timeline.h"
 #include "host/film/work_counts.h"
@@ -12,7 +12,6 @@
 #include "host/gpu/render_config.h"
 #include "host/packing/packed_scene.h"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,18 +58,15 @@ class Renderer {
     [[nodiscard]] std::string_view kernelName(const PackedScene &scene, Integrator integrator) const;
     [[nodiscard]] std::uint64_t kernelHash(const PackedScene &scene, Integrator integrator) const;
 
-    /// Renders `crop` of the scene's image. After each dispatch `onProgress` gets the finished fraction, in [0, 1], and
-    /// `timeline`, if not null, a record. `shouldStop` is called after each dispatch; if it returns true, the film has
-    /// the samples finished so far. The image has the same bits wherever `continuation` starts.
+    /// Adds the missing samples to `begun`, whose crop is that of the scene's image. The hooks are called after each
+    /// dispatch. The image has the same bits whichever samples were there.
     ///
     /// If a Vulkan call fails, the device is opened again with half the work per dispatch, up to three times, and the
     /// render continues from a copy of the film. After the last failure the result is that copy. Throws
     /// Error{LimitExceeded} if the scene is too large for the device, and Error{Usage} if the work, which is that of a
     /// traversal with a stack, is requested from another kernel.
-    [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-                                const std::function<void(double)> &onProgress = {},
-                                Timeline *timeline = nullptr, const std::function<bool()> &shouldStop = {},
-                                Continuation continuation = {});
+    [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, Film begun,
+                                const RenderHooks &hooks = {});
 
     /// Traces one sample of one pixel of the whole image, step by step; at most 2^17 steps are recorded.
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,
@@ -83,8 +79,7 @@ class Renderer {
     /// One attempt: adds the missing samples to the result, and keeps film and rays consistent. `isBegun`: the film may
     /// have samples.
     void renderOnce(const PackedScene &scene, const RenderSettings &settings, bool isBegun,
-                    const std::function<void(double)> &onProgress, Timeline *timeline,
-                    const std::function<bool()> &shouldStop, SnapshotTaker *snapshots, Result &result);
+                    const RenderHooks &hooks, Result &result);
 
     std::unique_ptr<State> state_;
 };

@@ -18,36 +18,19 @@ Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byt
     return buffer;
 }
 
-struct Tree {
-    Buffer nodes;
-    layout::FrameRecord constants{};               ///< of skip lists, or none
-    std::vector<layout::InstanceRecord> instances; ///< likewise
-};
-
-/// Uploads the tree. The lists on the host, the largest part of a large scene, are freed when this returns.
-Tree uploadTree(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
-    const BufferPlan &planned = plan.buffers[layout::bindingNodes];
-    if (!isSkipList)
-        return {uploaded(device, planned, std::as_bytes(std::span(scene.nodes))), {}, {}};
-    const SkipList list = makeSkipList(scene);
-    layout::FrameRecord constants{};
-    if (!list.trees.empty()) {
-        constants.gridMiddle = list.trees.front().grid.middle;
-        constants.gridScale = list.trees.front().grid.scale;
-        constants.topListLength = list.trees.front().end;
-    }
-    constants.skipListLength = list.length;
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(list.nodes));
-    BufferPlan nodes = planned;
-    nodes.sizeBytes = bytes.size();
-    assert(nodes.sizeBytes <= planned.sizeBytes);
-    return {uploaded(device, nodes, bytes), constants, instancesOnGrids(scene, list)};
-}
-
 } // namespace
 
 SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
-    Tree tree = uploadTree(device, scene, plan, isSkipList);
+    SkipList list = isSkipList ? makeSkipList(scene) : SkipList{};
+    const auto treeBytes =
+        isSkipList ? std::as_bytes(std::span(list.nodes)) : std::as_bytes(std::span(scene.nodes));
+    BufferPlan treePlan = plan.buffers[layout::bindingNodes];
+    assert(treeBytes.size() <= treePlan.sizeBytes);
+    treePlan.sizeBytes = treeBytes.size();
+    Buffer tree = uploaded(device, treePlan, treeBytes);
+    list.nodes = {}; // the largest part of a large scene: before the other buffers take memory
+    list.describe(ofTree_);
+
     std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
     bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.loopSpheres));
     bytes[layout::bindingLightConstants] = std::as_bytes(
@@ -56,12 +39,11 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
     for (const SceneArray &array : scene.arrays())
         bytes[array.binding] = array.bytes;
     if (isSkipList)
-        bytes[layout::bindingInstances] = std::as_bytes(std::span(tree.instances));
+        bytes[layout::bindingInstances] = std::as_bytes(std::span(list.instances));
     for (std::size_t binding = 0; binding < plan.buffers.size(); ++binding)
         buffers.push_back(binding == layout::bindingNodes
-                              ? std::move(tree.nodes)
+                              ? std::move(tree)
                               : uploaded(device, plan.buffers[binding], bytes[binding]));
-    ofTree_ = tree.constants;
 }
 
 void SceneBuffers::setFrame(const layout::FrameRecord &frame) {

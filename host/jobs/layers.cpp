@@ -45,8 +45,9 @@ void flattenDepths(const PreparedScene &scene, const Film *begun, Film &film) {
 
 Layer layerOf(const ViewFilm &of) {
     const Film &film = of.film;
+    const IntegratorRow &view = rowOf(of.view);
     const bool isNormal = of.view == Integrator::Normal;
-    const int channelCount = of.view == Integrator::Depth ? 1 : 3;
+    const int channelCount = static_cast<int>(view.layerChannels.size());
     const auto fillRow = [&film, isNormal, channelCount](int y, std::span<float> row) {
         float *next = row.data();
         for (const layout::FilmPixel &pixel : rowOf(film, y)) {
@@ -56,48 +57,41 @@ Layer layerOf(const ViewFilm &of) {
                 *next++ = value[channel];
         }
     };
-    // Compositors know the depth by the channel Z.
-    const std::string name(of.view == Integrator::Depth ? "Z" : nameOf(of.view));
-    return {name, channelCount == 1 ? "" : isNormal ? "XYZ" : "RGB", fillRow};
+    if (of.view == Integrator::Depth)
+        return {std::string(view.layerChannels), "", fillRow};
+    return {std::string(view.name), std::string(view.layerChannels), fillRow};
 }
 
 } // namespace
 
-std::vector<ViewFilm> renderViews(Backend &backend, PreparedScene &scene,
+std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
                                   const std::vector<Integrator> &views, std::span<const Crop> squares,
                                   std::span<const Film> begun, Observer &observer, const TimeLimit &limit) {
-    RenderSettings &settings = scene.loaded.settings;
-    const RenderSettings ofImage = settings;
+    const RenderSettings &ofImage = scene.loaded.settings;
     std::vector<ViewFilm> films;
     for (const Integrator view : views) {
+        RenderSettings settings = ofImage;
         settings.integrator = view;
         settings.samplesPerPixel = samplesOfView(view, ofImage.samplesPerPixel);
-        if (view != Integrator::Albedo)
+        if (rowOf(view).isOfCentres)
             settings.sampler = SamplerKind::Centre;
-        Continuation continuation;
-        if (!squares.empty()) {
-            continuation.film =
-                filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
-            if (films.size() < begun.size())
-                setPixelsIn(*continuation.film, squares, pixelsIn(begun[films.size()], squares));
-            continuation.shareOfOthers = shareOutside(scene.crop, squares);
-        }
-        const bool isFinished =
-            continuation.film &&
-            finishedWork(*continuation.film, squares, settings.samplesPerPixel).isComplete;
         Film film(scene.crop);
-        if (isFinished || observer.wantsStop() || limit.isReached()) {
-            if (continuation.film)
-                film = std::move(*continuation.film);
-        } else {
-            BackendResult result = unlessFailed(render(backend, scene, std::string(nameOf(view)), observer,
-                                                       limit, nullptr, std::move(continuation)));
-            film = std::move(result.film);
+        RenderTask task{.name = std::string(nameOf(view)), .limit = limit};
+        bool isFinished = false;
+        if (!squares.empty()) {
+            film = filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
+            if (films.size() < begun.size())
+                setPixelsIn(film, squares, pixelsIn(begun[films.size()], squares));
+            task.shareOfOthers = shareOutside(scene.crop, squares);
+            isFinished = finishedWork(film, squares, settings.samplesPerPixel).isComplete;
+        }
+        if (!isFinished && !observer.wantsStop() && !limit.isReached()) {
+            film =
+                unlessFailed(render(backend, scene.packed, settings, std::move(film), observer, task)).film;
             if (view == Integrator::Depth)
                 flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr, film);
         }
         films.push_back({view, std::move(film)});
-        settings = ofImage;
     }
     return films;
 }

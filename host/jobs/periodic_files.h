@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/engine/observer.h"
-#include "host/film/continuation.h"
+#include "host/film/render_hooks.h"
 
 #include <atomic>
 #include <chrono>

@@ -55,7 +55,7 @@ std::string identityOfFrame(const RenderRequest &request, const RenderSession &s
     const RenderSettings &settings = session.scene().loaded.settings;
     const std::string whole =
         fmt::format("{}samples per pixel: {}\nexposure: {}\ntone: {}\n",
-                    identityText(identityOf(session.scene(), session.backend(), &request.layers)),
+                    identityText(identityOf(session.scene(), session.backend(), &request.scene.views)),
                     settings.samplesPerPixel, settings.exposureStops, static_cast<int>(toneOf(request)));
     return hashText(hashBytes(std::as_bytes(std::span(whole))));
 }
@@ -67,7 +67,7 @@ PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report
     origin.words = request.words;
     origin.wholeWidth = camera.width;
     origin.wholeHeight = camera.height;
-    origin.layers = request.layers;
+    origin.layers = request.scene.views;
     origin.provenance = provenanceToJson(report.origin, report.device)
                             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     return origin;
@@ -99,7 +99,7 @@ bool isPartFinished(const PictureFiles &files, const PictureBeginning &begun, in
     bool isFinished = finishedWork(*begun.film, squares, samplesPerPixel).isComplete;
     for (std::size_t i = 0; i < begun.layers.size(); ++i)
         isFinished = isFinished && finishedWork(begun.layers[i], squares,
-                                                samplesOfView(files.request.layers[i], samplesPerPixel))
+                                                samplesOfView(files.request.scene.views[i], samplesPerPixel))
                                        .isComplete;
     return isFinished;
 }
@@ -109,7 +109,7 @@ void resume(const PictureFiles &files, const RenderSession &session, PictureBegi
     const PreparedScene &scene = session.scene();
     const int samplesPerPixel = scene.loaded.settings.samplesPerPixel;
     const RenderIdentity identity =
-        identityOf(scene, session.backend(), request.part ? &request.layers : nullptr);
+        identityOf(scene, session.backend(), request.part ? &request.scene.views : nullptr);
     CheckpointSubject subject{scene.crop, partOf(files), static_cast<std::uint32_t>(samplesPerPixel), {}};
     if (request.part)
         subject.origin = toText(originOfPart(request, begun.report, scene.loaded.scene.camera));
@@ -146,16 +146,16 @@ class PictureRender {
         const PreparedScene &scene = session_.scene();
         PeriodicFiles snapshots(scene.crop, periodicFiles(), session_.observer());
         const TimeLimit limit(request_.timeLimitSeconds);
-        layers_ = renderViews(session_.backend(), session_.scene(), request_.layers,
+        layers_ = renderViews(session_.backend(), session_.scene(), request_.scene.views,
                               request_.part ? squares_ : std::span<const Crop>(), begun_.layers,
                               session_.observer(), limit);
-        Continuation continuation;
-        continuation.film = std::move(begun_.film);
-        continuation.snapshots = &snapshots;
-        continuation.shareOfOthers = shareOutside(scene.crop, squares_);
-        BackendResult result = render(session_.backend(), scene,
-                                      request_.frame ? fmt::format("frame {}", *request_.frame) : "render",
-                                      session_.observer(), limit, nullptr, std::move(continuation));
+        const RenderTask task{.name = request_.frame ? fmt::format("frame {}", *request_.frame) : "render",
+                              .limit = limit,
+                              .snapshots = &snapshots,
+                              .shareOfOthers = shareOutside(scene.crop, squares_)};
+        BackendResult result =
+            render(session_.backend(), scene.packed, scene.loaded.settings,
+                   begun_.film ? std::move(*begun_.film) : Film(scene.crop), session_.observer(), task);
         snapshots.finish();
         FinishedPicture finished;
         take(result, finished);
@@ -309,7 +309,7 @@ void requireRoom(const PictureFiles &files, const Crop &crop) {
     if (formatOf(files.request) == ImageFormat::Png)
         requirePngSize(files.request.output, crop.width(), crop.height());
     const bool isCopied = !files.request.checkpoint.empty() || files.request.partialSeconds;
-    requireFilmMemory(crop, (isCopied ? 2 : 1) + static_cast<unsigned>(files.request.layers.size()));
+    requireFilmMemory(crop, (isCopied ? 2 : 1) + static_cast<unsigned>(files.request.scene.views.size()));
 }
 
 std::span<const Crop> PictureBeginning::squares(const PictureFiles &files) const {

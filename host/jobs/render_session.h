@@ -21,7 +21,6 @@ struct RenderRequest {
     SceneOptions scene;
     std::string output;
     std::optional<ToneCurve> tone; ///< of a PNG; default: gamma
-    std::vector<Integrator> layers;
     RendererNames devices{"auto"}; ///< several share the picture
     int threadCount = 0;           ///< 0: all
     DeviceOptions deviceOptions;

@@ -15,11 +15,13 @@ ComparisonRun openComparison(const ComparisonRequest &request, const PreparedSce
 
 std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene,
                                               const glm::uvec2 &pixel) {
-    const int sampleCount = scene.loaded.settings.samplesPerPixel;
+    const RenderSettings &settings = scene.loaded.settings;
+    const int sampleCount = settings.samplesPerPixel;
     for (int sample = 0; sample < sampleCount; ++sample) {
         const std::uint32_t index = static_cast<std::uint32_t>(sample);
         if (std::optional<Divergence> divergence =
-                findDivergence(first.trace(scene, pixel, index), second.trace(scene, pixel, index),
+                findDivergence(first.trace(scene.packed, settings, pixel, index),
+                               second.trace(scene.packed, settings, pixel, index),
                                scene.packed.frame.firstTriangleId, scene.loaded.scene.origin))
             return divergence;
     }

@@ -57,9 +57,9 @@ void Measurement::startTime(bool isCounting) {
     profile_.timeLimitSeconds = request_.timeLimitSeconds;
 }
 
-BackendResult Measurement::render(Backend &backend, const std::string &task, const TimeLimit &limit,
-                                  Timeline *timeline) const {
-    return unlessFailed(hyalite::render(backend, scene_, task, observer_, limit, timeline));
+BackendResult Measurement::render(Backend &backend, const RenderSettings &settings,
+                                  const RenderTask &task) const {
+    return unlessFailed(hyalite::render(backend, scene_.packed, settings, scene_.crop, observer_, task));
 }
 
 double Measurement::finishedShare(const Film &film) const {
@@ -73,7 +73,8 @@ bool Measurement::renderFrame(const std::string &label, bool isMeasured) {
     Frame frame;
     frame.label = label;
     Stopwatch watch;
-    BackendResult result = render(*backend_, label, measuring_, &frame.timeline);
+    BackendResult result = render(*backend_, scene_.loaded.settings,
+                                  {.name = label, .limit = measuring_, .timeline = &frame.timeline});
     frame.span = watch.lap();
     frame.finishedShare = finishedShare(result.film);
     const bool isFinished = frame.finishedShare == 1.0;
@@ -99,7 +100,8 @@ std::optional<std::string> Measurement::verify() {
     }
     const std::unique_ptr<Backend> twin = openBackend("cpu", observer_);
     Stopwatch watch;
-    const BackendResult wanted = render(*twin, "the CPU twin", measuring_.share(0.5));
+    const BackendResult wanted =
+        render(*twin, scene_.loaded.settings, {.name = "the CPU twin", .limit = measuring_.share(0.5)});
     profile_.hostStages.push_back({"the CPU twin", watch.lap()});
     if (finishedShare(wanted.film) < 1.0) {
         profile_.leftOut.emplace_back("the verification");
@@ -145,10 +147,10 @@ void Measurement::cutCount(const char *what, double share) {
 void Measurement::countWork() {
     const std::unique_ptr<Backend> counter =
         openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_));
-    bool &isWorkShown = scene_.loaded.settings.isWorkShown;
-    isWorkShown = true;
-    const BackendResult result = render(*counter, "counting", limit_.share(request_.isCounting ? 0.5 : 1.0));
-    isWorkShown = false;
+    RenderSettings settings = scene_.loaded.settings;
+    settings.isWorkShown = true;
+    const BackendResult result = render(
+        *counter, settings, {.name = "counting", .limit = limit_.share(request_.isCounting ? 0.5 : 1.0)});
     if (const double share = finishedShare(result.film); share < 1.0)
         cutCount("the work of the rays: the heat map shows the samples", share);
     else
@@ -169,7 +171,8 @@ void Measurement::countKernelWork() {
     config.isCounting = true;
     const std::unique_ptr<Backend> counter =
         openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_), config);
-    const BackendResult result = render(*counter, "counting the kernel's work", limit_);
+    const BackendResult result =
+        render(*counter, scene_.loaded.settings, {.name = "counting the kernel's work", .limit = limit_});
     if (const double share = finishedShare(result.film); share < 1.0)
         cutCount("the work of the kernel: the samples", share);
     else

@@ -63,8 +63,8 @@ class Measurement {
     [[nodiscard]] bool isVerifiable() const { return !isReference(request_.device); }
     /// Returns whether the frame is finished.
     bool renderFrame(const std::string &label, bool isMeasured);
-    [[nodiscard]] BackendResult render(Backend &backend, const std::string &task, const TimeLimit &limit,
-                                       Timeline *timeline = nullptr) const;
+    [[nodiscard]] BackendResult render(Backend &backend, const RenderSettings &settings,
+                                       const RenderTask &task) const;
     [[nodiscard]] double finishedShare(const Film &film) const;
     /// Notes a count that the time limit cut.
     void cutCount(const char *what, double share);

@@ -100,7 +100,7 @@ std::optional<DispatchRecord> dispatchOf(const Timeline &timeline, const glm::iv
 FilmDifference explain(Backend &backend, const PreparedScene &scene, const Film &film,
                        const Timeline &timeline) {
     const std::unique_ptr<Backend> twin = openBackend("cpu", nobody());
-    const Film wanted = twin->render(scene, {}, nullptr, {}, {}).film;
+    const Film wanted = twin->render(scene.packed, scene.loaded.settings, scene.crop).film;
     FilmDifference difference;
     difference.pixelCount = differingPixelCount(film, wanted);
     const auto first = std::ranges::mismatch(film.pixels, wanted.pixels, haveEqualBits).in1;
@@ -123,8 +123,8 @@ FilmVerdict judge(Backend &backend, const Kernel &kernel, const PreparedScene &s
     Stopwatch watch;
     try {
         Timeline timeline;
-        const BackendResult result =
-            backend.render(scene, {}, kernel.name.empty() ? nullptr : &timeline, {}, {});
+        const BackendResult result = backend.render(scene.packed, scene.loaded.settings, scene.crop,
+                                                    {.timeline = kernel.name.empty() ? nullptr : &timeline});
         verdict.seconds = watch.lap().seconds();
         verdict.hash = filmHash(result.film);
         if (result.failure)

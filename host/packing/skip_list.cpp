@@ -182,6 +182,29 @@ SkipGrid gridOver(const Box &box) {
     return grid;
 }
 
+/// The instances of the scene, with where their trees are in the list and the maps from the grids.
+std::vector<layout::InstanceRecord> instancesOnGrids(const PackedScene &scene, const SkipList &list) {
+    std::vector<layout::InstanceRecord> instances = scene.instances;
+    const auto count = static_cast<std::int64_t>(instances.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < count; ++i) {
+        layout::InstanceRecord &instance = instances[static_cast<std::size_t>(i)];
+        const SkipTree &tree = list.trees[instance.tree + 1];
+        const glm::dvec3 middle(tree.grid.middle);
+        const glm::dvec3 halfCell = glm::dvec3(tree.grid.scale) / 2.0;
+        const auto toGrid = [&](const glm::vec3 &row, float offset, glm::vec3 &gridRow, float &gridOffset) {
+            gridRow = glm::vec3(glm::dvec3(row) * halfCell);
+            gridOffset = static_cast<float>(glm::dot(glm::dvec3(row), middle) + double{offset});
+        };
+        toGrid(instance.toX, instance.offsetX, instance.gridToX, instance.gridOffsetX);
+        toGrid(instance.toY, instance.offsetY, instance.gridToY, instance.gridOffsetY);
+        toGrid(instance.toZ, instance.offsetZ, instance.gridToZ, instance.gridOffsetZ);
+        instance.listBegin = tree.begin;
+        instance.listEnd = tree.end;
+    }
+    return instances;
+}
+
 } // namespace
 
 SkipList makeSkipList(const PackedScene &scene) {
@@ -214,29 +237,17 @@ SkipList makeSkipList(const PackedScene &scene) {
     for (std::uint32_t i = 0; i < listCount; ++i)
         writeList(scene, plans, i == 0 ? -1 : 1, i * list.length, list.trees,
                   std::span(pairBegins).subspan(plans.size() * i, plans.size()), list.nodes);
+    list.instances = instancesOnGrids(scene, list);
     return list;
 }
 
-std::vector<layout::InstanceRecord> instancesOnGrids(const PackedScene &scene, const SkipList &list) {
-    std::vector<layout::InstanceRecord> instances = scene.instances;
-    const auto count = static_cast<std::int64_t>(instances.size());
-#pragma omp parallel for schedule(static)
-    for (std::int64_t i = 0; i < count; ++i) {
-        layout::InstanceRecord &instance = instances[static_cast<std::size_t>(i)];
-        const SkipTree &tree = list.trees[instance.tree + 1];
-        const glm::dvec3 middle(tree.grid.middle);
-        const glm::dvec3 halfCell = glm::dvec3(tree.grid.scale) / 2.0;
-        const auto toGrid = [&](const glm::vec3 &row, float offset, glm::vec3 &gridRow, float &gridOffset) {
-            gridRow = glm::vec3(glm::dvec3(row) * halfCell);
-            gridOffset = static_cast<float>(glm::dot(glm::dvec3(row), middle) + double{offset});
-        };
-        toGrid(instance.toX, instance.offsetX, instance.gridToX, instance.gridOffsetX);
-        toGrid(instance.toY, instance.offsetY, instance.gridToY, instance.gridOffsetY);
-        toGrid(instance.toZ, instance.offsetZ, instance.gridToZ, instance.gridOffsetZ);
-        instance.listBegin = tree.begin;
-        instance.listEnd = tree.end;
+void SkipList::describe(layout::FrameRecord &frame) const {
+    if (!trees.empty()) {
+        frame.gridMiddle = trees.front().grid.middle;
+        frame.gridScale = trees.front().grid.scale;
+        frame.topListLength = trees.front().end;
     }
-    return instances;
+    frame.skipListLength = length;
 }
 
 std::uint64_t maxSkipListBytes(std::size_t pairCount) {

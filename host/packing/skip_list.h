@@ -27,6 +27,11 @@ struct SkipList {
     UnsetVector<layout::SkipNode> nodes;
     std::uint32_t length = 0;    ///< of one list
     std::vector<SkipTree> trees; ///< in the order of PackedScene::trees
+    /// In place of those of the scene: with where their trees are in the lists, and the maps from the grids.
+    std::vector<layout::InstanceRecord> instances;
+
+    /// Sets the fields of a frame that the lists decide.
+    void describe(layout::FrameRecord &frame) const;
 };
 
 /// Empty without triangles. Every box of the list encloses the box from which it was made.
@@ -35,10 +40,6 @@ struct SkipList {
 /// list upper siblings do. A list for each octant of directions would save diffuse rays 3 % of their steps, but costs
 /// more than that, because less of eight lists fits into caches.
 [[nodiscard]] SkipList makeSkipList(const PackedScene &scene);
-
-/// The instances of the scene, with where their trees are in the list and the maps from the grids.
-[[nodiscard]] std::vector<layout::InstanceRecord> instancesOnGrids(const PackedScene &scene,
-                                                                   const SkipList &list);
 
 /// Maximum size of both lists for this many node pairs, in bytes.
 [[nodiscard]] std::uint64_t maxSkipListBytes(std::size_t pairCount);

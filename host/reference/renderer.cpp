@@ -62,14 +62,12 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
 /// One render, with an integrator for each thread. It pauses for snapshots and continues.
 template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
   public:
-    FilmRenderer(const MakeIntegrator &makeIntegrator, const RenderSettings &settings, const Crop &crop,
-                 const Options &options, Continuation continuation)
-        : makeIntegrator_(makeIntegrator), options_(options),
-          sampleCount_(static_cast<std::uint32_t>(settings.samplesPerPixel)),
-          snapshots_(continuation.snapshots), result_{continuation.film ? std::move(*continuation.film)
-                                                                        : Film(crop),
-                                                      {},
-                                                      {}},
+    FilmRenderer(const MakeIntegrator &makeIntegrator, const RenderSettings &settings, Film begun,
+                 const Options &options, const RenderHooks &hooks)
+        : makeIntegrator_(makeIntegrator), options_(options), hooks_(hooks),
+          sampleCount_(static_cast<std::uint32_t>(settings.samplesPerPixel)), result_{std::move(begun),
+                                                                                      {},
+                                                                                      {}},
           pixelCount_(static_cast<std::int64_t>(result_.film.pixels.size())) {
         for (const layout::FilmPixel &pixel : result_.film.pixels)
             finishedSamples_ += pixel.sampleCount;
@@ -80,7 +78,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
             isPaused_ = false;
             renderUntilPaused();
             if (isPaused_ && !isStopped_)
-                snapshots_->take(
+                hooks_.snapshots->take(
                     [this](std::span<layout::FilmPixel> copy) {
                         std::copy(result_.film.pixels.begin(), result_.film.pixels.end(), copy.begin());
                     },
@@ -134,9 +132,9 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 #pragma omp critical(hyaliteReferenceProgress)
         {
             finishedSamples_ += addedSamples;
-            if (options_.onProgress)
-                options_.onProgress(static_cast<double>(finishedSamples_) / static_cast<double>(pixelCount_) /
-                                    sampleCount_);
+            if (hooks_.onProgress)
+                hooks_.onProgress(static_cast<double>(finishedSamples_) / static_cast<double>(pixelCount_) /
+                                  sampleCount_);
         }
     }
 
@@ -148,21 +146,21 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
     }
 
     [[nodiscard]] bool isToStop() {
-        if (options_.shouldStop && options_.shouldStop())
+        if (hooks_.shouldStop && hooks_.shouldStop())
             isStopped_ = true;
         return isStopped_.load();
     }
 
     [[nodiscard]] bool isToPause() {
-        if (snapshots_ != nullptr && snapshots_->isWanted())
+        if (hooks_.snapshots != nullptr && hooks_.snapshots->isWanted())
             isPaused_ = true;
         return isPaused_.load();
     }
 
     const MakeIntegrator &makeIntegrator_;
     const Options &options_;
+    const RenderHooks &hooks_;
     std::uint32_t sampleCount_;
-    SnapshotTaker *snapshots_;
     Result result_;
     std::int64_t pixelCount_;
     std::int64_t firstRun_ = 0; ///< all before it are finished
@@ -204,13 +202,13 @@ std::vector<layout::TraceEvent> traceAs(const PackedScene &scene, const RenderSe
 
 } // namespace
 
-Result render(const PackedScene &scene, const RenderSettings &settings, const Crop &crop,
-              const Options &options, Continuation continuation) {
+Result render(const PackedScene &scene, const RenderSettings &settings, Film begun, const Options &options,
+              const RenderHooks &hooks) {
     const auto renderAs = [&]<class Real, class Counter>() {
         return withIntegrator<Real, Counter>(
             scene, settings, [&]<class MakeIntegrator>(const MakeIntegrator &makeIntegrator) {
-                return FilmRenderer<Real, Counter, MakeIntegrator>(makeIntegrator, settings, crop, options,
-                                                                   std::move(continuation))
+                return FilmRenderer<Real, Counter, MakeIntegrator>(makeIntegrator, settings, std::move(begun),
+                                                                   options, hooks)
                     .render();
             });
     };

@@ -19,8 +19,11 @@ struct IntegratorRow {
     std::string_view help;
     std::string_view kernel;                 ///< shaders/integrators/KERNEL.comp
     std::uint32_t view = layout::viewNormal; ///< what the kernel "view" shows
-    bool followsPaths = false;               ///< over several segments: maxDepth bounds them
-    bool splitsAtGlass = false;              ///< both branches: rays wait
+    std::string_view layerChannels{};        ///< of a view: those of its layer in an EXR
+    bool isOfCentres =
+        false; ///< as a layer: one sample, as a mean of depths or normals belongs to no surface
+    bool followsPaths = false;   ///< over several segments: maxDepth bounds them
+    bool splitsAtGlass = false;  ///< both branches: rays wait
     bool aimsAtEmitters = false; ///< needs the scene's emitters, and the energy tables of microfacets
 };
 
@@ -42,32 +45,42 @@ inline constexpr auto integratorTable = std::to_array<IntegratorRow>({
      .name = "ao",
      .help = "ambient occlusion",
      .kernel = "view",
-     .view = layout::viewOcclusion},
+     .view = layout::viewOcclusion,
+     .layerChannels = "Y"},
     {.integrator = Integrator::Normal,
      .name = "normal",
      .help = "shading normal of the first hit",
      .kernel = "view",
-     .view = layout::viewNormal},
+     .view = layout::viewNormal,
+     .layerChannels = "XYZ",
+     .isOfCentres = true},
     {.integrator = Integrator::Depth,
      .name = "depth",
      .help = "distance of the first hit",
      .kernel = "view",
-     .view = layout::viewDepth},
+     .view = layout::viewDepth,
+     .layerChannels = "Z",
+     .isOfCentres = true},
     {.integrator = Integrator::Albedo,
      .name = "albedo",
      .help = "albedo of the first hit",
      .kernel = "view",
-     .view = layout::viewAlbedo},
+     .view = layout::viewAlbedo,
+     .layerChannels = "RGB"},
     {.integrator = Integrator::Id,
      .name = "id",
      .help = "a colour for each primitive",
      .kernel = "view",
-     .view = layout::viewId},
+     .view = layout::viewId,
+     .layerChannels = "RGB",
+     .isOfCentres = true},
     {.integrator = Integrator::Uv,
      .name = "uv",
      .help = "texture coordinates, without their whole parts, as red and green",
      .kernel = "view",
-     .view = layout::viewCoordinates},
+     .view = layout::viewCoordinates,
+     .layerChannels = "UV",
+     .isOfCentres = true},
     {.integrator = Integrator::Cost,
      .name = "cost",
      .help =

@@ -1,7 +1,11 @@
 #include "host/scene/settings_table.h"
 
+#include "host/base/error.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 
 namespace hyalite {
 
@@ -15,6 +19,17 @@ nlohmann::ordered_json toJson(const NumberSetting<Number> &number, const RenderS
 template <class Value>
 nlohmann::ordered_json toJson(const ChoiceSetting<Value> &choice, const RenderSettings &settings) {
     return nameOf(settings.*choice.member);
+}
+
+template <class Number> Number valueFrom(const nlohmann::json &json, const NumberSetting<Number> &) {
+    return json.get<Number>();
+}
+
+template <class Value> Value valueFrom(const nlohmann::json &json, const ChoiceSetting<Value> &choice) {
+    const auto found = std::ranges::find(choice.names, json.get<std::string>(), &Name<Value>::first);
+    if (found == choice.names.end())
+        throw Error(ErrorKind::BadInput, fmt::format("settings: {} is no word for any", json.dump()));
+    return found->second;
 }
 
 } // namespace
@@ -44,6 +59,15 @@ nlohmann::ordered_json settingsToJson(const RenderSettings &settings) {
     for (const Setting &setting : settingsTable)
         json[std::string(setting.key)] = settingToJson(setting, settings);
     return json;
+}
+
+RenderSettings settingsFromJson(const nlohmann::json &json) {
+    RenderSettings settings;
+    for (const Setting &setting : settingsTable)
+        std::visit(
+            [&](const auto &value) { settings.*value.member = valueFrom(json.at(setting.key), value); },
+            setting.value);
+    return settings;
 }
 
 } // namespace hyalite

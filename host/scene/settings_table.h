@@ -124,6 +124,8 @@ template <class Number> [[nodiscard]] constexpr Interval rangeOf(Number RenderSe
 
 /// By keys, in the order of the table.
 [[nodiscard]] nlohmann::ordered_json settingsToJson(const RenderSettings &settings);
+/// The settings of what settingsToJson() gives. Throws for other JSON; values are not checked.
+[[nodiscard]] RenderSettings settingsFromJson(const nlohmann::json &json);
 [[nodiscard]] nlohmann::ordered_json settingToJson(const Setting &setting, const RenderSettings &settings);
 
 /// A change to the settings of the scene file.

@@ -31,7 +31,9 @@ void measureQueue(benchmark::State &state, const Context &context, const std::st
     std::vector<std::unique_ptr<Backend>> members;
     members.push_back(openBackend(device, observer, processorsFor(0, scene)));
     const std::unique_ptr<Backend> shared = shareBackends(std::move(members));
-    const auto render = [&](Backend &backend) { return backend.render(scene, {}, nullptr, {}, {}); };
+    const auto render = [&](Backend &backend) {
+        return backend.render(scene.packed, scene.loaded.settings, scene.crop);
+    };
     if (differingPixelCount(render(*alone).film, render(*shared).film) != 0) { // and the kernels are there
         state.SkipWithError("the pictures differ");
         return;
@@ -49,11 +51,7 @@ void measureTile(benchmark::State &state, const Context &context, const std::str
     SilentObserver observer;
     const std::unique_ptr<Backend> backend =
         openBackend(std::to_string(context.device().index), observer, processorsFor(0, scene));
-    const auto render = [&] {
-        Continuation tile;
-        tile.film.emplace(Crop{0, 8, 0, 8});
-        (void)backend->render(scene, {}, nullptr, {}, std::move(tile));
-    };
+    const auto render = [&] { (void)backend->render(scene.packed, scene.loaded.settings, Crop{0, 8, 0, 8}); };
     render(); // the kernel is there
     race(state, timed(render), {});
 }

@@ -84,10 +84,8 @@ class WorkMap {
         double sum = 0.0;
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x) {
-                Continuation block;
-                block.film.emplace(blockAt(x, y));
-                const double seconds =
-                    processorSecondsOf([&] { (void)cpu->render(scene, {}, nullptr, {}, std::move(block)); });
+                const double seconds = processorSecondsOf(
+                    [&] { (void)cpu->render(scene.packed, scene.loaded.settings, blockAt(x, y)); });
                 sums_[index(x + 1, y + 1)] = seconds;
                 sum += seconds;
             }
@@ -120,9 +118,9 @@ class WorkMap {
         const PreparedScene timed = prepare(options.scene, 8);
         SilentObserver observer;
         const std::unique_ptr<Backend> device = openBackend("auto", observer, processorsFor(0, timed));
-        (void)device->render(timed, {}, nullptr, {}, {}); // compiles
-        return secondsOf([&] { (void)device->render(timed, {}, nullptr, {}, {}); }) / 8.0 *
-               options.samplesPerPixel;
+        (void)device->render(timed.packed, timed.loaded.settings, timed.crop); // compiles
+        return secondsOf([&] { (void)device->render(timed.packed, timed.loaded.settings, timed.crop); }) /
+               8.0 * options.samplesPerPixel;
     }
 
     [[nodiscard]] static Crop blockAt(int x, int y) {

@@ -115,9 +115,8 @@ Contestant onCpu(std::shared_ptr<CornellBox> box) {
     return Contestant([box](std::uint32_t seed) {
         const RenderSettings &settings = box->withSeed(seed);
         Shot shot{Image(0, 0), 0.0};
-        shot.seconds = timed([&] {
-            shot.image = reference::render(box->packed, settings, box->crop, {}, {}).film.toImage();
-        })();
+        shot.seconds =
+            timed([&] { shot.image = reference::render(box->packed, settings, box->crop).film.toImage(); })();
         return shot;
     });
 }

@@ -67,7 +67,10 @@ TEST_F(RenderOutput, AnExrHasTheLinearColoursAndLayers) {
 
 TEST_F(RenderOutput, LayersAreTheViews) {
     const std::string size = " --width 24 --height 18 --device cpu --quiet";
-    ASSERT_EQ(run("render cat -o a.exr --spp 2 --layers id,albedo,normal,depth,id" + size).exitCode, 0);
+    ASSERT_EQ(
+        run("render cat -o a.exr --spp 2 --layers id,albedo,normal,depth,id,ao,uv --ao-distance 3" + size)
+            .exitCode,
+        0);
     const InputFile file(folder / "a.exr");
     const auto expectSame = [&](const std::string &layer, const std::string &options) {
         const Image wanted =
@@ -79,9 +82,10 @@ TEST_F(RenderOutput, LayersAreTheViews) {
     };
     expectSame("albedo", " --spp 2");
     expectSame("id", " --spp 1 --sampler centre");
+    expectSame("ao", " --spp 2 --ao-distance 3");
     EXPECT_TRUE(hasExrLayer(file, "normal"));
     EXPECT_TRUE(hasExrLayer(file, "Z")) << "the depth, as compositors know it";
-    for (const char *channel : {"normal.X", "normal.Y", "normal.Z"})
+    for (const char *channel : {"normal.X", "normal.Y", "normal.Z", "uv.U", "uv.V"})
         EXPECT_TRUE(contains(load("a.exr"), channel)) << channel;
     // The image is the one without layers.
     ASSERT_EQ(run("render cat -o b.exr --spp 2" + size).exitCode, 0);

@@ -25,6 +25,11 @@ PreparedScene prepare(const std::string &name, int side, int samplesPerPixel, Ob
     return prepareScene(options, Source::Dropped, observer);
 }
 
+BackendResult renderAs(const std::string &task, Backend &backend, const PreparedScene &scene,
+                       Observer &observer) {
+    return render(backend, scene.packed, scene.loaded.settings, scene.crop, observer, {.name = task});
+}
+
 /// The device that tests run on, by its index.
 std::unique_ptr<Backend> openTestDevice(Observer &observer = nobody()) {
     return openBackend(std::to_string(testDevice().index), observer);
@@ -71,7 +76,7 @@ TEST(Engine, PrintsNothingAndTellsItsObserver) {
     // Light that its integrator does not see is worth advice.
     const PreparedScene scene = prepare("cornell", 16, 1, diary);
     const std::unique_ptr<Backend> device = openTestDevice(diary);
-    const BackendResult result = render(*device, scene, "a picture", diary);
+    const BackendResult result = renderAs("a picture", *device, scene, diary);
     EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
     EXPECT_FALSE(result.failure);
@@ -84,14 +89,14 @@ TEST(Engine, SeveralDoNotDisturbEachOther) {
     const PreparedScene spheres = prepare("spheres", 48, 4);
     const PreparedScene cornell = prepare("cornell", 32, 4);
     const auto renderOnCpu = [](const PreparedScene &scene) {
-        return render(*openBackend("cpu", nobody()), scene, "cpu", nobody()).film;
+        return renderAs("cpu", *openBackend("cpu", nobody()), scene, nobody()).film;
     };
     const Film wanted[] = {renderOnCpu(spheres), renderOnCpu(cornell)};
     const std::unique_ptr<Backend> devices[] = {openTestDevice(), openTestDevice()};
     for (int turn = 0; turn < 2; ++turn) { // each has had the other's scene in the second one
         const auto renderIn = [&](int device, const PreparedScene &scene) {
             return std::async(std::launch::async, [&, device] {
-                return render(*devices[device], scene, "device", nobody()).film;
+                return renderAs("device", *devices[device], scene, nobody()).film;
             });
         };
         std::future<Film> first = renderIn(turn, spheres);
@@ -108,7 +113,7 @@ TEST(Engine, StopsFromAnotherThreadWithWhatIsFinished) {
         const std::unique_ptr<Backend> backend = openBackend(name, nobody());
         Diary diary;
         std::future<BackendResult> rendering =
-            std::async(std::launch::async, [&] { return render(*backend, endless, "endless", diary); });
+            std::async(std::launch::async, [&] { return renderAs("endless", *backend, endless, diary); });
         diary.isAsked.wait(false); // it has begun
         diary.isStopped = true;
         const BackendResult result = rendering.get();
@@ -117,10 +122,11 @@ TEST(Engine, StopsFromAnotherThreadWithWhatIsFinished) {
                                                    endless.loaded.settings.samplesPerPixel);
         EXPECT_FALSE(finished.isComplete) << name;
         // And a render after it goes on from there, or anew, as ever.
-        EXPECT_EQ(differingPixelCount(
-                      render(*backend, prepare("cornell", 16, 2), "next", nobody()).film,
-                      render(*openBackend("cpu", nobody()), prepare("cornell", 16, 2), "cpu", nobody()).film),
-                  0u);
+        EXPECT_EQ(
+            differingPixelCount(
+                renderAs("next", *backend, prepare("cornell", 16, 2), nobody()).film,
+                renderAs("cpu", *openBackend("cpu", nobody()), prepare("cornell", 16, 2), nobody()).film),
+            0u);
     }
 }
 

@@ -39,11 +39,9 @@ class MemberOnCpu : public Backend {
     [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
         return cpu_->identity(scene, integrator);
     }
-    [[nodiscard]] BackendResult render(const PreparedScene &scene,
-                                       const std::function<void(double)> &onProgress, Timeline *timeline,
-                                       const std::function<bool()> &shouldStop,
-                                       Continuation continuation) override {
-        const bool isSpot = !onProgress; // of the check that comes before the tiles
+    [[nodiscard]] BackendResult render(const PackedScene &scene, const RenderSettings &settings, Film begun,
+                                       const RenderHooks &hooks) override {
+        const bool isSpot = !hooks.onProgress; // of the check that comes before the tiles
         if (spotCount_ + tileCount_ == 0 && gate_)
             gate_->arrive_and_wait();
         const bool isFailing = isFailingAt(isSpot ? -1 : tileCount_);
@@ -53,8 +51,10 @@ class MemberOnCpu : public Backend {
         std::atomic<int> left = 40; // samples
         const auto givesUp = [&] { return left-- <= 0; };
         const bool isGivingUp = isFailing && failure_ == Failure::GivesUp;
-        BackendResult result = cpu_->render(scene, onProgress, timeline, isGivingUp ? givesUp : shouldStop,
-                                            std::move(continuation));
+        RenderHooks ofCpu = hooks;
+        if (isGivingUp)
+            ofCpu.shouldStop = givesUp;
+        BackendResult result = cpu_->render(scene, settings, std::move(begun), ofCpu);
         if (isGivingUp)
             result.failure.emplace(ErrorKind::DeviceLost, "lost");
         if (isFailing && failure_ == Failure::Differs)
@@ -66,9 +66,11 @@ class MemberOnCpu : public Backend {
         pixel.squaresRest.x = std::nextafter(pixel.squaresRest.x, 1.0f);
     }
     [[nodiscard]] int spotCount() const { return spotCount_; }
-    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PreparedScene &scene, const glm::uvec2 &pixel,
+    [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,
+                                                        const RenderSettings &settings,
+                                                        const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
-        return cpu_->trace(scene, pixel, sampleIndex);
+        return cpu_->trace(scene, settings, pixel, sampleIndex);
     }
 
   private:
@@ -100,12 +102,10 @@ struct SharedBackends : ::testing::Test {
         options.settings.push_back({[](RenderSettings &settings) { settings.samplesPerPixel = 6; }});
         return prepareScene(options, Source::Dropped, nobody());
     }();
-    BackendResult alone =
-        makeCpuBackend(reference::Precision::Float32, 2)->render(scene, {}, nullptr, {}, {});
+    BackendResult alone = render(*makeCpuBackend(reference::Precision::Float32, 2), scene.crop);
 
-    [[nodiscard]] static BackendResult render(Backend &backend, const PreparedScene &scene,
-                                              Continuation continuation = {}) {
-        return backend.render(scene, {}, nullptr, {}, std::move(continuation));
+    [[nodiscard]] BackendResult render(Backend &backend, Film begun, const RenderHooks &hooks = {}) const {
+        return backend.render(scene.packed, scene.loaded.settings, std::move(begun), hooks);
     }
     void expectWhole(const BackendResult &result) const {
         EXPECT_EQ(differingPixelCount(result.film, alone.film), 0u);
@@ -117,7 +117,7 @@ struct SharedBackends : ::testing::Test {
 TEST_F(SharedBackends, HaveTheBitsOfOne) {
     const auto gate = std::make_shared<std::latch>(3);
     const auto backend = share(MemberOnCpu("a", gate), MemberOnCpu("b", gate), MemberOnCpu("c", gate));
-    const BackendResult result = render(*backend, scene);
+    const BackendResult result = render(*backend, scene.crop);
     expectWhole(result);
     ASSERT_EQ(result.shares.size(), 3u);
     std::uint64_t sampleCount = 0;
@@ -131,11 +131,11 @@ TEST_F(SharedBackends, HaveTheBitsOfOne) {
 TEST_F(SharedBackends, LeaveOutWhoThrows) {
     const auto gate = std::make_shared<std::latch>(2);
     const auto backend = share(MemberOnCpu("good", gate), MemberOnCpu("bad", gate, Failure::Throws));
-    const BackendResult result = render(*backend, scene);
+    const BackendResult result = render(*backend, scene.crop);
     expectWhole(result);
     EXPECT_EQ(result.shares.at(0).failure, "");
     EXPECT_EQ(result.shares.at(1).failure, "too little memory");
-    const BackendResult next = render(*backend, scene); // it is left out of the next picture, too
+    const BackendResult next = render(*backend, scene.crop); // it is left out of the next picture, too
     expectWhole(next);
     ASSERT_EQ(next.shares.size(), 2u);
     EXPECT_EQ(next.shares[0].name, "bad");
@@ -146,7 +146,7 @@ TEST_F(SharedBackends, LeaveOutWhoseBitsDiffer) {
     const auto gate = std::make_shared<std::latch>(3);
     const auto backend = share(MemberOnCpu("wrong", gate, Failure::Differs), MemberOnCpu("right", gate),
                                MemberOnCpu("right, too", gate));
-    const BackendResult result = render(*backend, scene);
+    const BackendResult result = render(*backend, scene.crop);
     expectWhole(result);
     ASSERT_EQ(result.shares.size(), 3u);
     const RendererShare &wrong = result.shares[0];
@@ -155,12 +155,10 @@ TEST_F(SharedBackends, LeaveOutWhoseBitsDiffer) {
     EXPECT_EQ(result.shares[1].failure, "");
     EXPECT_EQ(result.shares[2].failure, "");
     // The middle of 120x100 pixels: the last two of six samples.
-    Continuation spot;
-    spot.film.emplace(Crop{56, 57, 48, 49});
-    spot.film->pixels[0].sampleCount = 4;
-    layout::FilmPixel pixel = makeCpuBackend(reference::Precision::Float32, 1)
-                                  ->render(scene, {}, nullptr, {}, std::move(spot))
-                                  .film.pixels[0];
+    Film spot(Crop{56, 57, 48, 49});
+    spot.pixels[0].sampleCount = 4;
+    layout::FilmPixel pixel =
+        render(*makeCpuBackend(reference::Precision::Float32, 1), std::move(spot)).film.pixels[0];
     const auto text = [&] {
         const glm::vec3 &rest = pixel.squaresRest;
         return fmt::format("({:.9g} {:.9g} {:.9g})", rest.x, rest.y, rest.z);
@@ -171,7 +169,7 @@ TEST_F(SharedBackends, LeaveOutWhoseBitsDiffer) {
               fmt::format("wrong and cpu disagree: at pixel (56, 48) the rest of the sum of squares "
                           "of 2 samples is {} and {}",
                           text(), right));
-    const BackendResult next = render(*backend, scene);
+    const BackendResult next = render(*backend, scene.crop);
     expectWhole(next);
     EXPECT_EQ(next.shares.at(0).name, "wrong");
     EXPECT_EQ(next.shares[0].tileCount, 0u);
@@ -180,7 +178,7 @@ TEST_F(SharedBackends, LeaveOutWhoseBitsDiffer) {
 TEST_F(SharedBackends, FailWhereAllDiffer) {
     const auto backend =
         share(MemberOnCpu("a", nullptr, Failure::Differs), MemberOnCpu("b", nullptr, Failure::Differs));
-    const BackendResult result = render(*backend, scene);
+    const BackendResult result = render(*backend, scene.crop);
     ASSERT_TRUE(result.failure);
     EXPECT_EQ(result.failure->remedy, Remedy::OneDevice);
     EXPECT_EQ(differingPixelCount(result.film, Film(scene.crop)), 0u);
@@ -195,20 +193,20 @@ TEST_F(SharedBackends, AreComparedOnceForEachIntegrator) {
     const auto &b = static_cast<const MemberOnCpu &>(*members[1]);
     const auto backend = shareBackends(std::move(members));
     for (int frame = 0; frame < 2; ++frame) {
-        for (const RendererShare &share : render(*backend, scene).shares)
+        for (const RendererShare &share : render(*backend, scene.crop).shares)
             EXPECT_EQ(share.failure, "");
         EXPECT_EQ(a.spotCount(), 4);
         EXPECT_EQ(b.spotCount(), 4);
     }
     scene.loaded.settings.integrator = Integrator::Normal;
-    static_cast<void>(render(*backend, scene));
+    static_cast<void>(render(*backend, scene.crop));
     EXPECT_GE(a.spotCount() + b.spotCount(), 12) << "one of them may have come too late for a tile";
 }
 
 TEST_F(SharedBackends, GoOnFromTheTileOfWhoGivesUp) {
     const auto gate = std::make_shared<std::latch>(2);
     const auto backend = share(MemberOnCpu("good", gate), MemberOnCpu("bad", gate, Failure::GivesUp));
-    const BackendResult result = render(*backend, scene);
+    const BackendResult result = render(*backend, scene.crop);
     expectWhole(result);
     EXPECT_EQ(result.shares.at(1).failure, "lost");
 }
@@ -217,12 +215,10 @@ TEST_F(SharedBackends, FailWhereAllFail) {
     const auto gate = std::make_shared<std::latch>(2);
     const auto backend =
         share(MemberOnCpu("a", gate, Failure::GivesUp), MemberOnCpu("b", gate, Failure::Throws, 1));
-    BackendResult result = render(*backend, scene);
+    BackendResult result = render(*backend, scene.crop);
     ASSERT_TRUE(result.failure);
     // What is there can be continued.
-    Continuation continuation;
-    continuation.film = std::move(result.film);
-    BackendResult rest = render(*share(MemberOnCpu("c", nullptr)), scene, std::move(continuation));
+    BackendResult rest = render(*share(MemberOnCpu("c", nullptr)), std::move(result.film));
     rest.rays += result.rays;
     expectWhole(rest);
 }
@@ -230,11 +226,9 @@ TEST_F(SharedBackends, FailWhereAllFail) {
 TEST_F(SharedBackends, StopAndGoOn) {
     const auto backend = share(MemberOnCpu("a", nullptr), MemberOnCpu("b", nullptr));
     std::atomic<int> left = 20'000;
-    BackendResult result = backend->render(scene, {}, nullptr, [&] { return left-- <= 0; }, {});
+    BackendResult result = render(*backend, scene.crop, {.shouldStop = [&] { return left-- <= 0; }});
     EXPECT_GT(differingPixelCount(result.film, alone.film), 0u);
-    Continuation continuation;
-    continuation.film = std::move(result.film);
-    BackendResult rest = render(*backend, scene, std::move(continuation));
+    BackendResult rest = render(*backend, std::move(result.film));
     rest.rays += result.rays;
     expectWhole(rest);
 }
@@ -257,13 +251,9 @@ TEST_F(SharedBackends, GiveSnapshotsThatGoOn) {
     };
     const auto backend = share(MemberOnCpu("a", nullptr), MemberOnCpu("b", nullptr));
     Keeper keeper;
-    Continuation kept;
-    kept.snapshots = &keeper;
-    expectWhole(render(*backend, scene, std::move(kept)));
+    expectWhole(render(*backend, scene.crop, {.snapshots = &keeper}));
     ASSERT_TRUE(keeper.film);
-    Continuation continuation;
-    continuation.film = std::move(*keeper.film);
-    BackendResult rest = render(*backend, scene, std::move(continuation));
+    BackendResult rest = render(*backend, std::move(*keeper.film));
     rest.rays += keeper.raysThen;
     expectWhole(rest);
 }
@@ -271,12 +261,11 @@ TEST_F(SharedBackends, GiveSnapshotsThatGoOn) {
 TEST_F(SharedBackends, TellProgressThatNeverFalls) {
     const auto backend = share(MemberOnCpu("a", nullptr), MemberOnCpu("b", nullptr));
     double last = 0.0;
-    static_cast<void>(backend->render(scene,
-                                      [&](double share) {
-                                          EXPECT_GE(share, last - 1e-12);
-                                          last = share;
-                                      },
-                                      nullptr, {}, {}));
+    const auto onProgress = [&](double share) {
+        EXPECT_GE(share, last - 1e-12);
+        last = share;
+    };
+    static_cast<void>(render(*backend, scene.crop, {.onProgress = onProgress}));
     EXPECT_NEAR(last, 1.0, 1e-12);
 }
 

@@ -64,7 +64,11 @@ std::unique_ptr<Backend> oneThread() { return makeCpuBackend(reference::Precisio
 struct RankBackends : ::testing::Test {
     Mail mail;
     PreparedScene scene = smallRoom();
-    BackendResult alone = oneThread()->render(scene, {}, nullptr, {}, {});
+    BackendResult alone = render(*oneThread(), scene.crop);
+
+    [[nodiscard]] BackendResult render(Backend &backend, Film begun, const RenderHooks &hooks = {}) const {
+        return backend.render(scene.packed, scene.loaded.settings, std::move(begun), hooks);
+    }
 
     /// A rank that has loaded `room`.
     [[nodiscard]] std::jthread serving(int rank, int count, PreparedScene room = smallRoom()) {
@@ -88,15 +92,18 @@ TEST_F(RankBackends, ShareAPictureAndItsLayers) {
     ASSERT_EQ(members.size(), 2u);
     EXPECT_EQ(members[1]->name(), "cpu of rank 2");
     const std::unique_ptr<Backend> shared = shareBackends(std::move(members));
-    const BackendResult result = shared->render(scene, {}, nullptr, {}, {});
+    const BackendResult result = render(*shared, scene.crop);
     EXPECT_EQ(differingPixelCount(result.film, alone.film), 0u);
     EXPECT_EQ(result.rays, alone.rays);
-    // Settings that a render changes travel with its tiles.
-    scene.loaded.settings.integrator = Integrator::Normal;
-    scene.loaded.settings.samplesPerPixel = 1;
-    scene.loaded.settings.sampler = SamplerKind::Centre;
-    const BackendResult normals = shared->render(scene, {}, nullptr, {}, {});
-    EXPECT_EQ(differingPixelCount(normals.film, here->render(scene, {}, nullptr, {}, {}).film), 0u);
+    // Settings travel with tiles.
+    RenderSettings &settings = scene.loaded.settings;
+    settings.integrator = Integrator::AmbientOcclusion;
+    settings.samplesPerPixel = 2;
+    settings.sampler = SamplerKind::Centre;
+    settings.occlusionDistance = 100.0;
+    settings.seed = 9;
+    const BackendResult occlusion = render(*shared, scene.crop);
+    EXPECT_EQ(differingPixelCount(occlusion.film, render(*here, scene.crop).film), 0u);
 }
 
 TEST_F(RankBackends, StopAndGoOn) {
@@ -106,11 +113,9 @@ TEST_F(RankBackends, StopAndGoOn) {
     std::vector<std::string> notes;
     const std::unique_ptr<Backend> shared = shareBackends(pool.backends(scene, *oneThread(), notes));
     std::atomic<int> questions = 0;
-    BackendResult result = shared->render(scene, {}, nullptr, [&] { return ++questions > 20; }, {});
+    BackendResult result = render(*shared, scene.crop, {.shouldStop = [&] { return ++questions > 20; }});
     EXPECT_GT(differingPixelCount(result.film, alone.film), 0u);
-    Continuation continuation;
-    continuation.film = std::move(result.film);
-    BackendResult rest = shared->render(scene, {}, nullptr, {}, std::move(continuation));
+    BackendResult rest = render(*shared, std::move(result.film));
     rest.rays += result.rays;
     EXPECT_EQ(differingPixelCount(rest.film, alone.film), 0u);
     EXPECT_EQ(rest.rays, alone.rays);

@@ -81,9 +81,9 @@ TEST_P(SamplesInTurn, GoOnFromAnyFilm) {
     for (const int copy : {0, 3, 10}) {
         OneCopy part(crop, copy);
         gpu::Renderer &renderer = testing::rendererBy(config);
-        (void)renderer.render(packed, scene.settings, crop, {}, nullptr, {}, {{}, &part});
+        (void)renderer.render(packed, scene.settings, crop, {.snapshots = &part});
         ASSERT_TRUE(part.isTaken);
-        const gpu::Result rest = renderer.render(packed, scene.settings, crop, {}, nullptr, {}, {part.film});
+        const gpu::Result rest = renderer.render(packed, scene.settings, part.film);
         EXPECT_EQ(differingPixels(rest.film, whole.film), 0u) << "from copy " << copy;
         EXPECT_EQ(part.rays + rest.rays, whole.rays) << "from copy " << copy;
     }

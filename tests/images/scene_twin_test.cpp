@@ -490,7 +490,7 @@ TEST(RenderConfig, CutsTheFilmIntoBands) {
     gpu::DeviceInfo device = testing::testDevice();
     device.maxStorageBufferBytes = 32 * 1024;
     gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8});
-    const Film film = renderer.render(testing::pack(scene), scene.settings, {0, 70, 0, 50}).film;
+    const Film film = renderer.render(testing::pack(scene), scene.settings, Crop{0, 70, 0, 50}).film;
     EXPECT_EQ(differingPixels(film, renderOnCpu(scene).film), 0u);
 }
 

@@ -12,7 +12,7 @@ namespace {
 void expectNoChange(const TestScene &scene, const std::string &name) {
     const PackedScene packed = pack(scene);
     const auto film = [&] {
-        return reference::render(packed, scene.settings, {0, scene.camera.width, 0, scene.camera.height},
+        return reference::render(packed, scene.settings, Crop{0, scene.camera.width, 0, scene.camera.height},
                                  {.threadCount = 1})
             .film;
     };

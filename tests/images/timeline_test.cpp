@@ -23,7 +23,7 @@ Recorded record(const TestScene &scene, const Crop &crop, const gpu::RenderConfi
     Timeline timeline;
     gpu::Renderer &renderer = testing::rendererBy(config);
     Stopwatch watch;
-    gpu::Result result = renderer.render(packed, scene.settings, crop, {}, &timeline);
+    gpu::Result result = renderer.render(packed, scene.settings, crop, {.timeline = &timeline});
     return {std::move(timeline), std::move(result), watch.lap()};
 }
 

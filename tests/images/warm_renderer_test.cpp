@@ -53,7 +53,8 @@ TEST_F(WarmRenderer, UploadsASceneOnce) {
     const PackedScene packed = pack(scene);
     const auto bytesAfterUpload = [&] {
         Timeline timeline;
-        static_cast<void>(renderer.render(packed, scene.settings, {0, 16, 0, 16}, {}, &timeline));
+        static_cast<void>(
+            renderer.render(packed, scene.settings, Crop{0, 16, 0, 16}, {.timeline = &timeline}));
         return timeline.stages.front().deviceBytes;
     };
     const std::uint64_t first = bytesAfterUpload();

@@ -31,7 +31,7 @@ bool gains(const PackedScene &packed, const RenderSettings &settings, const glm:
         reference::Options options;
         options.threadCount = 1;
         const glm::vec3 sample =
-            reference::render(packed, single, {pixel.x, pixel.x + 1, pixel.y, pixel.y + 1}, options)
+            reference::render(packed, single, Crop{pixel.x, pixel.x + 1, pixel.y, pixel.y + 1}, options)
                 .film.pixels.front()
                 .sum;
         const double red = static_cast<double>(sample.x);

@@ -29,7 +29,7 @@ TestScene ball(Integrator integrator) {
 }
 
 glm::vec3 pixelOf(const TestScene &scene) {
-    return render(packed(scene), scene.settings, {0, 1, 0, 1}).film.toImage().at(0, 0);
+    return render(packed(scene), scene.settings, Crop{0, 1, 0, 1}).film.toImage().at(0, 0);
 }
 
 TEST(View, ShowsTheFirstHit) {

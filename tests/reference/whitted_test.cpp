@@ -460,12 +460,12 @@ TEST(Whitted, ProgressEndsAtOne) {
     TestScene scene = busyScene();
     double last = 0.0;
     bool isRising = true;
-    Options options;
-    options.onProgress = [&](double share) {
+    RenderHooks hooks;
+    hooks.onProgress = [&](double share) {
         isRising = isRising && share > last;
         last = share;
     };
-    static_cast<void>(render(packed(scene), scene.settings, Crop{0, 37, 0, 23}, options));
+    static_cast<void>(render(packed(scene), scene.settings, Crop{0, 37, 0, 23}, {}, hooks));
     EXPECT_TRUE(isRising);
     EXPECT_EQ(last, 1.0);
 }

@@ -162,7 +162,7 @@ TEST(Texture, ChangesNothingWhereItIsWhite) {
     plain.materials[0].textures = {};
     textured.materials[0].textures[layout::slotEmission] = TextureUse{};
     const auto imageOf = [](const TestScene &scene) {
-        return reference::render(packed(scene), scene.settings, {0, 24, 0, 24}).film.toImage().pixels();
+        return reference::render(packed(scene), scene.settings, Crop{0, 24, 0, 24}).film.toImage().pixels();
     };
     EXPECT_EQ(imageOf(textured), imageOf(plain)) << "in any bit";
 }

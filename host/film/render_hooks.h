@@ -1,11 +1,11 @@
-// Continuation of renders: the film that a render starts with, and copies of it that it gives away while it runs.
+// Hooks of renders: what a render tells and asks while it runs, and copies of its film that it gives away.
 #pragma once
 
 #include "host/film/film.h"
 #include "host/film/ray_counts.h"
+#include "host/film/timeline.h"
 
 #include <functional>
-#include <optional>
 #include <span>
 
 namespace hyalite {
@@ -25,12 +25,14 @@ class SnapshotTaker {
                       const RayCounts &rays) = 0;
 };
 
-struct Continuation {
-    /// Samples are added to it. It decides which crop is rendered. Empty: start with none, of the scene's crop.
-    std::optional<Film> film;
-    SnapshotTaker *snapshots = nullptr; ///< if not null, it outlives the render
-    /// Of the film's pixels, in [0, 1): they have all samples already, as others render them.
-    double shareOfOthers = 0.0;
+/// All may be empty.
+struct RenderHooks {
+    /// Called occasionally, never by two threads at once, with the finished fraction of the film's samples, in [0, 1].
+    std::function<void(double)> onProgress{};
+    /// Called often, possibly by several threads at once. Once it returns true, the film has the samples that are finished.
+    std::function<bool()> shouldStop{};
+    Timeline *timeline = nullptr;       ///< records what happened when
+    SnapshotTaker *snapshots = nullptr; ///< takes copies of the film
 };
 
 } // namespace hyalite
