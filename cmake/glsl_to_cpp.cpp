@@ -36,7 +36,7 @@ struct Translated : Declaration {
     bool usesScene = false; ///< a function that reads the scene
 };
 
-const std::set<std::string> sceneWords{"frame",        "scattering",  "texturing",    "passing",
+const std::set<std::string> sceneWords{"frame",        "scattering",  "texturing",    "anyHit",
                                        "lighting",     "samplerKind", "camera",       "emitterCount",
                                        "hasTriangles", "hasEmission", "hasLightTree", "infiniteEmitterCount"};
 const std::map<std::string, std::string> types{

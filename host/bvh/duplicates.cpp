@@ -52,7 +52,7 @@ Key Keys::of(const BuildTriangle &triangle) const {
             {},
             0};
     const Material &material = scene_.materials[key.material];
-    if (isSheer(material, !mesh.colours.corners.empty()) &&
+    if (isAlphaTested(material, !mesh.colours.corners.empty()) &&
         (material.alphaMode == AlphaMode::Blend || !mesh.colours.corners.empty() ||
          !mesh.secondUvs.corners.empty()))
         key.number = triangle.inputIndex + 1;

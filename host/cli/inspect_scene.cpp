@@ -106,41 +106,41 @@ void printLight(const Scene &scene, const Light &light) {
 }
 
 /// How many spheres and triangles wear a material.
-struct Wearers {
+struct MaterialUse {
     std::uint64_t spheres = 0;
     std::uint64_t triangles = 0; ///< those of instances once for each place
 };
 
-std::vector<Wearers> countWearers(const Scene &scene) {
-    std::vector<Wearers> wearers(scene.materials.size());
+std::vector<MaterialUse> countMaterialUses(const Scene &scene) {
+    std::vector<MaterialUse> uses(scene.materials.size());
     std::vector<std::uint64_t> places(scene.prototypes.size(), 0);
     for (const Instance &instance : scene.instances)
         ++places[instance.prototype];
     const auto add = [&](const TriangleMesh &mesh, std::uint64_t times) {
         if (mesh.triangleMaterials.empty())
-            wearers[mesh.materialIndex].triangles += times * mesh.triangles.size();
+            uses[mesh.materialIndex].triangles += times * mesh.triangles.size();
         for (const std::uint32_t material : mesh.triangleMaterials)
-            wearers[material].triangles += times;
+            uses[material].triangles += times;
     };
     for (const TriangleMesh &mesh : scene.meshes)
         add(mesh, 1);
     for (std::size_t i = 0; i < scene.prototypes.size(); ++i)
         add(scene.prototypes[i], places[i]);
     for (const Sphere &sphere : scene.spheres)
-        ++wearers[sphere.materialIndex].spheres;
-    return wearers;
+        ++uses[sphere.materialIndex].spheres;
+    return uses;
 }
 
-std::string wearersText(const Wearers &wearers) {
+std::string useText(const MaterialUse &uses) {
     std::string text;
-    if (wearers.spheres > 0)
-        text = countText(wearers.spheres, "sphere");
-    if (wearers.triangles > 0)
-        text += (text.empty() ? "" : " and ") + countText(wearers.triangles, "triangle");
+    if (uses.spheres > 0)
+        text = countText(uses.spheres, "sphere");
+    if (uses.triangles > 0)
+        text += (text.empty() ? "" : " and ") + countText(uses.triangles, "triangle");
     return text.empty() ? "nothing" : text;
 }
 
-void printMaterial(const Scene &scene, const Material &material, const Wearers &wearers) {
+void printMaterial(const Scene &scene, const Material &material, const MaterialUse &uses) {
     std::string textures;
     for (const auto &[key, slot, help] : textureSlots)
         if (const std::optional<TextureUse> &use = material.textures[slot])
@@ -148,20 +148,19 @@ void printMaterial(const Scene &scene, const Material &material, const Wearers &
                                     scene.textures[use->textureIndex].name);
     printResult("material     {}\n",
                 cleanText(fmt::format("\"{}\": {}, on {}{}", material.name,
-                                      nameIn(materialNames, material.kind), wearersText(wearers), textures)));
+                                      nameIn(materialNames, material.kind), useText(uses), textures)));
 }
 
-void printEmitters(const Scene &scene, const std::vector<Wearers> &wearers) {
+void printEmitters(const Scene &scene, const std::vector<MaterialUse> &uses) {
     std::vector<std::size_t> emitters;
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        if (scene.materials[i].emission != glm::vec3(0.0f) &&
-            (wearers[i].spheres > 0 || wearers[i].triangles > 0))
+        if (scene.materials[i].emission != glm::vec3(0.0f) && (uses[i].spheres > 0 || uses[i].triangles > 0))
             emitters.push_back(i);
     printRows(emitters.size(), "emitters", [&](std::size_t i) {
         const Material &material = scene.materials[emitters[i]];
         printResult("emitter      {}\n",
                     cleanText(fmt::format("\"{}\": {} of radiance {}{}", material.name,
-                                          wearersText(wearers[emitters[i]]), colourText(material.emission),
+                                          useText(uses[emitters[i]]), colourText(material.emission),
                                           material.twoSided ? ", on both sides" : "")));
     });
 }
@@ -190,16 +189,16 @@ void printScene(const PreparedScene &prepared) {
     const Scene &scene = prepared.loaded.scene;
     printBounds(scene);
     printCamera(scene);
-    const std::vector<Wearers> wearers = countWearers(scene);
+    const std::vector<MaterialUse> uses = countMaterialUses(scene);
     printRows(scene.lights.size(), "lights", [&](std::size_t i) { printLight(scene, scene.lights[i]); });
-    printEmitters(scene, wearers);
+    printEmitters(scene, uses);
     if (const Image &sky = scene.environment.radiance; !sky.pixels().empty())
         printResult("environment  {}x{} pixels, scale {:.6g}, turned {:.6g} degrees\n", sky.width(),
                     sky.height(), scene.environment.scale, scene.environment.rotateDegrees);
     else
         printResult("background   {}\n", colourText(scene.background));
     printRows(scene.materials.size(), "materials",
-              [&](std::size_t i) { printMaterial(scene, scene.materials[i], wearers[i]); });
+              [&](std::size_t i) { printMaterial(scene, scene.materials[i], uses[i]); });
     printShapes(scene);
     if (!scene.instances.empty())
         printResult("instances    {} of {}\n", countText(scene.instances.size(), "place"),

@@ -24,11 +24,11 @@ class DispatchSizer {
   public:
     static constexpr std::uint64_t minPixels = 256; ///< of a tile: enough for a few processors
 
-    /// `seconds` > 0 is the wanted time of a dispatch. Sample counts are whole rounds of `samplesAbreast`; tiles have
+    /// `seconds` > 0 is the wanted time of a dispatch. Sample counts are whole rounds of `samplesInFlight`; tiles have
     /// at most `maxPixels` pixels.
-    DispatchSizer(double seconds, std::uint32_t samplesAbreast, std::uint64_t maxPixels,
+    DispatchSizer(double seconds, std::uint32_t samplesInFlight, std::uint64_t maxPixels,
                   const DispatchCosts &known = {})
-        : seconds_(seconds), samplesAbreast_(samplesAbreast), maxPixels_(maxPixels),
+        : seconds_(seconds), samplesInFlight_(samplesInFlight), maxPixels_(maxPixels),
           sampleSeconds_(known.sampleSeconds), workSeconds_(known.workSeconds) {}
 
     [[nodiscard]] DispatchCosts costs() const { return {sampleSeconds_, workSeconds_}; }
@@ -40,9 +40,10 @@ class DispatchSizer {
         if (sampleSeconds_ == 0.0)
             return std::min(firstPixels, maxPixels_);
         const double sampleCount = seconds_ / sampleSeconds_;
-        const double together = std::clamp(samples, samplesAbreast_, std::max(firstSamples, samplesAbreast_));
+        const double together =
+            std::clamp(samples, samplesInFlight_, std::max(firstSamples, samplesInFlight_));
         const double wanted =
-            std::max(sampleCount / together, std::min(sampleCount / samplesAbreast_, double{firstPixels}));
+            std::max(sampleCount / together, std::min(sampleCount / samplesInFlight_, double{firstPixels}));
         return static_cast<std::uint64_t>(std::clamp(
             wanted, static_cast<double>(std::min(minPixels, maxPixels_)), static_cast<double>(maxPixels_)));
     }
@@ -51,9 +52,9 @@ class DispatchSizer {
     [[nodiscard]] std::uint32_t samples(std::uint64_t pixels) const {
         const double rounds =
             sampleSeconds_ == 0.0
-                ? static_cast<double>(firstSamples) / samplesAbreast_
-                : seconds_ / (sampleSeconds_ * samplesAbreast_ * static_cast<double>(pixels));
-        return static_cast<std::uint32_t>(std::clamp(rounds, 1.0, double{maxRounds})) * samplesAbreast_;
+                ? static_cast<double>(firstSamples) / samplesInFlight_
+                : seconds_ / (sampleSeconds_ * samplesInFlight_ * static_cast<double>(pixels));
+        return static_cast<std::uint32_t>(std::clamp(rounds, 1.0, double{maxRounds})) * samplesInFlight_;
     }
 
     /// Work budget of a dispatch, in units of layout::DispatchProgress::workDone.
@@ -97,7 +98,7 @@ class DispatchSizer {
     }
 
     double seconds_;
-    std::uint32_t samplesAbreast_;
+    std::uint32_t samplesInFlight_;
     std::uint64_t maxPixels_;
     double sampleSeconds_; ///< as in DispatchCosts
     double workSeconds_;

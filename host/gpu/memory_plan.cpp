@@ -40,12 +40,12 @@ std::uint32_t fitTile(int pixels, int tile) {
     return static_cast<std::uint32_t>(std::min((pixels + blockSide - 1) / blockSide * blockSide, tile));
 }
 
-/// Samples abreast: the maximum that leaves few slots idle in the last round.
-std::uint32_t fitSamplesAbreast(int most, std::uint32_t samples) {
-    std::uint32_t abreast = static_cast<std::uint32_t>(most);
-    while (abreast > 1 && samples < 8 * ((samples + abreast - 1) / abreast * abreast - samples))
-        abreast /= 2;
-    return abreast;
+/// Samples in flight: the maximum that leaves few slots idle in the last round.
+std::uint32_t fitSamplesInFlight(int most, std::uint32_t samples) {
+    std::uint32_t inFlight = static_cast<std::uint32_t>(most);
+    while (inFlight > 1 && samples < 8 * ((samples + inFlight - 1) / inFlight * inFlight - samples))
+        inFlight /= 2;
+    return inFlight;
 }
 
 /// For a kernel with `slots` path slots. `isResumable`: it can stop inside a sample.
@@ -140,15 +140,15 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
         static_cast<std::uint64_t>(job.crop.width()) * static_cast<std::uint64_t>(job.crop.height());
     JobPlan planned;
     planned.exchangesByBroadcast = isSkipList && device.hasSlowShuffles.value_or(false);
-    planned.samplesAbreast = fitSamplesAbreast(config.samplesAbreast, job.sampleEnd - job.sampleBegin);
+    planned.samplesInFlight = fitSamplesInFlight(config.samplesInFlight, job.sampleEnd - job.sampleBegin);
     // At most one subtree waits per level. Powers of two keep the number of different kernels small.
     planned.stackSize = std::bit_ceil(std::max(static_cast<std::uint32_t>(job.scene.treeDepth), 8u));
     // A direct kernel drops unfinished samples and repeats them, so they would be counted and traced twice.
     planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
     // Where every pass takes the same time, lanes whose paths have ended cost as much as others. In a tree few rays take
     // less, and whitted's paths end together.
-    planned.takesSamplesInTurn = planned.isDirect && rowOf(job.settings.integrator).aimsAtEmitters &&
-                                 !job.scene.needsTree(job.settings.integrator);
+    planned.takesPathRegeneration = planned.isDirect && rowOf(job.settings.integrator).aimsAtEmitters &&
+                                    !job.scene.needsTree(job.settings.integrator);
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
     planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     planned.trace =
@@ -156,9 +156,9 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.largestTile = {0, 0, fitTile(job.crop.width(), config.tileWidth),
                            fitTile(job.crop.height(), config.tileHeight)};
     const auto planSlots = [&] {
-        const std::uint64_t slots = planned.largestTile.pixelCount() * planned.samplesAbreast;
+        const std::uint64_t slots = planned.largestTile.pixelCount() * planned.samplesInFlight;
         planned.stacks =
-            planned.takesSamplesInTurn
+            planned.takesPathRegeneration
                 ? plan("the finished samples", BufferUse::Storage, slots * sizeof(layout::SampleRecord))
                 : plan("the traversal stacks", BufferUse::Storage,
                        job.scene.hasTriangles && !isSkipList
@@ -177,7 +177,7 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.maxHelperPixels = std::min(planned.largestTile.pixelCount(), maxHelperPixels);
     const auto planHelper = [&] {
         planned.helperWaiting =
-            planWaiting(job, isSkipList, true, planned.maxHelperPixels * planned.samplesAbreast);
+            planWaiting(job, isSkipList, true, planned.maxHelperPixels * planned.samplesInFlight);
     };
     planHelper();
     while (!haveRoom({&planned.helperWaiting.paths, &planned.helperWaiting.pending}, device) &&

@@ -30,12 +30,13 @@ struct WaitingPlan {
 
 /// The tiles and buffers of a job.
 struct JobPlan {
-    std::uint32_t samplesAbreast = 1;
+    std::uint32_t samplesInFlight = 1;
     std::uint32_t stackSize = 0; ///< entries for each ray
     /// Dispatches end with whole samples; a resumable helper kernel does samples that are too long.
     bool isDirect = false;
     bool exchangesByBroadcast = false; ///< lanes do, not by shuffles
-    bool takesSamplesInTurn = false; ///< the direct kernel's slots do not wait for the others of their pixel
+    bool takesPathRegeneration =
+        false; ///< the direct kernel's slots do not wait for the others of their pixel
     Tile largestTile;
     std::uint64_t maxHelperPixels = 0; ///< maximum size of a tile for the helper
     BufferPlan film;

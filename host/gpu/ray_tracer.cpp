@@ -87,7 +87,7 @@ struct RayTracer::State {
         constants[layout::constantHasPairs] = scene.hasPairs;
         constants[layout::constantStackSize] = scene.stackSize;
         constants[layout::constantExactDivision] = scene.isDivisionExact;
-        constants[layout::constantSamplesAbreast] = 1;
+        constants[layout::constantSamplesInFlight] = 1;
         constants[layout::constantIsAnyHit] = goal == RayGoal::AnyHit;
         std::array<const Buffer *, layout::rayBindingCount> bound{};
         bound.fill(&unused);

@@ -40,12 +40,12 @@ RenderConfig completed(RenderConfig config, const DeviceInfo &device, Workload w
         config.traversal =
             canSkip && (device.isSoftware() || !canStack) ? Traversal::SkipList : Traversal::Stack;
     }
-    // Samples abreast need sums across lanes, which only the kernels over texel buffers have.
+    // Samples in flight need sums across lanes, which only the kernels over texel buffers have.
     const int lanes = static_cast<int>(std::bit_floor(std::clamp(device.consecutiveLanes, 1u, 8u)));
-    if (config.samplesAbreast == 0)
-        config.samplesAbreast = lanes;
-    config.samplesAbreast =
-        config.traversal == Traversal::SkipList ? std::min(config.samplesAbreast, lanes) : 1;
+    if (config.samplesInFlight == 0)
+        config.samplesInFlight = lanes;
+    config.samplesInFlight =
+        config.traversal == Traversal::SkipList ? std::min(config.samplesInFlight, lanes) : 1;
     if (config.steps == 0)
         config.steps = 4096;
     // lavapipe silently stops a subgroup after 65,535 loop iterations of all its lanes together. Kernels count for each

@@ -26,7 +26,7 @@ struct RenderConfig {
     std::uint32_t steps = 0;      ///< loop iterations of a path slot in one dispatch; 0: by the device
     int slotsPerInvocation = 0;   ///< path slots of one invocation, 1 or 2; 0: by the device
     double dispatchSeconds = 0.1; ///< wanted time of a dispatch; > 0
-    int samplesAbreast = 0;       ///< slots of one pixel: 1, 2, 4 or 8; 0: by the device and the sample count
+    int samplesInFlight = 0;      ///< slots of one pixel: 1, 2, 4 or 8; 0: by the device and the sample count
     bool isStaged = false;        ///< transfer everything through staging buffers
     bool isCounting = false;      ///< count the work of the traversal
     Arithmetic arithmetic = Arithmetic::Automatic; ///< division and square root

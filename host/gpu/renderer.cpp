@@ -110,7 +110,7 @@ struct Renderer::State {
         RenderConfig used = config;
         used.traversal = wanted.traversal;
         used.slotsPerInvocation = wanted.slotsPerInvocation;
-        used.samplesAbreast = wanted.samplesAbreast;
+        used.samplesInFlight = wanted.samplesInFlight;
         const Workload workload = workloadOf(scene, integrator);
         if (showsWork) {
             if (wanted.traversal == Traversal::SkipList)

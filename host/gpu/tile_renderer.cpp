@@ -23,7 +23,7 @@ constexpr std::uint32_t samplesInPass = 64; // per pixel and pass over the image
 // Samples that a slot takes in turn in a dispatch: with more, fewer lanes are idle at the end; with fewer, dispatches
 // have enough workgroups for many threads.
 constexpr std::uint32_t maxSamplesPerSlot = 32;
-constexpr std::uint32_t groupsInTurn = 64;
+constexpr std::uint32_t regenerationGroups = 64;
 
 RayCounts raysOf(const layout::DispatchProgress &counters) {
     return {counters.primaryRays, counters.shadowRays, counters.reflectionRays, counters.refractionRays,
@@ -81,7 +81,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantLighting] = scene.lighting;
     constants[layout::constantCamera] = scene.camera;
     constants[layout::constantTexturing] = scene.texturing;
-    constants[layout::constantPassing] = scene.passing;
+    constants[layout::constantAnyHit] = scene.anyHit;
     constants[layout::constantTrianglePairs] =
         config.traversal == Traversal::SkipList
             ? static_cast<std::uint32_t>(scene.listedPairs(job.settings.integrator))
@@ -92,9 +92,9 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantStackSize] = plan.stackSize;
     constants[layout::constantIsTracing] = job.isTraced;
     constants[layout::constantExactDivision] = config.arithmetic == Arithmetic::Native;
-    constants[layout::constantSamplesAbreast] = plan.samplesAbreast;
+    constants[layout::constantSamplesInFlight] = plan.samplesInFlight;
     constants[layout::constantIsResumable] = isResumable;
-    constants[layout::constantSamplesInTurn] = plan.takesSamplesInTurn && !isResumable;
+    constants[layout::constantPathRegeneration] = plan.takesPathRegeneration && !isResumable;
     constants[layout::constantBroadcasts] = plan.exchangesByBroadcast;
     constants[layout::constantIsCounting] = config.isCounting;
     constants[layout::constantShowsCost] = showsWork(job.settings);
@@ -127,7 +127,7 @@ TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const Scene
       stacks_(device, plan.stacks), trace_(device, plan.trace),
       unfinished_(job.film, static_cast<std::uint32_t>(job.crop.width()),
                   static_cast<std::uint32_t>(job.crop.height()), job.sampleEnd),
-      sizer_(config.dispatchSeconds, plan.samplesAbreast, plan.largestTile.pixelCount(), known) {
+      sizer_(config.dispatchSeconds, plan.samplesInFlight, plan.largestTile.pixelCount(), known) {
     if (job.film.empty())
         film_.clear();
     else
@@ -149,13 +149,13 @@ TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const Scene
     // lavapipe gives each thread one range of workgroups: 16 suits every thread count that divides it.
     dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
     dispatch_.sampleEnd = job.sampleEnd;
-    if (plan.takesSamplesInTurn)
+    if (plan.takesPathRegeneration)
         stacks_.clear();
     moveTo(plan.largestTile);
 }
 
 std::uint32_t TileRenderer::slotCount(const Tile &tile) const {
-    return static_cast<std::uint32_t>(tile.pixelCount()) * plan_.samplesAbreast;
+    return static_cast<std::uint32_t>(tile.pixelCount()) * plan_.samplesInFlight;
 }
 
 void TileRenderer::moveTo(const Tile &tile) {
@@ -167,8 +167,8 @@ void TileRenderer::moveTo(const Tile &tile) {
         workgroupSize * static_cast<std::uint32_t>(config_.slotsPerInvocation);
     groupCount_ = groupsFor(slotCount(tile), slotsPerGroup);
     dispatch_.samplesPerSlot =
-        std::clamp(slotCount(tile) / (slotsPerGroup * groupsInTurn), 1u, maxSamplesPerSlot);
-    groupCountInTurn_ = groupsFor(slotCount(tile), slotsPerGroup * dispatch_.samplesPerSlot);
+        std::clamp(slotCount(tile) / (slotsPerGroup * regenerationGroups), 1u, maxSamplesPerSlot);
+    regenerationGroupCount_ = groupsFor(slotCount(tile), slotsPerGroup * dispatch_.samplesPerSlot);
     addingGroupCount_ = groupsFor(static_cast<std::uint32_t>(tile.pixelCount()), workgroupSize);
 }
 
@@ -188,10 +188,10 @@ void TileRenderer::warmUp(Program &program) {
         return;
     const std::uint32_t sampleEnd = std::exchange(dispatch_.sampleEnd, dispatch_.sampleBegin);
     const std::uint32_t groupCount = std::exchange(groupCount_, dispatch_.interleave); // the minimum
-    const std::uint32_t groupCountInTurn = std::exchange(groupCountInTurn_, dispatch_.interleave);
+    const std::uint32_t regenerationGroupCount = std::exchange(regenerationGroupCount_, dispatch_.interleave);
     (void)runOnce(program);
     groupCount_ = groupCount;
-    groupCountInTurn_ = groupCountInTurn;
+    regenerationGroupCount_ = regenerationGroupCount;
     dispatch_.sampleEnd = sampleEnd;
 }
 
@@ -208,7 +208,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     Kernel kernel(device_, pipelineOf(device_, pipelines_, config_, job_, scenePlan_, plan_, isResumable),
                   bound);
     std::optional<Kernel> adding;
-    if (plan_.takesSamplesInTurn && !isResumable) {
+    if (plan_.takesPathRegeneration && !isResumable) {
         std::array<BufferUse, layout::bindingCount> uses{};
         std::ranges::transform(bound, uses.begin(), [](const Buffer *buffer) { return buffer->use(); });
         adding.emplace(device_,
@@ -260,7 +260,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     const auto addSamples = [&](WorkItem &item, std::uint32_t end) {
         moveTo(item.tile);
         const std::uint64_t pixels = item.tile.pixelCount();
-        const std::uint32_t most = plan_.takesSamplesInTurn ? plan_.samplesAbreast : samplesInPass;
+        const std::uint32_t most = plan_.takesPathRegeneration ? plan_.samplesInFlight : samplesInPass;
         dispatch_.sampleEnd = item.begin + std::min({sizer_.samples(pixels), most, end - item.begin});
         dispatch_.isResumed = 0;
         double seconds = 0.0;
@@ -283,7 +283,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
             }
             item.isLong = isUnfinished && step.counters.finishedSamples == 0;
             const bool isTooLarge = isUnfinished && mustHalve(item, end);
-            if (plan_.takesSamplesInTurn && (item.isLong || isTooLarge))
+            if (plan_.takesPathRegeneration && (item.isLong || isTooLarge))
                 stacks_.clear(); // what waits behind an unfinished sample
             if (isTooLarge)
                 return;
@@ -353,9 +353,9 @@ TileRenderer::Step TileRenderer::runOnce(Program &program) {
     dispatch_.workBudget = sizer_.work();
     progress_.upload(std::as_bytes(std::span(&counters, 1)));
     const std::clock_t begin = std::clock();
-    const RunTimes times =
-        program.adding ? program.kernel.run(dispatch_, groupCountInTurn_, *program.adding, addingGroupCount_)
-                       : program.kernel.run(dispatch_, groupCount_);
+    const RunTimes times = program.adding ? program.kernel.run(dispatch_, regenerationGroupCount_,
+                                                               *program.adding, addingGroupCount_)
+                                          : program.kernel.run(dispatch_, groupCount_);
     // A software device shares its processors with other programs. Time spent waiting for them must not make dispatches
     // smaller, which would wait more often.
     const double processorSeconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -383,7 +383,8 @@ DispatchRecord TileRenderer::describe(const Program &program, const Step &step, 
     record.sampleEnd = dispatch_.sampleEnd;
     record.isResumed = isResumed;
     record.rays = raysOf(step.counters);
-    record.invocations = std::uint64_t{program.adding ? groupCountInTurn_ : groupCount_} * workgroupSize;
+    record.invocations =
+        std::uint64_t{program.adding ? regenerationGroupCount_ : groupCount_} * workgroupSize;
     record.times = step.times;
     return record;
 }

@@ -133,7 +133,7 @@ layout::MaterialRecord packMaterial(const Material &material) {
             std::visit([&](const auto &value) { packKey(value, material, record); }, key.value);
     record.kindAndSides = kindAndSidesOf(material);
     record.opacity = material.alphaMode == AlphaMode::Opaque ? 1.0f : material.opacity;
-    record.alphaCutoff = material.alphaMode == AlphaMode::Blend    ? layout::sheerBlended
+    record.alphaCutoff = material.alphaMode == AlphaMode::Blend    ? layout::alphaBlended
                          : material.alphaMode == AlphaMode::CutOut ? material.alphaCutoff
                                                                    : 0.0f;
     const bool isMixture = material.kind == MaterialKind::Principled || material.kind == MaterialKind::Gltf;
@@ -327,7 +327,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
     setEye(scene, packedMaterial, packed);
     for (const std::uint32_t index : order)
         packed.materials.push_back(packMaterial(scene.materials[index]));
-    const auto useMaterial = [&](std::uint32_t index, bool hasSheer) {
+    const auto useMaterial = [&](std::uint32_t index, bool hasTransparency) {
         const MaterialRow &row = rowOf(scene.materials[index].kind);
         packed.hasEmission = packed.hasEmission || scene.materials[index].emission != glm::vec3(0.0f);
         const bool isOpaque = !isGlass(scene.materials[index]);
@@ -335,19 +335,19 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
         packed.hasDielectric = packed.hasDielectric || !isOpaque;
         packed.scattering |= row.scattering(scene.materials[index]);
         packed.texturing |= texturingOf(scene.materials[index], scene.textures);
-        packed.passing |= passingOf(scene.materials[index], hasSheer);
+        packed.anyHit |= anyHitOf(scene.materials[index], hasTransparency);
     };
     const auto useMaterials = [&](const TriangleMesh &mesh) {
         packed.texturing |= texturingOf(mesh);
-        const bool hasSheer = hasSheerColours(mesh);
+        const bool hasTransparency = hasTransparentColours(mesh);
         if (mesh.triangleMaterials.empty())
-            useMaterial(mesh.materialIndex, hasSheer);
+            useMaterial(mesh.materialIndex, hasTransparency);
         std::vector<bool> isUsed(scene.materials.size(), false);
         for (const std::uint32_t index : mesh.triangleMaterials)
             isUsed[index] = true;
         for (std::size_t i = 0; i < isUsed.size(); ++i)
             if (isUsed[i])
-                useMaterial(static_cast<std::uint32_t>(i), hasSheer);
+                useMaterial(static_cast<std::uint32_t>(i), hasTransparency);
     };
     for (const Sphere &sphere : scene.spheres) {
         useMaterial(sphere.materialIndex, false);

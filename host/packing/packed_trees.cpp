@@ -39,7 +39,7 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
                    std::uint32_t firstId, std::span<const std::uint32_t> packedMaterial,
                    PackedScene &packed) {
     const auto count = static_cast<std::int64_t>(mesh.triangles.size());
-    const bool hasSheer = hasSheerColours(mesh);
+    const bool hasTransparency = hasTransparentColours(mesh);
     bool hasNormals = packed.hasNormals;
 #pragma omp parallel for schedule(static) reduction(|| : hasNormals) if (isLong(count))
     for (std::int64_t i = 0; i < count; ++i) {
@@ -57,10 +57,10 @@ void packTriangles(const Scene &scene, const TriangleMesh &mesh, std::span<const
         const Material &material = scene.materials[materialIndex];
         const bool isTransmissive = material.kind == MaterialKind::Dielectric;
         triangle.materialIndex = packedMaterial[materialIndex];
-        const std::uint32_t passing = passingOf(material, hasSheer);
+        const std::uint32_t anyHit = anyHitOf(material, hasTransparency);
         triangle.flags = (isTransmissive ? layout::triangleIsTransmissive : 0u) |
-                         ((passing & layout::passesSheer) != 0 ? layout::triangleIsSheer : 0u) |
-                         ((passing & layout::passesCulled) != 0 ? layout::triangleIsCulled : 0u);
+                         ((anyHit & layout::anyHitAlpha) != 0 ? layout::triangleIsAlphaTested : 0u) |
+                         ((anyHit & layout::anyHitCulled) != 0 ? layout::triangleIsCulled : 0u);
         packed.triangles[record] = triangle;
         layout::NormalRecord normals{};
         if (corner.normals.x != MeshTriangle::noNormal) {

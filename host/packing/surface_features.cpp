@@ -45,15 +45,15 @@ std::uint32_t texturingOf(const TriangleMesh &mesh) {
            (mesh.tangents.corners.empty() ? 0u : layout::texturesTangents);
 }
 
-bool hasSheerColours(const TriangleMesh &mesh) {
+bool hasTransparentColours(const TriangleMesh &mesh) {
     return std::ranges::any_of(mesh.colours.values, [](const glm::vec4 &colour) { return colour.w < 1.0f; });
 }
 
-std::uint32_t passingOf(const Material &material, bool hasSheerColours) {
-    const std::uint32_t sheer =
-        material.alphaMode == AlphaMode::Blend ? layout::passesBlended : layout::passesCutOut;
-    return (isSheer(material, hasSheerColours) ? sheer : 0u) |
-           (material.isCulled ? layout::passesCulled : 0u);
+std::uint32_t anyHitOf(const Material &material, bool hasTransparentColours) {
+    const std::uint32_t alphaTest =
+        material.alphaMode == AlphaMode::Blend ? layout::anyHitBlended : layout::anyHitCutOut;
+    return (isAlphaTested(material, hasTransparentColours) ? alphaTest : 0u) |
+           (material.isCulled ? layout::anyHitCulled : 0u);
 }
 
 } // namespace hyalite

@@ -17,9 +17,9 @@ namespace hyalite {
 [[nodiscard]] std::uint32_t texturingOf(const TriangleMesh &mesh);
 
 /// Whether any vertex is less than opaque by its colour.
-[[nodiscard]] bool hasSheerColours(const TriangleMesh &mesh);
+[[nodiscard]] bool hasTransparentColours(const TriangleMesh &mesh);
 
-/// Bits of layout::passes...: how rays pass through triangles of the material. `hasSheerColours` is that of their mesh.
-[[nodiscard]] std::uint32_t passingOf(const Material &material, bool hasSheerColours);
+/// Bits of layout::anyHit...: how rays pass through triangles of the material. `hasTransparentColours` is that of their mesh.
+[[nodiscard]] std::uint32_t anyHitOf(const Material &material, bool hasTransparentColours);
 
 } // namespace hyalite

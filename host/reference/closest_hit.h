@@ -12,11 +12,11 @@
 
 namespace hyalite::reference {
 
-/// Of which ray it is asked whether it passes a sheer surface.
-struct SheerKeys {
+/// Random-number key of an alpha test: pixel, sample and ray.
+struct AlphaTestKeys {
     glm::uvec2 pixel{0}; ///< of the whole image
     std::uint32_t sampleIndex = 0;
-    /// As in sheerChoice(): twice the number of the segment, or 1 more for a shadow ray.
+    /// As in alphaTestNumber(): twice the number of the segment, or 1 more for a shadow ray.
     std::uint32_t vertex = 0;
 };
 
@@ -24,7 +24,7 @@ template <class Real> struct Ray {
     Vec3<Real> origin;
     Vec3<Real> direction;                         ///< unit length
     std::uint32_t excluded = layout::noPrimitive; ///< the primitive at the origin, which the ray cannot hit
-    SheerKeys keys{};
+    AlphaTestKeys keys{};
 };
 
 template <class Real> struct Hit {
@@ -36,17 +36,17 @@ template <class Real> struct Hit {
     std::uint32_t instance = layout::noInstance; ///< of a triangle
 };
 
-/// Whether the triangle is not there for the ray: it is culled, or sheer at the hit.
+/// Whether the triangle is not there for the ray: it is culled, or its alpha test fails.
 template <class Real>
 [[nodiscard]] bool isPassed(const SceneView<Real> &scene, const Ray<Real> &ray,
                             const TriangleRecord<Real> &triangle, std::uint32_t record,
                             const TriangleHit<Real> &hit) {
     if ((triangle.flags & layout::triangleIsCulled) != 0 && hit.isBehind)
         return true;
-    if ((triangle.flags & layout::triangleIsSheer) == 0)
+    if ((triangle.flags & layout::triangleIsAlphaTested) == 0)
         return false;
-    const Real choice = sheerChoice<Real>(ray.keys.pixel, scene.frame.seed, ray.keys.sampleIndex,
-                                          ray.keys.vertex, triangle.primitiveId);
+    const Real choice = alphaTestNumber<Real>(ray.keys.pixel, scene.frame.seed, ray.keys.sampleIndex,
+                                              ray.keys.vertex, triangle.primitiveId);
     return isPassed<Real>(scene, triangle.materialIndex, record, hit.u, hit.v, choice);
 }
 
@@ -108,7 +108,7 @@ template <class Real, bool hasInstances, bool hasSpheres> class TreeRay {
 };
 
 /// A triangle, or a sphere in the tree, that a ray hits.
-template <class Real> struct Meeting {
+template <class Real> struct Candidate {
     TriangleRecord<Real> triangle; ///< in world space
     std::uint32_t record;          ///< its index among the triangle or the sphere records
     std::uint32_t instance;        ///< or layout::noInstance
@@ -162,7 +162,7 @@ void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &r
             const TriangleHit<Real> hit = treeRay.meet(triangle);
             const std::uint32_t found = hasSpheres && isSphere(triangle) ? triangle.primitiveId : record;
             if (hit.distance > 0 && !isPassed(scene, ray, triangle, record, hit) &&
-                !visit(Meeting<Real>{triangle, found, treeRay.instance(), hit}))
+                !visit(Candidate<Real>{triangle, found, treeRay.instance(), hit}))
                 return;
             if ((triangle.flags & layout::triangleEndsLeaf) != 0)
                 break;
@@ -170,7 +170,7 @@ void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &r
     }
 }
 
-/// Calls visit(meeting) for every triangle that the ray hits, unless it passes it, in subtrees whose box it
+/// Calls visit(candidate) for every triangle that the ray hits, unless it passes it, in subtrees whose box it
 /// enters at or before `reach`, which is read again at each node. `visit` returns false to stop. `counter` counts the
 /// work.
 template <class Real, class Counter, class Visitor>
@@ -194,7 +194,7 @@ template <class Real, class Counter>
         if (distance > 0 && distance < nearest.distance)
             nearest = {distance, id, id};
     }
-    visitTriangles(scene, ray, nearest.distance, counter, [&](const Meeting<Real> &found) {
+    visitTriangles(scene, ray, nearest.distance, counter, [&](const Candidate<Real> &found) {
         const TriangleHit<Real> &hit = found.hit;
         const std::uint32_t id = found.triangle.primitiveId;
         if (hit.distance < nearest.distance || (hit.distance == nearest.distance && id < nearest.primitive))
@@ -233,7 +233,7 @@ template <class Real, class Counter>
     }
     if (shadow.isBlocked)
         return shadow;
-    visitTriangles(scene, ray, length, counter, [&](const Meeting<Real> &found) {
+    visitTriangles(scene, ray, length, counter, [&](const Candidate<Real> &found) {
         if (!(found.hit.distance < length))
             return true;
         if ((found.triangle.flags & layout::triangleIsTransmissive) != 0)
@@ -264,7 +264,7 @@ template <class Real, class Counter>
     }
     if (isBlocked)
         return true;
-    visitTriangles(scene, ray, length, counter, [&](const Meeting<Real> &found) {
+    visitTriangles(scene, ray, length, counter, [&](const Candidate<Real> &found) {
         isBlocked = found.hit.distance < length && found.triangle.primitiveId != target;
         return !isBlocked;
     });

@@ -168,8 +168,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     struct Crossing {
         std::uint32_t before; ///< medium counts as in shaders/bsdf/media.glsl
         std::uint32_t beyond;
-        Real eta;       ///< refractive index before divided by the one beyond
-        bool isNothing; ///< the same glass is effective on both sides
+        Real eta;             ///< refractive index before divided by the one beyond
+        bool isNullInterface; ///< the same glass is effective on both sides
     };
 
     [[nodiscard]] Crossing crossingOf(std::uint32_t materialIndex, bool isEntering) const {
@@ -184,11 +184,11 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
 
     /// The next ray at smooth glass. It passes straight on if the same glass is effective on both sides; otherwise it
     /// is reflected or refracted, chosen with the probability of the reflectance.
-    [[nodiscard]] Ray<Real> meetGlass(const Ray<Real> &ray, const Surface<Real> &surface,
-                                      std::uint32_t materialIndex, std::uint32_t primitive) {
+    [[nodiscard]] Ray<Real> scatterSmoothDielectric(const Ray<Real> &ray, const Surface<Real> &surface,
+                                                    std::uint32_t materialIndex, std::uint32_t primitive) {
         const bool isEntering = dotProduct(ray.direction, surface.geometricNormal) < 0;
         const Crossing crossing = crossingOf(materialIndex, isEntering);
-        if (crossing.isNothing) {
+        if (crossing.isNullInterface) {
             mediaInside_ = crossing.beyond;
             scatterPdf_ = 0; // light is never sampled through glass
             return {offsetRayOrigin(scene_, surface, ray.direction), ray.direction, primitive};
@@ -217,7 +217,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                                       bool isEntering) const {
         if (isGlass(scene_, material) && material.alpha > 0) {
             const Crossing crossing = crossingOf(materialIndex, isEntering);
-            return crossing.isNothing || crossing.eta == Real(1);
+            return crossing.isNullInterface || crossing.eta == Real(1);
         }
         return isSpecular(material);
     }
@@ -259,7 +259,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         if (!survivesRoulette())
             return std::nullopt;
         if (isGlass(scene_, material))
-            return meetGlass(ray, surface, materialIndex, hit.primitive);
+            return scatterSmoothDielectric(ray, surface, materialIndex, hit.primitive);
         weaken(mirrorReflectance(scene_, material, abs(dotProduct(ray.direction, surface.normal))));
         return reflect(ray, surface, surface.normal, hit.primitive);
     }
@@ -293,9 +293,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             const Real share = light.pdf > 0 ? powerHeuristic(light.pdf, lit.pdf) : Real(1);
             mediaInside_ = isLightBeyond ? crossing.beyond : crossing.before;
             const Vec3<Real> weight = throughput_ * (light.radiance * (lit.value * share));
-            aimAt(surface, emitter, light, weight * transmittance(light.distance), primitive);
+            aimShadowRay(surface, emitter, light, weight * transmittance(light.distance), primitive);
         } else {
-            aimAtNothing(emitter);
+            skipShadowRay(emitter);
         }
 
         const Vec3<Real> drawn = sampleBsdf(scene_, bsdf, unitFloats<Real>(vertexBits(pairScatter)), lobe.y);
@@ -321,13 +321,13 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         return Ray<Real>{offsetRayOrigin(scene_, surface, direction), direction, primitive};
     }
 
-    void aimAtNothing(std::uint32_t emitter) {
+    void skipShadowRay(std::uint32_t emitter) {
         traceEvent(layout::traceVisibility, layout::visibilityUnlit, Vec3<Real>(static_cast<Real>(emitter)));
     }
 
     /// Sends a shadow ray to what was chosen.
-    void aimAt(const Surface<Real> &surface, std::uint32_t emitter, const LightSample<Real> &light,
-               const Vec3<Real> &weight, std::uint32_t primitive) {
+    void aimShadowRay(const Surface<Real> &surface, std::uint32_t emitter, const LightSample<Real> &light,
+                      const Vec3<Real> &weight, std::uint32_t primitive) {
         ++counts_.shadow;
         const Ray<Real> ray{offsetRayOrigin(scene_, surface, light.direction),
                             light.direction,

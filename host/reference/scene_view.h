@@ -22,7 +22,7 @@ template <class Real> struct SceneView {
     SceneView(const PackedScene &packedScene, const layout::FrameRecord &frameOfRender,
               uint samplerKindOfRender)
         : packed(packedScene), frame(frameOfRender), samplerKind(samplerKindOfRender),
-          scattering(packedScene.scattering), texturing(packedScene.texturing), passing(packedScene.passing),
+          scattering(packedScene.scattering), texturing(packedScene.texturing), anyHit(packedScene.anyHit),
           lighting(packedScene.lighting), camera(packedScene.camera),
           emitterCount(static_cast<uint>(packedScene.emitters.size())),
           infiniteEmitterCount(packedScene.infiniteEmitterCount), hasTriangles(packedScene.hasTriangles),
@@ -45,7 +45,7 @@ template <class Real> struct SceneView {
     uint samplerKind;
     uint scattering;
     uint texturing;
-    uint passing;
+    uint anyHit;
     uint lighting;
     uint camera;
     uint emitterCount;

@@ -56,7 +56,7 @@ struct TextureUse {
     Channel channel = Channel::Red; ///< of slots that want one number
 };
 
-/// What textures can be worn for, by layout::slot...
+/// Uses of textures, by layout::slot...
 using TextureSlots = std::array<std::optional<TextureUse>, layout::textureSlotCount>;
 
 /// Where a surface is not there. CutOut: where its opacity is below alphaCutoff. Blend: with a probability of
@@ -109,10 +109,10 @@ struct Material {
 
 /// Whether a triangle of the material is absent in places, by its own opacity or by that of its texture or its colours.
 /// A cutoff above 1 hides what is opaque, too.
-[[nodiscard]] inline bool isSheer(const Material &material, bool hasSheerColours) {
+[[nodiscard]] inline bool isAlphaTested(const Material &material, bool hasTransparentColours) {
     const bool hidesAll = material.alphaMode == AlphaMode::CutOut && material.alphaCutoff > 1.0f;
     return material.alphaMode != AlphaMode::Opaque &&
-           (hidesAll || material.opacity < 1.0f || hasSheerColours ||
+           (hidesAll || material.opacity < 1.0f || hasTransparentColours ||
             material.textures[layout::slotOpacity].has_value());
 }
 
@@ -260,7 +260,7 @@ inline constexpr auto gltf = std::to_array<MaterialKey>({
 
 } // namespace material_keys
 
-/// What a texture is worn for.
+/// Use of a texture.
 struct TextureSlot {
     std::string_view name; ///< in scene files
     std::uint32_t slot;    ///< layout::slot...

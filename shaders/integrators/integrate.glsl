@@ -5,7 +5,7 @@
 
 void beginSample(uint slot);  // stageNextSample: the primary ray
 void shadeHit(uint slot);     // stageClosest: the nearest hit is known
-void aimAtLight(uint slot);   // stageNextLight: on a surface, choose a light
+void sampleDirectLight(uint slot);   // stageNextLight: on a surface, choose a light
 void addLight(uint slot);     // stageShadow: the shadow ray has arrived, or was stopped
 void advancePaths();          // runs samples to their end, or until the step budget is spent; in turn: one pass
 
@@ -34,7 +34,7 @@ void traceRays() {
 void lightSurfaces() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
         if (path[slot].stage == stageNextLight)
-            aimAtLight(slot);
+            sampleDirectLight(slot);
     if (hasTriangles)
         traverse(stageShadow, true);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
@@ -45,15 +45,15 @@ void lightSurfaces() {
 }
 
 #if LANES_SHUFFLE
-#include "shaders/integrators/samples_in_turn.glsl"
+#include "shaders/integrators/path_regeneration.glsl"
 #endif
 
 void integrate() {
     loadConstants();
     preload();
 #if LANES_SHUFFLE
-    if (takesSamplesInTurn) {
-        integrateInTurn();
+    if (takesPathRegeneration) {
+        integrateRegenerating();
         return;
     }
 #endif
@@ -73,7 +73,7 @@ void integrate() {
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
             addRoundToFilm(slot);
         stepsTaken += 1u;
-        isOutOfSteps = !isTrueForAllAbreast(stepsTaken < dispatch.stepBudget);
+        isOutOfSteps = !isTrueForAllOfPixel(stepsTaken < dispatch.stepBudget);
     } while (isUnfinished() && !isOutOfSteps);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
         storeFilm(slot);

@@ -131,7 +131,7 @@ struct Crossing {
     uint before; // counts as in media.glsl
     uint beyond;
     float eta;    // refractive index before divided by the one beyond
-    bool isNothing; // both sides are inside glass of higher priority: there is no interface
+    bool isNullInterface; // both sides are inside glass of higher priority: there is no interface
 };
 
 Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {
@@ -145,11 +145,11 @@ Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {
 
 // Smooth glass: chooses reflection or refraction with the probability of its share. Inside glass of higher priority the
 // path passes straight through.
-void meetGlass(uint slot, Surface surface, uint materialIndex) {
+void scatterSmoothDielectric(uint slot, Surface surface, uint materialIndex) {
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.geometricNormal) < 0.0;
     Crossing crossing = crossingOf(slot, materialIndex, isEntering);
-    if (crossing.isNothing) {
+    if (crossing.isNullInterface) {
         path[slot].mediaInside = crossing.beyond;
         path[slot].scatterPdf = 0.0; // light samples do not pass glass
         continueRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive);
@@ -178,7 +178,7 @@ void meetGlass(uint slot, Surface surface, uint materialIndex) {
 bool isSpecularHere(uint slot, MaterialRecord material, uint materialIndex, bool isEntering) {
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material) && material.alpha > 0.0) {
         Crossing crossing = crossingOf(slot, materialIndex, isEntering);
-        return crossing.isNothing || crossing.eta == 1.0;
+        return crossing.isNullInterface || crossing.eta == 1.0;
     }
     return isSpecular(material);
 }
@@ -227,14 +227,14 @@ void shadeHit(uint slot) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
-        standOn(slot, surface);
+        setSurface(slot, surface);
         path[slot].surfaceMaterial = materialIndex | (isBehind ? seenFromBehind : 0u);
         return;
     }
     if (!survivesRoulette(slot))
         return;
     if (hasDielectric && isGlass(material)) {
-        meetGlass(slot, surface, materialIndex);
+        scatterSmoothDielectric(slot, surface, materialIndex);
     } else {
         if (scattering != 0u)
             weaken(slot, mirrorReflectance(material, abs(dotProduct(path[slot].rayDirection, surface.normal))));
@@ -253,20 +253,20 @@ void scatter(uint slot) {
     continueRay(slot, offsetRayOrigin(surfaceAt(slot), direction), direction, path[slot].surfacePrimitive);
 }
 
-void aimAtNothing(uint slot, uint emitter) {
+void skipShadowRay(uint slot, uint emitter) {
     traceEvent(slot, traceVisibility, visibilityUnlit, vec3(emitter));
     scatter(slot);
 }
 
 // Sends a shadow ray to the light sample.
-void aimAt(uint slot, uint emitter, LightSample light) {
+void aimShadowRay(uint slot, uint emitter, LightSample light) {
     path[slot].rayTarget = light.target;
     path[slot].lightIndex = emitter;
     beginShadow(slot, light.direction, light.distance);
 }
 
 // Stage: on a surface, sample the direction in which the path continues, and a light.
-void aimAtLight(uint slot) {
+void sampleDirectLight(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
     MaterialRecord material =
@@ -305,9 +305,9 @@ void aimAtLight(uint slot) {
         path[slot].mediaInside = isBeyond ? crossing.beyond : crossing.before;
     weaken(slot, isPossible ? scattered.value * divide(1.0, scattered.pdf) : vec3(0.0));
     if (isLit)
-        aimAt(slot, emitter, light);
+        aimShadowRay(slot, emitter, light);
     else
-        aimAtNothing(slot, emitter);
+        skipShadowRay(slot, emitter);
 }
 
 // Stage: the shadow ray has arrived, or was stopped.
@@ -332,10 +332,10 @@ void advancePaths() {
     do {
         do
             traceRays();
-        while (!takesSamplesInTurn && hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
+        while (!takesPathRegeneration && hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
         lightSurfaces();
         stepsTaken += 1u + searchIterations();
-    } while (!takesSamplesInTurn && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
+    } while (!takesPathRegeneration && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }
 
 void main() { integrate(); }

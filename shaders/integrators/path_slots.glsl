@@ -1,6 +1,6 @@
 // The path slots of an invocation: where they are in the image, how they wait between dispatches, what they count.
 //
-// A slot works on every `samplesAbreast`-th sample of one pixel; neighbouring slots take the samples in between. Rays
+// A slot works on every `samplesInFlight`-th sample of one pixel; neighbouring slots take the samples in between. Rays
 // of one pixel are coherent. On a CPU a subgroup pays for everything that any of its lanes does, so samples side by
 // side waste less than pixels side by side. When the step budget is spent, a resumable kernel saves unfinished samples
 // in the path buffer; other kernels drop them, and a later dispatch starts again after the last round in the film.
@@ -26,10 +26,10 @@ uvec4 workCounts = uvec4(0u);         // nodes, boxes, triangles, deepest stack:
 uvec2 passCounts = uvec2(0u);         // passes of the subgroup through the traversal, slots busy in them: likewise
 uint busySlotsBefore = 0u;            // the present pass
 
-uint slotCount() { return dispatch.tileWidth * dispatch.tileHeight * samplesAbreast; }
+uint slotCount() { return dispatch.tileWidth * dispatch.tileHeight * samplesInFlight; }
 
-// Position of the slot among the samples abreast.
-uint sampleLane(uint slot) { return slotIndex[slot] & (samplesAbreast - 1u); }
+// Position of the slot among the samples in flight.
+uint sampleLane(uint slot) { return slotIndex[slot] & (samplesInFlight - 1u); }
 
 // Quotient and remainder, for a < 2^24, b > 0 and a quotient below 2^20, by a float division that is off by less than
 // 1: CPUs divide whole vectors of floats, but integers one by one.
@@ -43,7 +43,7 @@ uvec2 divideSmall(uint a, uint b) {
 // Neighbouring slots are neighbouring samples or pixels, in blocks of 4x2 and 8x8 pixels, so that the rays of a
 // subgroup are coherent.
 uvec2 pixelOfSlot(uint index) {
-    uint pixel = index / samplesAbreast;
+    uint pixel = index / samplesInFlight;
     uint block = pixel >> 6u;
     uint k = pixel & 63u;
     uint blocksAcross = dispatch.tileWidth >> 3u;

@@ -58,12 +58,12 @@ void shadeHit(uint slot) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
-        standOn(slot, surface);
+        setSurface(slot, surface);
     }
 }
 
 // Stage: send a ray to a random point of the sky.
-void aimAtLight(uint slot) {
+void sampleDirectLight(uint slot) {
     uvec2 bits = sampleBits(pairKeys(imagePixel[slot], frame.seed, occlusionPair), path[slot].sampleIndex);
     vec3 direction = sampleCosine(path[slot].surfaceNormal, unitFloats(bits));
     path[slot].stage = stageSampleDone;

@@ -137,7 +137,7 @@ void shadeHit(uint slot) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
-        standOn(slot, surface);
+        setSurface(slot, surface);
         path[slot].surfaceWeight = path[slot].throughput * (material.albedo * inversePi);
         path[slot].lightIndex = 0u;
     } else if (path[slot].rayDepth < frame.maxDepth) {
@@ -151,7 +151,7 @@ void shadeHit(uint slot) {
 }
 
 // Stage: send a shadow ray to the next light, if it is on the front side of the surface.
-void aimAtLight(uint slot) {
+void sampleDirectLight(uint slot) {
     if (path[slot].lightIndex == lightCount) {
         endPath(slot);
         return;

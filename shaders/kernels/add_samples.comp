@@ -1,5 +1,5 @@
 // Entry kernel: adds the finished samples of a tile to the film, in the order of their indices, up to the first that is
-// not finished (shaders/integrators/samples_in_turn.glsl). An invocation does a pixel.
+// not finished (shaders/integrators/path_regeneration.glsl). An invocation does a pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -18,15 +18,15 @@ layout(set = 0, binding = bindingSamples, std430) buffer SampleBuffer { SampleRe
 
 void main() {
     loadConstants();
-    uint firstPlace = (gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationIndex) * samplesAbreast;
+    uint firstPlace = (gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationIndex) * samplesInFlight;
     placeSlotAt(0u, firstPlace);
     FilmPixel pixel = filmPixels[isSlotUsed[0] ? filmIndex[0] : 0u];
     uint first = dispatch.sampleBegin + pixel.sampleCount;
     uint added = 0u;
     uvec4 rays = uvec4(0u); // shadow, reflection, refraction, bounce
     bool isNext = isSlotUsed[0];
-    for (uint i = 0u; i < samplesAbreast; ++i) {
-        uint place = (isNext ? firstPlace : 0u) + (first + i & samplesAbreast - 1u);
+    for (uint i = 0u; i < samplesInFlight; ++i) {
+        uint place = (isNext ? firstPlace : 0u) + (first + i & samplesInFlight - 1u);
         SampleRecord found = samples[place];
         isNext = isNext && found.finished != 0u;
         if (isNext) {

@@ -13,7 +13,7 @@
 layout(local_size_x = 64) in;
 
 layout(constant_id = constantBroadcasts) const bool exchangesByBroadcast = false;
-const uint samplesAbreast = 8u;
+const uint samplesInFlight = 8u;
 
 #include "shaders/memory/lanes.glsl"
 
@@ -25,12 +25,12 @@ const uint oneOfSeveral = 0x1010u; // bits: about half of the exchanges find the
 void main() {
     uint mine = gl_LocalInvocationIndex;
     for (uint i = 0u; i < exchanges; ++i) {
-        uint values[maxSamplesAbreast];
-        exchangeAbreast(mine, values);
+        uint values[maxSamplesInFlight];
+        exchangeInPixel(mine, values);
         // Each value counts otherwise, and the next exchange waits for all.
-        [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
+        [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane)
             mine = mine * 5u + values[lane];
-        mine += isTrueForAllAbreast((mine & oneOfSeveral) != 0u) ? 1u : 0u;
+        mine += isTrueForAllOfPixel((mine & oneOfSeveral) != 0u) ? 1u : 0u;
     }
     results[gl_LocalInvocationIndex] = mine;
 }

@@ -6,7 +6,7 @@
 #include "shaders/memory/lanes.glsl"
 #include "shaders/integrators/path_slots.glsl"
 #include "shaders/memory/film.glsl"
-#include "shaders/traversal/meet_triangle.glsl"
+#include "shaders/traversal/any_hit.glsl"
 #include "shaders/traversal/traverse.glsl"
 #include "shaders/traversal/rays.glsl"
 #include "shaders/integrators/media_at_origin.glsl"

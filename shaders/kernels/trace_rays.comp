@@ -15,7 +15,7 @@ const bool hasBounces = false;
 #include "shaders/traversal/preloaded.glsl"
 #include "shaders/memory/lanes.glsl"
 #include "shaders/integrators/path_slots.glsl"
-#include "shaders/traversal/meet_triangle.glsl"
+#include "shaders/traversal/any_hit.glsl"
 #include "shaders/traversal/traverse.glsl"
 
 layout(constant_id = constantIsAnyHit) const bool isAnyHit = false;
@@ -56,7 +56,7 @@ void beginRay(uint slot) {
     path[slot].rayDirection = ray.direction;
     path[slot].rayLength = ray.maxDistance;
     path[slot].rayExcluded = ray.excluded;
-    path[slot].rayDepth = 1u; // with the next two: decides about sheer surfaces
+    path[slot].rayDepth = 1u; // with the next two: decides about alpha-tested surfaces
     path[slot].sampleIndex = 0u;
     imagePixel[slot] = uvec2(0u);
     path[slot].hitPrimitive = noPrimitive;

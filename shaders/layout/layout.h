@@ -72,7 +72,7 @@ struct TriangleRecord {
 
 const uint triangleIsTransmissive = 1u; // a dielectric: it dims light instead of blocking it
 const uint triangleEndsLeaf = 2u;       // the last triangle of its leaf
-const uint triangleIsSheer = 4u;        // its material is not there for every ray: see passing
+const uint triangleIsAlphaTested = 4u;  // its material is not there for every ray: see anyHit...
 const uint triangleIsSphere = 8u;
 const uint triangleIsCulled = 16u;    // it is not there for rays from behind
 const uint triangleEmitterShift = 5u; // the other bits: of the light tree, the index of its emitter
@@ -231,7 +231,7 @@ struct MaterialRecord {
     float anisotropy;       // strength
     float anisotropyCosine; // of its rotation from the tangent along u
     float anisotropySine;
-    float alphaCutoff; // the surface is not there where its opacity is below; or sheerBlended
+    float alphaCutoff; // the surface is not there where its opacity is below; or alphaBlended
     float opacity;     // a factor on those of textures and vertices
     float clearcoatNormalStrength;
     uint pad1;
@@ -246,7 +246,7 @@ const uint materialIsSpecularGlossy = 0x10000000u; // glTF: textures of roughnes
 const uint materialIsUnlit = 0x08000000u;          // glTF: shows its base colour
 const uint materialKindMask = 0xFFu;
 
-const float sheerBlended = -1.0f; // of alphaCutoff: the surface is there with the probability of its opacity
+const float alphaBlended = -1.0f; // of alphaCutoff: the surface is there with the probability of its opacity
 
 HYALITE_INLINE uint kindOf(MaterialRecord material) { return material.kindAndSides & materialKindMask; }
 
@@ -278,11 +278,11 @@ const uint scattersAtThin = 128u;
 const uint scattersAtCoatNormals = 256u; // a clear coat's normals differ from those below
 const uint scattersAtUnlit = 512u;
 
-// What rays may pass through: bits of constantPassing.
-const uint passesCutOut = 1u;  // surfaces where their opacity is below a threshold
-const uint passesBlended = 2u; // by chance, the more often the less opaque a surface is
-const uint passesSheer = 3u;   // any of those
-const uint passesCulled = 4u;  // triangles from behind
+// Any-hit tests: bits of constantAnyHit. A hit does not count
+const uint anyHitCutOut = 1u;  // where the opacity of a surface is below a threshold
+const uint anyHitBlended = 2u; // by chance, the more often the less opaque a surface is
+const uint anyHitAlpha = 3u;   // any of those
+const uint anyHitCulled = 4u;  // at triangles from behind
 
 // Lookup tables, in rows of four numbers: the energy of microfacets (shaders/bsdf/energy.glsl), where
 // constantScattering needs it; the environment; the pixel filter.
@@ -546,7 +546,7 @@ struct FrameRecord {
 
 // ---- Dispatch constants
 //
-// A dispatch works on one tile of the film, with `samplesAbreast` path slots for each pixel. `stepBudget` bounds the loop
+// A dispatch works on one tile of the film, with `samplesInFlight` path slots for each pixel. `stepBudget` bounds the loop
 // iterations of a slot, and `workBudget` the work of all slots together: a slot that starts after it is spent makes only
 // one pass. Unfinished slots wait in the path buffer for a dispatch with `isResumed` set.
 struct DispatchConstants {
@@ -723,10 +723,10 @@ const uint constantHasSpecular = 3u; // mirrors or dielectrics
 const uint constantHasDielectric = 4u;
 const uint constantSampler = 5u;
 const uint constantStackSize = 6u;
-const uint constantIsTracing = 7u;      // path slot 0 writes into the trace buffer
-const uint constantExactDivision = 8u;  // the device's own / and sqrt are correctly rounded
-const uint constantSamplesAbreast = 9u; // slots of one pixel: a power of two, at most the subgroup's size
-const uint constantIsResumable = 10u;   // unfinished slots wait in the path buffer
+const uint constantIsTracing = 7u;       // path slot 0 writes into the trace buffer
+const uint constantExactDivision = 8u;   // the device's own / and sqrt are correctly rounded
+const uint constantSamplesInFlight = 9u; // slots of one pixel: a power of two, at most the subgroup's size
+const uint constantIsResumable = 10u;    // unfinished slots wait in the path buffer
 const uint constantLightCount = 11u;
 const uint constantPendingInRegisters = 12u; // pending rays in registers; 0: they are in the buffer
 const uint constantIsCounting = 13u;         // count the work of the traversal
@@ -742,12 +742,12 @@ const uint constantHasInstances = 22u;
 const uint constantTreeSpheres = 23u; // what the tree holds
 const uint constantHasLightTree = 24u;
 const uint constantInfiniteEmitters = 25u; // of a scene with a light tree: emitters that are not in it
-const uint constantPassing = 26u;
-const uint constantTrianglePairs = 27u; // skip lists: all triangles in turn, as so many pairs; 0: the tree
-const uint constantSamplesInTurn = 28u; // slots go from sample to sample: samples_in_turn.glsl
-const uint constantBroadcasts = 29u;    // subgroups of broadcastLanes exchange values by broadcasts
-const uint constantHasPairs = 30u;      // skip lists: leaves may be pairs of triangles
-const uint constantHasNormals = 31u;    // of corners of triangles
+const uint constantAnyHit = 26u;
+const uint constantTrianglePairs = 27u;    // skip lists: all triangles in turn, as so many pairs; 0: the tree
+const uint constantPathRegeneration = 28u; // slots go from sample to sample: path_regeneration.glsl
+const uint constantBroadcasts = 29u;       // subgroups of broadcastLanes exchange values by broadcasts
+const uint constantHasPairs = 30u;         // skip lists: leaves may be pairs of triangles
+const uint constantHasNormals = 31u;       // of corners of triangles
 const uint constantCount = 32u;
 
 const uint broadcastLanes = 16u;

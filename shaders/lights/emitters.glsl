@@ -42,7 +42,7 @@ LightSample sampleEnvironmentLight(EmitterRecord emitter, uvec2 bits) {
 vec3 triangleEmission(vec3 emission, TriangleRecord triangle, uint record, vec2 weights) {
     MaterialRecord material = fetchMaterial(triangle.materialIndex);
     uint textures = material.textures;
-    if ((passing & passesSheer) != 0u && (triangle.flags & triangleIsSheer) != 0u)
+    if ((anyHit & anyHitAlpha) != 0u && (triangle.flags & triangleIsAlphaTested) != 0u)
         emission = emission * presenceAt(material, record, weights.x, weights.y);
     if (textures == 0u)
         return emission;
@@ -72,7 +72,7 @@ LightSample sampleTriangleLight(EmitterRecord emitter, float areaPdf, vec3 posit
     float pdf = solidAnglePdf(areaPdf, distance, cosine);
     bool isSeen = cosine > 0.0 && distance > 0.0;
     vec3 emission = emitter.emission;
-    if ((texturing & texturesEmission) != 0u || (passing & passesSheer) != 0u)
+    if ((texturing & texturesEmission) != 0u || (anyHit & anyHitAlpha) != 0u)
         emission = triangleEmission(emission, triangle, emitter.record, weights);
     return LightSample(direction, distance, isSeen ? emission * divide(1.0, pdf) : vec3(0.0), pdf,
                        triangle.primitiveId);
@@ -92,8 +92,8 @@ LightSample sampleSphereLight(EmitterRecord emitter, float chance, float areaPdf
         float centreDistance = squareRoot(squaredDistance);
         float height = coneHeight(shape.squaredRadius, squaredDistance);
         direction = sampleCone(toCentre * divide(1.0, centreDistance), height, u);
-        float meeting = intersectSphere(position, direction, shape, false);
-        distance = meeting > 0.0 ? meeting : centreDistance; // rounding moved the direction past the rim
+        float hitDistance = intersectSphere(position, direction, shape, false);
+        distance = hitDistance > 0.0 ? hitDistance : centreDistance; // rounding moved the direction past the rim
         pdf = chance * pdfCone(height);
         isSeen = normalSignOf(sphere) > 0.0 || emitter.isTwoSided != 0u;
     } else {

@@ -1,6 +1,6 @@
 // The film. Samples are added in the order of their indices, whichever slot computed them.
 //
-// The slots of a pixel share its sums: a slot keeps those whose number leaves its lane when divided by `samplesAbreast`.
+// The slots of a pixel share its sums: a slot keeps those whose number leaves its lane when divided by `samplesInFlight`.
 // Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples.
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
@@ -11,7 +11,7 @@ const uint filmRestWords = 4u; // from a sum to its rest
 const uint filmSums = 8u;
 const uint nobodysSum = 7u;
 
-CompensatedSum filmSum[RAYS][filmSums]; // at each number's multiple of `samplesAbreast`
+CompensatedSum filmSum[RAYS][filmSums]; // at each number's multiple of `samplesInFlight`
 uint filmSampleCount[RAYS];             // the same in all slots of a pixel
 
 // The word of a sum in the film; of another pixel's, if the slot is not used.
@@ -22,24 +22,24 @@ uint filmWord(uint slot, uint number) {
 // Words are loaded and stored one by one on lavapipe, so that no slot touches more than it has to: there are no rests before
 // the first sample.
 void loadFilm(uint slot) {
-    const uint laneOfCount = filmSampleCountWord & samplesAbreast - 1u;
+    const uint laneOfCount = filmSampleCountWord & samplesInFlight - 1u;
     uint count = 0u;
-    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast) {
+    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight) {
         uint value = filmWords[filmWord(slot, first + sampleLane(slot))];
         filmSum[slot][first] = CompensatedSum(uintBitsToFloat(value), 0.0);
         count = first + laneOfCount == filmSampleCountWord ? value : count;
     }
-    uint counts[maxSamplesAbreast];
-    exchangeAbreast(count, counts);
+    uint counts[maxSamplesInFlight];
+    exchangeInPixel(count, counts);
     filmSampleCount[slot] = counts[laneOfCount];
     if (filmSampleCount[slot] != 0u)
-        [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast)
+        [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight)
             filmSum[slot][first].rest =
                 uintBitsToFloat(filmWords[filmWord(slot, first + sampleLane(slot)) + filmRestWords]);
 }
 
 void storeFilm(uint slot) {
-    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast) {
+    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight) {
         uint number = first + sampleLane(slot);
         uint word = filmWord(slot, number);
         bool isCount = number == filmSampleCountWord;
@@ -50,18 +50,18 @@ void storeFilm(uint slot) {
     }
 }
 
-// Adds the radiances of the samples abreast. Slots without a sample add 0, which changes no bit.
+// Adds the radiances of the samples in flight. Slots without a sample add 0, which changes no bit.
 void addRadiances(uint slot) {
-    uint red[maxSamplesAbreast];
-    uint green[maxSamplesAbreast];
-    uint blue[maxSamplesAbreast];
-    exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.x), red);
-    exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.y), green);
-    exchangeAbreast(floatBitsToUint(path[slot].sampleRadiance.z), blue);
-    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesAbreast) {
+    uint red[maxSamplesInFlight];
+    uint green[maxSamplesInFlight];
+    uint blue[maxSamplesInFlight];
+    exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.x), red);
+    exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.y), green);
+    exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.z), blue);
+    [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight) {
         uint number = first + sampleLane(slot);
         uint channel = number & 3u;
-        [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
+        [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane) {
             uint bits = channel == 0u ? red[lane] : channel == 1u ? green[lane] : blue[lane];
             float radiance = withoutSubnormals(uintBitsToFloat(bits));
             float added = number < 4u ? radiance : withoutSubnormals(radiance * radiance);
@@ -72,17 +72,17 @@ void addRadiances(uint slot) {
 
 // Ends the round if the samples of all slots of the pixel are finished.
 void addRoundToFilm(uint slot) {
-    if (!isTrueForAllAbreast(path[slot].stage == stageSampleDone))
+    if (!isTrueForAllOfPixel(path[slot].stage == stageSampleDone))
         return;
     uint first = path[slot].sampleIndex - sampleLane(slot);
     addRadiances(slot);
-    filmSampleCount[slot] += min(samplesAbreast, dispatch.sampleEnd - first);
+    filmSampleCount[slot] += min(samplesInFlight, dispatch.sampleEnd - first);
     if (path[slot].sampleIndex < dispatch.sampleEnd)
         finishedSampleCount += 1u;
     finishedRayCounts += rayCounts[slot];
     rayCounts[slot] = uvec4(0u);
     finishedBounceCount += bounceCounts[slot];
     bounceCounts[slot] = 0u;
-    path[slot].sampleIndex += samplesAbreast;
-    path[slot].stage = first + samplesAbreast < dispatch.sampleEnd ? stageNextSample : stageDone;
+    path[slot].sampleIndex += samplesInFlight;
+    path[slot].stage = first + samplesInFlight < dispatch.sampleEnd ? stageNextSample : stageDone;
 }

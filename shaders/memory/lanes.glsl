@@ -9,18 +9,18 @@ uint maxOfLanes(uint x) { return subgroupMax(x); }
 
 bool subgroupElected() { return subgroupElect(); }
 
-const uint maxSamplesAbreast = 8u;
+const uint maxSamplesInFlight = 8u;
 
-uint firstLaneAbreast() { return gl_SubgroupInvocationID & ~(samplesAbreast - 1u); }
+uint firstLaneOfPixel() { return gl_SubgroupInvocationID & ~(samplesInFlight - 1u); }
 
-uint laneAbreast() { return gl_SubgroupInvocationID & (samplesAbreast - 1u); }
+uint laneInPixel() { return gl_SubgroupInvocationID & (samplesInFlight - 1u); }
 
 // The values of the slots of a pixel, in the order of their samples. Where shuffles are loops over the lanes, every lane
 // gets all values instead and selects those of its pixel (host/gpu/lane_exchange.h).
-void exchangeAbreast(uint mine, out uint values[maxSamplesAbreast]) {
+void exchangeInPixel(uint mine, out uint values[maxSamplesInFlight]) {
     if (!exchangesByBroadcast) {
-        [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane)
-            values[lane] = subgroupShuffle(mine, firstLaneAbreast() + lane);
+        [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane)
+            values[lane] = subgroupShuffle(mine, firstLaneOfPixel() + lane);
         return;
     }
     uint all[broadcastLanes] = uint[](
@@ -30,22 +30,22 @@ void exchangeAbreast(uint mine, out uint values[maxSamplesAbreast]) {
         subgroupBroadcast(mine, 9u), subgroupBroadcast(mine, 10u), subgroupBroadcast(mine, 11u),
         subgroupBroadcast(mine, 12u), subgroupBroadcast(mine, 13u), subgroupBroadcast(mine, 14u),
         subgroupBroadcast(mine, 15u));
-    [[unroll]] for (uint lane = 0u; lane < samplesAbreast; ++lane) {
+    [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane) {
         values[lane] = all[lane];
-        [[unroll]] for (uint first = samplesAbreast; first < broadcastLanes; first += samplesAbreast)
-            values[lane] = firstLaneAbreast() == first ? all[first + lane] : values[lane];
+        [[unroll]] for (uint first = samplesInFlight; first < broadcastLanes; first += samplesInFlight)
+            values[lane] = firstLaneOfPixel() == first ? all[first + lane] : values[lane];
     }
 }
 
-bool isTrueForAllAbreast(bool value) {
+bool isTrueForAllOfPixel(bool value) {
     if (exchangesByBroadcast) {
-        const uint ofPixel = samplesAbreast == 8u ? 0xFFu : (samplesAbreast == 4u ? 0xFu : (samplesAbreast == 2u ? 3u : 1u));
-        return (subgroupBallot(value).x >> firstLaneAbreast() & ofPixel) == ofPixel;
+        const uint ofPixel = samplesInFlight == 8u ? 0xFFu : (samplesInFlight == 4u ? 0xFu : (samplesInFlight == 2u ? 3u : 1u));
+        return (subgroupBallot(value).x >> firstLaneOfPixel() & ofPixel) == ofPixel;
     }
     uint all = value ? 1u : 0u;
-    all &= samplesAbreast > 1u ? subgroupShuffleXor(all, 1u) : 1u;
-    all &= samplesAbreast > 2u ? subgroupShuffleXor(all, 2u) : 1u;
-    all &= samplesAbreast > 4u ? subgroupShuffleXor(all, 4u) : 1u;
+    all &= samplesInFlight > 1u ? subgroupShuffleXor(all, 1u) : 1u;
+    all &= samplesInFlight > 2u ? subgroupShuffleXor(all, 2u) : 1u;
+    all &= samplesInFlight > 4u ? subgroupShuffleXor(all, 4u) : 1u;
     return all != 0u;
 }
 #else
@@ -55,9 +55,9 @@ uint maxOfLanes(uint x) { return x; }
 
 bool subgroupElected() { return true; }
 
-const uint maxSamplesAbreast = 1u;
+const uint maxSamplesInFlight = 1u;
 
-void exchangeAbreast(uint mine, out uint values[maxSamplesAbreast]) { values[0] = mine; }
+void exchangeInPixel(uint mine, out uint values[maxSamplesInFlight]) { values[0] = mine; }
 
-bool isTrueForAllAbreast(bool value) { return value; }
+bool isTrueForAllOfPixel(bool value) { return value; }
 #endif

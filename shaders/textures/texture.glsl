@@ -184,15 +184,15 @@ float opacityAt(MaterialRecord material, uint triangleRecord, float u, float v) 
     return opacity;
 }
 
-// The share of rays for which a sheer triangle is there at the point with these weights.
+// The share of rays for which an alpha-tested triangle is there at the point with these weights.
 float presenceAt(MaterialRecord material, uint triangleRecord, float u, float v) {
     float opacity = opacityAt(material, triangleRecord, u, v);
-    if ((passing & passesBlended) != 0u && material.alphaCutoff == sheerBlended)
+    if ((anyHit & anyHitBlended) != 0u && material.alphaCutoff == alphaBlended)
         return opacity;
     return opacity < material.alphaCutoff ? 0.0 : 1.0;
 }
 
-// Whether a ray passes through it. `choice`, in [0, 1), is sheerChoice().
+// Whether a ray passes through it. `choice`, in [0, 1), is alphaTestNumber().
 bool isPassed(uint materialIndex, uint triangleRecord, float u, float v, float choice) {
     return choice >= presenceAt(fetchMaterial(materialIndex), triangleRecord, u, v);
 }
@@ -212,7 +212,7 @@ MaterialRecord anisotropicMaterial(MaterialRecord material, vec3 texel) {
     return material;
 }
 
-bool isWorn(uint textures, uint slot) { return (texturing & (1u << slot)) != 0u && hasTexture(textures, slot); }
+bool isTextured(uint textures, uint slot) { return (texturing & (1u << slot)) != 0u && hasTexture(textures, slot); }
 
 // Whether a lookup in `slot` is one in `other`, which scenes without such textures know beforehand.
 bool isSlot(uint slot, uint other) { return (texturing & (1u << other)) != 0u && slot == other; }
@@ -252,9 +252,9 @@ MaterialRecord texturedMaterial(MaterialRecord material, uint slots, SurfaceUv a
     uint textures = material.textures;
     if (textures == 0u)
         return material;
-    if ((slots & texturesBaseColour) != 0u && isWorn(textures, slotBaseColour))
+    if ((slots & texturesBaseColour) != 0u && isTextured(textures, slotBaseColour))
         material.albedo *= lookUpTexture(textureRow(textures, slotBaseColour), at);
-    if ((slots & texturesEmission) != 0u && isWorn(textures, slotEmission))
+    if ((slots & texturesEmission) != 0u && isTextured(textures, slotEmission))
         material.emission *= lookUpTexture(textureRow(textures, slotEmission), at);
     for (uint left = slots & texturing & texturesOfLobes; left != 0u; left &= left - 1u) {
         uint slot = uint(findLSB(left));

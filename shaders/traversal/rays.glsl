@@ -37,9 +37,9 @@ void meetSphere(uint slot, uint id, SphereShape shape) {
 
 void meetSphereInShadow(uint slot, uint i, SphereShape shape) {
     uint id = sphereIds[i];
-    float meeting =
+    float hitDistance =
         intersectSphere(path[slot].rayOrigin, path[slot].rayDirection, shape, path[slot].rayExcluded == id);
-    bool isBetween = meeting > 0.0 && meeting < path[slot].rayLength && !isTarget(slot, id);
+    bool isBetween = hitDistance > 0.0 && hitDistance < path[slot].rayLength && !isTarget(slot, id);
     bool isTransmissive = lightPassesGlass && isSphereTransmissive(i);
     path[slot].isLightDimmed = isBetween && isTransmissive ? 1u : path[slot].isLightDimmed;
     path[slot].hitPrimitive = isBetween && !isTransmissive ? id : path[slot].hitPrimitive;
@@ -217,7 +217,7 @@ SurfaceAxes hitAxes(uint slot, MaterialRecord material, vec3 normal, bool isBehi
 }
 
 // Moves the path to the surface at the hit, to light it.
-void standOn(uint slot, Surface surface) {
+void setSurface(uint slot, Surface surface) {
     path[slot].surfacePosition = surface.position;
     path[slot].surfaceError = surface.error;
     path[slot].surfaceNormal = surface.normal;

@@ -4,11 +4,11 @@
 #include "shaders/traversal/traverse_list.glsl"
 
 void traverse(uint stage, const bool isShadow) {
-    Meeting waiting[RAYS]; // never used
+    Candidate waiting[RAYS]; // never used
     if (trianglePairs > 0u)
         traverseList(stage, isShadow);
-    else if ((passing & passesSheer) != 0u)
-        traverseSheerTree(stage, isShadow);
+    else if ((anyHit & anyHitAlpha) != 0u)
+        traverseAlphaTestedTree(stage, isShadow);
     else
         traverseTree(stage, isShadow, waiting);
 }

@@ -5,8 +5,8 @@
 // slots step until each is at a leaf, and then all test triangles until each has left its leaf. Traversal can stop
 // after any step: its state is the cursor and the nearest hit.
 //
-// A lookup whether a triangle is sheer where a ray meets it takes longer than several steps, and all lanes would pay for
-// it with each triangle. So a ray that meets a sheer triangle waits until all others have come to their end or wait, too.
+// An alpha test takes longer than several steps, and all lanes would pay for it with each triangle. So a ray with an
+// alpha-tested candidate waits until all others have come to their end or wait, too.
 
 // Distances to the planes of the grid: q * scale + lower or upper, with q in the upper half of a word. A value in the
 // lower half moves the plane up by less than a cell; it is left there only for upper planes, which it moves outward.
@@ -76,10 +76,10 @@ struct Cursor {
     bool isSearching; // for the next leaf
     uint instance;    // whose tree it is in, or noInstance
     int following;    // then the node after the instance's own
-    bool isWaiting;   // to look up whether what it meets is sheer
+    bool isWaiting;   // for the alpha test of its candidate
 };
 
-bool canMove(Cursor cursor) { return (passing & passesSheer) == 0u || !cursor.isWaiting; }
+bool canMove(Cursor cursor) { return (anyHit & anyHitAlpha) == 0u || !cursor.isWaiting; }
 
 bool isBeforeLeaf(Cursor cursor) { return cursor.leaf == 0 && cursor.node < cursor.end && canMove(cursor); }
 
@@ -145,7 +145,7 @@ void leaveTree(inout Cursor cursor, vec3 direction, int node) {
 }
 
 // Tests the next triangle of a leaf, and moves the cursor past it.
-Meeting testNext(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
+Candidate testNext(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
                  const bool isShadow) {
     uint record = uint(cursor.leaf) & ~leafFlag;
     TriangleRecord triangle = fetchTriangle(record);
@@ -157,7 +157,7 @@ Meeting testNext(uint slot, inout Cursor cursor, InstanceRecord place, TriangleR
 
 // testNext where leaves may be pairs. The corners are fetched in the order in which the pair has them. Where the line of
 // the ray goes through both triangles, the second one is tested again by itself: the cursor moves to it.
-Meeting testNextPair(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
+Candidate testNextPair(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
                      const bool isShadow) {
     uint leaf = uint(cursor.leaf);
     bool isPair = isPairOfTriangles(leaf);
@@ -190,11 +190,11 @@ Meeting testNextPair(uint slot, inout Cursor cursor, InstanceRecord place, Trian
     bool endsLeaf = isPair || (flags & triangleEndsLeaf) != 0u;
     cursor.leaf = found.isBoth ? int(leafFlag | (record + 1u)) : (endsLeaf ? 0 : cursor.leaf + 1);
     uint further = found.isSecond ? 1u : 0u;
-    return meetingOf(slot, found.hit, id + further, record + further, cursor.instance, flags, materialIndex, isShadow);
+    return candidateOf(slot, found.hit, id + further, record + further, cursor.instance, flags, materialIndex, isShadow);
 }
 
-// `waiting` gets the sheer triangles that rays meet. These rays have stopped on the way.
-void traverseTree(uint stage, const bool isShadow, inout Meeting waiting[RAYS]) {
+// `waiting` gets the alpha-tested triangles that rays meet. These rays have stopped on the way.
+void traverseTree(uint stage, const bool isShadow, inout Candidate waiting[RAYS]) {
     GridRay gridRay[RAYS];
     PlacedBoxRay placedRay[RAYS];
     InstanceRecord instance[RAYS];
@@ -255,17 +255,17 @@ void traverseTree(uint stage, const bool isShadow, inout Meeting waiting[RAYS]) 
                 uint triangles = hasPairs && isPairOfTriangles(uint(cursor[slot].leaf)) ? 2u : 1u;
                 countSlot(slot, isAtTriangle(cursor[slot]), uvec3(0u, 0u, triangles));
                 if (isAtTriangle(cursor[slot])) {
-                    Meeting meeting;
+                    Candidate candidate;
                     if (hasPairs)
-                        meeting = testNextPair(slot, cursor[slot], instance[slot], triangleRay[slot], boxRay[slot],
+                        candidate = testNextPair(slot, cursor[slot], instance[slot], triangleRay[slot], boxRay[slot],
                                                isShadow);
                     else
-                        meeting =
+                        candidate =
                             testNext(slot, cursor[slot], instance[slot], triangleRay[slot], boxRay[slot], isShadow);
-                    if (maySlipThrough(meeting)) {
-                        waiting[slot] = meeting;
+                    if (needsAlphaTest(candidate)) {
+                        waiting[slot] = candidate;
                         cursor[slot].isWaiting = true;
-                    } else if (keepMeeting(slot, meeting, isShadow)) {
+                    } else if (commitHit(slot, candidate, isShadow)) {
                         leaveAll(cursor[slot], path[slot].rayDirection);
                     }
                 }
@@ -295,18 +295,18 @@ void traverseTree(uint stage, const bool isShadow, inout Meeting waiting[RAYS]) 
     }
 }
 
-// The traversal where triangles may be sheer.
-void traverseSheerTree(uint stage, const bool isShadow) {
+// The traversal of a scene with alpha tests.
+void traverseAlphaTestedTree(uint stage, const bool isShadow) {
     bool isAnyLeft;
     do {
-        Meeting waiting[RAYS];
+        Candidate waiting[RAYS];
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
             waiting[slot].isMet = false;
         traverseTree(stage, isShadow, waiting);
         isAnyLeft = false;
         [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-            if (waiting[slot].isMet && !slipsThrough(slot, waiting[slot], isShadow) &&
-                keepMeeting(slot, waiting[slot], isShadow))
+            if (waiting[slot].isMet && !failsAlphaTest(slot, waiting[slot], isShadow) &&
+                commitHit(slot, waiting[slot], isShadow))
                 stopTraversal(slot);
             isAnyLeft = isAnyLeft || (path[slot].stage == stage && isTraversing(slot));
         }

@@ -83,7 +83,7 @@ TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
     EXPECT_EQ(plan.helperWaiting.paths.sizeBytes, 0u);
 }
 
-TEST(MemoryPlan, PathsWithoutATreeTakeSamplesInTurn) {
+TEST(MemoryPlan, PathsWithoutATreeAreRegenerated) {
     const RenderConfig skip = completed({.tileWidth = 64, .tileHeight = 64, .traversal = Traversal::SkipList},
                                         device(), Workload::Spheres);
     const auto planOf = [&](const PackedScene &scene, Integrator integrator, const RenderConfig &config) {
@@ -92,17 +92,17 @@ TEST(MemoryPlan, PathsWithoutATreeTakeSamplesInTurn) {
     };
     const PackedScene spheres = sceneOf(0);
     const JobPlan plan = planOf(spheres, Integrator::Path, skip);
-    EXPECT_TRUE(plan.takesSamplesInTurn);
+    EXPECT_TRUE(plan.takesPathRegeneration);
     EXPECT_EQ(plan.stacks.sizeBytes, 64u * 64u * 8u * sizeof(layout::SampleRecord));
-    EXPECT_FALSE(planOf(spheres, Integrator::Whitted, skip).takesSamplesInTurn);
-    EXPECT_FALSE(planOf(sceneOf(1000), Integrator::Path, skip).takesSamplesInTurn);
+    EXPECT_FALSE(planOf(spheres, Integrator::Whitted, skip).takesPathRegeneration);
+    EXPECT_FALSE(planOf(sceneOf(1000), Integrator::Path, skip).takesPathRegeneration);
     PackedScene room = sceneOf(2);
-    EXPECT_FALSE(planOf(room, Integrator::Path, skip).takesSamplesInTurn);
+    EXPECT_FALSE(planOf(room, Integrator::Path, skip).takesPathRegeneration);
     room.trianglePairs.emplace_back();
-    EXPECT_TRUE(planOf(room, Integrator::Path, skip).takesSamplesInTurn);
+    EXPECT_TRUE(planOf(room, Integrator::Path, skip).takesPathRegeneration);
     RenderConfig counting = skip;
     counting.isCounting = true;
-    EXPECT_FALSE(planOf(room, Integrator::Path, counting).takesSamplesInTurn)
+    EXPECT_FALSE(planOf(room, Integrator::Path, counting).takesPathRegeneration)
         << "it resumes inside of samples";
 }
 
@@ -112,7 +112,7 @@ TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
         completed({.tileWidth = 256, .tileHeight = 256, .traversal = Traversal::SkipList}, device());
     const JobPlan plan = planJob(jobOf(scene, 300), skip, device());
     EXPECT_TRUE(plan.isDirect);
-    EXPECT_EQ(plan.samplesAbreast, 8u);
+    EXPECT_EQ(plan.samplesInFlight, 8u);
     EXPECT_EQ(plan.largestTile, (Tile{0, 0, 256, 256}));
     EXPECT_EQ(plan.waiting.paths.sizeBytes, 16u);
     EXPECT_EQ(plan.waiting.pendingInRegisters, 4u);

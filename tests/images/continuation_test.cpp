@@ -79,7 +79,7 @@ TEST_F(Continuations, OfTheReferenceGoOnAnywhere) {
         const Part &part = collector.parts[i];
         expectWhole(part, onCpu(part.film, 1), whole);
         expectWhole(part, onDevice(part.film), whole);
-        expectWhole(part, onDevice(part.film, {.tileWidth = 16, .tileHeight = 8, .samplesAbreast = 4}),
+        expectWhole(part, onDevice(part.film, {.tileWidth = 16, .tileHeight = 8, .samplesInFlight = 4}),
                     whole);
     }
 }
@@ -107,7 +107,7 @@ TEST_F(Continuations, OfABandedFilmHaveAllBands) {
     const reference::Result whole = onCpu(crop);
     gpu::DeviceInfo device = testing::testDevice();
     device.maxStorageBufferBytes = 32 * 1024;
-    gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8, .samplesAbreast = 1});
+    gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8, .samplesInFlight = 1});
     Collector collector(crop, 3);
     const auto render = [&](Film begun, SnapshotTaker *snapshots = nullptr) {
         return renderer.render(packed, scene.settings, std::move(begun), {.snapshots = snapshots});

@@ -60,7 +60,7 @@ void addTriangles(const Scene &scene, const TriangleMesh &mesh, std::vector<Shap
         Shape shape;
         shape.materialIndex = mesh.materialOf(i);
         const Material &material = scene.materials[shape.materialIndex];
-        shape.isSheer = material.alphaMode != AlphaMode::Opaque;
+        shape.isAlphaTested = material.alphaMode != AlphaMode::Opaque;
         shape.isCulled = material.isCulled;
         shape.isSmooth = triangle.normals.x != MeshTriangle::noNormal;
         const bool hasUvs = !mesh.triangleUvs.empty() && mesh.triangleUvs[i].x != TriangleMesh::noUv;

@@ -34,7 +34,7 @@ struct Shape {
     Vec centre{0.0};              ///< Sphere
     double radius = 0.0;          ///< Sphere
     bool isInward = false;        ///< Sphere: its normal points to its centre
-    bool isSheer = false;         ///< its material is not there for every ray
+    bool isAlphaTested = false;   ///< its material is not there for every ray
     bool isCulled = false;        ///< Triangle: it is not there for rays from behind
 
     [[nodiscard]] double area() const;

@@ -39,7 +39,9 @@ struct Crossing {
 
     [[nodiscard]] double indexRatio() const { return before.index() / beyond.index(); }
     /// Whether glass of higher priority is on both sides, or equal indices: light passes as if nothing were there.
-    [[nodiscard]] bool isNothing() const { return before.around() == beyond.around() || indexRatio() == 1.0; }
+    [[nodiscard]] bool isNullInterface() const {
+        return before.around() == beyond.around() || indexRatio() == 1.0;
+    }
 };
 
 /// Leaving glass that was not entered changes nothing.

@@ -34,7 +34,7 @@ struct World {
             const std::optional<Meeting> meeting = meet(shape, origin, direction, left);
             if (!meeting || (best && meeting->distance >= best->distance))
                 continue;
-            if (shape.isSheer &&
+            if (shape.isAlphaTested &&
                 uniform(generator) >= substances.presence(shape.materialIndex, uvOf(*meeting, Vec(0.0))))
                 continue;
             if (shape.isCulled && glm::dot(direction, glm::cross(shape.corners[1] - shape.corners[0],
@@ -67,7 +67,7 @@ Vec emitted(const Substance &substance, const SurfacePoint &point, const Vec &di
 
 /// Whether the material is a mirror or clear glass for what meets it.
 bool isSmooth(const Substance &substance, bool isPassable, const std::optional<Crossing> &sides) {
-    if (isPassable && sides->isNothing())
+    if (isPassable && sides->isNullInterface())
         return true;
     switch (substance.material->kind) {
     case MaterialKind::Mirror:
@@ -153,7 +153,7 @@ class Path {
     bool passGlass(const SurfacePoint &point, const Crossing &sides, bool isBehind) {
         const double ratio = sides.indexRatio();
         media_ = sides.beyond;
-        if (sides.isNothing())
+        if (sides.isNullInterface())
             return true;
         Vec normal = isBehind ? -point.normal : point.normal;
         if (glm::dot(direction_, normal) >= 0.0)

@@ -447,13 +447,13 @@ TEST(RenderConfig, ChangesNoBit) {
 }
 
 // Whatever runs side by side, and also where a dispatch ends before the round and the round is done again.
-TEST(RenderConfig, AddsSamplesAbreastInTheirOrder) {
+TEST(RenderConfig, AddsSamplesInFlightInTheirOrder) {
     for (const int samples : {1, 2, 5, 8, 13, 16}) {
         std::vector<gpu::RenderConfig> configs;
-        for (const int abreast : {1, 2, 4, 8})
+        for (const int inFlight : {1, 2, 4, 8})
             for (const std::uint32_t steps : {0u, 40u})
                 configs.push_back(
-                    {.steps = steps, .samplesAbreast = abreast, .traversal = gpu::Traversal::SkipList});
+                    {.steps = steps, .samplesInFlight = inFlight, .traversal = gpu::Traversal::SkipList});
         expectTwins(shippedScene("spheres", 20, 12, samples), configs);
     }
 }

@@ -58,7 +58,7 @@ TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
         EXPECT_EQ(whole.work.deepestStack, 0u) << name;
         gpu::RenderConfig cut = counting(gpu::Traversal::SkipList, 2, 100);
         cut.tileWidth = 16;
-        cut.samplesAbreast = 2;
+        cut.samplesInFlight = 2;
         EXPECT_EQ(testing::renderOnDevice(scene, cut).work, whole.work) << name;
     }
 }

@@ -21,7 +21,7 @@ namespace hyalite::testing {
     case layout::constantLightCount:
     case layout::constantEmitterCount:
         return {0, 1, 2, 39};
-    case layout::constantSamplesAbreast:
+    case layout::constantSamplesInFlight:
         return {1, 2, 4, 8};
     case layout::constantStackSize:
         return {1, 20, layout::maxTreeDepth};

@@ -16,15 +16,15 @@ namespace hyalite::testing {
 namespace {
 
 constexpr std::size_t invocations = 64;
-constexpr std::size_t samplesAbreast = 8;
+constexpr std::size_t samplesInFlight = 8;
 
 /// What shaders/kernels/lane_exchange.comp computes.
 std::vector<std::uint32_t> expectedResults() {
     std::vector<std::uint32_t> mine(invocations);
     std::iota(mine.begin(), mine.end(), 0u);
     for (int exchange = 0; exchange < 300; ++exchange)
-        for (std::size_t first = 0; first < invocations; first += samplesAbreast) {
-            const std::span pixel = std::span(mine).subspan(first, samplesAbreast);
+        for (std::size_t first = 0; first < invocations; first += samplesInFlight) {
+            const std::span pixel = std::span(mine).subspan(first, samplesInFlight);
             const std::vector<std::uint32_t> values(pixel.begin(), pixel.end());
             for (std::uint32_t &one : pixel)
                 for (const std::uint32_t value : values)
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> resultsBy(bool isBroadcasting) {
 }
 
 TEST(LaneExchange, ByShufflesIsThatOfTheSlotsOfAPixel) {
-    if (probeDevice().info().subgroupSize < samplesAbreast)
+    if (probeDevice().info().subgroupSize < samplesInFlight)
         GTEST_SKIP() << "subgroups of " << probeDevice().info().subgroupSize;
     EXPECT_EQ(resultsBy(false), expectedResults());
 }

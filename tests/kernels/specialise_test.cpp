@@ -41,7 +41,7 @@ TEST(Specialise, LeavesOutWhatASceneDoesNotUse) {
     const std::span<const std::uint32_t> kernel = embeddedKernel("pathSkipOneSlot");
     Words constants(layout::constantCount);
     constants[layout::constantWorkgroupSize] = 64;
-    constants[layout::constantSamplesAbreast] = 8;
+    constants[layout::constantSamplesInFlight] = 8;
     constants[layout::constantExactDivision] = 1;
     const Words least = gpu::specialise(kernel, constants);
     EXPECT_LT(least.size() * 10, kernel.size());

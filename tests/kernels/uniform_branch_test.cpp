@@ -139,7 +139,7 @@ std::vector<std::uint32_t> constantsOf(std::uint32_t camera, bool hasEverything,
     if (hasEverything) {
         constants.assign(constants.size(), 1);
         constants[layout::constantWorkgroupSize] = 64;
-        constants[layout::constantSamplesAbreast] = 8;
+        constants[layout::constantSamplesInFlight] = 8;
         constants[layout::constantSampler] = layout::samplerFiltered;
         constants[layout::constantScattering] = ~0u;
         constants[layout::constantLighting] = ~0u;

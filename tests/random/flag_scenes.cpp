@@ -248,21 +248,21 @@ void addTexturing(Rows &rows) {
     add("texturesChannels", texturesChannels, channels, texturesRoughness);
 }
 
-void addPassing(Rows &rows) {
+void addAnyHit(Rows &rows) {
     const auto add = [&](const char *flag, std::uint32_t value, const std::function<void(Material &)> &edit) {
         TestScene scene = beforeAWall(MaterialKind::Diffuse);
         edit(scene.materials[0]);
-        rows.bit(flag, &PackedScene::passing, value, std::move(scene));
+        rows.bit(flag, &PackedScene::anyHit, value, std::move(scene));
     };
-    add("passesCutOut", layout::passesCutOut, [](Material &m) { m.opacity = 0.25f; });
-    add("passesBlended", layout::passesBlended, [](Material &m) {
+    add("anyHitCutOut", layout::anyHitCutOut, [](Material &m) { m.opacity = 0.25f; });
+    add("anyHitBlended", layout::anyHitBlended, [](Material &m) {
         m.opacity = 0.25f;
         m.alphaMode = AlphaMode::Blend;
     });
     TestScene culled = beforeAWall(MaterialKind::Diffuse);
     culled.materials[0].isCulled = true;
     culled.meshes[0] = texturedQuad({1, -1, 0}, {-2, 0, 0}, {0, 2, 0}); // from behind
-    rows.bit("passesCulled", &PackedScene::passing, layout::passesCulled, culled);
+    rows.bit("anyHitCulled", &PackedScene::anyHit, layout::anyHitCulled, culled);
 }
 
 void addGeometry(Rows &rows) {
@@ -371,7 +371,7 @@ std::vector<FlagScene> flagScenes() {
     addScattering(rows);
     addLighting(rows);
     addTexturing(rows);
-    addPassing(rows);
+    addAnyHit(rows);
     addGeometry(rows);
     addCameras(rows);
     addSettings(rows);

@@ -73,17 +73,23 @@ INSTANTIATE_TEST_SUITE_P(Each, Flag, ::testing::ValuesIn(flagScenes()), [](const
 // ---- Whether each flag has a scene
 
 /// What kernels are specialised by beside the scene.
-const std::set<std::string> ofDispatches = {
-    "constantWorkgroupSize",      "constantStackSize",      "constantIsTracing",
-    "constantExactDivision",      "constantSamplesAbreast", "constantIsResumable",
-    "constantPendingInRegisters", "constantIsCounting",     "constantSamplesInTurn",
-    "constantBroadcasts",         "constantCount"};
+const std::set<std::string> ofDispatches = {"constantWorkgroupSize",
+                                            "constantStackSize",
+                                            "constantIsTracing",
+                                            "constantExactDivision",
+                                            "constantSamplesInFlight",
+                                            "constantIsResumable",
+                                            "constantPendingInRegisters",
+                                            "constantIsCounting",
+                                            "constantPathRegeneration",
+                                            "constantBroadcasts",
+                                            "constantCount"};
 
 /// Words whose values or bits have rows of their own.
 const std::set<std::string> ofSeveralFlags = {
     "constantSampler", "constantView",      "constantShowsCost",   "constantScattering", "constantLighting",
-    "constantCamera",  "constantTexturing", "constantTreeSpheres", "constantPassing",    "scattersAtRough",
-    "passesSheer",     "texturesMaterials", "texturesOfLobes",     "texturesSrgb"};
+    "constantCamera",  "constantTexturing", "constantTreeSpheres", "constantAnyHit",     "scattersAtRough",
+    "anyHitAlpha",     "texturesMaterials", "texturesOfLobes",     "texturesSrgb"};
 
 TEST(Flags, HaveAScene) {
     std::set<std::string> tested;

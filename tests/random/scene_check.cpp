@@ -112,7 +112,7 @@ gpu::Renderer &SceneCheck::rendererOf(const Way &way) {
     config.slotsPerInvocation = choice.slotsPerInvocation;
     if (way.isHurried) {
         config.steps = 61;
-        config.samplesAbreast = 2;
+        config.samplesInFlight = 2;
         config.tileWidth = config.tileHeight = 16;
     }
     return renderers_.try_emplace({way.kernel, way.isHurried}, testDevice(), config).first->second;

@@ -14,7 +14,7 @@
 
 namespace hyalite::gltf {
 
-/// How a texture with this transform is worn in the convention of scenes, v = 0 at the bottom: `scale`, `shear` and
+/// The use of a texture with this transform in the convention of scenes, v = 0 at the bottom: `scale`, `shear` and
 /// `offset`. glTF's own transform is about v = 0 at the top (KHR_texture_transform).
 struct UvTransform {
     glm::dvec2 offset{0.0};

@@ -1,11 +1,11 @@
 // Shared by all traversals: the position of a ray in the tree, and the test of a triangle. A ray passes triangles that are
-// culled, and points of sheer ones, as if they were not there.
+// culled, and points of alpha-tested ones, as if they were not there.
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 
-// A triangle or sphere of the tree that a ray meets, unless it turns out to be sheer there.
-struct Meeting {
-    bool isMet; // false: there is none
+// A candidate hit on a triangle or sphere of the tree, before its alpha test.
+struct Candidate {
+    bool isMet; // false: the face is culled, or the hit is not nearer than the current one (shadow ray: than the light)
     TriangleHit hit;
     uint primitiveId;
     uint record;
@@ -16,21 +16,21 @@ struct Meeting {
 
 // What is met by a hit on a primitive, which is wanting where it is culled, behind the nearest hit so far, or behind the
 // end of a shadow ray; `record` and `instance` are where the primitive comes from.
-Meeting meetingOf(uint slot, TriangleHit hit, uint id, uint record, uint instance, uint flags, uint materialIndex,
+Candidate candidateOf(uint slot, TriangleHit hit, uint id, uint record, uint instance, uint flags, uint materialIndex,
                   const bool isShadow) {
     bool isMet = hit.distance > 0.0;
-    if ((passing & passesCulled) != 0u)
+    if ((anyHit & anyHitCulled) != 0u)
         isMet = isMet && !(hit.isBehind && (flags & triangleIsCulled) != 0u);
     if (isShadow)
         isMet = isMet && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);
     else
         isMet = isMet && (hit.distance < path[slot].rayLength ||
                           (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive));
-    return Meeting(isMet, hit, id, record, instance, flags, materialIndex);
+    return Candidate(isMet, hit, id, record, instance, flags, materialIndex);
 }
 
 // Tests a triangle in world space.
-Meeting testTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
+Candidate testTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
                      const bool isShadow) {
     uint id = triangle.primitiveId;
     bool isExcluded = id == path[slot].rayExcluded;
@@ -46,41 +46,41 @@ Meeting testTriangle(uint slot, uint record, uint instance, TriangleRecord trian
             intersectBoxedSphere(boxRay, path[slot].rayDirection, triangle.v0, triangle.v1.x, isExcluded);
         record = id;
     }
-    return meetingOf(slot, hit, id, record, instance, triangle.flags, triangle.materialIndex, isShadow);
+    return candidateOf(slot, hit, id, record, instance, triangle.flags, triangle.materialIndex, isShadow);
 }
 
-bool maySlipThrough(Meeting meeting) {
-    return (passing & passesSheer) != 0u && meeting.isMet && (meeting.flags & triangleIsSheer) != 0u;
+bool needsAlphaTest(Candidate candidate) {
+    return (anyHit & anyHitAlpha) != 0u && candidate.isMet && (candidate.flags & triangleIsAlphaTested) != 0u;
 }
 
-// Whether the ray passes the sheer triangle that it meets.
-bool slipsThrough(uint slot, Meeting meeting, const bool isShadow) {
+// Whether the ray passes the alpha-tested triangle that it meets.
+bool failsAlphaTest(uint slot, Candidate candidate, const bool isShadow) {
     float choice = 0.0;
-    if ((passing & passesBlended) != 0u)
-        choice = sheerChoice(imagePixel[slot], frame.seed, path[slot].sampleIndex,
-                             2u * path[slot].rayDepth + (isShadow ? 1u : 0u), meeting.primitiveId);
-    return isPassed(meeting.materialIndex, meeting.record, meeting.hit.u, meeting.hit.v, choice);
+    if ((anyHit & anyHitBlended) != 0u)
+        choice = alphaTestNumber(imagePixel[slot], frame.seed, path[slot].sampleIndex,
+                             2u * path[slot].rayDepth + (isShadow ? 1u : 0u), candidate.primitiveId);
+    return isPassed(candidate.materialIndex, candidate.record, candidate.hit.u, candidate.hit.v, choice);
 }
 
 // Records what is met. isShadow: an opaque hit ends the search and returns true, and glass only dims; otherwise the
 // nearest hit is kept.
-bool keepMeeting(uint slot, Meeting meeting, const bool isShadow) {
+bool commitHit(uint slot, Candidate candidate, const bool isShadow) {
     if (isShadow) {
-        bool isTransmissive = lightPassesGlass && (meeting.flags & triangleIsTransmissive) != 0u;
-        if (meeting.isMet && isTransmissive)
+        bool isTransmissive = lightPassesGlass && (candidate.flags & triangleIsTransmissive) != 0u;
+        if (candidate.isMet && isTransmissive)
             path[slot].isLightDimmed = 1u;
-        bool isBlocked = meeting.isMet && !isTransmissive;
+        bool isBlocked = candidate.isMet && !isTransmissive;
         if (isBlocked)
-            path[slot].hitPrimitive = meeting.primitiveId;
+            path[slot].hitPrimitive = candidate.primitiveId;
         return isBlocked;
     }
-    if (meeting.isMet) {
-        path[slot].rayLength = meeting.hit.distance;
-        path[slot].hitU = meeting.hit.u;
-        path[slot].hitV = meeting.hit.v;
-        path[slot].hitPrimitive = meeting.primitiveId;
-        path[slot].hitRecord = meeting.record;
-        path[slot].hitInstance = meeting.instance;
+    if (candidate.isMet) {
+        path[slot].rayLength = candidate.hit.distance;
+        path[slot].hitU = candidate.hit.u;
+        path[slot].hitV = candidate.hit.v;
+        path[slot].hitPrimitive = candidate.primitiveId;
+        path[slot].hitRecord = candidate.record;
+        path[slot].hitInstance = candidate.instance;
     }
     return false;
 }
@@ -88,8 +88,8 @@ bool keepMeeting(uint slot, Meeting meeting, const bool isShadow) {
 // All three in one.
 bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
                   const bool isShadow) {
-    Meeting meeting = testTriangle(slot, record, instance, triangle, ray, boxRay, isShadow);
-    if (maySlipThrough(meeting) && slipsThrough(slot, meeting, isShadow))
-        meeting.isMet = false;
-    return keepMeeting(slot, meeting, isShadow);
+    Candidate candidate = testTriangle(slot, record, instance, triangle, ray, boxRay, isShadow);
+    if (needsAlphaTest(candidate) && failsAlphaTest(slot, candidate, isShadow))
+        candidate.isMet = false;
+    return commitHit(slot, candidate, isShadow);
 }

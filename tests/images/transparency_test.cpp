@@ -29,7 +29,7 @@ TestScene emptyScene(int samplesPerPixel = 1024) {
 }
 
 /// Emits 1, blended.
-Material sheerLamp(float opacity) {
+Material alphaTestedLamp(float opacity) {
     Material material;
     material.albedo = glm::vec3(0.0f);
     material.emission = glm::vec3(1.0f);
@@ -59,7 +59,7 @@ void expectMean(const TestScene &scene, double expected, double tolerance) {
 TEST(Blended, ShowsItsShareOfWhatLiesBehind) {
     TestScene scene = emptyScene();
     scene.background = glm::vec3(3.0f);
-    scene.materials = {sheerLamp(0.25f)};
+    scene.materials = {alphaTestedLamp(0.25f)};
     scene.meshes = {wall(0.0f)};
     expectMean(scene, 0.25 * 1.0 + 0.75 * 3.0, 0.02);
 }
@@ -67,7 +67,7 @@ TEST(Blended, ShowsItsShareOfWhatLiesBehind) {
 TEST(Blended, CountsEachOfSeveralLayersAndEqualOnesToo) {
     for (const float distance : {0.5f, 0.0f}) { // 0: duplicates
         TestScene scene = emptyScene();
-        scene.materials = {sheerLamp(0.5f)};
+        scene.materials = {alphaTestedLamp(0.5f)};
         scene.meshes = {wall(0.0f), wall(distance)};
         expectMean(scene, 0.75, 0.01);
     }
@@ -76,7 +76,7 @@ TEST(Blended, CountsEachOfSeveralLayersAndEqualOnesToo) {
 TEST(Blended, DoesNotDependOnTheOrderOfTriangles) {
     TestScene scene = emptyScene(64);
     scene.background = glm::vec3(0.5f);
-    scene.materials = {sheerLamp(0.5f), sheerLamp(0.3f)};
+    scene.materials = {alphaTestedLamp(0.5f), alphaTestedLamp(0.3f)};
     scene.materials[1].emission = {0.0f, 2.0f, 5.0f};
     scene.meshes = {wall(0.0f), wall(1.0f, 1)};
     const Film wanted = testing::renderOnCpu(scene).film;
@@ -89,7 +89,7 @@ TEST(Blended, CastsItsShareOfAShadow) {
     TestScene scene = emptyScene();
     scene.materials.resize(2);
     scene.materials[0].albedo = glm::vec3(1.0f);
-    scene.materials[1] = sheerLamp(0.4f);
+    scene.materials[1] = alphaTestedLamp(0.4f);
     scene.materials[1].emission = glm::vec3(0.0f);
     Light sun;
     sun.kind = LightKind::Directional;
@@ -106,7 +106,7 @@ TEST(Blended, CastsItsShareOfAShadow) {
 TEST(CutOut, IsThereFromItsCutoffOn) {
     for (const float cutoff : {0.3f, 0.300001f, 0.9f}) {
         TestScene scene = emptyScene(4);
-        scene.materials = {sheerLamp(0.3f)};
+        scene.materials = {alphaTestedLamp(0.3f)};
         scene.materials[0].alphaMode = AlphaMode::CutOut;
         scene.materials[0].alphaCutoff = cutoff;
         scene.meshes = {wall(0.0f)};
@@ -116,7 +116,7 @@ TEST(CutOut, IsThereFromItsCutoffOn) {
 
 TEST(CutOut, FollowsTheColoursOfVertices) {
     TestScene scene = emptyScene(64);
-    scene.materials = {sheerLamp(1.0f)};
+    scene.materials = {alphaTestedLamp(1.0f)};
     scene.materials[0].alphaMode = AlphaMode::CutOut;
     TriangleMesh mesh = wall(0.0f);
     mesh.colours.values = {glm::vec4(1, 1, 1, 0), glm::vec4(1, 1, 1, 1), glm::vec4(1, 1, 1, 1),
@@ -131,7 +131,7 @@ TEST(CutOut, FollowsTheColoursOfVertices) {
 
 TEST(Opaque, HasNoOpacity) {
     TestScene scene = emptyScene(4);
-    scene.materials = {sheerLamp(0.1f)};
+    scene.materials = {alphaTestedLamp(0.1f)};
     scene.materials[0].alphaMode = AlphaMode::Opaque;
     scene.meshes = {wall(0.0f)};
     expectMean(scene, 1.0, 0.0);
@@ -142,7 +142,7 @@ TEST(Culled, IsNotThereFromBehind) {
         for (const bool isBehind : {false, true}) {
             TestScene scene = emptyScene(4);
             scene.background = glm::vec3(7.0f);
-            scene.materials = {sheerLamp(1.0f)};
+            scene.materials = {alphaTestedLamp(1.0f)};
             scene.materials[0].isCulled = isCulled;
             scene.meshes = {isBehind ? texturedQuad({2, -2, 0}, {-4, 0, 0}, {0, 4, 0}) : wall(0.0f)};
             expectMean(scene, isCulled && isBehind ? 7.0 : 1.0, 0.0);

@@ -1,8 +1,8 @@
-// Samples in turn: the lanes of a subgroup do not wait for each other's paths to end, but go on to the next sample of
-// its block of pixels. Finished samples wait in a buffer until add_samples.comp adds them to the film, in the order of
+// Path regeneration: the lanes of a subgroup do not wait for each other's paths to end, but go on to the next sample of
+// its block of pixels (Novak et al., "Path Regeneration for Interactive Path Tracing", Eurographics 2010). Finished samples wait in a buffer until add_samples.comp adds them to the film, in the order of
 // their indices, so that it does not matter which lane computed them.
 //
-// A row of the buffer is for one pixel and for all indices of the same remainder by `samplesAbreast`.
+// A row of the buffer is for one pixel and for all indices of the same remainder by `samplesInFlight`.
 
 layout(set = 0, binding = bindingSamples, std430) buffer SampleBuffer { SampleRecord samples[]; };
 
@@ -10,7 +10,7 @@ layout(set = 0, binding = bindingSamples, std430) buffer SampleBuffer { SampleRe
 uint nextPlace[RAYS];
 uint endOfPlaces[RAYS];
 
-void beginTurns(uint slot) {
+void beginRegeneration(uint slot) {
     uint subgroup = (blockOfWorkgroup() * gl_NumSubgroups + gl_SubgroupID) * RAYS + slot;
     uint first = subgroup * gl_SubgroupSize * dispatch.samplesPerSlot;
     nextPlace[slot] = first + gl_SubgroupInvocationID;
@@ -23,7 +23,7 @@ bool isOpen(uint slot, uint place) {
     if (!isSlotUsed[slot] || samples[place].finished != 0u)
         return false;
     uint first = dispatch.sampleBegin + filmWords[filmIndex[slot] * filmPixelWords + filmSampleCountWord];
-    path[slot].sampleIndex = first + (sampleLane(slot) - first & samplesAbreast - 1u);
+    path[slot].sampleIndex = first + (sampleLane(slot) - first & samplesInFlight - 1u);
     return path[slot].sampleIndex < dispatch.sampleEnd;
 }
 
@@ -52,10 +52,10 @@ void endTurn(uint slot) {
     path[slot].stage = stageNextSample;
 }
 
-void integrateInTurn() {
+void integrateRegenerating() {
     shareWork();
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        beginTurns(slot);
+        beginRegeneration(slot);
         stopTraversal(slot);
         path[slot].stage = stageNextSample;
     }

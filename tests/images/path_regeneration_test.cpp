@@ -1,4 +1,4 @@
-// Slots that take samples in turn (shaders/integrators/samples_in_turn.glsl) make the film and the counts of the
+// Slots that take samples in turn (shaders/integrators/path_regeneration.glsl) make the film and the counts of the
 // reference, whatever the dispatches.
 #include "tests/fixtures/test_extent.h"
 #include "tests/fixtures/test_scene.h"
@@ -40,7 +40,7 @@ class OneCopy : public SnapshotTaker {
 // A room of few triangles, glass, and an environment.
 const std::array scenes{"cornell", "caustics", "metals"};
 
-class SamplesInTurn : public ::testing::TestWithParam<std::size_t> {
+class PathRegeneration : public ::testing::TestWithParam<std::size_t> {
   protected:
     // Counts of samples and pixels that no power of two divides; of tiles, too.
     TestScene scene = testing::shippedScene(scenes.at(GetParam()), 37, 23, 13);
@@ -50,14 +50,14 @@ class SamplesInTurn : public ::testing::TestWithParam<std::size_t> {
 
 // From more steps than any path takes to fewer than one pass does: then slots are late, finished samples wait for
 // earlier ones, and at last the resumable kernel takes over. The scenes take the budgets in turn.
-TEST_P(SamplesInTurn, MakeTheSameFilmWithAnyBudget) {
+TEST_P(PathRegeneration, MakeTheSameFilmWithAnyBudget) {
     struct Budget {
         std::uint32_t steps;
-        int samplesAbreast;
+        int samplesInFlight;
         int slots;
     };
     std::size_t turn = 0;
-    for (const auto &[steps, abreast, slots] :
+    for (const auto &[steps, inFlight, slots] :
          {Budget{0, 0, 1}, {600, 4, 2}, {120, 0, 2}, {120, 1, 1}, {30, 4, 1}, {5, 0, 1}}) {
         if (turn++ % scenes.size() != GetParam() && !testing::isTestingAll())
             continue;
@@ -66,15 +66,15 @@ TEST_P(SamplesInTurn, MakeTheSameFilmWithAnyBudget) {
                                                             .tileHeight = 24,
                                                             .steps = steps,
                                                             .slotsPerInvocation = slots,
-                                                            .samplesAbreast = abreast,
+                                                            .samplesInFlight = inFlight,
                                                             .traversal = gpu::Traversal::SkipList});
         EXPECT_EQ(differingPixels(result.film, whole.film), 0u)
-            << steps << " steps, " << abreast << " abreast, " << slots << " slots";
-        EXPECT_EQ(result.rays, whole.rays) << steps << " steps, " << abreast << " abreast";
+            << steps << " steps, " << inFlight << " in flight, " << slots << " slots";
+        EXPECT_EQ(result.rays, whole.rays) << steps << " steps, " << inFlight << " in flight";
     }
 }
 
-TEST_P(SamplesInTurn, GoOnFromAnyFilm) {
+TEST_P(PathRegeneration, GoOnFromAnyFilm) {
     const Crop crop{0, 37, 0, 23};
     const gpu::RenderConfig config{
         .tileWidth = 16, .tileHeight = 16, .steps = 100, .traversal = gpu::Traversal::SkipList};
@@ -89,7 +89,7 @@ TEST_P(SamplesInTurn, GoOnFromAnyFilm) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, SamplesInTurn, ::testing::Range<std::size_t>(0, scenes.size()),
+INSTANTIATE_TEST_SUITE_P(Of, PathRegeneration, ::testing::Range<std::size_t>(0, scenes.size()),
                          [](const auto &row) { return std::string(scenes.at(row.param)); });
 
 } // namespace
