@@ -24,7 +24,7 @@ build=$root/build/release
 target=all
 needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
         libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
-        zlib1g-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
+        zlib1g-dev libpng-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils)
 declare -A needed_for_farm=([parallel]="parallel" [mpi]="libopenmpi-dev openmpi-bin procps" [slurm]="munge procps slurm-client slurmctld slurmd"
                            [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")

@@ -1,18 +1,21 @@
 #include "host/image/png.h"
 
 #include "host/base/error.h"
-#include "host/image/image_file.h"
-#include "host/image/png_chunks.h"
+#include "host/image/image_limits.h"
 #include "host/image/png_text.h"
 
 #include <fmt/format.h>
+#include <png.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cassert>
-#include <memory>
+#include <csetjmp>
+#include <exception>
 #include <new>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 // stb does not compile cleanly under our warnings.
@@ -23,11 +26,6 @@
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC diagnostic ignored "-Wunused-function"
-#define STBI_ONLY_PNG
-#define STBI_NO_STDIO
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#include <stb/stb_image.h>
 #define STBI_WRITE_NO_STDIO
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -68,54 +66,140 @@ std::vector<std::byte> encode(const std::filesystem::path &name, int width, int 
     return std::move(*file);
 }
 
-struct StbFree {
-    void operator()(void *pixels) const { stbi_image_free(pixels); }
+static_assert(std::endian::native == std::endian::little, "red is written to the lowest byte");
+
+/// libpng with the file that it reads. It reports errors through a function that must not return, and an exception must
+/// not cross its frames: fail() jumps back to readPngInfo() or readPngLevels(), whose callers refuse().
+struct PngDecoder {
+    const InputFile &file;
+    png_structp png;
+    png_infop info;
+    std::jmp_buf failed{};
+    std::uint64_t offsetBytes = 0;
+    std::exception_ptr readFailure;
+    char message[256]{};
+
+    explicit PngDecoder(const InputFile &input)
+        : file(input), png(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, warn)),
+          info(png_create_info_struct(png)) {
+        if (info != nullptr)
+            return;
+        png_destroy_read_struct(&png, nullptr, nullptr);
+        throw std::bad_alloc();
+    }
+    PngDecoder(const PngDecoder &) = delete;
+    PngDecoder &operator=(const PngDecoder &) = delete;
+    ~PngDecoder() { png_destroy_read_struct(&png, &info, nullptr); }
+
+    [[nodiscard]] int width() const { return static_cast<int>(png_get_image_width(png, info)); }
+    [[nodiscard]] int height() const { return static_cast<int>(png_get_image_height(png, info)); }
+    [[nodiscard]] bool has16Bits() const { return png_get_bit_depth(png, info) == 16; }
+
+    [[noreturn]] void refuse() const {
+        if (readFailure)
+            std::rethrow_exception(readFailure);
+        throw file.bad(fmt::format("it is damaged near byte {}: {}", offsetBytes, message));
+    }
+
+    static void read(png_structp png, png_bytep destination, std::size_t sizeBytes) {
+        auto &decoder = *static_cast<PngDecoder *>(png_get_io_ptr(png));
+        if (sizeBytes > decoder.file.sizeBytes() - decoder.offsetBytes)
+            png_error(png, "it ends before the end of the PNG");
+        try {
+            decoder.file.read(decoder.offsetBytes, {reinterpret_cast<std::byte *>(destination), sizeBytes});
+        } catch (...) {
+            decoder.readFailure = std::current_exception();
+        }
+        if (decoder.readFailure)
+            png_error(png, "it cannot be read");
+        decoder.offsetBytes += sizeBytes;
+    }
+
+  private:
+    [[noreturn]] static void fail(png_structp png, png_const_charp what) {
+        auto &decoder = *static_cast<PngDecoder *>(png_get_error_ptr(png));
+        *fmt::format_to_n(decoder.message, sizeof(decoder.message) - 1, "{}", what).out = '\0';
+        std::longjmp(decoder.failed, 1);
+    }
+
+    /// libpng treats much damage as a warning, which begins with the name of the chunk. Ancillary chunks, whose names begin
+    /// with a small letter, may be wrong: only transparency is read of them.
+    static void warn(png_structp png, png_const_charp what) {
+        const std::string_view text = what;
+        const bool isAncillary = text.front() >= 'a' && text.front() <= 'z';
+        const bool isHarmless = (isAncillary && text != "tRNS: CRC error") ||
+                                text == "IDAT: Extra compressed data" ||
+                                text == "PLTE: ignored in grayscale PNG";
+        if (!isHarmless)
+            fail(png, what);
+    }
 };
 
-/// Checks the length of the compressed stream by decompressing it into a buffer of the size in the header. stb_image
-/// would grow its buffer as long as the stream continues, and accepts a stream that is too long.
-void requireWholeStream(const InputFile &file, const PngChunks &chunks) {
-    std::vector<char> rows(static_cast<std::size_t>(chunks.rowDataBytes));
-    const auto stream = chunks.compressed();
-    const int unpackedBytes = stbi_zlib_decode_buffer(rows.data(), static_cast<int>(rows.size()),
-                                                      reinterpret_cast<const char *>(stream.data()),
-                                                      static_cast<int>(stream.size()));
-    if (unpackedBytes < 0) {
-        throw file.bad(fmt::format("its compressed pixels are damaged, or more than {} x {}", chunks.width,
-                                   chunks.height));
-    }
-    if (static_cast<std::uint64_t>(unpackedBytes) != chunks.rowDataBytes) {
-        throw file.bad(fmt::format("{} x {} pixels take {} bytes, but it has {}", chunks.width, chunks.height,
-                                   chunks.rowDataBytes, unpackedBytes));
-    }
+/// Reads what precedes the pixels. Returns false on failure. No object here has a destructor: see PngDecoder.
+bool readPngInfo(PngDecoder &decoder) {
+    if (setjmp(decoder.failed) != 0)
+        return false;
+    png_set_read_fn(decoder.png, &decoder, PngDecoder::read);
+    // Ancillary chunks other than tRNS are passed over, however long, and not unpacked.
+    png_set_keep_unknown_chunks(decoder.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    // Some encoders state a smaller window than their pixels need.
+    png_set_option(decoder.png, PNG_MAXIMUM_INFLATE_WINDOW, PNG_OPTION_ON);
+    png_read_info(decoder.png, decoder.info);
+    return true;
 }
 
-template <typename Level> using StbLoad = Level *(const stbi_uc *, int, int *, int *, int *, int);
-
-/// Decodes to `channelCount` levels per pixel; `channelCountInFile` is the number of channels in the file.
-template <typename Level>
-std::unique_ptr<Level, StbFree> decodeLevels(const InputFile &file, const PngChunks &chunks,
-                                             StbLoad<Level> *load, int channelCount,
-                                             int &channelCountInFile) {
-    int width = 0;
-    int height = 0;
-    std::unique_ptr<Level, StbFree> levels(load(reinterpret_cast<const stbi_uc *>(chunks.minimal.data()),
-                                                static_cast<int>(chunks.minimal.size()), &width, &height,
-                                                &channelCountInFile, channelCount));
-    if (!levels || width != chunks.width || height != chunks.height) {
-        const char *reason = stbi_failure_reason();
-        throw file.bad(
-            fmt::format("its pixels cannot be decoded: {}", reason != nullptr ? reason : "unknown"));
+/// Decodes the pixels to `channelCount` levels each, the fourth of which is alpha, and reads on to the end. Returns false
+/// on failure.
+bool readPngLevels(PngDecoder &decoder, std::span<std::byte> levels, int channelCount) {
+    if (setjmp(decoder.failed) != 0)
+        return false;
+    png_set_expand(decoder.png);
+    png_set_gray_to_rgb(decoder.png);
+    if (channelCount == 4) {
+        png_set_strip_16(decoder.png);
+        png_set_add_alpha(decoder.png, 255, PNG_FILLER_AFTER);
+    } else {
+        png_set_swap(decoder.png); // 16 bits a channel become little-endian
+        png_set_strip_alpha(decoder.png);
     }
-    return levels;
+    const int passCount = png_set_interlace_handling(decoder.png);
+    png_read_update_info(decoder.png, decoder.info);
+    const std::size_t rowBytes = png_get_rowbytes(decoder.png, decoder.info);
+    assert(rowBytes * static_cast<std::size_t>(decoder.height()) == levels.size());
+    for (int pass = 0; pass < passCount; ++pass)
+        for (std::size_t begin = 0; begin < levels.size(); begin += rowBytes)
+            png_read_row(decoder.png, reinterpret_cast<png_bytep>(&levels[begin]), nullptr);
+    png_read_end(decoder.png, decoder.info);
+    return true;
 }
 
-template <typename Level>
-Image decode(const InputFile &file, const PngChunks &chunks, StbLoad<Level> *load, float levelMax) {
-    int channelCountInFile = 0;
-    const auto levels = decodeLevels<Level>(file, chunks, load, 3, channelCountInFile);
-    Image image(chunks.width, chunks.height);
-    const Level *next = levels.get();
+/// Bounds the memory. Pixels may be compressed a thousandfold, so that a small file could allocate gigabytes. The peak
+/// holds the levels and the floats of an Image.
+void requirePngMemory(const PngDecoder &decoder) {
+    constexpr std::uint64_t besideBytes = std::uint64_t{2} << 20; // rows and tables
+    constexpr std::uint64_t deflateRatioMax = 1032;               // 258 bytes in 2 bits
+    const std::uint64_t width = png_get_image_width(decoder.png, decoder.info);
+    const std::uint64_t height = png_get_image_height(decoder.png, decoder.info);
+    requireImageSize(decoder.file, static_cast<std::int64_t>(width), static_cast<std::int64_t>(height));
+    if (height * png_get_rowbytes(decoder.png, decoder.info) / deflateRatioMax > decoder.file.sizeBytes())
+        throw decoder.file.bad(fmt::format("{} x {} pixels cannot be packed in {} bytes", width, height,
+                                           decoder.file.sizeBytes()));
+    requireReadingMemory(decoder.file, width, height,
+                         width * height * (sizeof(glm::vec3) + (decoder.has16Bits() ? 6 : 3)) + besideBytes);
+}
+
+void beginPng(PngDecoder &decoder) {
+    if (!readPngInfo(decoder))
+        decoder.refuse();
+    requirePngMemory(decoder);
+}
+
+template <typename Level> Image decodePng(PngDecoder &decoder, float levelMax) {
+    Image image(decoder.width(), decoder.height());
+    std::vector<Level> levels(3 * image.pixels().size());
+    if (!readPngLevels(decoder, std::as_writable_bytes(std::span(levels)), 3))
+        decoder.refuse();
+    const Level *next = levels.data();
     for (glm::vec3 &pixel : image.pixels()) {
         pixel = glm::vec3(next[0], next[1], next[2]) / levelMax;
         next += 3;
@@ -126,10 +210,9 @@ Image decode(const InputFile &file, const PngChunks &chunks, StbLoad<Level> *loa
 } // namespace
 
 bool isPng(std::span<const std::byte> head) {
-    constexpr std::array<unsigned char, 8> signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    return head.size() >= signature.size() &&
-           std::equal(signature.begin(), signature.end(), head.begin(),
-                      [](unsigned char a, std::byte b) { return std::byte{a} == b; });
+    constexpr std::size_t signatureBytes = 8;
+    return head.size() >= signatureBytes &&
+           png_sig_cmp(reinterpret_cast<png_const_bytep>(head.data()), 0, signatureBytes) == 0;
 }
 
 void requirePngSize(const std::filesystem::path &name, int width, int height) {
@@ -153,33 +236,25 @@ std::vector<std::byte> encodePng(int width, int height, std::span<const std::uin
 }
 
 Texture readPngTexture(const InputFile &file) {
-    const PngChunks chunks = readPngChunks(file);
-    requireWholeStream(file, chunks);
-    int channelCountInFile = 0;
-    const auto levels =
-        decodeLevels<stbi_uc>(file, chunks, stbi_load_from_memory, STBI_rgb_alpha, channelCountInFile);
+    PngDecoder decoder(file);
+    beginPng(decoder);
     Texture texture;
     texture.name = file.path().string();
-    texture.width = chunks.width;
-    texture.height = chunks.height;
-    texture.hasAlpha = channelCountInFile == STBI_grey_alpha || channelCountInFile == STBI_rgb_alpha;
+    texture.width = decoder.width();
+    texture.height = decoder.height();
+    texture.hasAlpha = (png_get_color_type(decoder.png, decoder.info) & PNG_COLOR_MASK_ALPHA) != 0 ||
+                       png_get_valid(decoder.png, decoder.info, PNG_INFO_tRNS) != 0;
     texture.levels.resize(texture.pixelCount());
-    const stbi_uc *next = levels.get();
-    for (std::uint32_t &pixel : texture.levels) {
-        pixel = 0;
-        for (unsigned channel = 0; channel < 4; ++channel)
-            pixel |= std::uint32_t{next[channel]} << 8u * channel;
-        next += 4;
-    }
+    if (!readPngLevels(decoder, std::as_writable_bytes(std::span(texture.levels)), 4))
+        decoder.refuse();
     return texture;
 }
 
 Image readPng(const InputFile &file) {
-    const PngChunks chunks = readPngChunks(file);
-    requireWholeStream(file, chunks);
-
-    return chunks.bitDepth == 16 ? decode(file, chunks, stbi_load_16_from_memory, 65535.0f)
-                                 : decode(file, chunks, stbi_load_from_memory, 255.0f);
+    PngDecoder decoder(file);
+    beginPng(decoder);
+    return decoder.has16Bits() ? decodePng<std::uint16_t>(decoder, 65535.0f)
+                               : decodePng<std::uint8_t>(decoder, 255.0f);
 }
 
 } // namespace hyalite

@@ -1,4 +1,4 @@
-// PNG files, through stb_image and stb_image_write.
+// PNG files: read by libpng, written by stb_image_write.
 #pragma once
 
 #include "host/base/atomic_file.h"
@@ -33,12 +33,14 @@ void writePng(AtomicFile &file, int width, int height, std::span<const std::uint
                                                std::span<const Attribute> attributes = {});
 
 /// Reads every kind of PNG (1 to 16 bits, grey, RGB, palette, interlaced) as display-encoded values in [0, 1]: level /
-/// 255, or / 65535 for 16 bits. Alpha is dropped and the colours stay as stored; colour profiles and gamma chunks are
-/// ignored. Throws Error{BadInput} for damaged files, which includes a wrong checksum and bytes after the end.
+/// 255, or / 65535 for 16 bits. Alpha is dropped and the colours stay as stored; colour profiles, gamma chunks and texts
+/// are passed over, damaged or not. Throws Error{BadInput} for damaged files, which includes a wrong checksum of a chunk
+/// that is used and an end that is missing, and Error{LimitExceeded} where the pixels are compressed so densely that they
+/// would take more memory than readingBytesMax. Bytes after the end are padding.
 [[nodiscard]] Image readPng(const InputFile &file);
 
-/// Reads every kind of PNG as 8-bit levels (the upper 8 of 16 bits), with its alpha channel if it has one; palette
-/// transparency is ignored. Throws as readPng().
+/// Reads every kind of PNG as 8-bit levels (the upper 8 of 16 bits), with its alpha channel, or the transparency of its
+/// palette or of one colour, if it has one. Throws as readPng().
 [[nodiscard]] Texture readPngTexture(const InputFile &file);
 
 } // namespace hyalite

@@ -3,8 +3,10 @@
 #include "tests/cli/command_line.h"
 
 #include "host/image/image_file.h"
+#include "tests/fixtures/png_fixture.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -48,6 +50,25 @@ std::string chunk(const std::string &type, const std::string &data) {
 std::string bilevelPng(std::uint32_t width, std::uint32_t height, int packedBytes) {
     return "\x89PNG\r\n\x1a\n"s + chunk("IHDR", big32(width) + big32(height) + "\x01\0\0\0\0"s) +
            chunk("IDAT", std::string(static_cast<std::size_t>(packedBytes), '\0')) + chunk("IEND", "");
+}
+
+/// A zlib stream of so many MiB of blanks, made without holding them: a child's peak memory counts its parent's.
+std::string packedBlanks(int mebibytes) {
+    std::string blanks(std::size_t{1} << 20, ' ');
+    std::string packed(blanks.size(), '\0');
+    z_stream stream{};
+    EXPECT_EQ(deflateInit(&stream, Z_BEST_SPEED), Z_OK);
+    stream.next_out = reinterpret_cast<Bytef *>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    for (int i = 1; i <= mebibytes; ++i) {
+        stream.next_in = reinterpret_cast<Bytef *>(blanks.data());
+        stream.avail_in = static_cast<uInt>(blanks.size());
+        EXPECT_EQ(deflate(&stream, i < mebibytes ? Z_NO_FLUSH : Z_FINISH),
+                  i < mebibytes ? Z_OK : Z_STREAM_END);
+    }
+    packed.resize(stream.total_out);
+    deflateEnd(&stream);
+    return packed;
 }
 
 struct HostileFiles : CommandLine {
@@ -251,6 +272,19 @@ TEST_F(HostileFiles, PngTakesMemoryInProportion) {
         EXPECT_TRUE(contains(outcome.errors, part)) << part << outcome;
 #ifndef __SANITIZE_ADDRESS__
     EXPECT_LE(outcome.peakMemoryBytes, (std::size_t{64} << 20) + 64 * cut.size());
+#endif
+}
+
+TEST_F(HostileFiles, TextsOfPngsAreNotUnpacked) {
+    const std::string packed = packedBlanks(200);
+    std::string file(storedPng(0, {7}));
+    for (const char *type : {"zTXt", "iCCP"})
+        file.insert(33, chunk(type, "a\0\0"s + packed)); // behind the header
+    store("bomb.png", file);
+    const Outcome outcome = run("diff bomb.png bomb.png");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+#ifndef __SANITIZE_ADDRESS__
+    EXPECT_LE(outcome.peakMemoryBytes, (std::size_t{64} << 20) + 64 * file.size());
 #endif
 }
 

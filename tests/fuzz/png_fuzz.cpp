@@ -1,6 +1,7 @@
-// PNG pictures as `hyalite diff` reads them. Nearly every mutation breaks a checksum, behind which nothing is read: so
+// PNG files as pictures and as textures. Nearly every mutation breaks a checksum, behind which nothing is read: so
 // after most of them the checksums are made right again.
 #include "host/image/image_file.h"
+#include "host/image/texture_file.h"
 #include "tests/fuzz/harness.h"
 
 #include <algorithm>
@@ -51,6 +52,7 @@ void run(std::string_view content) {
         return;
     if (loaded.encoding != Encoding::Display)
         return; // the first bytes have become those of a PFM
+    require(!refusalOf([&] { (void)readTexture(file); }), "a picture that is no texture");
     for (const glm::vec3 &pixel : loaded.image.pixels())
         for (glm::length_t channel = 0; channel < 3; ++channel)
             require(pixel[channel] >= 0.0f && pixel[channel] <= 1.0f, "a level out of range");

@@ -5,6 +5,7 @@
 #include "host/image/tone_map.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <bit>
 #include <cmath>
@@ -108,6 +109,12 @@ std::string chunk(const std::string &type, const std::string &data) {
         }
     }
     return big32(static_cast<std::uint32_t>(data.size())) + type + data + big32(~crc);
+}
+
+/// With another last byte, which belongs to a checksum.
+std::string spoilt(std::string bytes) {
+    bytes.back() = static_cast<char>(bytes.back() ^ 1);
+    return bytes;
 }
 
 std::string zlibStored(const std::string &raw) {
@@ -289,6 +296,44 @@ TEST_F(ImageFileTest, AncillaryChunksAndSplitDataArePassedOver) {
     EXPECT_EQ(readBytes(file).at(0, 0), glm::vec3(0.2f));
 }
 
+TEST_F(ImageFileTest, WhatPixelsDoNotNeedMayBeWrong) {
+    std::string texts;
+    for (int i = 0; i < 1001; ++i)
+        texts += chunk("tEXt", "Comment\0text"s);
+    for (const std::string &between :
+         {texts, spoilt(chunk("tEXt", "Comment\0text"s)), chunk("tEXt", ""),
+          chunk("zTXt", "a\0\0not packed"s), chunk("iCCP", "a\0\0not packed"s),
+          chunk("iTXt", std::string(9'000'000, 'x')), chunk("eXIf", ""), chunk("gAMA", "\0\0\0\0"s),
+          chunk("sBIT", "\0"s), chunk("abCd", "x"), chunk("PLTE", "123"), chunk("tRNS", "1")})
+        EXPECT_EQ(readBytes(png(header(1, 1, 8, 0), "\x00\x33"s, between)).at(0, 0), glm::vec3(0.2f))
+            << between.substr(0, 20);
+    const std::string beforePalette = chunk("bKGD", "\0\0\0\0\0\0"s) + chunk("PLTE", "123");
+    EXPECT_EQ(readBytes(png(header(1, 1, 8, 2), "\x00\x33\x33\x33"s, beforePalette)).at(0, 0),
+              glm::vec3(0.2f));
+    // More colours than one bit can tell apart.
+    EXPECT_EQ(readBytes(png(header(1, 1, 1, 3), "\x00\x80"s, chunk("PLTE", "111333555"))).at(0, 0),
+              glm::vec3(0.2f));
+    const std::string data = zlibStored("\x00\x33"s) + "more";
+    EXPECT_EQ(readBytes(pngSignature + header(1, 1, 8, 0) + chunk("IDAT", data) + chunk("IEND", "")).at(0, 0),
+              glm::vec3(0.2f));
+}
+
+TEST_F(ImageFileTest, PngThatStatesTooSmallAWindowIsRead) {
+    std::string rows; // six of 100 bytes, the last three as the first
+    for (int i = 0; i < 600; ++i)
+        rows += static_cast<char>(i % 100 == 0 ? 0 : (i % 300) * (i % 300) / 7);
+    std::string packed(1000, '\0');
+    uLongf packedBytes = packed.size();
+    ASSERT_EQ(compress(reinterpret_cast<Bytef *>(packed.data()), &packedBytes,
+                       reinterpret_cast<const Bytef *>(rows.data()), rows.size()),
+              Z_OK);
+    packed.resize(packedBytes);
+    packed.replace(0, 2, "\x08\x1d"); // 256 bytes
+    const std::string file = pngSignature + header(99, 6, 8, 0) + chunk("IDAT", packed) + chunk("IEND", "");
+    const auto lastLevel = static_cast<unsigned char>(rows.back());
+    EXPECT_EQ(readBytes(file).at(98, 5), glm::vec3(static_cast<float>(lastLevel) / 255.0f));
+}
+
 TEST_F(ImageFileTest, DamagedPngIsRefused) {
     const std::string ihdr = header(1, 1, 8, 0);
     const std::string idat = chunk("IDAT", zlibStored("\x00\x33"s));
@@ -306,25 +351,31 @@ TEST_F(ImageFileTest, DamagedPngIsRefused) {
             expectBadBytes(bytes, ": ");
         }
     }
-    expectBadBytes(pngSignature + idat + iend, "first chunk is not a PNG header");
-    expectBadBytes(pngSignature + ihdr + iend, "no pixel data");
-    expectBadBytes(pngSignature + ihdr + ihdr + idat + iend, "unexpected IHDR");
-    expectBadBytes(pngSignature + ihdr + chunk("ABCD", "") + idat + iend, "unexpected ABCD");
-    expectBadBytes(pngSignature + ihdr + idat + chunk("tEXt", "") + idat + iend, "interrupted");
-    expectBadBytes(png(header(0, 1, 8, 0), "\x00"s), "its size is 0 x 1");
+    expectBadBytes(pngSignature + idat + iend, "Missing IHDR before IDAT");
+    expectBadBytes(pngSignature + ihdr + iend, "IEND: out of place");
+    expectBadBytes(pngSignature + ihdr + ihdr + idat + iend, "byte 41: IHDR: out of place");
+    expectBadBytes(pngSignature + ihdr + chunk("ABCD", "") + idat + iend, "ABCD: unhandled critical chunk");
+    expectBadBytes(pngSignature + ihdr + idat + chunk("tEXt", "") + idat + iend, "Too many IDATs");
+    expectBadBytes(png(header(0, 1, 8, 0), "\x00"s), "width is zero");
     expectBadBytes(png(header(40000, 1, 8, 0), "\x00"s), "its size is 40000 x 1");
     expectBadBytes(png(header(32768, 32768, 8, 0), "\x00"s), "an image 268435456");
-    expectBadBytes(png(header(16384, 16384, 8, 2), "\x00"s), "cannot be packed in 12 bytes");
-    expectBadBytes(png(header(16384, 16384, 16, 6), "\x00"s), "more than this program decompresses");
-    expectBadBytes(png(header(1, 1, 3, 0), "\x00\x33"s), "colour type 0 with 3 bits");
-    expectBadBytes(png(header(1, 1, 8, 5), "\x00\x33"s), "colour type 5");
-    expectBadBytes(png(header(1, 1, 8, 0, 2), "\x00\x33"s), "interlace 2");
-    expectBadBytes(png(header(1, 1, 8, 3), "\x00\x00"s), "no palette");
-    expectBadBytes(png(header(1, 1, 8, 3), "\x00\x00"s, chunk("PLTE", "12")), "palette of 2 bytes");
-    expectBadBytes(png(ihdr, "\x00"s), "take 2 bytes, but it has 1");
-    expectBadBytes(png(ihdr, "\x00\x33\x44"s), "damaged, or more than 1 x 1");
-    expectBadBytes(png(ihdr, std::string(200000, '\0')), "pixel data for 1 x 1");
-    expectBadBytes(png(ihdr, "\x07\x33"s), "cannot be decoded");
+    expectBadBytes(png(header(16384, 16384, 8, 2), "\x00"s), "cannot be packed in 69 bytes");
+    expectBadBytes(png(header(16384, 16384, 16, 6), "\x00"s), "cannot be packed in 69 bytes");
+    expectBadBytes(png(header(1, 1, 3, 0), "\x00\x33"s), "bit depth");
+    expectBadBytes(png(header(1, 1, 8, 5), "\x00\x33"s), "color type");
+    expectBadBytes(png(header(1, 1, 8, 0, 2), "\x00\x33"s), "interlace method");
+    expectBadBytes(png(header(1, 1, 8, 3), "\x00\x00"s), "Missing PLTE");
+    expectBadBytes(png(header(1, 1, 8, 3), "\x00\x00"s, chunk("PLTE", "12")), "PLTE: invalid");
+    const std::string colours = chunk("PLTE", "123");
+    expectBadBytes(png(header(1, 1, 8, 3), "\x00\x00"s, colours + colours), "PLTE: duplicate");
+    expectBadBytes(png(header(1, 1, 8, 3), "\x00\x00"s, colours + spoilt(chunk("tRNS", "1"))),
+                   "tRNS: CRC error");
+    expectBadBytes(png(ihdr, "\x00"s), "Not enough image data");
+    expectBadBytes(png(ihdr, "\x00\x33\x44"s), "Too much image data");
+    expectBadBytes(png(ihdr, std::string(60000, '\0')), "Too much image data");
+    expectBadBytes(pngSignature + ihdr + chunk("IDAT", spoilt(zlibStored("\x00\x33"s))) + iend,
+                   "IDAT: incorrect data check");
+    expectBadBytes(png(ihdr, "\x07\x33"s), "bad adaptive filter value");
     expectBadBytes("GIF89a", "no PNG, OpenEXR, Radiance (HDR) or PFM");
     expectBadBytes("", "empty");
 }
