@@ -8,7 +8,6 @@
 #include "host/import/mesh_builder.h"
 #include "host/import/mtl.h"
 #include "host/import/obj_lines.h"
-#include "host/import/obj_plain.h"
 #include "host/import/obj_statement.h"
 #include "host/scene/origin.h"
 
@@ -25,7 +24,6 @@
 #include <algorithm>
 #include <functional>
 #include <istream>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -194,16 +192,12 @@ class CheckedObjSource : public std::streambuf {
             lowerKeyword(*line);
             if (materials != nullptr)
                 materials->take({line->data(), line->size()});
-            statement = checkStatement(*line, lines);
-            if (statement.kind == ObjStatement::Geometry) {
-                char *const begin = statement.text.data();
-                setg(begin, begin, begin + statement.text.size());
-                return traits_type::to_int_type(*begin);
-            }
-            if (statement.kind == ObjStatement::SmallFace)
-                builder.addFace({}, lines.lineNumber());
-            else if (statement.kind == ObjStatement::Unused)
-                leaveOut({line->data(), line->size()});
+            statement = checkStatement(*line, lines, builder);
+            if (statement.text.empty())
+                continue;
+            char *const begin = statement.text.data();
+            setg(begin, begin, begin + statement.text.size());
+            return traits_type::to_int_type(*begin);
         }
     }
 
@@ -218,19 +212,6 @@ class CheckedObjSource : public std::streambuf {
         std::transform(begin, end, begin, [](char c) { return lowerCase(c); });
     }
 
-    void leaveOut(std::string_view line) {
-        ++builder.report().unusedStatementCount;
-        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-        const std::string_view keyword = line.substr(0, line.find_first_of(" \t\n"));
-        const bool isDrawing = keyword == "l" || keyword == "p";
-        builder.losses().add(isDrawing ? keyword : "unused", [&] {
-            return fmt::format("{}:{}: {} left out: {}", lines.fileName(), lines.lineNumber(),
-                               isDrawing ? keyword == "l" ? "a line is" : "points are"
-                                         : quoteInput(keyword) + " is",
-                               isDrawing ? "surfaces are rendered" : "it is no statement that is read");
-        });
-    }
-
     void reportProgress() {
         if (!onReading || lines.bytesRead() < nextReportBytes)
             return;
@@ -242,7 +223,7 @@ class CheckedObjSource : public std::streambuf {
     MeshBuilder &builder;
     ObjMaterials *materials;
     const OnReading &onReading;
-    CheckedStatement statement{};
+    CheckedStatement statement;
     std::size_t nextReportBytes = stepBytes;
 };
 
@@ -259,9 +240,7 @@ tinyobj::callback_t makeCallbacks() {
     tinyobj::callback_t callbacks;
     callbacks.vertex_cb = [](void *userData, double x, double y, double z, double) {
         const CallbackData &data = callbackData(userData);
-        constexpr double lost = std::numeric_limits<double>::quiet_NaN();
-        data.builder.addPosition(data.statement.isLost ? glm::dvec3(lost) : glm::dvec3(x, y, z),
-                                 data.lines.lineNumber());
+        data.builder.addPosition({x, y, z}, data.lines.lineNumber());
         if (data.statement.colour)
             data.builder.setColour(*data.statement.colour);
     };
