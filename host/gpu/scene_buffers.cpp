@@ -41,9 +41,9 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
     if (isSkipList)
         bytes[layout::bindingInstances] = std::as_bytes(std::span(list.instances));
     for (std::size_t binding = 0; binding < plan.buffers.size(); ++binding)
-        buffers.push_back(binding == layout::bindingNodes
-                              ? std::move(tree)
-                              : uploaded(device, plan.buffers[binding], bytes[binding]));
+        if (binding != layout::bindingNodes)
+            buffers.push_back(uploaded(device, plan.buffers[binding], bytes[binding]));
+    buffers.insert(buffers.begin() + layout::bindingNodes, std::move(tree));
 }
 
 void SceneBuffers::setFrame(const layout::FrameRecord &frame) {
