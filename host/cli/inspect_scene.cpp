@@ -105,7 +105,7 @@ void printLight(const Scene &scene, const Light &light) {
                     colourText(light.power));
 }
 
-/// How many spheres and triangles wear a material.
+/// Numbers of spheres and triangles of a material.
 struct MaterialUse {
     std::uint64_t spheres = 0;
     std::uint64_t triangles = 0; ///< those of instances once for each place

@@ -25,7 +25,7 @@ struct SceneOptions {
     std::optional<int> width;
     std::optional<int> height;
     SettingChanges settings;
-    std::vector<Integrator> views{}; ///< that are rendered, too: settings that they use have an effect
+    std::vector<Integrator> views{}; ///< rendered as layers, too: settings that they use have an effect
     std::optional<double> fovDegrees;
     std::vector<double> cameraPosition;
     std::vector<double> lookAt;

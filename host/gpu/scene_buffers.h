@@ -14,7 +14,7 @@ struct SceneBuffers {
     /// made for the same choice. Throws as Buffer does.
     SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList);
 
-    /// Uploads the frame of a render, before the first one and for each.
+    /// Uploads the frame of a render. Every render begins with it.
     void setFrame(const layout::FrameRecord &frame);
 
     std::vector<Buffer> buffers; ///< by binding

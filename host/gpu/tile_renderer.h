@@ -126,7 +126,7 @@ class TileRenderer {
     Buffer trace_;
     layout::DispatchConstants dispatch_{};
     std::uint32_t groupCount_ = 0;             ///< of a slot for each sample in flight
-    std::uint32_t regenerationGroupCount_ = 0; ///< of slots that take samples in turn
+    std::uint32_t regenerationGroupCount_ = 0; ///< of slots that regenerate paths
     std::uint32_t addingGroupCount_ = 0;       ///< of a slot for each pixel
     std::uint32_t traceEventCount_ = 0;
     std::uint64_t samplesInFilm_ = 0; ///< of all pixels, before run

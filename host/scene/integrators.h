@@ -20,8 +20,8 @@ struct IntegratorRow {
     std::string_view kernel;                 ///< shaders/integrators/KERNEL.comp
     std::uint32_t view = layout::viewNormal; ///< what the kernel "view" shows
     std::string_view layerChannels{};        ///< of a view: those of its layer in an EXR
-    bool isOfCentres =
-        false; ///< as a layer: one sample, as a mean of depths or normals belongs to no surface
+    /// As a layer it has one sample, at the pixel's centre: a mean of depths or normals belongs to no surface.
+    bool isOfCentres = false;
     bool followsPaths = false;   ///< over several segments: maxDepth bounds them
     bool splitsAtGlass = false;  ///< both branches: rays wait
     bool aimsAtEmitters = false; ///< needs the scene's emitters, and the energy tables of microfacets
