@@ -147,8 +147,8 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
     // Where every pass takes the same time, lanes whose paths have ended cost as much as others. In a tree few rays take
     // less, and whitted's paths end together.
-    planned.takesPathRegeneration = planned.isDirect && rowOf(job.settings.integrator).aimsAtEmitters &&
-                                    !job.scene.needsTree(job.settings.integrator);
+    planned.regeneratesPaths = planned.isDirect && rowOf(job.settings.integrator).aimsAtEmitters &&
+                               !job.scene.needsTree(job.settings.integrator);
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
     planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     planned.trace =
@@ -158,7 +158,7 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     const auto planSlots = [&] {
         const std::uint64_t slots = planned.largestTile.pixelCount() * planned.samplesInFlight;
         planned.stacks =
-            planned.takesPathRegeneration
+            planned.regeneratesPaths
                 ? plan("the finished samples", BufferUse::Storage, slots * sizeof(layout::SampleRecord))
                 : plan("the traversal stacks", BufferUse::Storage,
                        job.scene.hasTriangles && !isSkipList

@@ -35,8 +35,7 @@ struct JobPlan {
     /// Dispatches end with whole samples; a resumable helper kernel does samples that are too long.
     bool isDirect = false;
     bool exchangesByBroadcast = false; ///< lanes do, not by shuffles
-    bool takesPathRegeneration =
-        false; ///< the direct kernel's slots do not wait for the others of their pixel
+    bool regeneratesPaths = false; ///< the direct kernel's slots do not wait for the others of their pixel
     Tile largestTile;
     std::uint64_t maxHelperPixels = 0; ///< maximum size of a tile for the helper
     BufferPlan film;

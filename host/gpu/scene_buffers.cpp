@@ -1,7 +1,5 @@
 #include "host/gpu/scene_buffers.h"
 
-#include "host/packing/skip_list.h"
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -20,16 +18,15 @@ Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byt
 
 } // namespace
 
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList) {
-    SkipList list = isSkipList ? makeSkipList(scene) : SkipList{};
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList)
+    : lists_(isSkipList ? makeSkipList(scene) : SkipList{}) {
     const auto treeBytes =
-        isSkipList ? std::as_bytes(std::span(list.nodes)) : std::as_bytes(std::span(scene.nodes));
+        isSkipList ? std::as_bytes(std::span(lists_.nodes)) : std::as_bytes(std::span(scene.nodes));
     BufferPlan treePlan = plan.buffers[layout::bindingNodes];
     assert(treeBytes.size() <= treePlan.sizeBytes);
     treePlan.sizeBytes = treeBytes.size();
     Buffer tree = uploaded(device, treePlan, treeBytes);
-    list.nodes = {}; // the largest part of a large scene: before the other buffers take memory
-    list.describe(ofTree_);
+    lists_.nodes = {}; // the largest part of a large scene: before the other buffers take memory
 
     std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
     bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.loopSpheres));
@@ -39,19 +36,17 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
     for (const SceneArray &array : scene.arrays())
         bytes[array.binding] = array.bytes;
     if (isSkipList)
-        bytes[layout::bindingInstances] = std::as_bytes(std::span(list.instances));
+        bytes[layout::bindingInstances] = std::as_bytes(std::span(lists_.instances));
     for (std::size_t binding = 0; binding < plan.buffers.size(); ++binding)
         if (binding != layout::bindingNodes)
             buffers.push_back(uploaded(device, plan.buffers[binding], bytes[binding]));
     buffers.insert(buffers.begin() + layout::bindingNodes, std::move(tree));
+    lists_.instances = {};
 }
 
 void SceneBuffers::setFrame(const layout::FrameRecord &frame) {
     layout::FrameRecord record = frame;
-    record.gridMiddle = ofTree_.gridMiddle;
-    record.gridScale = ofTree_.gridScale;
-    record.topListLength = ofTree_.topListLength;
-    record.skipListLength = ofTree_.skipListLength;
+    lists_.describe(record);
     buffers[layout::bindingFrame].upload(std::as_bytes(std::span(&record, 1)));
 }
 

@@ -4,6 +4,7 @@
 #include "host/gpu/memory_plan.h"
 #include "host/gpu/vk/buffer.h"
 #include "host/packing/packed_scene.h"
+#include "host/packing/skip_list.h"
 
 #include <vector>
 
@@ -20,7 +21,7 @@ struct SceneBuffers {
     std::vector<Buffer> buffers; ///< by binding
 
   private:
-    layout::FrameRecord ofTree_{}; ///< fields that skip lists decide
+    SkipList lists_; ///< without their nodes and instances, which are uploaded
 };
 
 } // namespace hyalite::gpu

@@ -94,7 +94,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantExactDivision] = config.arithmetic == Arithmetic::Native;
     constants[layout::constantSamplesInFlight] = plan.samplesInFlight;
     constants[layout::constantIsResumable] = isResumable;
-    constants[layout::constantPathRegeneration] = plan.takesPathRegeneration && !isResumable;
+    constants[layout::constantPathRegeneration] = plan.regeneratesPaths && !isResumable;
     constants[layout::constantBroadcasts] = plan.exchangesByBroadcast;
     constants[layout::constantIsCounting] = config.isCounting;
     constants[layout::constantShowsCost] = showsWork(job.settings);
@@ -149,7 +149,7 @@ TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const Scene
     // lavapipe gives each thread one range of workgroups: 16 suits every thread count that divides it.
     dispatch_.interleave = device.info().isSoftware() ? 16 : 1;
     dispatch_.sampleEnd = job.sampleEnd;
-    if (plan.takesPathRegeneration)
+    if (plan.regeneratesPaths)
         stacks_.clear();
     moveTo(plan.largestTile);
 }
@@ -208,7 +208,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     Kernel kernel(device_, pipelineOf(device_, pipelines_, config_, job_, scenePlan_, plan_, isResumable),
                   bound);
     std::optional<Kernel> adding;
-    if (plan_.takesPathRegeneration && !isResumable) {
+    if (plan_.regeneratesPaths && !isResumable) {
         std::array<BufferUse, layout::bindingCount> uses{};
         std::ranges::transform(bound, uses.begin(), [](const Buffer *buffer) { return buffer->use(); });
         adding.emplace(device_,
@@ -260,7 +260,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
     const auto addSamples = [&](WorkItem &item, std::uint32_t end) {
         moveTo(item.tile);
         const std::uint64_t pixels = item.tile.pixelCount();
-        const std::uint32_t most = plan_.takesPathRegeneration ? plan_.samplesInFlight : samplesInPass;
+        const std::uint32_t most = plan_.regeneratesPaths ? plan_.samplesInFlight : samplesInPass;
         dispatch_.sampleEnd = item.begin + std::min({sizer_.samples(pixels), most, end - item.begin});
         dispatch_.isResumed = 0;
         double seconds = 0.0;
@@ -283,7 +283,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
             }
             item.isLong = isUnfinished && step.counters.finishedSamples == 0;
             const bool isTooLarge = isUnfinished && mustHalve(item, end);
-            if (plan_.takesPathRegeneration && (item.isLong || isTooLarge))
+            if (plan_.regeneratesPaths && (item.isLong || isTooLarge))
                 stacks_.clear(); // what waits behind an unfinished sample
             if (isTooLarge)
                 return;

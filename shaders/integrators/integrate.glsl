@@ -52,7 +52,7 @@ void integrate() {
     loadConstants();
     preload();
 #if LANES_SHUFFLE
-    if (takesPathRegeneration) {
+    if (regeneratesPaths) {
         integrateRegenerating();
         return;
     }

@@ -332,10 +332,10 @@ void advancePaths() {
     do {
         do
             traceRays();
-        while (!takesPathRegeneration && hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
+        while (!regeneratesPaths && hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
         lightSurfaces();
         stepsTaken += 1u + searchIterations();
-    } while (!takesPathRegeneration && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
+    } while (!regeneratesPaths && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
 }
 
 void main() { integrate(); }

@@ -92,18 +92,17 @@ TEST(MemoryPlan, PathsWithoutATreeAreRegenerated) {
     };
     const PackedScene spheres = sceneOf(0);
     const JobPlan plan = planOf(spheres, Integrator::Path, skip);
-    EXPECT_TRUE(plan.takesPathRegeneration);
+    EXPECT_TRUE(plan.regeneratesPaths);
     EXPECT_EQ(plan.stacks.sizeBytes, 64u * 64u * 8u * sizeof(layout::SampleRecord));
-    EXPECT_FALSE(planOf(spheres, Integrator::Whitted, skip).takesPathRegeneration);
-    EXPECT_FALSE(planOf(sceneOf(1000), Integrator::Path, skip).takesPathRegeneration);
+    EXPECT_FALSE(planOf(spheres, Integrator::Whitted, skip).regeneratesPaths);
+    EXPECT_FALSE(planOf(sceneOf(1000), Integrator::Path, skip).regeneratesPaths);
     PackedScene room = sceneOf(2);
-    EXPECT_FALSE(planOf(room, Integrator::Path, skip).takesPathRegeneration);
+    EXPECT_FALSE(planOf(room, Integrator::Path, skip).regeneratesPaths);
     room.trianglePairs.emplace_back();
-    EXPECT_TRUE(planOf(room, Integrator::Path, skip).takesPathRegeneration);
+    EXPECT_TRUE(planOf(room, Integrator::Path, skip).regeneratesPaths);
     RenderConfig counting = skip;
     counting.isCounting = true;
-    EXPECT_FALSE(planOf(room, Integrator::Path, counting).takesPathRegeneration)
-        << "it resumes inside of samples";
+    EXPECT_FALSE(planOf(room, Integrator::Path, counting).regeneratesPaths) << "it resumes inside of samples";
 }
 
 TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
