@@ -11,7 +11,7 @@
 #include "host/farm/merge.h"
 #include "host/image/png.h"
 #include "host/import/assets.h"
-#include "host/import/file_reach.h"
+#include "host/import/file_access.h"
 #include "host/jobs/film_picture.h"
 
 #include <fmt/format.h>
@@ -92,10 +92,10 @@ void requireParts(const Merger &merger, ImageFormat format, const MergeOptions &
 
 /// Throws Error{BadInput} for files of a part's command that the user of `merge` did not allow.
 void requireAllowed(const SceneOptions &scene, const std::vector<std::filesystem::path> &allowedPaths) {
-    const FileReach reach("./part", allowedPaths); // of the working folder
+    const FileAccess access("./part", allowedPaths); // of the working folder
     for (const std::filesystem::path &file :
          {resolveScene(scene.scene), std::filesystem::path(scene.environment)})
-        if (!file.empty() && !reach.allows(file))
+        if (!file.empty() && !access.allows(file))
             throw Error(
                 ErrorKind::BadInput,
                 fmt::format("--audit: a part names '{}'; allowed: files in the working folder and in the "

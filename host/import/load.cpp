@@ -3,7 +3,7 @@
 #include "host/base/error.h"
 #include "host/base/standard_stream.h"
 #include "host/import/assets.h"
-#include "host/import/file_reach.h"
+#include "host/import/file_access.h"
 #include "host/import/formats.h"
 #include "host/import/texture_library.h"
 #include "host/scene/framing.h"
@@ -43,9 +43,9 @@ LoadedScene loadBareMesh(const std::filesystem::path &file, const Format &format
     if (options.events.onOutline)
         options.events.onOutline({true, RenderSettings{}});
     TextureLibrary textures;
-    const FileReach reach(file, options.allowedPaths);
+    const FileAccess access(file, options.allowedPaths);
     MeshFile meshes = format.readMeshes(
-        file, {.onReading = options.events.onReading, .textures = &textures, .reach = reach});
+        file, {.onReading = options.events.onReading, .textures = &textures, .access = access});
     LoadedScene loaded;
     loaded.scene = frameMesh(std::move(meshes.meshes.front().mesh));
     // The neutral material comes first, for triangles without a material.

@@ -13,7 +13,7 @@
 
 namespace hyalite {
 
-class FileReach;
+class FileAccess;
 class TextureLibrary;
 
 /// Object space to world space: scale, then rotate about x, y and z in that order, then translate.
@@ -60,7 +60,7 @@ struct MeshOptions {
     MeshTransform transform{};
     const OnReading &onReading;
     TextureLibrary *textures = nullptr; ///< null: materials are not read
-    const FileReach &reach;             ///< which other files it may name
+    const FileAccess &access;           ///< which other files it may name
 };
 
 /// A mesh of a file, and where it is seen.

@@ -3,7 +3,7 @@
 #include "host/base/json_document.h"
 #include "host/base/json_reader.h"
 #include "host/import/environment_file.h"
-#include "host/import/file_reach.h"
+#include "host/import/file_access.h"
 #include "host/import/scene_objects.h"
 #include "host/scene/light_sources.h"
 #include "host/scene/limits.h"
@@ -127,10 +127,10 @@ Light readLight(const JsonNode &node) {
 }
 
 /// Adds the file to `inputFiles`.
-Environment readEnvironment(const JsonObject &object, const FileReach &reach, LoadedScene &loaded) {
+Environment readEnvironment(const JsonObject &object, const FileAccess &access, LoadedScene &loaded) {
     Environment environment;
     const JsonNode file = object.at("file");
-    const std::filesystem::path path = reach.resolve(file);
+    const std::filesystem::path path = access.resolve(file);
     loaded.inputFiles.push_back(path.string());
     EnvironmentImage image = readEnvironmentImage(path);
     environment.radiance = std::move(image.radiance);
@@ -149,7 +149,7 @@ Environment readEnvironment(const JsonObject &object, const FileReach &reach, Lo
 
 /// What is needed to read textures.
 struct TextureSource {
-    const FileReach &reach;
+    const FileAccess &access;
     TextureLibrary &library;
 };
 
@@ -173,7 +173,7 @@ void readTextures(const JsonObject &object, const MaterialRow &row, const Textur
         if (isNormal)
             material.normalStrength =
                 static_cast<float>(image.number("strength", limits::normalStrength, material.normalStrength));
-        use.textureIndex = source.library.load(source.reach.resolve(file));
+        use.textureIndex = source.library.load(source.access.resolve(file));
         const Texture &texture = source.library.at(use.textureIndex);
         if (texture.isFloat() && slot != layout::slotEmission)
             file.fail("found an image of floats; allowed: a PNG or a JPEG");
@@ -323,11 +323,11 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
         scene.background =
             glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
     });
-    const FileReach reach(file, options.allowedPaths);
+    const FileAccess access(file, options.allowedPaths);
     TextureLibrary textures;
     faults.collect([&] {
         if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
-            scene.environment = readEnvironment(*environment, reach, loaded);
+            scene.environment = readEnvironment(*environment, access, loaded);
     });
     faults.collect([&] {
         if (const std::optional<JsonObject> camera = top.object("camera", scene_keys::camera)) {
@@ -340,11 +340,11 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
             faults.collect([&] { scene.lights.push_back(readLight(light)); });
     });
     if (const std::optional<JsonNode> materials = top.find("materials")) {
-        faults.collect([&] { readMaterials(JsonObject(*materials), {reach, textures}, faults, scene); });
+        faults.collect([&] { readMaterials(JsonObject(*materials), {access, textures}, faults, scene); });
         if (scene.materials.empty()) // what refers to them would have faults of its own
             faults.throwThem();
     }
-    readObjects(top, reach, textures, options.events.onReading, faults, loaded);
+    readObjects(top, access, textures, options.events.onReading, faults, loaded);
     faults.throwThem();
     scene.textures = textures.give();
     if (!hasIntegrator) {

@@ -90,7 +90,7 @@ namespace hyalite {
 
 /// Reads a scene file and the meshes that it names. Values are in range and names are defined; what concerns
 /// several values at once (is up parallel to the view?) is left to validateScene. Files outside of the scene's
-/// folder, the assets and `options.allowedPaths` are not read (file_reach.h). Throws Error{BadInput}
+/// folder, the assets and `options.allowedPaths` are not read (file_access.h). Throws Error{BadInput}
 /// naming the file, the key as a JSON path such as /spheres/3/radius (a syntax error: line and column), what
 /// was found and what is allowed.
 [[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &options = {});

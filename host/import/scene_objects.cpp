@@ -66,7 +66,7 @@ void applyTransform(const JsonObject &object, PlacedMesh &placed) {
 
 /// How files of meshes are read for a scene file.
 struct MeshSource {
-    const FileReach &reach;
+    const FileAccess &access;
     TextureLibrary &textures;
     const OnReading &onReading;
 };
@@ -84,7 +84,7 @@ MeshFile readMeshes(const JsonObject &object, const std::vector<Material> &mater
     const std::uint32_t materialIndex = isNamed ? readMaterialIndex(object.at("material"), materials) : 0;
 
     const JsonNode fileNode = object.at("file");
-    const std::filesystem::path path = source.reach.resolve(fileNode);
+    const std::filesystem::path path = source.access.resolve(fileNode);
     const Format *const format = formatOf(path);
     if (format == nullptr)
         refuseForeignFormat(path);
@@ -95,7 +95,7 @@ MeshFile readMeshes(const JsonObject &object, const std::vector<Material> &mater
     MeshFile file = read(path, {.transform = transform,
                                 .onReading = source.onReading,
                                 .textures = isNamed ? nullptr : &source.textures,
-                                .reach = source.reach});
+                                .access = source.access});
     for (PlacedMesh &placed : file.meshes) {
         if (isNamed)
             placed.mesh.materialIndex = materialIndex;
@@ -203,7 +203,7 @@ void addMesh(const JsonNode &node, const std::vector<glm::dmat4x3> &instances, P
 
 } // namespace
 
-void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &textures,
+void readObjects(const JsonObject &top, const FileAccess &access, TextureLibrary &textures,
                  const OnReading &onReading, JsonFaults &faults, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     const auto forEach = [&](std::string_view key, std::size_t maxCount, const auto &read) {
@@ -242,7 +242,7 @@ void readObjects(const JsonObject &top, const FileReach &reach, TextureLibrary &
     });
     forEach("meshes", limits::meshCount, [&](const JsonNode &node) {
         const JsonObject object(node, scene_keys::mesh);
-        MeshFile file = readMeshes(object, named, {reach, textures, onReadingMesh});
+        MeshFile file = readMeshes(object, named, {access, textures, onReadingMesh});
         if (!object.find("material"))
             addMaterialsOf(object, file, named, scene);
         else if (const std::optional<JsonNode> overrides = object.find("materialOverrides"))

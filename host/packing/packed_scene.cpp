@@ -223,6 +223,64 @@ void setEye(const Scene &scene, const std::vector<std::uint32_t> &packedMaterial
                             : static_cast<std::uint32_t>(std::countr_zero(media.around)) / layout::mediumBits;
 }
 
+/// What kernels need for a material on a surface. `hasTransparency`: of the surface's colours.
+void useMaterial(const Scene &scene, std::uint32_t index, bool hasTransparency, PackedScene &packed) {
+    const Material &material = scene.materials[index];
+    const MaterialRow &row = rowOf(material.kind);
+    packed.hasEmission = packed.hasEmission || material.emission != glm::vec3(0.0f);
+    packed.hasSpecular = packed.hasSpecular || !row.scattersDiffusely || isGlass(material);
+    packed.hasDielectric = packed.hasDielectric || isGlass(material);
+    packed.scattering |= row.scattering(material);
+    packed.texturing |= texturingOf(material, scene.textures);
+    packed.anyHit |= anyHitOf(material, hasTransparency);
+}
+
+void useMaterials(const Scene &scene, const TriangleMesh &mesh, PackedScene &packed) {
+    packed.texturing |= texturingOf(mesh);
+    const bool hasTransparency = hasTransparentColours(mesh);
+    if (mesh.triangleMaterials.empty())
+        useMaterial(scene, mesh.materialIndex, hasTransparency, packed);
+    std::vector<bool> isUsed(scene.materials.size(), false);
+    for (const std::uint32_t index : mesh.triangleMaterials)
+        isUsed[index] = true;
+    for (std::size_t i = 0; i < isUsed.size(); ++i)
+        if (isUsed[i])
+            useMaterial(scene, static_cast<std::uint32_t>(i), hasTransparency, packed);
+}
+
+void packSpheres(const Scene &scene, const Bvh &bvh, const std::vector<std::uint32_t> &packedMaterial,
+                 PackedScene &packed) {
+    for (const Sphere &sphere : scene.spheres) {
+        useMaterial(scene, sphere.materialIndex, false, packed);
+        layout::SphereRecord record{};
+        record.centre = glm::vec3(sphere.centre);
+        record.radius = static_cast<float>(sphere.radius);
+        record.materialAndSide =
+            packedMaterial[sphere.materialIndex] | (sphere.inwardNormal ? layout::sphereFacesInward : 0u);
+        record.isTransmissive =
+            scene.materials[sphere.materialIndex].kind == MaterialKind::Dielectric ? 1u : 0u;
+        record.primitiveId = static_cast<std::uint32_t>(packed.spheres.size());
+        packed.spheres.push_back(record);
+        if (!std::ranges::binary_search(bvh.spheres, record.primitiveId))
+            packed.loopSpheres.push_back(record);
+    }
+}
+
+/// The tables of directional albedo, which are the first lookup rows.
+void packEnergies(const Scene &scene, PackedScene &packed) {
+    if ((packed.scattering & layout::scattersAtRough) != 0) {
+        static const std::vector<layout::LookupRow> ofMicrofacets = makeEnergyTexels();
+        packed.lookups = ofMicrofacets;
+    }
+    if ((packed.scattering & layout::scattersAtRoughGlass) != 0)
+        std::ranges::copy(makeGlassTexels(glassNodesOf(scene)), std::back_inserter(packed.lookups));
+    if ((packed.scattering & layout::scattersAtSheen) != 0) {
+        packed.frame.sheenTexels = static_cast<std::uint32_t>(packed.lookups.size());
+        static const std::vector<layout::LookupRow> ofSheen = makeSheenTexels();
+        std::ranges::copy(ofSheen, std::back_inserter(packed.lookups));
+    }
+}
+
 } // namespace
 
 std::array<SceneArray, layout::sceneArrayCount> PackedScene::arrays() const {
@@ -327,46 +385,11 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
     setEye(scene, packedMaterial, packed);
     for (const std::uint32_t index : order)
         packed.materials.push_back(packMaterial(scene.materials[index]));
-    const auto useMaterial = [&](std::uint32_t index, bool hasTransparency) {
-        const MaterialRow &row = rowOf(scene.materials[index].kind);
-        packed.hasEmission = packed.hasEmission || scene.materials[index].emission != glm::vec3(0.0f);
-        const bool isOpaque = !isGlass(scene.materials[index]);
-        packed.hasSpecular = packed.hasSpecular || !(row.scattersDiffusely && isOpaque);
-        packed.hasDielectric = packed.hasDielectric || !isOpaque;
-        packed.scattering |= row.scattering(scene.materials[index]);
-        packed.texturing |= texturingOf(scene.materials[index], scene.textures);
-        packed.anyHit |= anyHitOf(scene.materials[index], hasTransparency);
-    };
-    const auto useMaterials = [&](const TriangleMesh &mesh) {
-        packed.texturing |= texturingOf(mesh);
-        const bool hasTransparency = hasTransparentColours(mesh);
-        if (mesh.triangleMaterials.empty())
-            useMaterial(mesh.materialIndex, hasTransparency);
-        std::vector<bool> isUsed(scene.materials.size(), false);
-        for (const std::uint32_t index : mesh.triangleMaterials)
-            isUsed[index] = true;
-        for (std::size_t i = 0; i < isUsed.size(); ++i)
-            if (isUsed[i])
-                useMaterial(static_cast<std::uint32_t>(i), hasTransparency);
-    };
-    for (const Sphere &sphere : scene.spheres) {
-        useMaterial(sphere.materialIndex, false);
-        layout::SphereRecord record{};
-        record.centre = glm::vec3(sphere.centre);
-        record.radius = static_cast<float>(sphere.radius);
-        record.materialAndSide =
-            packedMaterial[sphere.materialIndex] | (sphere.inwardNormal ? layout::sphereFacesInward : 0u);
-        record.isTransmissive =
-            scene.materials[sphere.materialIndex].kind == MaterialKind::Dielectric ? 1u : 0u;
-        record.primitiveId = static_cast<std::uint32_t>(packed.spheres.size());
-        packed.spheres.push_back(record);
-        if (!std::ranges::binary_search(bvh.spheres, record.primitiveId))
-            packed.loopSpheres.push_back(record);
-    }
+    packSpheres(scene, bvh, packedMaterial, packed);
     for (const TriangleMesh &mesh : scene.meshes)
-        useMaterials(mesh);
+        useMaterials(scene, mesh, packed);
     for (const TriangleMesh &prototype : scene.prototypes)
-        useMaterials(prototype);
+        useMaterials(scene, prototype, packed);
     for (const Light &light : scene.lights) {
         packed.lights.push_back(packLight(light));
         packed.lighting |= 1u << emitterKindOf(packed.lights.back());
@@ -376,17 +399,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
         packed.texturing &= ~layout::texturesTangents;
     packTrees(scene, bvh, packedMaterial, packed);
     packTextures(scene, order, options.maxDecoded, packed);
-    if ((packed.scattering & layout::scattersAtRough) != 0) {
-        static const std::vector<layout::LookupRow> ofMicrofacets = makeEnergyTexels();
-        packed.lookups = ofMicrofacets;
-    }
-    if ((packed.scattering & layout::scattersAtRoughGlass) != 0)
-        std::ranges::copy(makeGlassTexels(glassNodesOf(scene)), std::back_inserter(packed.lookups));
-    if ((packed.scattering & layout::scattersAtSheen) != 0) {
-        packed.frame.sheenTexels = static_cast<std::uint32_t>(packed.lookups.size());
-        static const std::vector<layout::LookupRow> ofSheen = makeSheenTexels();
-        std::ranges::copy(ofSheen, std::back_inserter(packed.lookups));
-    }
+    packEnergies(scene, packed);
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
     packFilter(packed);
     packEmitters(scene, isLitAround, options.lightChoice, packed);

@@ -12,7 +12,7 @@ void run(std::string_view text) {
     static const TemporaryFolder folder;
     static const std::filesystem::path buffer = folder.write("buffer.bin", std::string(256, '\x3f'));
     const std::filesystem::path file = folder.write("input.gltf", text);
-    // Of meshes, as gltf/allowance.h says, and of a texture, as readingBytesMax does.
+    // Of meshes, as gltf/memory_budget.h says, and of a texture, as readingBytesMax does.
     const std::size_t allowed = (std::size_t{800} << 20) + 128 * (text.size() + 256);
     const HeapPeak peak;
     const LoadOptions options{.timeSeconds = 0.5};

@@ -107,7 +107,7 @@ void Accessor::readHeader(const Buffers &buffers) {
     columnBytes_ = type.columnCount == 1 ? packed : (packed + 3) / 4 * 4;
     const JsonNode countNode = object.at("count");
     count_ = static_cast<std::size_t>(countNode.wholeNumber({1.0, 4294967295.0}));
-    if (!object.find("bufferView") && count_ > Allowance::base / 64 + 64 * buffers.document().sizeBytes())
+    if (!object.find("bufferView") && count_ > MemoryBudget::base / 64 + 64 * buffers.document().sizeBytes())
         countNode.fail(
             fmt::format("{} elements without a buffer view are more than such a file may have", count_));
 }
@@ -139,7 +139,7 @@ void Accessor::readSparse(Buffers &buffers, const JsonObject &sparse) {
     const std::size_t indexBytes = bytesOf(indexType);
     std::size_t stride = 0;
     const auto indexData = elementsIn(buffers, indices, count, indexBytes, stride);
-    buffers.allowance().take(count * sizeof(std::uint32_t), node_);
+    buffers.memoryBudget().take(count * sizeof(std::uint32_t), node_);
     Sparse read;
     read.indices.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -38,9 +38,9 @@ std::size_t strideOf(const JsonObject &object) {
 std::vector<std::byte> Buffers::readBuffer(const JsonNode &uri) {
     if (std::optional<std::vector<std::byte>> data = dataOf(uri))
         return std::move(*data);
-    const std::filesystem::path path = reach_.resolve(uri, fileNameOf(uri));
+    const std::filesystem::path path = access_.resolve(uri, fileNameOf(uri));
     const InputFile file(path);
-    allowance_.addFile(file.sizeBytes());
+    memoryBudget_.addFile(file.sizeBytes());
     files_.push_back(path);
     return file.head(static_cast<std::size_t>(file.sizeBytes()));
 }
@@ -84,7 +84,7 @@ BufferView Buffers::decompressedView(const JsonNode &node, const JsonObject &com
     const std::size_t index = document_.reference(compression.at("buffer"), "buffers");
     const std::span<const std::byte> packed = partOf(buffer(index), compression);
     storage_.push_back(std::make_unique<std::vector<std::byte>>(decompressMeshopt(
-        compression, packed, [&](std::size_t sizeBytes) { allowance_.take(sizeBytes, node); })));
+        compression, packed, [&](std::size_t sizeBytes) { memoryBudget_.take(sizeBytes, node); })));
     BufferView view{*storage_.back()};
     const JsonNode length = JsonObject(node).at("byteLength");
     if (length.wholeNumber(byteCount) != static_cast<double>(view.bytes.size()))

@@ -2,9 +2,9 @@
 // EXT_meshopt_compression has compressed.
 #pragma once
 
-#include "host/import/file_reach.h"
-#include "host/import/gltf/allowance.h"
+#include "host/import/file_access.h"
 #include "host/import/gltf/document.h"
+#include "host/import/gltf/memory_budget.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -26,8 +26,8 @@ struct BufferView {
 class Buffers {
   public:
     /// All three outlive the object.
-    Buffers(const Document &document, const FileReach &reach, Allowance &allowance)
-        : document_(document), reach_(reach), allowance_(allowance) {}
+    Buffers(const Document &document, const FileAccess &access, MemoryBudget &memoryBudget)
+        : document_(document), access_(access), memoryBudget_(memoryBudget) {}
     Buffers(const Buffers &) = delete;
     Buffers &operator=(const Buffers &) = delete;
 
@@ -36,7 +36,7 @@ class Buffers {
     [[nodiscard]] BufferView view(std::size_t index);
 
     [[nodiscard]] const Document &document() const { return document_; }
-    [[nodiscard]] Allowance &allowance() { return allowance_; }
+    [[nodiscard]] MemoryBudget &memoryBudget() { return memoryBudget_; }
     /// Files that were read.
     [[nodiscard]] const std::vector<std::filesystem::path> &files() const { return files_; }
 
@@ -47,8 +47,8 @@ class Buffers {
     BufferView decompressedView(const JsonNode &node, const JsonObject &compression);
 
     const Document &document_;
-    const FileReach &reach_;
-    Allowance &allowance_;
+    const FileAccess &access_;
+    MemoryBudget &memoryBudget_;
     std::map<std::size_t, std::span<const std::byte>> buffers_;
     std::map<std::size_t, BufferView> views_;
     std::map<std::string, std::span<const std::byte>> fileContents_; ///< by path: each file is read once

@@ -259,20 +259,20 @@ GltfOutline outlineOf(const Document &document, const NodeTree &tree, const std:
 
 } // namespace
 
-Contents readContents(const std::filesystem::path &path, const FileReach &reach, TextureLibrary &textures,
+Contents readContents(const std::filesystem::path &path, const FileAccess &access, TextureLibrary &textures,
                       const ContentOptions &options) {
     const Document document(path);
-    Allowance allowance;
-    allowance.addFile(document.sizeBytes());
-    const FileReach near = reach.from(path);
-    Buffers buffers(document, near, allowance);
+    MemoryBudget memoryBudget;
+    memoryBudget.addFile(document.sizeBytes());
+    const FileAccess near = access.from(path);
+    Buffers buffers(document, near, memoryBudget);
     Contents contents;
     MeshReport &report = contents.file.report;
     report.name = document.fileName();
     checkExtensions(document, report.warnings);
 
     if (const std::size_t count = document.count("nodes"); count > 0)
-        allowance.take(count * NodeTree::bytesEach, document.top().at("nodes"));
+        memoryBudget.take(count * NodeTree::bytesEach, document.top().at("nodes"));
     const NodeTree tree(document);
     const std::vector<Pose> rest = readPoses(document);
     std::optional<std::vector<Pose>> moved;

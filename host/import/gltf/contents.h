@@ -1,7 +1,7 @@
 // Contents of a glTF file: meshes, materials, lights and a camera, in world space.
 #pragma once
 
-#include "host/import/file_reach.h"
+#include "host/import/file_access.h"
 #include "host/import/gltf/cameras.h"
 #include "host/import/loaded_scene.h"
 #include "host/import/mesh_file.h"
@@ -34,7 +34,7 @@ struct Contents {
     std::optional<glm::dvec3> restOrigin{}; ///< where there are animations: that of the scene at rest
 };
 
-[[nodiscard]] Contents readContents(const std::filesystem::path &path, const FileReach &reach,
+[[nodiscard]] Contents readContents(const std::filesystem::path &path, const FileAccess &access,
                                     TextureLibrary &textures, const ContentOptions &options);
 
 } // namespace hyalite::gltf

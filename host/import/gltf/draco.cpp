@@ -72,8 +72,8 @@ DracoMesh decodeDraco(Buffers &buffers, const JsonObject &primitive, const JsonO
     const BufferView view = buffers.view(document.reference(viewNode, "bufferViews"));
     const std::unique_ptr<draco::Mesh> mesh = decodeMesh(view.bytes, viewNode);
     requireIndexCount(buffers, primitive, *mesh);
-    buffers.allowance().take(std::uint64_t{mesh->num_faces()} * 12 + std::uint64_t{mesh->num_points()} * 64,
-                             viewNode);
+    buffers.memoryBudget().take(
+        std::uint64_t{mesh->num_faces()} * 12 + std::uint64_t{mesh->num_points()} * 64, viewNode);
     DracoMesh decoded;
     const JsonObject accessors(primitive.at("attributes"));
     for (const auto &[name, id] : JsonObject(extension.at("attributes")).members(1024)) {

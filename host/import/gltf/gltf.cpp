@@ -60,7 +60,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     if (options.events.onOutline)
         options.events.onOutline({true, loaded.settings});
     TextureLibrary textures;
-    gltf::Contents contents = gltf::readContents(file, FileReach(file, options.allowedPaths), textures,
+    gltf::Contents contents = gltf::readContents(file, FileAccess(file, options.allowedPaths), textures,
                                                  {.scene = options.gltfScene,
                                                   .camera = options.camera,
                                                   .timeSeconds = options.timeSeconds,
@@ -87,7 +87,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
 MeshFile readGltfMeshes(const std::filesystem::path &file, const MeshOptions &options) {
     TextureLibrary unused;
     gltf::Contents contents =
-        gltf::readContents(file, options.reach, options.textures != nullptr ? *options.textures : unused,
+        gltf::readContents(file, options.access, options.textures != nullptr ? *options.textures : unused,
                            {.onReading = options.onReading});
     MeshFile &meshes = contents.file;
     if (contents.camera || !contents.lights.empty())

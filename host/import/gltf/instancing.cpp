@@ -24,7 +24,7 @@ std::vector<glm::dmat4x3> readInstancing(Buffers &buffers, const JsonObject &ext
     const Accessor *const scales = accessor("SCALE", "VEC3");
     const std::size_t count = attributes.begin()->second.count();
     constexpr std::size_t bytesEach = 256; // of a map and an instance
-    buffers.allowance().take(count * bytesEach, node);
+    buffers.memoryBudget().take(count * bytesEach, node);
     std::vector<glm::dmat4x3> maps;
     maps.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

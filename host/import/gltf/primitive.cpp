@@ -34,7 +34,7 @@ std::vector<std::uint32_t> readIndices(Buffers &buffers, const JsonObject &objec
     const auto index = buffers.document().reference(object, "indices", "accessors");
     std::vector<std::uint32_t> indices;
     if (!index) {
-        buffers.allowance().take(vertexCount * sizeof(std::uint32_t), object.at("attributes"));
+        buffers.memoryBudget().take(vertexCount * sizeof(std::uint32_t), object.at("attributes"));
         indices.resize(vertexCount);
         std::iota(indices.begin(), indices.end(), 0u);
         return indices;
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> readIndices(Buffers &buffers, const JsonObject &objec
     const Accessor accessor(buffers, *index);
     accessor.requireType("SCALAR");
     accessor.requireUnsigned();
-    buffers.allowance().take(accessor.count() * sizeof(std::uint32_t), accessor.node());
+    buffers.memoryBudget().take(accessor.count() * sizeof(std::uint32_t), accessor.node());
     indices.reserve(accessor.count());
     for (std::size_t i = 0; i < accessor.count(); ++i) {
         indices.push_back(accessor.whole(i));
@@ -196,7 +196,7 @@ std::optional<Primitive> readPrimitive(Buffers &buffers, const JsonNode &node, P
     primitive.triangles =
         trianglesOf(draco ? draco->indices : readIndices(buffers, object, vertexCount), mode);
     constexpr std::size_t bytesEach = 200; // of a triangle, with its vertices, here and in the mesh
-    buffers.allowance().take(primitive.triangles.size() * bytesEach, node);
+    buffers.memoryBudget().take(primitive.triangles.size() * bytesEach, node);
     std::vector<std::uint32_t> sources = keepUsed(primitive.triangles, vertexCount);
     primitive.vertices = readVertices(primitive.attributes, std::move(sources));
     return primitive;

@@ -37,7 +37,7 @@ std::vector<glm::dmat4x3> jointMaps(Buffers &buffers, std::size_t skin,
                 .at("count")
                 .refuse(fmt::format("at least {}, one for each joint", joints.size()));
     }
-    buffers.allowance().take(joints.size() * sizeof(glm::dmat4x3), document.at("skins", skin));
+    buffers.memoryBudget().take(joints.size() * sizeof(glm::dmat4x3), document.at("skins", skin));
     std::vector<glm::dmat4x3> maps;
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const glm::dmat4x3 &joint = toWorld[document.reference(joints[i], "nodes")];

@@ -130,7 +130,7 @@ std::uint32_t TextureReader::load(const JsonNode &node, const JsonObject &object
         node.fail("an image with neither \"uri\" nor \"bufferView\"; allowed: one of the two");
     if (const std::optional<std::vector<std::byte>> data = dataOf(*uri))
         return library_.load(name, *data);
-    const std::filesystem::path path = reach_.resolve(*uri, fileNameOf(*uri));
+    const std::filesystem::path path = access_.resolve(*uri, fileNameOf(*uri));
     return library_.load(path);
 }
 

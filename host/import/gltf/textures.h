@@ -26,8 +26,8 @@ void place(TextureUse &use, const UvTransform &transform);
 class TextureReader {
   public:
     /// All outlive the object.
-    TextureReader(Buffers &buffers, const FileReach &reach, TextureLibrary &library)
-        : buffers_(buffers), reach_(reach), library_(library) {}
+    TextureReader(Buffers &buffers, const FileAccess &access, TextureLibrary &library)
+        : buffers_(buffers), access_(access), library_(library) {}
 
     /// The texture of a textureInfo object, such as "baseColorTexture". Nothing, and a warning, for an image that is
     /// missing, damaged or of a format that is not read. Throws Error{BadInput} for a malformed document.
@@ -43,7 +43,7 @@ class TextureReader {
     std::uint32_t load(const JsonNode &node, const JsonObject &object, const std::string &name);
 
     Buffers &buffers_;
-    const FileReach &reach_;
+    const FileAccess &access_;
     TextureLibrary &library_;
     std::map<std::size_t, std::optional<std::uint32_t>> images_; ///< those that were asked for
 };

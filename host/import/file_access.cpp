@@ -1,4 +1,4 @@
-#include "host/import/file_reach.h"
+#include "host/import/file_access.h"
 
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
@@ -25,8 +25,8 @@ bool isWithin(const std::filesystem::path &path, const std::filesystem::path &fo
 
 } // namespace
 
-FileReach::FileReach(const std::filesystem::path &sceneFile,
-                     std::span<const std::filesystem::path> allowedPaths)
+FileAccess::FileAccess(const std::filesystem::path &sceneFile,
+                       std::span<const std::filesystem::path> allowedPaths)
     : folder_(sceneFile.parent_path()) {
     const auto add = [&](const std::filesystem::path &path) {
         std::error_code error; // a missing folder has no files
@@ -39,13 +39,13 @@ FileReach::FileReach(const std::filesystem::path &sceneFile,
     std::ranges::for_each(allowedPaths, add);
 }
 
-FileReach FileReach::from(const std::filesystem::path &file) const {
-    FileReach reach = *this;
-    reach.folder_ = file.parent_path();
-    return reach;
+FileAccess FileAccess::from(const std::filesystem::path &file) const {
+    FileAccess access = *this;
+    access.folder_ = file.parent_path();
+    return access;
 }
 
-bool FileReach::allows(const std::filesystem::path &file) const {
+bool FileAccess::allows(const std::filesystem::path &file) const {
     std::error_code error;
     const std::filesystem::path canonical =
         std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
@@ -53,9 +53,9 @@ bool FileReach::allows(const std::filesystem::path &file) const {
            std::ranges::any_of(reachable_, [&](const auto &folder) { return isWithin(canonical, folder); });
 }
 
-std::filesystem::path FileReach::resolve(const JsonNode &node) const { return resolve(node, node.text()); }
+std::filesystem::path FileAccess::resolve(const JsonNode &node) const { return resolve(node, node.text()); }
 
-std::filesystem::path FileReach::resolve(const JsonNode &node, const std::string &name) const {
+std::filesystem::path FileAccess::resolve(const JsonNode &node, const std::string &name) const {
     if (name.empty())
         node.fail("found an empty name; allowed: that of a file");
     std::filesystem::path file = folder_ / name;

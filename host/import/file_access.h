@@ -10,11 +10,11 @@
 
 namespace hyalite {
 
-class FileReach {
+class FileAccess {
   public:
     /// A scene may name files in its own folder, in the asset folders and in `allowedPaths` (folders or single files),
     /// at any depth.
-    FileReach(const std::filesystem::path &sceneFile, std::span<const std::filesystem::path> allowedPaths);
+    FileAccess(const std::filesystem::path &sceneFile, std::span<const std::filesystem::path> allowedPaths);
 
     /// The path of the file that `node` names, relative to the folder of the scene file. Throws Error{BadInput} if
     /// there is no such file, or if it is out of reach after symbolic links and `..` are resolved. It opens nothing.
@@ -26,8 +26,8 @@ class FileReach {
     /// Whether a file is within reach after symbolic links and `..` are resolved; it need not exist.
     [[nodiscard]] bool allows(const std::filesystem::path &file) const;
 
-    /// The same reach for names in a file that the scene names: relative to the folder of that file.
-    [[nodiscard]] FileReach from(const std::filesystem::path &file) const;
+    /// The same access for names in a file that the scene names: relative to the folder of that file.
+    [[nodiscard]] FileAccess from(const std::filesystem::path &file) const;
 
   private:
     std::filesystem::path folder_;

@@ -1,4 +1,4 @@
-// Memory allowance: what a glTF file may take, in proportion to its size.
+// Memory budget: what a glTF file may take, in proportion to its size.
 //
 // Objects of a glTF file refer to each other by index, so a small file could name a large accessor a million times.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace hyalite::gltf {
 
-class Allowance {
+class MemoryBudget {
   public:
     static constexpr std::uint64_t base = std::uint64_t{256} << 20;
     static constexpr std::uint64_t perByte = 64;
