@@ -1,7 +1,6 @@
 #include "host/jobs/diagnosis.h"
 
 #include "host/reference/closest_hit.h"
-#include "host/reference/hit_surface.h"
 #include "host/scene/light_sources.h"
 
 #include <fmt/format.h>
@@ -49,7 +48,7 @@ Sight lookAround(const PackedScene &packed, const Crop &crop) {
             continue;
         ++sight.hitCount;
         std::uint32_t materialIndex = 0;
-        const auto surface = reference::hitSurface(view, ray, hit, materialIndex);
+        const auto surface = reference::hitSurface(view, hit, ray.origin, ray.direction, materialIndex);
         const bool isBack = glm::dot(surface.geometricNormal, ray.direction) > 0.0f;
         sight.backCount += isBack && isBlackBehind(packed.materials[materialIndex]);
         const glm::vec3 normal = isBack ? -surface.geometricNormal : surface.geometricNormal;

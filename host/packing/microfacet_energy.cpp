@@ -184,12 +184,6 @@ std::vector<layout::LookupRow> makeEnergyTexels() {
 
 namespace {
 
-/// The place among nodes of light that goes from an index to one `eta` times smaller, as in shaders/bsdf/energy.glsl.
-double indexPlace(double eta) {
-    const double contrast = std::fabs(eta - 1.0) / (eta + 1.0) * (11.0 / 9.0);
-    return std::sqrt(contrast) * static_cast<double>(indexCount - 1);
-}
-
 /// The eta of a node of the first half of layers, whose light comes from the thinner side.
 double etaOfNode(std::size_t node) {
     const double place = static_cast<double>(node) / static_cast<double>(indexCount - 1);
@@ -213,7 +207,7 @@ void markNodes(std::bitset<count> &nodes, std::size_t first, std::size_t last, d
 void GlassNodes::addIndices(double before, double beyond) {
     if (before == beyond)
         return;
-    const double place = indexPlace(before / beyond);
+    const double place = leaves::indexPosition<double>(before / beyond) * static_cast<double>(indexCount - 1);
     const std::size_t first = before > beyond ? indexCount : 0;
     markNodes(layers, first, first + indexCount - 1, place, place);
 }
@@ -258,18 +252,7 @@ double averageConductorReflectance(double index, double extinction) {
     double sum = 0.0;
     for (int i = 0; i < steps; ++i) {
         const double cosine = (i + 0.5) / steps;
-        const double squaredSine = 1.0 - cosine * cosine;
-        // a + i b is the square root of (n + i k)^2 - sin^2.
-        const double real = index * index - extinction * extinction - squaredSine;
-        const double imaginary = 2.0 * index * extinction;
-        const double length = std::sqrt(real * real + imaginary * imaginary);
-        const double a = std::sqrt(std::fmax(0.5 * (length + real), 0.0));
-        const double across =
-            (length + cosine * cosine - 2.0 * a * cosine) / (length + cosine * cosine + 2.0 * a * cosine);
-        const double tangential = squaredSine * squaredSine / (cosine * cosine);
-        const double mixed = 2.0 * a * squaredSine / cosine;
-        const double along = across * (length + tangential - mixed) / (length + tangential + mixed);
-        sum += 0.5 * (across + along) * cosine;
+        sum += leaves::conductorReflectance<double>(cosine, index, extinction) * cosine;
     }
     return 2.0 * sum / steps;
 }

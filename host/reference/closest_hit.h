@@ -27,14 +27,9 @@ template <class Real> struct Ray {
     AlphaTestKeys keys{};
 };
 
-template <class Real> struct Hit {
-    Real distance = std::numeric_limits<Real>::max();
-    std::uint32_t primitive = layout::noPrimitive; ///< its id
-    std::uint32_t record = 0;                      ///< its index among the sphere or the triangle records
-    Real u = 0;                                    ///< weights of a triangle's first and second vertex
-    Real v = 0;
-    std::uint32_t instance = layout::noInstance; ///< of a triangle
-};
+template <class Real> [[nodiscard]] Hit<Real> noHit() {
+    return {std::numeric_limits<Real>::max(), layout::noPrimitive, 0, Real(0), Real(0), layout::noInstance};
+}
 
 /// Whether the triangle is not there for the ray: it is culled, or its alpha test fails.
 template <class Real>
@@ -186,13 +181,13 @@ void visitTriangles(const SceneView<Real> &scene, const Ray<Real> &ray, const Re
 
 template <class Real, class Counter>
 [[nodiscard]] Hit<Real> closestHit(const SceneView<Real> &scene, const Ray<Real> &ray, Counter &counter) {
-    Hit<Real> nearest;
+    Hit<Real> nearest = noHit<Real>();
     for (std::uint32_t i = 0; i < scene.sphereShapes.size(); ++i) {
         const std::uint32_t id = scene.packed.loopSpheres[i].primitiveId;
         const Real distance =
             intersectSphere(ray.origin, ray.direction, scene.sphereShapes[i], ray.excluded == id);
         if (distance > 0 && distance < nearest.distance)
-            nearest = {distance, id, id};
+            nearest = {distance, id, id, Real(0), Real(0), layout::noInstance};
     }
     visitTriangles(scene, ray, nearest.distance, counter, [&](const Candidate<Real> &found) {
         const TriangleHit<Real> &hit = found.hit;

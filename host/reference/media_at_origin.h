@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/reference/closest_hit.h"
-#include "host/reference/hit_surface.h"
 
 namespace hyalite::reference {
 
@@ -26,7 +25,7 @@ template <class Real, class Counter, class OnRay>
         if (hit.primitive == layout::noPrimitive || hit.distance >= way.distance)
             return media;
         std::uint32_t materialIndex;
-        const Surface<Real> surface = hitSurface(scene, ray, hit, materialIndex);
+        const Surface<Real> surface = hitSurface(scene, hit, ray.origin, ray.direction, materialIndex);
         if (isGlass(scene, scene.fetchMaterial(materialIndex)))
             media = dotProduct(ray.direction, surface.geometricNormal) < 0
                         ? enterMedium(media, materialIndex)

@@ -9,7 +9,6 @@
 
 #include "host/film/ray_counts.h"
 #include "host/reference/closest_hit.h"
-#include "host/reference/hit_surface.h"
 #include "host/reference/media_at_origin.h"
 
 #include <bit>
@@ -98,7 +97,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         Real weight = 1;
         if (scatterPdf_ > 0) {
             Real pdf;
-            if (hit.primitive >= scene_.frame.firstTriangleId) {
+            if (isTriangle(scene_, hit.primitive)) {
                 const std::uint32_t emitter =
                     scene_.packed.triangles[hit.record].flags >> layout::triangleEmitterShift;
                 const Real areaPdf = pdfOfEmitter<Real>(scene_, emitter, material.emitterPdf, litPoint_);
@@ -234,8 +233,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             return std::nullopt;
         }
         std::uint32_t materialIndex;
-        Surface<Real> surface = hitSurface(scene_, ray, hit, materialIndex);
-        const MaterialRecord<Real> material = hitMaterial(scene_, hit, materialIndex, surface.position);
+        Surface<Real> surface = hitSurface(scene_, hit, ray.origin, ray.direction, materialIndex);
+        const MaterialRecord<Real> material = hitMaterial(scene_, hit, scene_.fetchMaterial(materialIndex),
+                                                          layout::texturesMaterials, surface.position);
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, throughput_);
@@ -274,7 +274,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                                       ? crossingOf(materialIndex, !isBehind)
                                       : Crossing{mediaInside_, mediaInside_, Real(1), true};
         const Vec2<Real> lobe = lobeChoice();
-        const SurfaceAxes<Real> axes = hitAxes(scene_, ray, hit, material, surface.normal, isBehind);
+        const SurfaceAxes<Real> axes =
+            hitAxes(scene_, hit, ray.origin, ray.direction, material, surface.normal, isBehind);
         const Bsdf<Real> bsdf = makeBsdf<Real>(scene_, material, ray.direction, surface.normal,
                                                surface.geometricNormal, axes, isBehind, crossing.eta, lobe.x);
 
@@ -284,11 +285,11 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const std::uint32_t emitter = choice.index;
         const LightSample<Real> light =
             sampleEmitter<Real>(scene_, choice, surface.position, vertexBits(pairLight));
-        const Vec3<Real> wi = toLocal(bsdf.frame, light.direction);
+        const Vec3<Real> wiLight = toLocal(bsdf.frame, light.direction);
         const bool isLightBeyond = dotProduct(surface.geometricNormal, light.direction) <= 0;
-        const BsdfEval<Real> lit = evalBsdf(scene_, bsdf, wi);
+        const BsdfEval<Real> lit = evalBsdf(scene_, bsdf, wiLight);
         const bool isLit =
-            largestComponent(light.radiance) > 0 && lit.pdf > 0 && isLightBeyond == (wi.z <= 0);
+            largestComponent(light.radiance) > 0 && lit.pdf > 0 && isLightBeyond == (wiLight.z <= 0);
         if (isLit) {
             const Real share = light.pdf > 0 ? powerHeuristic(light.pdf, lit.pdf) : Real(1);
             mediaInside_ = isLightBeyond ? crossing.beyond : crossing.before;
@@ -298,11 +299,11 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             skipShadowRay(emitter);
         }
 
-        const Vec3<Real> drawn = sampleBsdf(scene_, bsdf, unitFloats<Real>(vertexBits(pairScatter)), lobe.y);
-        const Vec3<Real> direction = unitVector(toWorld(bsdf.frame, drawn));
-        const BsdfEval<Real> scattered = evalBsdf(scene_, bsdf, drawn);
+        const Vec3<Real> wi = sampleBsdf(scene_, bsdf, unitFloats<Real>(vertexBits(pairScatter)), lobe.y);
+        const Vec3<Real> direction = unitVector(toWorld(bsdf.frame, wi));
+        const BsdfEval<Real> scattered = evalBsdf(scene_, bsdf, wi);
         const bool isBeyond = dotProduct(surface.geometricNormal, direction) <= 0;
-        const bool isPossible = scattered.pdf > 0 && isBeyond == (drawn.z <= 0);
+        const bool isPossible = scattered.pdf > 0 && isBeyond == (wi.z <= 0);
         mediaInside_ = isBeyond ? crossing.beyond : crossing.before;
         scatterPdf_ = isPossible ? scattered.pdf : Real(0);
         if (isPossible)

@@ -25,7 +25,10 @@ template <class Real> struct SceneView {
           scattering(packedScene.scattering), texturing(packedScene.texturing), anyHit(packedScene.anyHit),
           lighting(packedScene.lighting), camera(packedScene.camera),
           emitterCount(static_cast<uint>(packedScene.emitters.size())),
-          infiniteEmitterCount(packedScene.infiniteEmitterCount), hasTriangles(packedScene.hasTriangles),
+          infiniteEmitterCount(packedScene.infiniteEmitterCount),
+          sphereCount(static_cast<uint>(packedScene.loopSpheres.size())),
+          treeSpheres(packedScene.treeSpheres), hasTriangles(packedScene.hasTriangles),
+          hasNormals(packedScene.hasNormals), hasInstances(!packedScene.instances.empty()),
           hasEmission(packedScene.hasEmission), hasLightTree(!packedScene.lightNodes.empty()) {
         for (const SphereRecord<Real> sphere : packedScene.loopSpheres)
             sphereShapes.push_back(makeSphereShape<Real>(sphere.centre, sphere.radius));
@@ -50,7 +53,11 @@ template <class Real> struct SceneView {
     uint camera;
     uint emitterCount;
     uint infiniteEmitterCount;
+    uint sphereCount; ///< outside the tree
+    uint treeSpheres;
     bool hasTriangles;
+    bool hasNormals;
+    bool hasInstances;
     bool hasEmission;
     bool hasLightTree;
     std::vector<SphereShape<Real>> sphereShapes; ///< of spheres outside the tree, for the loops over them

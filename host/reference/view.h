@@ -7,7 +7,6 @@
 
 #include "host/film/ray_counts.h"
 #include "host/reference/closest_hit.h"
-#include "host/reference/hit_surface.h"
 
 #include <vector>
 
@@ -36,20 +35,18 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         if (hit.primitive == layout::noPrimitive)
             return show(Vec3<Real>(Real(view_ == layout::viewOcclusion ? 1 : 0)));
         std::uint32_t materialIndex;
-        const Surface<Real> surface = hitSurface(scene_, ray, hit, materialIndex);
+        const Surface<Real> surface = hitSurface(scene_, hit, ray.origin, ray.direction, materialIndex);
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
-        const MaterialRecord<Real> material = hitMaterial(scene_, hit, materialIndex, surface.position);
+        const MaterialRecord<Real> material = hitMaterial(scene_, hit, scene_.fetchMaterial(materialIndex),
+                                                          layout::texturesMaterials, surface.position);
         switch (view_) {
         case layout::viewNormal:
             return show(normalColour(surface.normal));
         case layout::viewDepth:
             return show(Vec3<Real>(hit.distance));
         case layout::viewCoordinates: {
-            const bool areThere = (scene_.texturing & layout::texturesCoordinates) != 0 ||
-                                  hit.primitive < scene_.frame.firstTriangleId;
-            const Vec2<Real> uv =
-                areThere ? hitUvs(scene_, hit, surface.position).first : Vec2<Real>(Real(0));
+            const Vec2<Real> uv = hitUvs(scene_, hit, surface.position).first;
             return show({fractionOf(uv.x), fractionOf(uv.y), Real(0)});
         }
         case layout::viewId:

@@ -5,7 +5,6 @@
 
 #include "host/film/ray_counts.h"
 #include "host/reference/closest_hit.h"
-#include "host/reference/hit_surface.h"
 #include "host/reference/media_at_origin.h"
 
 #include <cstdint>
@@ -96,8 +95,10 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             return;
         }
         std::uint32_t materialIndex;
-        const Surface<Real> surface = hitSurface(scene_, segment.ray, hit, materialIndex);
-        const MaterialRecord<Real> material = hitMaterial(scene_, hit, materialIndex, surface.position);
+        const Surface<Real> surface =
+            hitSurface(scene_, hit, segment.ray.origin, segment.ray.direction, materialIndex);
+        const MaterialRecord<Real> material = hitMaterial(scene_, hit, scene_.fetchMaterial(materialIndex),
+                                                          layout::texturesMaterials, surface.position);
         const bool isEntering = dotProduct(segment.ray.direction, surface.normal) < 0;
         const bool isClear = isGlassForWhitted(material);
         const std::uint32_t medium = isClear && !isEntering ? materialIndex : segment.medium;

@@ -48,16 +48,21 @@ Energy energyOf(float cosine, float roughness) {
     return Energy(cellMixture(white, across.share, along.share), cellMixture(grazing, across.share, along.share));
 }
 
-// Share of the light that rough glass reflects and transmits at once, without the change of radiance by the square of
-// the index. `cosine` > 0 is that of the viewer to the normal; `eta`, in [1/10, 10] and not 1, is as in Bsdf. Nodes are
-// evenly spaced in the square root of |eta - 1| / (eta + 1).
-float glassEnergy(float cosine, float roughness, float eta) {
+// Position in the table of an `eta` in [1/10, 10]: in [0, 1], for either side of the surface. Nodes are evenly spaced in the
+// square root of |eta - 1| / (eta + 1).
+float indexPosition(float eta) {
     float difference = abs(eta - 1.0);
     float sum = eta + 1.0;
     float contrast = divide(difference, sum) * (11.0 / 9.0); // 1 at an index of 10
+    return squareRoot(contrast);
+}
+
+// Share of the light that rough glass reflects and transmits at once, without the change of radiance by the square of
+// the index. `cosine` > 0 is that of the viewer to the normal; `eta`, in [1/10, 10] and not 1, is as in Bsdf.
+float glassEnergy(float cosine, float roughness, float eta) {
     EnergyPlace across = energyPlace(squareRoot(cosine), energyCosines);
     EnergyPlace along = energyPlace(roughness, energyRoughnesses);
-    EnergyPlace between = energyPlace(squareRoot(contrast), energyIndices);
+    EnergyPlace between = energyPlace(indexPosition(eta), energyIndices);
     uint layer = eta > 1.0 ? energyIndices + between.cell : between.cell;
     uint row = energyTexelCount + layer * energyCellCount + along.cell * (energyCosines - 1u) + across.cell;
     float low = cellMixture(fetchLookupRow(row), across.share, along.share);

@@ -32,7 +32,7 @@ void passOnWay(uint slot) {
         return;
     }
     uint materialIndex;
-    Surface surface = hitSurface(slot, materialIndex);
+    Surface surface = surfaceHit(slot, materialIndex);
     vec3 direction = path[slot].rayDirection;
     if (isGlass(fetchMaterial(materialIndex)))
         path[slot].mediaInside = dotProduct(direction, surface.geometricNormal) < 0.0

@@ -193,6 +193,13 @@ uint slotsBeforeLight(MaterialRecord material) {
     return slots;
 }
 
+// The material of the hit at `position`, with its textures of `textureSlots` applied. The lookups are a loop: they count as
+// steps.
+MaterialRecord materialHit(uint slot, MaterialRecord material, uint textureSlots, vec3 position) {
+    stepsTaken += uint(bitCount(textureSlots & texturing & texturesOfLobes));
+    return hitMaterial(hitOf(slot), material, textureSlots, position);
+}
+
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
     traceNearestHit(slot);
@@ -204,9 +211,9 @@ void shadeHit(uint slot) {
         return;
     }
     uint materialIndex;
-    Surface surface = hitSurface(slot, materialIndex);
+    Surface surface = surfaceHit(slot, materialIndex);
     MaterialRecord material = fetchMaterial(materialIndex);
-    material = hitMaterial(slot, material, slotsBeforeLight(material), surface.position);
+    material = materialHit(slot, material, slotsBeforeLight(material), surface.position);
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
@@ -270,23 +277,23 @@ void sampleDirectLight(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
     MaterialRecord material =
-        hitMaterial(slot, fetchMaterial(materialIndex), texturesOfLobes | texturesBaseColour, path[slot].surfacePosition);
+        materialHit(slot, fetchMaterial(materialIndex), texturesOfLobes | texturesBaseColour, path[slot].surfacePosition);
     vec3 geometricNormal = surfaceAt(slot).geometricNormal;
     Crossing crossing = Crossing(path[slot].mediaInside, path[slot].mediaInside, 1.0, true);
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
         crossing = crossingOf(slot, materialIndex, !isBehind);
     vec2 lobe = lobeChoice(slot);
-    SurfaceAxes axes = hitAxes(slot, material, path[slot].surfaceNormal, isBehind);
+    SurfaceAxes axes = hitAxes(hitOf(slot), path[slot].rayOrigin, path[slot].rayDirection, material, path[slot].surfaceNormal, isBehind);
     Bsdf bsdf = makeBsdf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, axes, isBehind,
                           crossing.eta, lobe.x);
 
     EmitterChoice choice = chooseEmitter(litPoint(slot), vertexBits(slot, pairChoice).x);
     uint emitter = choice.index;
     LightSample light = sampleEmitter(choice, path[slot].surfacePosition, vertexBits(slot, pairLight));
-    vec3 wi = toLocal(bsdf.frame, light.direction);
+    vec3 wiLight = toLocal(bsdf.frame, light.direction);
     bool isLightBeyond = dotProduct(geometricNormal, light.direction) <= 0.0;
-    BsdfEval lit = evalBsdf(bsdf, wi);
-    bool isLit = largestComponent(light.radiance) > 0.0 && lit.pdf > 0.0 && isLightBeyond == (wi.z <= 0.0);
+    BsdfEval lit = evalBsdf(bsdf, wiLight);
+    bool isLit = largestComponent(light.radiance) > 0.0 && lit.pdf > 0.0 && isLightBeyond == (wiLight.z <= 0.0);
     float share = light.pdf > 0.0 ? powerHeuristic(light.pdf, lit.pdf) : 1.0;
     path[slot].surfaceWeight = path[slot].throughput * (light.radiance * (lit.value * share));
     if (hasDielectric) {
@@ -294,11 +301,11 @@ void sampleDirectLight(uint slot) {
         path[slot].surfaceWeight *= transmittance(slot, light.distance);
     }
 
-    vec3 drawn = sampleBsdf(bsdf, unitFloats(vertexBits(slot, pairScatter)), lobe.y);
-    vec3 direction = unitVector(toWorld(bsdf.frame, drawn));
-    BsdfEval scattered = evalBsdf(bsdf, drawn);
+    vec3 wi = sampleBsdf(bsdf, unitFloats(vertexBits(slot, pairScatter)), lobe.y);
+    vec3 direction = unitVector(toWorld(bsdf.frame, wi));
+    BsdfEval scattered = evalBsdf(bsdf, wi);
     bool isBeyond = dotProduct(geometricNormal, direction) <= 0.0;
-    bool isPossible = scattered.pdf > 0.0 && isBeyond == (drawn.z <= 0.0);
+    bool isPossible = scattered.pdf > 0.0 && isBeyond == (wi.z <= 0.0);
     path[slot].scatterDirection = direction;
     path[slot].scatterPdf = isPossible ? scattered.pdf : 0.0;
     if (hasDielectric)

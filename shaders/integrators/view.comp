@@ -33,7 +33,7 @@ void shadeHit(uint slot) {
         return;
     }
     uint materialIndex;
-    Surface surface = hitSurface(slot, materialIndex);
+    Surface surface = surfaceHit(slot, materialIndex);
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     if (view == viewNormal)
@@ -43,13 +43,11 @@ void shadeHit(uint slot) {
     if (view == viewId)
         show(slot, idColour(path[slot].hitPrimitive));
     if (view == viewCoordinates) {
-        vec2 uv = vec2(0.0);
-        if ((texturing & texturesCoordinates) != 0u || !isTriangle(path[slot].hitPrimitive))
-            uv = hitUvs(slot, surface.position).first;
+        vec2 uv = hitUvs(hitOf(slot), surface.position).first;
         show(slot, vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
     }
     if (view == viewAlbedo) {
-        MaterialRecord material = hitMaterial(slot, fetchMaterial(materialIndex), texturesBaseColour, surface.position);
+        MaterialRecord material = hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesBaseColour, surface.position);
         show(slot, isColourless(material) ? vec3(1.0) : material.albedo);
     }
     if (view == viewOcclusion) {

@@ -108,9 +108,9 @@ void shadeHit(uint slot) {
         return;
     }
     uint materialIndex;
-    Surface surface = hitSurface(slot, materialIndex);
+    Surface surface = surfaceHit(slot, materialIndex);
     MaterialRecord material =
-        hitMaterial(slot, fetchMaterial(materialIndex), texturesBaseColour | texturesEmission, surface.position);
+        hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesBaseColour | texturesEmission, surface.position);
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
     bool isClear = hasDielectric && isGlassForWhitted(material);

@@ -1,6 +1,5 @@
 // Rays from inside of closed meshes: none leaves without crossing a wall, and none is stopped by the face that it left.
 #include "host/reference/closest_hit.h"
-#include "host/reference/hit_surface.h"
 #include "tests/fixtures/geometry_fixture.h"
 
 #include <glm/mat3x3.hpp>
@@ -122,7 +121,7 @@ class Inside {
             for (int bounce = 0; bounce < 32 && i < rayCount && hit.primitive != layout::noPrimitive;
                  ++bounce, ++i) {
                 std::uint32_t material = 0;
-                const Surface<float> surface = smoothSurface(view, ray, hit, material);
+                const Surface<float> surface = smoothSurface(view, hit, ray.origin, ray.direction, material);
                 const Vec inward = -normalOf(faceOf(hit));
                 const Vec to = directionFrom(random, bounce, ray, inward);
                 ray = {offsetRayOrigin(view, surface, glm::vec3(to)), glm::vec3(to), hit.primitive};
@@ -133,7 +132,7 @@ class Inside {
                               [&] { return fmt::format("{}, {} wide", solid_.name, widthAt(hit)); });
                 stops.check(isLost || glm::dot(normalOf(faceOf(next)), -inward) < 1.0 - 1e-9,
                             [&] { return solid_.name; });
-                hit = isLost ? Hit<float>{} : next;
+                hit = isLost ? noHit<float>() : next;
             }
         }
     }

@@ -73,7 +73,7 @@ glm::vec3 leavingDirection(Random &random, const glm::dvec3 &normal, double minC
     }
 }
 
-TEST(SpawnPoint, ARayLeavingAConvexMeshNeverMeetsItAgain) {
+TEST(OffsetRayOrigin, ARayLeavingAConvexMeshNeverMeetsItAgain) {
     // The shapes stay convex when their corners are rounded. With the triangle that the ray starts on excluded, and
     // without: the offset alone suffices.
     Random random(601);
@@ -114,7 +114,7 @@ TEST(SpawnPoint, ARayLeavingAConvexMeshNeverMeetsItAgain) {
     againUnexcluded.expectNone();
 }
 
-TEST(SpawnPoint, ARayIntoAConvexMeshMeetsItsOtherSide) {
+TEST(OffsetRayOrigin, ARayIntoAConvexMeshMeetsItsOtherSide) {
     Random random(602);
     Tally wrong("rays into a cube that do not come out where they should", random.seed());
     for (const auto &[scale, offset] :
@@ -160,7 +160,7 @@ TEST(SpawnPoint, ARayIntoAConvexMeshMeetsItsOtherSide) {
     wrong.expectNone();
 }
 
-TEST(SpawnPoint, AFloorOfManyTrianglesDoesNotShadowItself) {
+TEST(OffsetRayOrigin, AFloorOfManyTrianglesDoesNotShadowItself) {
     // Floors parallel to two axes, close to the third one's 0 compared with their extent: the rounding of a point's
     // height is next to nothing then, that of the distance to the neighbour in the same plane is not.
     Random random(605);
@@ -214,7 +214,7 @@ TEST(SpawnPoint, AFloorOfManyTrianglesDoesNotShadowItself) {
     atEdges.expectNone();
 }
 
-TEST(SpawnPoint, LeavesAnyTriangleOnTheSideThatTheRayGoesTo) {
+TEST(OffsetRayOrigin, LeavesAnyTriangleOnTheSideThatTheRayGoesTo) {
     // Triangles of any size and place; how far they are from being slivers is their height over their longest side.
     Random random(603);
     Tally wrongSide("spawn points on the wrong side of the plane", random.seed());

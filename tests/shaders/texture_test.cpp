@@ -1,6 +1,5 @@
 // Lookups in textures, and what is made of them, against closed forms.
 #include "host/base/error.h"
-#include "host/reference/hit_surface.h"
 #include "host/scene/validate.h"
 #include "tests/fixtures/radiance_fixture.h"
 #include "tests/fixtures/test_scene.h"
@@ -206,7 +205,9 @@ vec3 normalSeen(const TestScene &scene, const vec3 &origin, const vec3 &directio
     const auto hit = reference::closestHit(packedScene, ray);
     EXPECT_NE(hit.primitive, layout::noPrimitive);
     std::uint32_t materialIndex;
-    return reference::hitSurface(reference::SceneView<float>(packedScene), ray, hit, materialIndex).normal;
+    return reference::hitSurface(reference::SceneView<float>(packedScene), hit, ray.origin, ray.direction,
+                                 materialIndex)
+        .normal;
 }
 
 void expectNear(const vec3 &found, const dvec3 &expected, double tolerance) {

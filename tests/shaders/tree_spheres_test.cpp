@@ -71,7 +71,7 @@ Hit<float> hitByLoop(const PackedScene &scene, const Ray<float> &ray) {
     const BoxRay<float> boxRay =
         makeBoxRay(ray.origin, ray.direction, scene.frame.boundsLower, scene.frame.boundsUpper);
     const TriangleRay<float> triangleRay = makeTriangleRay(ray.origin, ray.direction);
-    Hit<float> nearest;
+    Hit<float> nearest = noHit<float>();
     for (const layout::TriangleRecord &record : scene.triangles) {
         const std::uint32_t id = record.primitiveId;
         const float distance =
@@ -81,7 +81,7 @@ Hit<float> hitByLoop(const PackedScene &scene, const Ray<float> &ray) {
                 : intersectTriangle(triangleRay, boxRay, record.v0, record.v1, record.v2).distance;
         if (distance > 0 &&
             (distance < nearest.distance || (distance == nearest.distance && id < nearest.primitive)))
-            nearest = {distance, id};
+            nearest = {distance, id, id, 0.0f, 0.0f, layout::noInstance};
     }
     return nearest;
 }

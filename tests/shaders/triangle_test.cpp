@@ -223,7 +223,7 @@ Hit<float> nearestByDefinition(const PackedScene &scene, const Ray<float> &ray) 
     const BoxRay<float> boxRay =
         makeBoxRay(ray.origin, ray.direction, scene.frame.boundsLower, scene.frame.boundsUpper);
     const TriangleRay<float> triangleRay = makeTriangleRay(ray.origin, ray.direction);
-    Hit<float> nearest;
+    Hit<float> nearest = noHit<float>();
     for (std::uint32_t record = 0; record < scene.triangles.size(); ++record) {
         const layout::TriangleRecord &triangle = scene.triangles[record];
         if (triangle.primitiveId == ray.excluded)
@@ -234,7 +234,7 @@ Hit<float> nearestByDefinition(const PackedScene &scene, const Ray<float> &ray) 
             continue;
         if (hit.distance < nearest.distance ||
             (hit.distance == nearest.distance && triangle.primitiveId < nearest.primitive))
-            nearest = {hit.distance, triangle.primitiveId, record, hit.u, hit.v};
+            nearest = {hit.distance, triangle.primitiveId, record, hit.u, hit.v, layout::noInstance};
     }
     return nearest;
 }
