@@ -108,8 +108,7 @@ void printDevice(const RenderSession &session) {
 }
 
 /// The checkpoint that the render resumes from.
-void printResumed(const PictureFiles &files, const PictureBeginning &begun, const RenderRequest &request,
-                  bool isQuiet) {
+void printResumed(const PictureBeginning &begun, const RenderRequest &request, bool isQuiet) {
     const RenderReport &report = begun.report;
     if (!begun.checkpointDamage.empty() && report.resumed)
         printMessage("note: {}; resuming from the older {}\n", begun.checkpointDamage,
@@ -120,7 +119,7 @@ void printResumed(const PictureFiles &files, const PictureBeginning &begun, cons
         return;
     if (report.resumed)
         printMessage("resuming from {}: {:.1f} % of the samples are finished\n", report.resumed->checkpoint,
-                     percentOf(report.resumed->sampleCount, begun.pixelCount(files), report));
+                     percentOf(report.resumed->sampleCount, begun.pixelCount, report));
     else if (!request.checkpoint.empty())
         printMessage("no checkpoint {} yet: starting from the beginning\n", request.checkpoint);
 }
@@ -149,7 +148,7 @@ void printSpeed(const RenderReport &report, const std::optional<Part> &part) {
                 megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
 }
 
-/// Who of several renderers did how much.
+/// The shares of several renderers in the picture.
 void printShares(const RenderReport &report) {
     std::uint64_t all = 0;
     for (const RendererShare &share : report.shares)
@@ -209,7 +208,7 @@ ExitCode renderOne(const RenderRequest &request, const std::string &commandLine,
                                      : fmt::format("frame {}", *request.frame));
         return ExitCode::Ok;
     }
-    printResumed(files, begun, request, isQuiet);
+    printResumed(begun, request, isQuiet);
     const FinishedPicture picture = finishPicture(files, std::move(begun), session);
     printOutcome(picture, request, isQuiet);
     if (picture.failure)

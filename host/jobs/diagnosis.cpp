@@ -17,7 +17,7 @@ namespace {
 
 using Ray = reference::Ray<float>;
 
-/// What a grid of primary rays meets.
+/// The hits of a grid of primary rays.
 struct Sight {
     int rayCount = 0;
     int hitCount = 0;

@@ -9,18 +9,18 @@
 
 namespace hyalite {
 
-/// Renders the views, whose rows have layer channels, of `scene`. Depths become planar, along the view direction, and 1e10
-/// where nothing is met, as compositors have them; in a panorama they stay distances. Pixels outside of the squares stay
-/// black; empty: there are none. `begun` are films of the first views that have some samples, as of a render that was stopped. Once the observer
-/// wants a stop, or the limit is reached, the rest gets no samples.
+/// Renders the views, whose rows have layer channels, of `scene`. Depths become planar, along the view direction, and
+/// 1e10 where nothing is met, as compositors have them; in a panorama they stay distances. Pixels outside of the
+/// squares stay black; empty: there are none. `begun` are films of the first views that have some samples, as of a
+/// render that was stopped. Once the observer wants a stop, or the limit is reached, the rest gets no samples.
 [[nodiscard]] std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
                                                 const std::vector<Integrator> &views,
                                                 std::span<const Crop> squares, std::span<const Film> begun,
                                                 Observer &observer, const TimeLimit &limit);
 
-/// Layers by the names of the views, with the channels of their rows, but for depths: the channel Z, as compositors know
-/// it. Normals are of unit length. Where a ray leaves the scene, values are 0, but for depths and occlusion. `films` must
-/// outlive the layers.
+/// Layers by the names of the views, with the channels of their rows, except for depths: the channel Z, as compositors
+/// know it. Normals are of unit length. Where a ray leaves the scene, values are 0, except for depths and occlusion.
+/// `films` must outlive the layers.
 [[nodiscard]] std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films);
 
 } // namespace hyalite

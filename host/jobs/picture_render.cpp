@@ -42,13 +42,15 @@ ToneCurve toneOf(const RenderRequest &request) { return request.tone.value_or(To
 
 Part partOf(const PictureFiles &files) { return files.request.part.value_or(Part{}); }
 
-Partition partitionFor(const PictureFiles &files, const Crop &crop) {
-    const Part part = partOf(files);
+void setSquares(const Part &part, const Crop &crop, PictureBeginning &begun) {
     if (const std::uint32_t most = Partition::maxParts(crop); part.count > most)
         throw OverrideError("part",
                             fmt::format("found {}/{}; a picture of {} x {} pixels has at most {} parts",
                                         part.index, part.count, crop.width(), crop.height(), most));
-    return {crop, part.count};
+    const Partition partition(crop, part.count);
+    const std::span<const Crop> squares = partition.squaresOf(part.index);
+    begun.squares.assign(squares.begin(), squares.end());
+    begun.pixelCount = partition.pixelCountOf(part.index);
 }
 
 std::string identityOfFrame(const RenderRequest &request, const RenderSession &session) {
@@ -95,7 +97,7 @@ std::optional<ResumedCheckpoint> readBegun(const RenderRequest &request, const R
 bool isPartFinished(const PictureFiles &files, const PictureBeginning &begun, int samplesPerPixel) {
     if (!files.request.part || !begun.report.resumed || !begun.checkpointDamage.empty())
         return false;
-    const std::span<const Crop> squares = begun.squares(files);
+    const std::span<const Crop> squares = begun.squares;
     bool isFinished = finishedWork(*begun.film, squares, samplesPerPixel).isComplete;
     for (std::size_t i = 0; i < begun.layers.size(); ++i)
         isFinished = isFinished && finishedWork(begun.layers[i], squares,
@@ -121,15 +123,14 @@ void resume(const PictureFiles &files, const RenderSession &session, PictureBegi
                              begun.checkpointDamage.empty() && (!resumed || resumed->damage.empty()));
     if (!resumed) {
         if (request.part)
-            begun.film = filmOfSquares(scene.crop, begun.squares(files), subject.samplesPerPixel);
+            begun.film = filmOfSquares(scene.crop, begun.squares, subject.samplesPerPixel);
         return;
     }
     begun.checkpointDamage = resumed->damage;
     begun.rays = resumed->checkpoint.rays;
-    begun.report.resumed =
-        ResumedWork{resumed->path.string(),
-                    finishedWork(resumed->checkpoint.film, begun.squares(files), samplesPerPixel).sampleCount,
-                    begun.rays};
+    begun.report.resumed = ResumedWork{
+        resumed->path.string(),
+        finishedWork(resumed->checkpoint.film, begun.squares, samplesPerPixel).sampleCount, begun.rays};
     begun.film = std::move(resumed->checkpoint.film);
     begun.layers = std::move(resumed->checkpoint.layers);
     begun.isFinished = isPartFinished(files, begun, samplesPerPixel);
@@ -140,7 +141,7 @@ class PictureRender {
   public:
     PictureRender(PictureFiles &files, PictureBeginning &begun, RenderSession &session)
         : files_(files), request_(files.request), begun_(begun), session_(session), report_(begun.report),
-          squares_(begun.squares(files)) {}
+          squares_(begun.squares) {}
 
     FinishedPicture finish() {
         const PreparedScene &scene = session_.scene();
@@ -256,7 +257,7 @@ class PictureRender {
             }
         }
         if (request_.frame && !report_.finished.isComplete)
-            files_.image.reset(); // who looks at files takes it for finished
+            files_.image.reset(); // scripts take an existing frame for finished
         if (files_.image) {
             writePicture(*files_.image, film);
             files_.image->commit();
@@ -312,17 +313,10 @@ void requireRoom(const PictureFiles &files, const Crop &crop) {
     requireFilmMemory(crop, (isCopied ? 2 : 1) + static_cast<unsigned>(files.request.scene.views.size()));
 }
 
-std::span<const Crop> PictureBeginning::squares(const PictureFiles &files) const {
-    return partition.squaresOf(partOf(files).index);
-}
-
-std::uint64_t PictureBeginning::pixelCount(const PictureFiles &files) const {
-    return partition.pixelCountOf(partOf(files).index);
-}
-
 PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLine, RenderSession &session) {
     const PreparedScene &scene = session.scene();
-    PictureBeginning begun{.report = {}, .partition = partitionFor(files, scene.crop)};
+    PictureBeginning begun;
+    setSquares(partOf(files), scene.crop, begun);
     RenderReport &report = begun.report;
     report.output = files.request.output;
     report.origin = provenanceOf(scene, commandLine);

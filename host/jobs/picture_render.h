@@ -33,10 +33,11 @@ struct PictureFiles {
 /// Throws Error{LimitExceeded} if the films of a picture of this crop do not fit into memory, or not into its format.
 void requireRoom(const PictureFiles &files, const Crop &crop);
 
-/// What a picture begins with: what a checkpoint has of it, or nothing.
+/// The beginning of a picture: the content of its checkpoint, or nothing.
 struct PictureBeginning {
     RenderReport report{};
-    Partition partition;            ///< of the crop
+    std::vector<Crop> squares{};    ///< to be rendered: those of the part
+    std::uint64_t pixelCount = 0;   ///< of the squares
     std::string frameIdentity{};    ///< what decides the bytes of a frame's picture
     std::string checkpointDamage{}; ///< why the newest checkpoint was not used, or empty
     bool isFinished = false;        ///< the part or the frame was finished before: there is nothing to do
@@ -44,10 +45,6 @@ struct PictureBeginning {
     std::optional<Film> film{};
     std::vector<Film> layers{};
     RayCounts rays{};
-
-    /// The squares to be rendered: those of the part.
-    [[nodiscard]] std::span<const Crop> squares(const PictureFiles &files) const;
-    [[nodiscard]] std::uint64_t pixelCount(const PictureFiles &files) const;
 };
 
 /// Reads the checkpoint that is to be resumed, or looks for the frame that was rendered before. The session is open.

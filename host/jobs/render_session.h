@@ -29,7 +29,7 @@ struct RenderRequest {
     std::string checkpoint;
     std::optional<double> checkpointSeconds; ///< interval; default: 10
     bool isResuming = false;
-    /// Only this part of the picture, into the checkpoint `output` in place of a picture; it goes on from what is there.
+    /// Only this part of the picture, into the checkpoint `output` instead of a picture; it goes on from what is there.
     std::optional<Part> part;
     /// A frame of a sequence: its picture is written only when it is finished, and says which one it is. A render that
     /// is resuming leaves a picture alone that it would make once more.
