@@ -61,7 +61,7 @@ void requireThreadCount() {
                                 maxThreads));
 }
 
-/// What is buffered is written at last; results that are lost are no success.
+/// Flushes the standard output: a run whose results are lost is no success.
 ExitCode finishOutput(ExitCode code) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
         return code;

@@ -1,5 +1,5 @@
-// All leaf functions, each family after those that it calls; the lobes of BSDFs are included by their dispatch. The CPU's
-// are compiled from this file, too (cmake/glsl_to_cpp.cpp).
+// All leaf functions, each family after those that it calls; the lobes of BSDFs are included by their dispatch. The
+// CPU's are compiled from this file, too (cmake/glsl_to_cpp.cpp).
 #include "shaders/math/vector.glsl"
 #include "shaders/math/sums.glsl"
 #include "shaders/math/functions.glsl"

@@ -52,7 +52,7 @@ void *allocate(std::size_t sizeBytes) noexcept {
 
 } // namespace
 
-// The other forms of both end in these, but for types of unusual alignment.
+// The other forms of both end in these, except for types of unusual alignment.
 void *operator new(std::size_t sizeBytes) {
     for (;;) {
         if (void *memory = allocate(sizeBytes))

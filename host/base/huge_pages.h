@@ -1,4 +1,4 @@
-// Huge pages: memory in pages of 2 MiB in place of 4 KiB. The kernel clears each page when it is first written, and on
+// Huge pages: memory in pages of 2 MiB instead of 4 KiB. The kernel clears each page when it is first written, and on
 // a virtual machine entering the kernel for it takes longer than what is then done with the page. Where huge pages are
 // given on request, as in most containers, large arrays request them here: what `operator new` allocates does so by
 // itself from 1 MiB on (huge_pages.cpp replaces it), and what drivers allocate by this function.

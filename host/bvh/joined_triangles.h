@@ -9,7 +9,7 @@
 
 namespace hyalite {
 
-/// Which triangles, by the index in the input, are in one item with the next of their mesh. Empty: none.
+/// A flag for each triangle, by its index in the input: it is in one item with the next of its mesh. Empty: none is.
 using JoinedItems = std::vector<bool>;
 
 [[nodiscard]] inline bool isPair(const JoinedItems &isJoined, const BuildTriangle &item) {

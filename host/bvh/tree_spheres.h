@@ -1,4 +1,4 @@
-// Which spheres rays find by the tree.
+// The spheres that are in the tree.
 #pragma once
 
 #include "host/scene/scene.h"

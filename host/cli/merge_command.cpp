@@ -237,7 +237,7 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
             "the parts that differ; layers are not compared")
         ->type_name("PERCENT");
     addNumber(*command, "--audit-seed", options->auditSeed, {0.0, 4294967295.0},
-              "chooses the tiles to audit, in place of a hash of the picture");
+              "chooses the tiles to audit, instead of a hash of the picture");
     command->add_option("--device", options->devices, "for --audit: as for `hyalite render`")
         ->type_name("DEVICE")
         ->expected(1)

@@ -146,7 +146,7 @@ void addSequenceOptions(CLI::App &command, SequenceOptions &options) {
         ->type_name("FIRST..LAST")
         ->group(group);
     addNumber(command, "--turntable", options.turntable, {1, limits::frame.high},
-              "frames of a full turn around what the camera looks at, in place of the scene's path")
+              "frames of a full turn around what the camera looks at, instead of the scene's path")
         ->type_name("COUNT")
         ->group(group);
     addNumber(command, "--fps", options.framesPerSecond, limits::framesPerSecond,

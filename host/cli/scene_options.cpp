@@ -117,13 +117,12 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
               "horizontal field of view in degrees")
         ->group(view);
     addNumbers(command, "--background", options.background, limits::radiance, "R,G,B",
-               "radiance of rays that leave the scene, linear RGB, in place of the scene's environment")
+               "radiance of rays that leave the scene, linear RGB, instead of the scene's environment")
         ->group(view);
 
-    addFile(
-        command, "--environment", options.environment, "FILE",
-        "light from all around, in place of the scene's: .hdr, .exr, .pfm, .png or .jpg, by longitude and "
-        "latitude; or neutral, the studio that lights glTF files without lights")
+    addFile(command, "--environment", options.environment, "FILE",
+            "light from all around, instead of the scene's: .hdr, .exr, .pfm, .png or .jpg, by longitude and "
+            "latitude; or neutral, the studio that lights glTF files without lights")
         ->group(view);
     addNumber(command, "--environment-scale", options.environmentScale, limits::environmentScale,
               "factor on the environment")

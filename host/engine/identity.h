@@ -6,7 +6,7 @@
 
 namespace hyalite {
 
-/// It includes the crop, but neither the samples per pixel, which may grow, nor, but for the cost, the tree; and
+/// It includes the crop, but neither the samples per pixel, which may grow, nor, except for the cost, the tree; and
 /// `layers`, unless they are null.
 [[nodiscard]] RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
                                         const std::vector<Integrator> *layers = nullptr);

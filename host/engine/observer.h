@@ -9,7 +9,7 @@
 
 namespace hyalite {
 
-/// Who asks for the end of a render, and what the render is then.
+/// A request to end a render, and how the render then counts.
 struct Stop {
     std::string by; ///< "SIGINT"
     ErrorKind kind;

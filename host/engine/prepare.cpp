@@ -88,7 +88,7 @@ void requireEffect(const SceneOptions &options, Integrator integrator) {
     }
 }
 
-/// What is around the scene: the environment or the background of the command line replaces both of the scene's.
+/// The environment or the background of the options replaces both of the scene's.
 void overrideEnvironment(const SceneOptions &options, LoadedScene &loaded) {
     Environment &environment = loaded.scene.environment;
     if (!options.background.empty()) {
@@ -262,7 +262,7 @@ void adviseOnLightsBehindGlass(const Scene &scene, Integrator integrator, Observ
                         "whitted");
 }
 
-/// Drops what is packed, but for glass: where a camera moves, packCamera asks what is around it.
+/// Drops what is packed, except for glass: where a camera moves, packCamera asks what is around it.
 void dropSource(Scene &scene) {
     const auto isOfGlass = [&](std::uint32_t index) { return isGlass(scene.materials[index]); };
     for (std::vector<TriangleMesh> *meshes : {&scene.meshes, &scene.prototypes})

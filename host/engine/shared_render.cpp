@@ -25,7 +25,7 @@ namespace {
 struct Worker {
     Member *member;
     double samplesPerSecond = 0.0; ///< of the last tile or of all, whichever is less; 0: unknown
-    double workingSeconds = 0.0;   ///< that it took for all, but for its compiler's
+    double workingSeconds = 0.0;   ///< that it took for all, except for its compiler's
     std::uint64_t lastSamples = 0; ///< that it added in the last tile
     double currentSamples = 0.0;   ///< of the tile that it renders now, those from before included
     BackendResult total{Film(Crop{}), {}, {}, {}};
@@ -261,7 +261,7 @@ class SharedRender {
     Film film_;
     TileQueue queue_;
     RayCounts rays_;
-    double finishedSamples_; ///< in the film, but for tiles that are being rendered
+    double finishedSamples_; ///< in the film, except for tiles that are being rendered
     bool isBegun_ = false;
     int busyCount_ = 0;
     std::exception_ptr bug_;

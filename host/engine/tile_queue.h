@@ -13,7 +13,7 @@ namespace hyalite {
 /// The unfinished pixels of a film as rectangles, which are cut as they are given out. For one thread at a time.
 class TileQueue {
   public:
-    static constexpr int blockSide = 8; // a tile's sides are multiples of it, but for the last of the film
+    static constexpr int blockSide = 8; // a tile's sides are multiples of it, except for the last of the film
 
     /// All of the film that has fewer than `samplesPerPixel` samples. Where much is finished, tiles may have finished
     /// pixels, too.
@@ -33,7 +33,7 @@ class TileQueue {
     std::uint64_t pixelCount_ = 0;
 };
 
-/// What decides how large a renderer's next tile is.
+/// A renderer's speed and its limits, which decide how large its next tile is.
 struct TileWish {
     double samplesPerPixel = 1.0;
     double samplesPerSecond = 0.0;    ///< of the renderer; 0: unknown

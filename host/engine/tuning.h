@@ -1,5 +1,5 @@
-// What was learnt of a device and is kept between runs: its fastest kernels and exchange of values, and whether its bits were
-// verified.
+// Facts about a device that are kept between runs: its fastest kernels and exchange of values, and whether its bits
+// were verified.
 #pragma once
 
 #include "host/engine/observer.h"

@@ -20,7 +20,7 @@ class Merger {
     /// Reads a part. What is wrong with it is in `faults` then.
     void add(const std::filesystem::path &path);
 
-    /// What keeps parts from making one picture, each with the file's name, in the order of `add`.
+    /// Faults that keep parts from making one picture, each with the file's name, in the order of `add`.
     struct Faults {
         std::vector<std::string> unusable;    ///< damaged, unfinished, or not a part: it counts as missing
         std::vector<std::string> foreign;     ///< of another picture than the first

@@ -130,7 +130,7 @@ class Reader {
         const std::uint64_t bytesEach = sizeof(layout::FilmPixel) * (1 + header.layerCount);
         const std::uint64_t inFile =
             file_.sizeBytes() < besidePixels ? 0 : (file_.sizeBytes() - besidePixels) / bytesEach;
-        // Before the squares are counted, which takes memory: parts are alike, but for few squares.
+        // Before the squares are counted, which takes memory: parts are alike, except for few squares.
         const bool isPlausible = static_cast<std::uint64_t>(width * height) / 2 / header.partCount <
                                  inFile + 2 * std::uint64_t{Partition::maxSide} * Partition::maxSide;
         const bool isKnown =

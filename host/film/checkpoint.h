@@ -40,7 +40,7 @@ inline constexpr std::uint32_t checkpointVersion = 6;
 /// values have no line ends, and names have no colons.
 using RenderIdentity = std::vector<std::pair<std::string, std::string>>;
 
-/// What a file holds.
+/// The content of a file.
 struct CheckpointFile {
     std::filesystem::path path;
     std::string identity; ///< a line "name: value" for each of its parts
@@ -59,7 +59,7 @@ struct Checkpoint {
     RayCounts rays;           ///< traced for the film; a device may have started samples that are not in it
 };
 
-/// What belongs to a render, beside its identity, for all generations of its checkpoint.
+/// The part of a render, beside its identity, that all generations of its checkpoint have in common.
 struct CheckpointSubject {
     Crop crop;
     Part part;
@@ -73,8 +73,8 @@ struct CheckpointSubject {
 /// Throws Error{OutputNotWritten} if no checkpoint can be written there.
 void requireWritableCheckpoint(const std::filesystem::path &path);
 
-/// Throws Error{OutputNotWritten} if a generation would replace a file that is neither a checkpoint, damaged or not, nor
-/// empty.
+/// Throws Error{OutputNotWritten} if a generation would replace a file that is neither a checkpoint, damaged or not,
+/// nor empty.
 void requireOwnCheckpoint(const std::filesystem::path &path);
 
 /// Writes checkpoints of one render.
@@ -85,8 +85,8 @@ class CheckpointWriter {
     CheckpointWriter(const std::filesystem::path &path, const RenderIdentity &identity,
                      CheckpointSubject subject, bool isNewestWhole);
 
-    /// Stores a generation on disk; films have the crop of the subject. Throws Error{OutputNotWritten}; then the previous
-    /// generations are kept.
+    /// Stores a generation on disk; films have the crop of the subject. Throws Error{OutputNotWritten}; then the
+    /// previous generations are kept.
     void write(const Film &film, const RayCounts &rays, std::span<const Film *const> layers = {});
 
     [[nodiscard]] const std::filesystem::path &path() const { return path_; }
@@ -99,9 +99,9 @@ class CheckpointWriter {
     bool isNewestWhole_;
 };
 
-/// Reads one generation; memory is in proportion to the size of the file, but for some 100 MB at most where it claims to
-/// be of very many parts. Throws Error{BadInput}, naming the file, if it cannot be read, is not a checkpoint, has another
-/// version or is damaged. `known` may be a partition that was made before, which then is not made again.
+/// Reads one generation; memory is in proportion to the size of the file, except for some 100 MB at most where it
+/// claims to be of very many parts. Throws Error{BadInput}, naming the file, if it cannot be read, is not a checkpoint,
+/// has another version or is damaged. `known` may be a partition that was made before, which then is not made again.
 [[nodiscard]] CheckpointFile readCheckpointFile(const std::filesystem::path &path,
                                                 const Partition *known = nullptr);
 

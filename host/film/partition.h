@@ -25,8 +25,8 @@ class Partition {
     static constexpr int minSide = 8; // as many pixels as a workgroup has slots
     static constexpr int maxSide = 64;
 
-    /// The most parts that a crop can be divided into, 65536 at most: each has a square, of 8x8 pixels but for those at
-    /// the edges.
+    /// The most parts that a crop can be divided into, 65536 at most: each has a square, of 8x8 pixels except for those
+    /// at the edges.
     [[nodiscard]] static std::uint32_t maxParts(const Crop &crop);
 
     /// 1 <= partCount <= maxParts(crop). The only part of one is all of the crop, as one square.

@@ -14,7 +14,7 @@ struct RenderTiming {
     std::uint64_t dispatchCount = 0;
 };
 
-/// What one of several renderers did of a picture that they shared.
+/// The share of one of several renderers in a picture.
 struct RendererShare {
     std::string name;
     std::uint64_t tileCount = 0;

@@ -6,7 +6,7 @@
 
 namespace hyalite::gpu {
 
-/// What samples and work cost, by the dispatches so far; 0: unknown.
+/// Costs of samples and of work, by the dispatches so far; 0: unknown.
 struct DispatchCosts {
     double sampleSeconds = 0.0; ///< per sample, with all slots running
     double workSeconds = 0.0;   ///< per unit of work, likewise

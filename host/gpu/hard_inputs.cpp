@@ -18,7 +18,7 @@ float scale(std::int64_t significand, int exponent) {
 }
 
 /// Draws an odd B and solves 2^k A = c (mod B) for odd c: then 2^k A = N B + c, where N is odd, as B and c are. With
-/// k = 25 and A < B, or k = 24 and A >= B, N has 25 bits: the quotient is N/2, but for c / 2B.
+/// k = 25 and A < B, or k = 24 and A >= B, N has 25 bits: the quotient is N/2, except for c / 2B.
 void drawQuotient(Generator &generator, layout::HardInput &input) {
     for (;;) {
         const std::int64_t b = one + (generator() % one | 1);
@@ -41,7 +41,7 @@ void drawQuotient(Generator &generator, layout::HardInput &input) {
 }
 
 /// Draws c = 1 (mod 8) and solves z^2 = c (mod 2^k) bit by bit; the other roots are -z and these plus 2^(k-1). With
-/// k = 25 or 26, M = (z^2 - c) / 2^k is an integer: its root, times a power of two, is z/2, but for c / 4z.
+/// k = 25 or 26, M = (z^2 - c) / 2^k is an integer: its root, times a power of two, is z/2, except for c / 4z.
 void drawSquare(Generator &generator, std::size_t index, layout::HardInput &input) {
     for (;;) {
         const std::int64_t magnitude = 8 * static_cast<std::int64_t>(generator() % (index + 1));
@@ -67,8 +67,8 @@ void drawSquare(Generator &generator, std::size_t index, layout::HardInput &inpu
     }
 }
 
-/// Draws a float, and half of its last place but for -1, 0 or 1 in the half's own last place, so that the sum and the
-/// difference are hard to round.
+/// Draws a float, and half of its last place except for -1, 0 or 1 in the half's own last place, so that the sum and
+/// the difference are hard to round.
 void drawSum(Generator &generator, layout::HardInput &input) {
     const std::int64_t a = one + generator() % one;
     const std::int64_t b = one + generator() % 3 - 1;
@@ -77,8 +77,8 @@ void drawSum(Generator &generator, layout::HardInput &input) {
     input.otherAddend = scale(generator() % 2 == 0 ? b : -b, exponent - 24);
 }
 
-/// Draws an odd B and solves A B = 2^23 + c (mod 2^24) for c = -1, 0, 1. Where the product has 48 bits, its upper 24 are
-/// the float, and the lower ones half of its last place, but for c.
+/// Draws an odd B and solves A B = 2^23 + c (mod 2^24) for c = -1, 0, 1. Where the product has 48 bits, its upper 24
+/// are the float, and the lower ones half of its last place, except for c.
 void drawProduct(Generator &generator, layout::HardInput &input) {
     constexpr std::int64_t modulus = 2 * one;
     for (;;) {
@@ -96,7 +96,7 @@ void drawProduct(Generator &generator, layout::HardInput &input) {
     }
 }
 
-/// Draws 24 bits above a one and six zeros, but for -1, 0 or 1.
+/// Draws 24 bits above a one and six zeros, except for -1, 0 or 1.
 void drawInteger(Generator &generator, layout::HardInput &input) {
     const auto magnitude =
         static_cast<std::int32_t>((one + generator() % one) * 128 + 64 + generator() % 3 - 1);

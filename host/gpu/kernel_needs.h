@@ -1,4 +1,4 @@
-// What the kernels of a traversal need of a device. Vulkan guarantees less than they need of some limits.
+// The needs of a traversal's kernels: of some limits, Vulkan guarantees less.
 #pragma once
 
 #include "host/gpu/render_config.h"
@@ -7,7 +7,7 @@
 
 namespace hyalite::gpu {
 
-/// Which limit or feature the device lacks for kernels with this traversal, which is not Automatic; empty if none.
+/// The limit or feature that the device lacks for kernels with this traversal, which is not Automatic; empty if none.
 [[nodiscard]] std::string lackFor(Traversal traversal, const DeviceInfo &device);
 
 /// Whether the texel buffers of a scene with a skip list fit the device.

@@ -5,7 +5,7 @@
 
 namespace hyalite::gpu {
 
-/// What decides it; host/process/lavapipe.h makes settings of it before a driver is loaded.
+/// The facts that decide it. host/process/lavapipe.h makes settings of them before a driver is loaded.
 struct ProcessorUse {
     int threadCount = 0;      ///< 0: all
     bool hasTriangles = true; ///< whether the scenes have any

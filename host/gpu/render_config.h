@@ -31,7 +31,7 @@ struct RenderConfig {
     bool isCounting = false;      ///< count the work of the traversal
     Arithmetic arithmetic = Arithmetic::Automatic; ///< division and square root
     Traversal traversal = Traversal::Automatic;
-    /// SPIR-V in place of our kernel, for tests of how a faulty one is found; empty: ours. It has one slot an
+    /// SPIR-V instead of our kernel, for tests of how a faulty one is found; empty: ours. It has one slot an
     /// invocation and a stack.
     std::span<const std::uint32_t> kernel{};
 };

@@ -42,8 +42,8 @@ std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
 constexpr int maxRetries = 3;
 constexpr std::uint32_t minSteps = 256; // lower bound when dispatches are halved
 
-/// When to copy the film to the host, because a lost device loses its film: often, but for at most a hundredth of the
-/// time.
+/// When to copy the film to the host, because a lost device loses its film: often, except for at most a hundredth of
+/// the time.
 class FilmKeeper {
   public:
     [[nodiscard]] bool isDue() const { return hostNanos() >= dueNanos_; }

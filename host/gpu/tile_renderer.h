@@ -66,7 +66,7 @@ class TileRenderer {
 
     [[nodiscard]] std::vector<layout::TraceEvent> readTrace() const;
 
-    /// What dispatches cost, for the next job of this scene and integrator.
+    /// Costs of dispatches, for the next job of this scene and integrator.
     [[nodiscard]] DispatchCosts costs() const { return sizer_.costs(); }
 
     /// Seconds spent building kernels during `run`.

@@ -1,4 +1,4 @@
-// Which blocks of a film want more samples: renders of parts, and of films that others have begun, leave most alone.
+// The blocks of a film that want more samples: renders of parts, and of films that others have begun, leave most alone.
 #pragma once
 
 #include "host/gpu/tile.h"

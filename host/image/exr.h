@@ -19,7 +19,7 @@ void writeExr(AtomicFile &file, const Picture &picture);
 /// Whether the first bytes of a file are those of an OpenEXR file.
 [[nodiscard]] bool isExr(std::span<const std::byte> head);
 
-/// Which pixels of an OpenEXR file are its picture.
+/// The window of an OpenEXR file that is its picture.
 enum class ExrWindow {
     Data,   ///< those that are stored: of a crop, the crop
     Display ///< the picture that was meant; black where nothing is stored

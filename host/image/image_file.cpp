@@ -25,7 +25,7 @@ namespace hyalite {
 
 namespace {
 
-/// What an 8-bit PNG has stored.
+/// The levels that an 8-bit PNG stores.
 std::vector<std::uint8_t> levelsOf(const Image &display) {
     std::vector<std::uint8_t> levels;
     levels.reserve(display.pixels().size() * 3);

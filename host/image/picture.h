@@ -17,8 +17,8 @@ namespace hyalite {
 struct Layer {
     std::string name;
     std::string channels; ///< a letter for each value of a pixel, such as RGB or XYZ; empty: one value
-    std::function<void(int y, std::span<float> row)>
-        fillRow; ///< row y of the crop: pixel by pixel, all values of each
+    /// Fills row y of the crop: pixel by pixel, all values of each.
+    std::function<void(int y, std::span<float> row)> fillRow;
 };
 
 struct Picture {

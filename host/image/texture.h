@@ -16,7 +16,7 @@ struct Texture {
     int width = 0;    ///< pixels, from 1 to imageSideMax
     int height = 0;
     std::vector<std::uint32_t> levels{}; ///< red, green, blue and alpha from the lowest byte up; or none
-    std::vector<glm::vec3> values{};     ///< in place of levels: finite, >= 0
+    std::vector<glm::vec3> values{};     ///< instead of levels: finite, >= 0
     bool hasAlpha = false;               ///< else alpha is 255
 
     [[nodiscard]] bool isFloat() const { return levels.empty(); }

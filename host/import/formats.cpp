@@ -39,7 +39,7 @@ bool isPly(std::span<const char> bytes) {
     return textOf(bytes).starts_with("ply\n") || textOf(bytes).starts_with("ply\r");
 }
 
-/// What is text, and nothing else.
+/// Any text may be an OBJ file.
 bool isObj(std::span<const char> bytes) {
     return guessContent(bytes.first(std::min(bytes.size(), guessedBytes))).empty();
 }

@@ -15,13 +15,13 @@
 
 namespace hyalite {
 
-/// What is known of a scene before its large files are read.
+/// The facts about a scene that are known before its large files are read.
 struct SceneOutline {
     bool hasMeshes;
     RenderSettings settings;
 };
 
-/// What is told while a scene is loaded.
+/// Callbacks while a scene is loaded.
 struct LoadEvents {
     std::function<void(const SceneOutline &)> onOutline{};
     OnReading onReading{}; ///< the share of all meshes that is read, each counting the same

@@ -71,7 +71,7 @@ class MeshBuilder {
 
     [[nodiscard]] MeshReport &report() { return result.report; }
 
-    /// What is left out, which finish() puts into the report.
+    /// Faces that are left out; finish() puts them into the report.
     [[nodiscard]] Losses &losses() { return dropped; }
 
     /// Adds a face, or leaves it out if it has fewer than three corners. Throws Error{BadInput} if a relative index points

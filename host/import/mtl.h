@@ -30,7 +30,7 @@ struct MtlTextures {
 ///     illum 4, 6, 7, 9    glass of the refractive index Ni } nothing physical, no d of 1, and, beside a black Kd, an Ni above 1
 ///     Ke                  emission
 ///     map_Kd, map_Ke      textures of the base colour and of the emission, times Kd and Ke, or 1 where these are left out or 0
-///     map_Pr, map_Pm      in place of roughness and metallic
+///     map_Pr, map_Pm      instead of roughness and metallic
 ///     map_d               opacity, by its alpha if it has that, cut out at a half; without it by the alpha of map_Kd
 ///     norm, map_Bump, bump  a normal map; -bm says how strong
 ///

@@ -33,7 +33,7 @@ glm::dvec3 readDirection(const JsonObject &object, std::string_view key, const g
     return direction;
 }
 
-/// What moves of the camera, where it is not as in `camera`.
+/// The pose of the camera. Missing keys leave it as it is.
 void readPose(const JsonObject &object, Camera &camera) {
     camera.position = object.vector("position", limits::coordinate, camera.position);
     camera.direction = readDirection(object, "direction", camera.direction);
@@ -147,7 +147,7 @@ Environment readEnvironment(const JsonObject &object, const FileAccess &access, 
     return environment;
 }
 
-/// What is needed to read textures.
+/// The files and the library for textures.
 struct TextureSource {
     const FileAccess &access;
     TextureLibrary &library;

@@ -3,7 +3,7 @@
 //   {
 //     "$schema", "description"  texts, ignored
 //     "background"   colour, default black: radiance of rays that leave the scene
-//     "environment": {        in place of the background
+//     "environment": {        instead of the background
 //       "file"           .hdr, .exr or .pfm, by longitude and latitude: the middle is -z, the top +y; of at most 2^22 pixels
 //       "scale"          factor, default 1
 //       "rotateDegrees"  about +y, default 0

@@ -119,7 +119,7 @@ PlacedMesh readShape(const JsonObject &object, const std::vector<Material> &mate
     return shape;
 }
 
-/// Gives triangles the scene's materials in place of those of the mesh that the object names. `first` is the index of
+/// Gives triangles the scene's materials instead of those of the mesh that the object names. `first` is the index of
 /// the mesh's first material in the scene.
 void overrideMaterials(const JsonObject &object, MeshFile &file, std::uint32_t first,
                        const std::vector<Material> &named) {

@@ -15,7 +15,7 @@
 
 namespace hyalite {
 
-/// What the pixels of a texture of 8-bit levels show. All false for one of floats.
+/// Properties of the pixels of a texture of 8-bit levels. All false for one of floats.
 struct TextureLook {
     bool isGrey = false; ///< as height maps are, but not normal maps
     /// Nearly all colours are unit vectors on the side of +z, in the usual encoding.
@@ -36,7 +36,7 @@ class TextureLibrary {
 
     [[nodiscard]] const Texture &at(std::uint32_t index) const { return textures_[index]; }
 
-    /// What its pixels show, which is found out once.
+    /// Properties of its pixels, which are computed once.
     [[nodiscard]] const TextureLook &lookOf(std::uint32_t index);
 
     [[nodiscard]] std::vector<Texture> give() { return std::move(textures_); }

@@ -17,8 +17,8 @@ struct KernelRates {
     gpu::Workload workload = gpu::Workload::Spheres;
     std::string scene;                     ///< name of a shipped scene
     std::vector<double> megaraysPerSecond; ///< best rate of each of gpu::namedKernels
-    std::size_t best =
-        0; ///< index of the fastest kernel; the default one unless another is always 5 % faster
+    /// Index of the fastest kernel; the default one unless another is always 5 % faster.
+    std::size_t best = 0;
 };
 
 /// Runs work in a process of its own, and returns its result or throws its Error: inOwnProcess() of host/process/apart.h.

@@ -19,8 +19,8 @@ namespace hyalite {
 
 /// Where a film first differs from that of the CPU twin.
 struct FilmDifference {
-    std::size_t pixelCount =
-        0;               ///< that differ in any bit; 0: the twin's film differs from the shipped one likewise
+    /// Number of pixels that differ in any bit; 0: the twin's film has the same bits, which are not the shipped ones.
+    std::size_t pixelCount = 0;
     glm::uvec2 pixel{0}; ///< the first of them, row by row from the top left of the whole image
     /// The dispatch that rendered it: its tile. Empty for a reference renderer.
     std::optional<DispatchRecord> dispatch;

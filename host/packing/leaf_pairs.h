@@ -7,9 +7,9 @@
 
 namespace hyalite {
 
-/// The bits of a leaf's link that say where the common edge of its two triangles is; 0: they are no pair. A pair has ids
-/// that follow each other, a material and flags in common but for triangleEndsLeaf and emitters, and an edge that runs
-/// through its triangles in opposite directions.
+/// The bits of a leaf's link that say where the common edge of its two triangles is; 0: they are no pair. A pair has
+/// ids that follow each other, a material and flags in common except for triangleEndsLeaf and emitters, and an edge
+/// that runs through its triangles in opposite directions.
 [[nodiscard]] std::uint32_t pairingOf(const layout::TriangleRecord &first,
                                       const layout::TriangleRecord &second);
 

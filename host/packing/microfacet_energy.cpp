@@ -58,7 +58,7 @@ struct Viewer {
         return leaves::visibleGgxNormal(wo, glm::dvec2(alpha), azimuth, share);
     }
 
-    /// How much of what a visible facet sends to `wi`, on either side, is not masked.
+    /// The share of light from a visible facet to `wi`, on either side, that is not masked.
     [[nodiscard]] double litShare(const glm::dvec3 &wi) const {
         return leaves::smithG2OverG1(cosine, stretch, wi.z, leaves::stretchOf(wi, alpha));
     }
@@ -96,9 +96,9 @@ Energy energyOf(double cosine, double alpha, const Azimuths &azimuths) {
     return {sum.white / total, sum.grazing / total}; // at most 1
 }
 
-/// How much light visible facets of glass reflect and refract; `eta` is the index before them divided by the one
-/// beyond. Heights of different azimuths differ, by the golden ratio, as total reflection begins at one height where the
-/// viewer is above.
+/// The share of light that visible facets of glass reflect and refract; `eta` is the index before them divided by the
+/// one beyond. Heights of different azimuths differ, by the golden ratio, as total reflection begins at one height
+/// where the viewer is above.
 double glassEnergyOf(double cosine, double alpha, double eta, const Azimuths &azimuths) {
     constexpr std::size_t heightSteps = 20;
     constexpr double goldenStep = 0.6180339887498949;

@@ -115,7 +115,7 @@ std::uint32_t kindAndSidesOf(const Material &material) {
            flag(material.isUnlit, layout::materialIsUnlit);
 }
 
-/// What differs from the principled material.
+/// The differences to the principled material.
 void packGltf(const Material &material, layout::MaterialRecord &record) {
     const float ratio = (material.refractiveIndex - 1.0f) / (material.refractiveIndex + 1.0f);
     record.normalReflectance = material.isSpecularGlossy ? 1.0f : ratio * ratio;
@@ -156,7 +156,7 @@ layout::MaterialRecord packMaterial(const Material &material) {
     return record;
 }
 
-/// What rough glass may meet: any two of the scene's media on its sides. Nothing where there are more media than the path
+/// The table nodes for rough glass between any two of the scene's media. None where there are more media than the path
 /// integrator, which alone reads of them, can follow.
 GlassNodes glassNodesOf(const Scene &scene) {
     GlassNodes nodes;
@@ -208,7 +208,7 @@ glm::dvec3 spreadOfOrigins(const Camera &camera, const layout::FrameRecord &fram
     return static_cast<double>(frame.lensScale) * (right + up);
 }
 
-/// What kernels read of the camera, and of the glass around it: mediumAround in shaders/bsdf/media.glsl.
+/// Sets the camera, and the glass around it: mediumAround in shaders/bsdf/media.glsl.
 void setEye(const Scene &scene, const std::vector<std::uint32_t> &packedMaterial, PackedScene &packed) {
     layout::FrameRecord &frame = packed.frame;
     const MediaAt media =
@@ -223,7 +223,7 @@ void setEye(const Scene &scene, const std::vector<std::uint32_t> &packedMaterial
                             : static_cast<std::uint32_t>(std::countr_zero(media.around)) / layout::mediumBits;
 }
 
-/// What kernels need for a material on a surface. `hasTransparency`: of the surface's colours.
+/// Marks the features that kernels need for a material on a surface. `hasTransparency`: of the surface's colours.
 void useMaterial(const Scene &scene, std::uint32_t index, bool hasTransparency, PackedScene &packed) {
     const Material &material = scene.materials[index];
     const MaterialRow &row = rowOf(material.kind);

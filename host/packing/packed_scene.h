@@ -108,7 +108,7 @@ struct PackedScene {
 /// Maximum size of decoded 8-bit textures, at 16 bytes a pixel.
 inline constexpr std::size_t maxDecodedBytes = std::size_t{64} << 20;
 
-/// What of the packed bytes can be chosen. Images by light choices agree in their mean, and do not depend on the rest.
+/// Choices about the packed bytes. Images by light choices agree in their mean, and do not depend on the rest.
 struct PackOptions {
     LightChoice lightChoice = LightChoice::Auto;
     /// 8-bit textures are decoded to floats if all of them then take at most so many bytes: a lookup reads 4 rows in place
@@ -119,7 +119,7 @@ struct PackOptions {
 /// `scene` is valid, and `bvh` was built from its triangles.
 [[nodiscard]] PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &options = {});
 
-/// Moves the camera of a packed scene: `scene` is what it was packed from, but for its camera.
+/// Moves the camera of a packed scene: `scene` is what it was packed from, except for its camera.
 void packCamera(const Scene &scene, PackedScene &packed);
 
 } // namespace hyalite

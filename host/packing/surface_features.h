@@ -7,7 +7,7 @@
 
 namespace hyalite {
 
-/// Which channel of the image in `slot` is read in place of all, as in TextureRecord::format: 0 for all, or for the red one.
+/// The one channel of the image in `slot` that is read, as in TextureRecord::format: 0 for all, or for the red one.
 [[nodiscard]] std::uint32_t channelOf(const Texture &texture, const TextureUse &use, std::uint32_t slot);
 
 /// Bits of layout::textures... that the material needs.

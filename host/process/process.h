@@ -1,4 +1,4 @@
-// What a program that renders does to its own process: two calls, which are worth a third of the time on lavapipe.
+// Calls by which a program that renders sets up its own process: two, which are worth a third of the time on lavapipe.
 #pragma once
 
 #include "host/gpu/processor_use.h"

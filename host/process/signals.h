@@ -30,7 +30,7 @@ class CaughtSignals {
 /// "SIGINT", "SIGTERM" or "SIGHUP".
 [[nodiscard]] const char *signalName(int signal);
 
-/// What a render is that the signal ended.
+/// The kind of error of a render that the signal ended.
 [[nodiscard]] ErrorKind errorKindOf(int signal);
 
 } // namespace hyalite

@@ -7,7 +7,7 @@
 
 namespace hyalite {
 
-/// What a profile says of itself as "profileVersion". Older ones are no baselines: 1, which said no version, was compared by
+/// The "profileVersion" of a profile. Older ones are no baselines: 1, which said no version, was compared by
 /// the name of its scene's file.
 inline constexpr int profileVersion = 2;
 

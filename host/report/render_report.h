@@ -24,7 +24,7 @@ struct FinishedWork {
     bool isComplete = false; ///< all samples of all pixels are
 };
 
-/// What is finished of these squares of `film`, of `samplesPerPixel` samples in each pixel.
+/// The finished samples of these squares of `film`, of `samplesPerPixel` samples in each pixel.
 [[nodiscard]] FinishedWork finishedWork(const Film &film, std::span<const Crop> squares, int samplesPerPixel);
 
 /// The checkpoint that a render continued.

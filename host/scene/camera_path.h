@@ -11,7 +11,7 @@
 
 namespace hyalite {
 
-/// What of a camera moves; its projection and the size of the image stay.
+/// The part of a camera that moves; its projection and the size of the image stay.
 struct CameraPose {
     glm::dvec3 position{0.0};
     glm::dvec3 direction{0.0, 0.0, -1.0}; ///< with the length to the target, where there is one

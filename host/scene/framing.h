@@ -36,7 +36,7 @@ inline constexpr Bounds noBounds{glm::dvec3(std::numeric_limits<double>::infinit
 ///            /
 ///          +z
 ///
-/// `up` is a unit vector; +y in the drawing. Another one turns all of it the short way: +z in place of +y looks from
+/// `up` is a unit vector; +y in the drawing. Another one turns all of it the short way: +z instead of +y looks from
 /// the side of -y, as programs do whose +z is up.
 [[nodiscard]] Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees,
                                  const glm::dvec3 &up = {0.0, 1.0, 0.0});
@@ -48,7 +48,7 @@ inline constexpr Bounds noBounds{glm::dvec3(std::numeric_limits<double>::infinit
 [[nodiscard]] std::vector<Light> frameLights(const Bounds &bounds, const glm::dvec3 &up,
                                              const glm::dvec3 &eye);
 
-/// What triangles without a material are made of: of albedo 0.8, or 1 where the mesh has colours, which then are seen
+/// The material of triangles without one: of albedo 0.8, or 1 where the mesh has colours, which then are seen
 /// as they are.
 [[nodiscard]] Material neutralMaterial(bool hasColours);
 

@@ -46,7 +46,7 @@ void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> pl
 /// Bound on each coordinate of a point of a mesh whose coordinates are at most `size`, while it is placed.
 [[nodiscard]] glm::dvec3 placedExtent(const Placement &placement, const glm::dvec3 &size);
 
-/// Which instances become meshes.
+/// The instances that become meshes.
 enum class Flattening {
     All,
     /// Lights; those whose prototype has one instance, which are faster as meshes; and those whose maps nearly make

@@ -25,7 +25,7 @@ struct LightSources {
 /// Whether it shows the light of a scene, and no view of it.
 [[nodiscard]] bool showsLight(Integrator integrator);
 
-/// What of the scene's light the integrator does not see, or that there is none at all, in words for warnings. Empty where
+/// A warning about light of the scene that the integrator does not see, or that there is none at all. Empty where
 /// all is well, and for integrators that show something else than light.
 [[nodiscard]] std::optional<std::string> diagnoseLight(const Scene &scene, Integrator integrator);
 

@@ -35,10 +35,10 @@ enum class MaterialKind : std::uint32_t {
     Gltf = layout::materialGltf
 };
 
-/// What a texture shows beyond the edge of its image.
+/// Texture lookup beyond the edge of the image.
 enum class Wrap : std::uint32_t { Repeat = 0, Mirror = 1, Clamp = 2 };
 
-/// Which channel of an image is read where one number is wanted.
+/// The channel of an image that is read where one number is wanted.
 enum class Channel : std::uint32_t { Red = 0, Green = 1, Blue = 2, Alpha = 3 };
 
 /// How a material wears one of the scene's textures: at (u, v) it shows what the image has at
@@ -52,7 +52,7 @@ struct TextureUse {
     std::uint32_t uvSet = 0; ///< 1: TriangleMesh::secondUvs
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
-    bool isNearest = false;         ///< the nearest texel alone, in place of the bilinear filter
+    bool isNearest = false;         ///< the nearest texel alone, instead of the bilinear filter
     Channel channel = Channel::Red; ///< of slots that want one number
 };
 
@@ -94,9 +94,8 @@ struct Material {
     float anisotropyRotation = 0.0f;      ///< radians, counter-clockwise from the tangent along u
     float clearcoatNormalStrength = 1.0f; ///< in [0, 100]
     bool isThin = false; ///< a surface without volume behind it: what it transmits is not refracted
-    bool isSpecularGlossy =
-        false;            ///< KHR_materials_pbrSpecularGlossiness: dielectricColour is the reflectance at
-                          ///< normal incidence
+    /// KHR_materials_pbrSpecularGlossiness: dielectricColour is the reflectance at normal incidence.
+    bool isSpecularGlossy = false;
     bool isUnlit = false; ///< KHR_materials_unlit: shows its base colour and reflects nothing
     // Diffuse, Principled, Gltf
     AlphaMode alphaMode = AlphaMode::CutOut;
@@ -193,9 +192,9 @@ inline constexpr auto dielectric = std::to_array<MaterialKey>({
 inline constexpr auto conductor = std::to_array<MaterialKey>({
     {"metal", MetalKey{}, "Hagemann, Gudat and Kunz, 1974, at 650, 550 and 450 nm"},
     {"index", ColourKey{&Material::conductorIndex, limits::conductorIndex},
-     "real part of the refractive index, in place of the metal's"},
+     "real part of the refractive index, instead of the metal's"},
     {"extinction", ColourKey{&Material::conductorExtinction, limits::conductorIndex},
-     "imaginary part of the refractive index, in place of the metal's"},
+     "imaginary part of the refractive index, instead of the metal's"},
     {"roughness", roughness, "0 is smooth; `path` only"},
 });
 inline constexpr auto principled = std::to_array<MaterialKey>({

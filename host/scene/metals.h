@@ -24,7 +24,7 @@ inline constexpr std::array<std::pair<std::string_view, Metal>, 4> metalNames{{
     {"silver", {{0.269f, 0.251f, 0.231f}, {4.416f, 3.566f, 2.640f}}},
 }};
 
-/// What it reflects of light that comes straight down.
+/// Reflectance at normal incidence.
 [[nodiscard]] inline glm::vec3 normalReflectance(const glm::vec3 &index, const glm::vec3 &extinction) {
     const glm::vec3 squaredExtinction = extinction * extinction;
     const glm::vec3 below = index - 1.0f;

@@ -95,7 +95,7 @@ struct TriangleMesh {
     std::vector<glm::vec3> normals; ///< unit length
     std::vector<MeshTriangle> triangles;
     std::uint32_t materialIndex = 0;
-    std::vector<std::uint32_t> triangleMaterials{}; ///< in place of it, one for each triangle; or none at all
+    std::vector<std::uint32_t> triangleMaterials{}; ///< instead of it, one for each triangle; or none at all
     std::vector<glm::vec2> uvs{};                   ///< finite
     /// Of each triangle's corners the indices in `uvs`, all three or none `noUv`; or none at all.
     std::vector<glm::uvec3> triangleUvs{};
@@ -121,7 +121,7 @@ struct Placement {
     std::array<glm::vec3, 3> rows{glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f),
                                   glm::vec3(0.0f, 0.0f, 1.0f)};
     glm::vec3 offset{0.0f};
-    /// What rounding took from the offset, while a scene is loaded (origin.h); then zero.
+    /// Rounding error of the offset, while a scene is loaded (origin.h); then zero.
     glm::dvec3 offsetRest{0.0};
 };
 
@@ -136,7 +136,7 @@ struct Scene {
     glm::dvec3 origin{0.0}; ///< coordinates of the file are those of the scene + this (origin.h)
     Camera camera;
     std::vector<Light> lights;
-    Environment environment;    ///< in place of the background, where there is one
+    Environment environment;    ///< instead of the background, where there is one
     glm::vec3 background{0.0f}; ///< radiance of rays that leave the scene
     /// Factor on light that reaches a point through dielectrics alone; in [0, 1].
     float shadowThroughGlass = 1.0f;

@@ -39,7 +39,7 @@ using SettingValue =
                  ChoiceSetting<Integrator>, ChoiceSetting<TreeKind>, ChoiceSetting<SamplerKind>,
                  ChoiceSetting<FilterKind>, ChoiceSetting<LightChoice>>;
 
-/// What a setting changes. A checkpoint resumes only with the same samples; their count, the tree and the exposure may
+/// The effect of a setting. A checkpoint resumes only with the same samples; their count, the tree and the exposure may
 /// differ.
 enum class Changes {
     Samples,     ///< the bits of a sample

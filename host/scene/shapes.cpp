@@ -135,7 +135,7 @@ TriangleMesh transformed(TriangleMesh mesh, const glm::dmat4x3 &map) {
     const glm::dvec3 offset = place - mesh.origin;
     for (glm::vec3 &position : mesh.positions)
         position = glm::vec3(linear * glm::dvec3(position) + offset);
-    // The inverse transpose, but for a positive factor; scaled first, so that products stay in the range of doubles.
+    // The inverse transpose, except for a positive factor; scaled first, so that products stay in the range of doubles.
     const double scale = 1.0 / std::max({glm::length(map[0]), glm::length(map[1]), glm::length(map[2])});
     const glm::dvec3 a = map[0] * scale;
     const glm::dvec3 b = map[1] * scale;

@@ -133,7 +133,8 @@ void checkMaterial(const Material &material, const std::vector<Texture> &texture
             continue;
         const Texture &texture = textures[material.textures[slot]->textureIndex];
         if (slot != layout::slotEmission)
-            checked.refuse("textures", texture.name + ", of floats", "a PNG or a JPEG, but for the emission");
+            checked.refuse("textures", texture.name + ", of floats",
+                           "a PNG or a JPEG, except for the emission");
         for (const glm::vec3 &value : texture.values)
             if (!Checked::isWithin(limits::radiance, value * material.emission))
                 checked.within(limits::radiance, value * material.emission,

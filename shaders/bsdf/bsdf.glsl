@@ -26,8 +26,8 @@ bool isThinGlass(MaterialRecord material) {
            isThin(material);
 }
 
-// Whether light from behind a surface that scatters counts, too. Textures only take from transmission: asked of the record
-// without them, the answer is a bound.
+// Whether light from behind a surface that scatters counts, too. Textures only take from transmission: asked of the
+// record without them, the answer is a bound.
 bool isLitFromBehind(MaterialRecord material) {
     return (scattering & (scattersAtRoughGlass | scattersAtThin)) != 0u && (isGlass(material) || isThinGlass(material));
 }
@@ -81,16 +81,16 @@ vec3 mirrorReflectance(MaterialRecord material, float cosine) {
 
 // ---- BSDFs
 
-// The BSDF where a ray in `direction` hits a surface. `geometricNormal`, a unit vector, is on the side of the viewer; the
-// unit normal `normal` and that of `axes` are on the same side of the surface. `eta` is as in Bsdf; `choice`, in [0, 1), is
-// random.
+// The BSDF where a ray in `direction` hits a surface. `geometricNormal`, a unit vector, is on the side of the viewer;
+// the unit normal `normal` and that of `axes` are on the same side of the surface. `eta` is as in Bsdf; `choice`, in
+// [0, 1), is random.
 //
-// On a smooth mesh a shading normal may face away from the viewer. Facets that turn away cannot be seen: lobes of facets
-// take the geometric normal there. Lambert's lobe does not depend on the viewer, and keeps the shading normal, so that
-// shading is smooth up to silhouettes, as in Cycles (kernel/closure/bsdf_diffuse.h). Directions below the geometric surface
-// get nothing from either, so that a surface never reflects more than its albedo.
-Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, SurfaceAxes axes, bool isBehind,
-              float eta, float choice) {
+// On a smooth mesh a shading normal may face away from the viewer. Facets that turn away cannot be seen: lobes of
+// facets take the geometric normal there. Lambert's lobe does not depend on the viewer, and keeps the shading normal,
+// so that shading is smooth up to silhouettes, as in Cycles (kernel/closure/bsdf_diffuse.h). Directions below the
+// geometric surface get nothing from either, so that a surface never reflects more than its albedo.
+Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, SurfaceAxes axes,
+              bool isBehind, float eta, float choice) {
     Bsdf bsdf;
     bool isLambertian = scattering == 0u || kindOf(material) == materialDiffuse;
     bsdf.frame = makeOrthonormalBasis(isLambertian || dotProduct(direction, normal) < 0.0 ? normal : geometricNormal);
@@ -132,7 +132,8 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
 // Where neither tangents nor the normals of a clear coat are needed.
 Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometricNormal, bool isBehind, float eta,
               float choice) {
-    return makeBsdf(material, direction, normal, geometricNormal, SurfaceAxes(vec3(0.0), normal), isBehind, eta, choice);
+    SurfaceAxes axes = SurfaceAxes(vec3(0.0), normal);
+    return makeBsdf(material, direction, normal, geometricNormal, axes, isBehind, eta, choice);
 }
 
 // Samples a direction wi in the frame. It is 0 if the facet sends light to the wrong side. `u` in [0, 1)^2 and `choice`

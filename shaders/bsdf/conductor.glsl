@@ -27,7 +27,8 @@ float conductorReflectance(float cosine, float index, float extinction) {
 }
 
 vec3 conductorReflectance(float cosine, vec3 index, vec3 extinction) {
-    return vec3(conductorReflectance(cosine, index.x, extinction.x), conductorReflectance(cosine, index.y, extinction.y),
+    return vec3(conductorReflectance(cosine, index.x, extinction.x),
+                conductorReflectance(cosine, index.y, extinction.y),
                 conductorReflectance(cosine, index.z, extinction.z));
 }
 

@@ -48,8 +48,8 @@ Energy energyOf(float cosine, float roughness) {
     return Energy(cellMixture(white, across.share, along.share), cellMixture(grazing, across.share, along.share));
 }
 
-// Position in the table of an `eta` in [1/10, 10]: in [0, 1], for either side of the surface. Nodes are evenly spaced in the
-// square root of |eta - 1| / (eta + 1).
+// Position in the table of an `eta` in [1/10, 10]: in [0, 1], for either side of the surface. Nodes are evenly spaced
+// in the square root of |eta - 1| / (eta + 1).
 float indexPosition(float eta) {
     float difference = abs(eta - 1.0);
     float sum = eta + 1.0;

@@ -1,9 +1,9 @@
 // The material of glTF 2.0: a clear coat over sheen over a mixture of metal, plastic, glass and thin glass, as the
-// specification and its extensions KHR_materials_... define it, but for what facets lose at once: see README.md.
+// specification and its extensions KHR_materials_... define it, except for what facets lose at once: see README.md.
 //
 // As in principled.glsl one component is chosen at each hit.
 
-// What a material needs of a surface beyond its normal.
+// Directions that a material needs of a surface beyond its normal.
 struct SurfaceAxes {
     vec3 tangent;    // in which u grows, of any length; 0: unknown
     vec3 coatNormal; // of the clear coat: a unit vector that is on the same side of the surface as the viewer
@@ -14,7 +14,8 @@ vec3 dielectricReflectance(MaterialRecord material) {
     return lesser(material.dielectricColour * material.normalReflectance, vec3(1.0)) * material.dielectricWeight;
 }
 
-// Turns the frame so that x is the direction in which facets are stretched, and stretches them: KHR_materials_anisotropy.
+// Turns the frame so that x is the direction in which facets are stretched, and stretches them:
+// KHR_materials_anisotropy.
 Bsdf makeAnisotropic(Bsdf bsdf, MaterialRecord material, vec3 tangent, vec3 toViewer) {
     vec3 normal = bsdf.frame.z;
     vec3 inPlane = tangent - normal * dotProduct(normal, tangent);
@@ -40,8 +41,8 @@ Bsdf makeCoatOf(Bsdf bsdf, MaterialRecord material, vec3 toViewer, vec3 normal, 
     return makeClearcoat(bsdf, material, share);
 }
 
-// `toViewer` is a unit vector: bsdf.wo in world space. `geometricNormal` is on its side. A coat whose normal faces away from
-// the viewer takes the geometric one, as the frame does: at a negative cosine Schlick's curve exceeds 1.
+// `toViewer` is a unit vector: bsdf.wo in world space. `geometricNormal` is on its side. A coat whose normal faces away
+// from the viewer takes the geometric one, as the frame does: at a negative cosine Schlick's curve exceeds 1.
 Bsdf makeGltf(Bsdf bsdf, MaterialRecord material, SurfaceAxes axes, vec3 geometricNormal, vec3 toViewer, bool isBehind,
               float choice) {
     float left = choice;

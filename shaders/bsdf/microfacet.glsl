@@ -23,8 +23,8 @@ float ggxD(vec3 m, float alpha) {
     return divide(scaled, squared);
 }
 
-// The visible normal at a point of the spherical cap: at this azimuth, with the share `above` of the cap above it. Dupuy
-// and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
+// The visible normal at a point of the spherical cap: at this azimuth, with the share `above` of the cap above it.
+// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
 vec3 visibleGgxNormal(vec3 wo, vec2 alphas, SineCosine azimuth, float above) {
     vec3 stretched = unitVector(vec3(vec2(wo) * alphas, wo.z));
     float z = (1.0 - above) * (1.0 + stretched.z) - stretched.z;

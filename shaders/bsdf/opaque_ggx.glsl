@@ -43,12 +43,14 @@ Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 met
     bsdf.multiScatter = multiScatterColour * lossShare(energy.white, average.white);
     float plasticEnergy = energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing);
     vec3 diffuseBaseColour = colour * plastic;
-    bsdf.diffuseBase = diffuseBaseColour * lossShare(plasticEnergy, energyAt(average, bsdf.plasticReflectance, bsdf.plasticGrazing));
+    float averagePlastic = energyAt(average, bsdf.plasticReflectance, bsdf.plasticGrazing);
+    bsdf.diffuseBase = diffuseBaseColour * lossShare(plasticEnergy, averagePlastic);
     float facets = mean(fresnelReflectance(bsdf, bsdf.wo.z)) * energy.white;
     float others = mean(multiScatterColour) * (1.0 - energy.white) + mean(diffuseBaseColour) * (1.0 - plasticEnergy);
     float through = 0.0;
     if ((scattering & scattersAtThin) != 0u) {
-        // What facets lose is given to what passes, so that it is all that is not reflected (Turquin 2019, see energy.glsl).
+        // What facets lose is given to what passes, so that it is all that is not reflected (Turquin 2019, see
+        // energy.glsl).
         float left = 1.0 - plasticEnergy;
         float passedOnce = greater(energy.white - plasticEnergy, minEnergyLoss);
         through = mean(bsdf.thinTint) * left;

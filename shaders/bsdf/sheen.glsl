@@ -1,6 +1,6 @@
 // The sheen lobe: fibres on cloth, by Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017
-// courses, as KHR_materials_sheen has it: Charlie's distribution, and a fitted masking term. Directions are uniform over
-// the hemisphere.
+// courses, as KHR_materials_sheen has it: Charlie's distribution, and a fitted masking term. Directions are uniform
+// over the hemisphere.
 
 const float pdfHemisphere = 0.15915494309189535; // per solid angle: 1 / (2 pi)
 

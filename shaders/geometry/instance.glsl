@@ -7,10 +7,10 @@
 // triangle's own box in world space, to which it is confined (triangle.glsl), and far from the triangle.
 //
 // How wide must the box be? Let u be the unit of rounding, M the reach and p = 16 u M the pad of the ray's own box
-// tests (box.glsl), m and t the map, and v the largest coordinates of the mesh. A vertex in world space is rounded by at
-// most 5 u (|m| v + |t|). In distances along the ray, times |inverse|: the interval of the triangle's own box is p and
-// another 4 u M wider than the triangle. Here each of the sums is rounded by at most 12 u (|m| v + |t - origin|). The
-// record's slack is 24 u (|m| v + |t|), at least; with 2 p and 16 u |t - origin| all of it is covered.
+// tests (box.glsl), m and t the map, and v the largest coordinates of the mesh. A vertex in world space is rounded by
+// at most 5 u (|m| v + |t|). In distances along the ray, times |inverse|: the interval of the triangle's own box is p
+// and another 4 u M wider than the triangle. Here each of the sums is rounded by at most 12 u (|m| v + |t - origin|).
+// The record's slack is 24 u (|m| v + |t|), at least; with 2 p and 16 u |t - origin| all of it is covered.
 
 struct PlacedBoxRay {
     vec3 perX; // what a unit of each coordinate of the mesh adds to the distances to the planes across x, y and z
@@ -58,7 +58,7 @@ TriangleRecord placedTriangle(InstanceRecord instance, TriangleRecord triangle) 
     return placed;
 }
 
-// Normals follow the cofactors of the map: the inverse transpose, but for a positive factor. (Where the map mirrors,
+// Normals follow the cofactors of the map: the inverse transpose, except for a positive factor. (Where the map mirrors,
 // the mesh's copy for mirroring instances has negative normals.) A normal of length 0 keeps its meaning.
 vec3 placedNormal(InstanceRecord instance, vec3 normal) {
     vec3 size = greater(greater(abs(instance.toX), abs(instance.toY)), abs(instance.toZ));

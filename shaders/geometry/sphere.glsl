@@ -40,8 +40,8 @@ float intersectSphere(vec3 origin, vec3 direction, SphereShape sphere, bool star
 // Margin of a sphere's own box on each side: 4 units of rounding, which cover the rounding of the corners.
 vec3 sphereBoxMargin(vec3 centre, float radius) { return (abs(centre) + radius) * (4.0 / 16777216.0); }
 
-// As intersectSphere, for a sphere in a tree. Like that of a triangle (triangle.glsl), the hit is confined to the interval
-// of the sphere's own box: so no tree can lose or change it (box.glsl). Trees are built over the same box.
+// As intersectSphere, for a sphere in a tree. Like that of a triangle (triangle.glsl), the hit is confined to the
+// interval of the sphere's own box: so no tree can lose or change it (box.glsl). Trees are built over the same box.
 float intersectBoxedSphere(BoxRay ray, vec3 direction, vec3 centre, float radius, bool startsOnSphere) {
     float distance = intersectSphere(ray.origin, direction, makeSphereShape(centre, radius), startsOnSphere);
     vec3 margin = sphereBoxMargin(centre, radius);

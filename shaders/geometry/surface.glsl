@@ -14,9 +14,9 @@ Surface sphereSurface(vec3 origin, vec3 direction, float distance, SphereRecord 
     return Surface(position, vec3(0.0), normal, normal);
 }
 
-// A triangle whose corners have no normals. The point of the hit keeps a distance of about 8 units of rounding of the largest
-// coordinate from the edges, so that rounding does not carry it past the next wall of a closed mesh, where a ray would leave
-// through the edge. In a triangle that is narrower than twice that it is in the middle.
+// A triangle whose corners have no normals. The point of the hit keeps a distance of about 8 units of rounding of the
+// largest coordinate from the edges, so that rounding does not carry it past the next wall of a closed mesh, where a
+// ray would leave through the edge. In a triangle that is narrower than twice that it is in the middle.
 Surface flatSurface(TriangleRecord triangle, float u, float v) {
     vec3 edge1 = triangle.v1 - triangle.v0;
     vec3 edge2 = triangle.v2 - triangle.v0;
@@ -25,8 +25,8 @@ Surface flatSurface(TriangleRecord triangle, float u, float v) {
     float largest = largestComponent(abs(area));
     float inverse = divide(1.0, largest);
     vec3 geometric = largest > 0.0 ? unitVector(area * inverse) : vec3(0.0); // no area: no light
-    // Of a weight, which is the height above an edge by that of the opposite corner: the area of both edges' parallelogram
-    // by the length of the edge.
+    // Of a weight, which is the height above an edge by that of the opposite corner: the area of both edges'
+    // parallelogram by the length of the edge.
     float extent = largestComponent(greater(abs(edge1), abs(edge2)));
     float reach = largestComponent(greater(greater(abs(triangle.v0), abs(triangle.v1)), abs(triangle.v2)));
     float margin = lesser(reach * (8.0 / 16777216.0) * (extent * inverse), 1.0 / 3.0);
@@ -51,10 +51,10 @@ Surface triangleSurface(TriangleRecord triangle, NormalRecord normals, float u, 
     return surface;
 }
 
-// Origin of a ray that leaves the surface in `direction`: moved along the geometric normal, to the side of the direction, by
-// the bound on the error in that direction (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection",
-// Ray Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; trianglePointError has the bound). Spheres need no
-// offset.
+// Origin of a ray that leaves the surface in `direction`: moved along the geometric normal, to the side of the
+// direction, by the bound on the error in that direction (Wächter and Binder, "A Fast and Robust Method for Avoiding
+// Self-Intersection", Ray Tracing Gems, chapter 6, and PBRT section 6.8.6, name the problem; trianglePointError has the
+// bound). Spheres need no offset.
 vec3 offsetRayOrigin(Surface surface, vec3 direction) {
     if (!hasTriangles)
         return surface.position; // the same, unless the normal is NaN

@@ -58,8 +58,8 @@ bool isInside(float e0, float e1, float e2) {
     return lesser(greatest, -least) <= 0.0; // least >= 0 or greatest <= 0
 }
 
-// What is met of a triangle by its edge functions and the places of its vertices along the ray's axis, each by the number
-// of its vertex, and its box, for an origin at 0.
+// The hit of a triangle, from its edge functions and the depths of its vertices along the ray's axis, each by the
+// number of its vertex, and its box, for an origin at 0.
 TriangleHit hitOfTriangle(TriangleRay ray, BoxRay boxRay, vec3 edges, vec3 along, vec3 lower, vec3 upper) {
     float determinant = edges.x + edges.y + edges.z;
     float inverse = divide(1.0, determinant);
@@ -87,9 +87,9 @@ TriangleHit intersectTriangle(TriangleRay ray, BoxRay boxRay, vec3 v0, vec3 v1, 
                          greater(greater(to0, to1), to2));
 }
 
-// Two triangles with a common edge, by what the kernels for lavapipe know of a leaf: the edge runs from `begin` to `end`
-// in the first one, where `begin` is the vertex number `firstCorner`, and from `end` to `begin` in the second one, where
-// `end` is number `secondCorner`.
+// Two triangles with a common edge, by what the kernels for lavapipe know of a leaf: the edge runs from `begin` to
+// `end` in the first one, where `begin` is the vertex number `firstCorner`, and from `end` to `begin` in the second
+// one, where `end` is number `secondCorner`.
 struct JoinedTriangles {
     vec3 begin;
     vec3 end;
@@ -155,16 +155,16 @@ uint trianglesOnRay(TriangleRay ray, float pad, float rayLength, TrianglePair pa
     return greater(toLower, toUpper) > 0.0 && lesser(toLower, toUpper) <= rayLength ? found : 0u;
 }
 
-// The point at barycentric weights u, v, 1-u-v. Differences to a corner keep most of the error in proportion to the size of
-// the triangle instead of its distance from the origin of the world.
+// The point at barycentric weights u, v, 1-u-v. Differences to a corner keep most of the error in proportion to the
+// size of the triangle instead of its distance from the origin of the world.
 vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     vec3 along = (v0 - v2) * u + (v1 - v2) * v;
     return v2 + along;
 }
 
-// Bound, for each coordinate, on how far a ray must start above trianglePoint to be above the plane of the triangle, and
-// above neighbours in that plane. With r = 2^-24, the unit of rounding, and first-order terms (Pharr, Jakob and Humphreys,
-// "Physically Based Rendering", section 6.8.1):
+// Bound, for each coordinate, on how far a ray must start above trianglePoint to be above the plane of the triangle,
+// and above neighbours in that plane. With r = 2^-24, the unit of rounding, and first-order terms (Pharr, Jakob and
+// Humphreys, "Physically Based Rendering", section 6.8.1):
 //
 //     edges              v0 - v2, v1 - v2      r |edge|: with its product, 2 r (|first| + |second|)
 //     products           first, second
@@ -172,9 +172,9 @@ vec3 trianglePoint(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
 //     point, origin      v2 + along, offset    r |point| each
 //     a neighbour's hit  depth                 2 r extent: its size, for which that of this triangle stands
 //
-// The depth of a hit is uncertain by more where the neighbour is a needle: one in a million rays at cosines from 1e-4 to 1
-// is stopped by the next triangle of a face 100 times as long as wide. A larger bound would carry origins through walls: at
-// the corners of closed meshes it is below 8 units in the last place of the largest coordinate.
+// The depth of a hit is uncertain by more where the neighbour is a needle: one in a million rays at cosines from 1e-4
+// to 1 is stopped by the next triangle of a face 100 times as long as wide. A larger bound would carry origins through
+// walls: at the corners of closed meshes it is below 8 units in the last place of the largest coordinate.
 vec3 trianglePointError(vec3 v0, vec3 v1, vec3 v2, float u, float v) {
     vec3 edge0 = v0 - v2;
     vec3 edge1 = v1 - v2;

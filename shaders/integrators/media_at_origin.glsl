@@ -1,6 +1,6 @@
-// The glass around the origins of primary rays, where these lie on both sides of its surface, as on a lens that is half in
-// water. A ray goes straight from the eye, whose glass the host knows, to the origin, at depth 0, through everything, and
-// counts the glass that it enters and leaves. Twin: host/reference/media_at_origin.h.
+// The glass around the origins of primary rays, where these lie on both sides of its surface, as on a lens that is half
+// in water. A ray goes straight from the eye, whose glass the host knows, to the origin, at depth 0, through
+// everything, and counts the glass that it enters and leaves. Twin: host/reference/media_at_origin.h.
 
 bool originsMeetGlass() { return (camera & cameraOriginsMeetGlass) != 0u; } // only where there is glass
 

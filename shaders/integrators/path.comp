@@ -183,7 +183,8 @@ bool isSpecularHere(uint slot, MaterialRecord material, uint materialIndex, bool
     return isSpecular(material);
 }
 
-// Slots of the textures that say what a path does at a hit. Those that only the BSDF needs are looked up when it is made.
+// Slots of the textures that say what a path does at a hit. Those that only the BSDF needs are looked up when it is
+// made.
 uint slotsBeforeLight(MaterialRecord material) {
     uint slots = texturesEmission | texturesTransmission;
     if (showsBaseColour(material))
@@ -193,8 +194,8 @@ uint slotsBeforeLight(MaterialRecord material) {
     return slots;
 }
 
-// The material of the hit at `position`, with its textures of `textureSlots` applied. The lookups are a loop: they count as
-// steps.
+// The material of the hit at `position`, with its textures of `textureSlots` applied. The lookups are a loop: they
+// count as steps.
 MaterialRecord materialHit(uint slot, MaterialRecord material, uint textureSlots, vec3 position) {
     stepsTaken += uint(bitCount(textureSlots & texturing & texturesOfLobes));
     return hitMaterial(hitOf(slot), material, textureSlots, position);
@@ -277,13 +278,15 @@ void sampleDirectLight(uint slot) {
     uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
     bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
     MaterialRecord material =
-        materialHit(slot, fetchMaterial(materialIndex), texturesOfLobes | texturesBaseColour, path[slot].surfacePosition);
+        materialHit(slot, fetchMaterial(materialIndex), texturesOfLobes | texturesBaseColour,
+                    path[slot].surfacePosition);
     vec3 geometricNormal = surfaceAt(slot).geometricNormal;
     Crossing crossing = Crossing(path[slot].mediaInside, path[slot].mediaInside, 1.0, true);
     if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
         crossing = crossingOf(slot, materialIndex, !isBehind);
     vec2 lobe = lobeChoice(slot);
-    SurfaceAxes axes = hitAxes(hitOf(slot), path[slot].rayOrigin, path[slot].rayDirection, material, path[slot].surfaceNormal, isBehind);
+    SurfaceAxes axes = hitAxes(hitOf(slot), path[slot].rayOrigin, path[slot].rayDirection, material,
+                               path[slot].surfaceNormal, isBehind);
     Bsdf bsdf = makeBsdf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, axes, isBehind,
                           crossing.eta, lobe.x);
 
@@ -328,7 +331,8 @@ void addLight(uint slot) {
 
 // Work of the search for an emitter, in all slots.
 uint searchIterations() {
-    uint emitters = emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u; // and of the light tree the usual depth
+    // Of the light tree, this is the usual depth, too.
+    uint emitters = emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u;
     uint texels = (lighting & lightsByEnvironment) != 0u
                       ? RAYS * uint(findMSB(frame.environmentWidth) + findMSB(frame.environmentHeight) + 2)
                       : 0u;

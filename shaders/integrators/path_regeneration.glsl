@@ -1,6 +1,7 @@
 // Path regeneration: the lanes of a subgroup do not wait for each other's paths to end, but go on to the next sample of
-// its block of pixels (Novak et al., "Path Regeneration for Interactive Path Tracing", Eurographics 2010). Finished samples wait in a buffer until add_samples.comp adds them to the film, in the order of
-// their indices, so that it does not matter which lane computed them.
+// its block of pixels (Novak et al., "Path Regeneration for Interactive Path Tracing", Eurographics 2010). Finished
+// samples wait in a buffer until add_samples.comp adds them to the film, in the order of their indices, so that it does
+// not matter which lane computed them.
 //
 // A row of the buffer is for one pixel and for all indices of the same remainder by `samplesInFlight`.
 

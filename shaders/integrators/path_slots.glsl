@@ -73,7 +73,8 @@ void placeSlot(uint slot) {
     placeSlotAt(slot, (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u));
 }
 
-// The counts of a finished sample's shadow rays, reflections and refractions, and of its bounces, in a word that is not 0.
+// The counts of a finished sample's shadow rays, reflections and refractions, and of its bounces, in a word that is not
+// 0.
 uint packCounts(uvec3 rays, uint bounces) {
     return sampleIsFinished | rays.x | rays.y << bitsPerCount | rays.z << 2u * bitsPerCount |
            bounces << 3u * bitsPerCount;

@@ -47,7 +47,8 @@ void shadeHit(uint slot) {
         show(slot, vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
     }
     if (view == viewAlbedo) {
-        MaterialRecord material = hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesBaseColour, surface.position);
+        MaterialRecord material =
+            hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesBaseColour, surface.position);
         show(slot, isColourless(material) ? vec3(1.0) : material.albedo);
     }
     if (view == viewOcclusion) {

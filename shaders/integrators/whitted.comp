@@ -115,7 +115,8 @@ void shadeHit(uint slot) {
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
     bool isClear = hasDielectric && isGlassForWhitted(material);
     if (hasDielectric)
-        path[slot].throughput = withoutTiny(path[slot].throughput * (isClear && !isEntering ? material.segmentTint : tint));
+        path[slot].throughput =
+            withoutTiny(path[slot].throughput * (isClear && !isEntering ? material.segmentTint : tint));
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);

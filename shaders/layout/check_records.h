@@ -30,7 +30,8 @@ struct CheckResult {
     uint comparisons; // a bit each
     uint subgroup;    // in the workgroup
     uint lane;        // in the subgroup
-    // Unused by the host: it makes the code differ by the width of vectors, which the key of Mesa's disk cache leaves out.
+    // Unused by the host: it makes the code differ by the width of vectors, which the key of Mesa's disk cache leaves
+    // out.
     uint subgroupSize;
     uint pad1;
 };

@@ -30,8 +30,8 @@ const uint maxTreeDepth = 64u; // and the size of a traversal stack: builders ke
 
 // ---- Primitives
 //
-// A primitive's id orders all primitives of a scene: spheres first, then triangles, both by their index in the input. Of
-// two hits at the same distance, the one with the smaller id is the nearest. Triangles count from
+// A primitive's id orders all primitives of a scene: spheres first, then triangles, both by their index in the input.
+// Of two hits at the same distance, the one with the smaller id is the nearest. Triangles count from
 // FrameRecord::firstTriangleId on: from the same number in all scenes with few spheres, so that one more of them does
 // not change the colours of a view of ids.
 
@@ -132,10 +132,10 @@ struct InstanceRecord {
 
 // ---- The tree
 //
-// An inner node holds the boxes of both children, so that one fetch decides about two subtrees. A child is an inner node
-// (its index in the node array), a leaf (leafFlag | index of its first triangle; triangleEndsLeaf marks the last one),
-// an instance (leafFlag | instanceFlag | its index), or nothing (noNode). Node 0 is the root; every scene has one. The
-// trees of meshes with instances come after it.
+// An inner node holds the boxes of both children, so that one fetch decides about two subtrees. A child is an inner
+// node (its index in the node array), a leaf (leafFlag | index of its first triangle; triangleEndsLeaf marks the last
+// one), an instance (leafFlag | instanceFlag | its index), or nothing (noNode). Node 0 is the root; every scene has
+// one. The trees of meshes with instances come after it.
 
 const uint leafFlag = 0x80000000u;
 const uint instanceFlag = 0x40000000u; // beside leafFlag
@@ -167,8 +167,8 @@ struct NodePair {
 //
 // `link` of an inner node is the index to continue at; of a leaf it is leafFlag | index of its first triangle, and
 // traversal continues with the next node. Where scenes have pairs, the link of a leaf of two triangles with a common
-// edge, whose ids follow each other and which are alike but for emitters, also says where the edge is: it begins at the
-// first one's corner number `leafFirstCorner`, and runs the other way in the second one, there from corner
+// edge, whose ids follow each other and which are alike except for emitters, also says where the edge is: it begins at
+// the first one's corner number `leafFirstCorner`, and runs the other way in the second one, there from corner
 // `leafSecondCorner` - 1.
 struct SkipNode {
     uint x;
@@ -264,7 +264,7 @@ HYALITE_INLINE bool isUnlit(MaterialRecord material) {
     return (material.kindAndSides & materialIsUnlit) != 0u;
 }
 
-// What the materials of a scene need of the path integrator: bits of constantScattering.
+// Needs of the scene's materials: bits of constantScattering.
 const uint scattersAtConductors = 1u; // conductors, smooth or rough
 const uint scattersAtRoughConductors = 2u;
 const uint scattersAtRoughGlass = 4u; // dielectrics, and principled materials that transmit
@@ -293,9 +293,9 @@ struct LookupRow {
 
 // Textures, in rows of four words:
 // - two tables with the values of the levels 0 to 255 of 8-bit images, four floats a row;
-// - from firstCoordinateRow, rowsPerTriangle() rows for each triangle record: texture coordinates, u and v of v0 and v1,
-//   then of v2; and where constantTexturing asks for them, second texture coordinates likewise, then a row with the colour
-//   of each corner, then one with the tangent of each corner;
+// - from firstCoordinateRow, rowsPerTriangle() rows for each triangle record: texture coordinates, u and v of v0 and
+//   v1, then of v2; and where constantTexturing asks for them, second texture coordinates alike, then a row with the
+//   colour of each corner, then one with the tangent of each corner;
 // - for each material with textures, a TextureRecord for each slot;
 // - the texels of the images, from the top row down: one a row, as floats; or four a row, with 8 bits each for red,
 //   green, blue and alpha from the lowest bits up.
@@ -331,7 +331,7 @@ const uint rowsPerTexture = 3u;
 // Bits of TextureRecord::format.
 const uint textureIsFloat = 1u;
 const uint textureIsSrgb = 2u;
-const uint textureChannelShift = 2u; // two bits: the channel that is read in place of all; 0: all
+const uint textureChannelShift = 2u; // two bits: the channel that is read instead of all; 0: all
 const uint textureChannelMask = 3u;
 const uint textureIsAlpha = 12u; // channel 3
 const uint textureUsesSecondUv = 16u;
@@ -446,8 +446,8 @@ struct EmitterRecord {
 const uint noEmitter = 0x07FFFFFFu;
 
 // A cluster of emitters with places: a child in the light tree (shaders/lights/light_tree.glsl). Siblings follow each
-// other, the first two at index 0. `cumulative` of these emitters is the way to them: a bit for each node, 1 for the right
-// child, from the lowest one on.
+// other, the first two at index 0. `cumulative` of these emitters is the way to them: a bit for each node, 1 for the
+// right child, from the lowest one on.
 struct LightNode {
     vec3 centre;         // of a sphere around the emitters
     float share;         // of its parent's intensity
@@ -546,9 +546,9 @@ struct FrameRecord {
 
 // ---- Dispatch constants
 //
-// A dispatch works on one tile of the film, with `samplesInFlight` path slots for each pixel. `stepBudget` bounds the loop
-// iterations of a slot, and `workBudget` the work of all slots together: a slot that starts after it is spent makes only
-// one pass. Unfinished slots wait in the path buffer for a dispatch with `isResumed` set.
+// A dispatch works on one tile of the film, with `samplesInFlight` path slots for each pixel. `stepBudget` bounds the
+// loop iterations of a slot, and `workBudget` the work of all slots together: a slot that starts after it is spent
+// makes only one pass. Unfinished slots wait in the path buffer for a dispatch with `isResumed` set.
 struct DispatchConstants {
     uint cropX; // pixel of the whole image where the film begins
     uint cropY;

@@ -23,7 +23,7 @@ struct HitRecord {
 };
 
 const uint hitAnything = 0u;
-const uint hitUnknown = 0xFFFFFFFEu; // in place of a primitive: the ray was not followed to its end
+const uint hitUnknown = 0xFFFFFFFEu; // instead of a primitive: the ray was not followed to its end
 
 // Bindings and specialization constants that follow those of layout.h.
 const uint bindingRays = bindingCount;

@@ -17,7 +17,8 @@ LightSample samplePoint(EmitterRecord emitter, float chance, vec3 position) {
     float distance = vectorLength(toLight);
     float squaredDistance = distance * distance;
     float share = squaredDistance * chance;
-    return LightSample(toLight * divide(1.0, distance), distance, emitter.emission * divide(1.0, share), 0.0, noPrimitive);
+    vec3 direction = toLight * divide(1.0, distance);
+    return LightSample(direction, distance, emitter.emission * divide(1.0, share), 0.0, noPrimitive);
 }
 
 LightSample sampleSpot(EmitterRecord emitter, float chance, vec3 position) {
@@ -147,8 +148,8 @@ EmitterChoice chooseEmitter(LitPoint point, uint bits) {
     return choice;
 }
 
-// The pdf, per unit of area, of the light sample at a place of the emitter, whose material has `emitterPdf`. Only emitters
-// that the light tree knows are sampled there.
+// The pdf, per unit of area, of the light sample at a place of the emitter, whose material has `emitterPdf`. Only
+// emitters that the light tree knows are sampled there.
 float pdfOfEmitter(uint index, float emitterPdf, LitPoint point) {
     if (!hasLightTree)
         return emitterPdf;

@@ -42,8 +42,9 @@ vec3 environmentRadianceAt(vec2 place) {
     right = right >= frame.environmentWidth ? right - frame.environmentWidth : right;
     uint upper = lower == 0u ? 0u : lower - 1u;
     lower = min(lower, frame.environmentHeight - 1u);
-    return mixtureOf(mixtureOf(environmentTexel(left, upper).value, environmentTexel(right, upper).value, across),
-                     mixtureOf(environmentTexel(left, lower).value, environmentTexel(right, lower).value, across), down);
+    vec3 above = mixtureOf(environmentTexel(left, upper).value, environmentTexel(right, upper).value, across);
+    vec3 below = mixtureOf(environmentTexel(left, lower).value, environmentTexel(right, lower).value, across);
+    return mixtureOf(above, below, down);
 }
 
 // The pdf, per solid angle, of a direction in the given pixel; `sine` is that of its angle to the vertical.

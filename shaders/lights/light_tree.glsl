@@ -1,10 +1,11 @@
 // The light tree: emitters are chosen by how much light they may send to the point to be lit. Conty and Kulla,
-// "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018; the bounds on cosines are those of Pharr,
-// Jakob and Humphreys, "Physically Based Rendering", 4th edition, section 12.6.3, with spheres in place of boxes.
+// "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018; the bounds on cosines are those of
+// Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th edition, section 12.6.3, with spheres instead of
+// boxes.
 //
 // Each child of a node is a cluster of emitters. The choice goes down from the root by one random number, of which the
-// part that has decided is taken away. Numbers are compared as integers, so that the probability that is computed is the
-// one with which an emitter is chosen.
+// part that has decided is taken away. Numbers are compared as integers, so that the probability that is computed is
+// the one with which an emitter is chosen.
 
 // A point to be lit.
 struct LitPoint {
@@ -30,7 +31,7 @@ float cosineOfDifference(float cosineA, float sineA, float cosineB, float sineB)
 // cosine of 1 moves a sine by up to 4e-4.
 const float cosineMargin = 0.001;
 
-// Bound on the share of its parent's light that a cluster sends to the point, but for the distance.
+// Bound on the share of its parent's light that a cluster sends to the point, except for the distance.
 float clusterBound(LightNode cluster, LitPoint point, vec3 toCentre, float squaredDistance) {
     bool isAround = squaredDistance <= cluster.squaredRadius;
     float inverse = divide(1.0, squareRoot(greater(squaredDistance, 1e-30)));
@@ -49,7 +50,8 @@ float clusterBound(LightNode cluster, LitPoint point, vec3 toCentre, float squar
 
     float cosineSurface = dotProduct(direction, point.normal);
     cosineSurface = point.isTransmitting ? abs(cosineSurface) : cosineSurface;
-    float cosineArriving = cosineOfDifference(cosineSurface, sineOf(cosineSurface), cosineSeen, sineSeen) + cosineMargin;
+    float cosineArriving =
+        cosineOfDifference(cosineSurface, sineOf(cosineSurface), cosineSeen, sineSeen) + cosineMargin;
     return cluster.share * emission * (isAround ? 1.0 : greater(cosineArriving, 0.0));
 }
 
@@ -74,7 +76,8 @@ LightSplit splitLights(uint first, LitPoint point) {
     float rightSquared = dotProduct(toRight, toRight);
     float leftBound = clusterBound(left, point, toLeft, leftSquared);
     float rightBound = clusterBound(right, point, toRight, rightSquared);
-    // In proportion to 1 / squared distance; the shares of both distances in their sum do not leave the range of floats.
+    // In proportion to 1 / squared distance; the shares of both distances in their sum do not leave the range of
+    // floats.
     float leftFar = greater(leftSquared, left.squaredRadius);
     float rightFar = greater(rightSquared, right.squaredRadius);
     float inverse = divide(1.0, greater(leftFar + rightFar, 1e-30));
@@ -106,9 +109,9 @@ uint spreadNumber(uint number, uint count) {
 
 uint lightNodeIndex(uint reference) { return reference & ~(leafFlag | lightNodeIsTwoSided); }
 
-// Whether the way down the tree has ended. The loops below ask at their head: SwiftShader and Mesa 22 run a loop's body for
-// lanes that have left it, too, with loads that give 0, and of what it computes only the values that the head merges are
-// kept for them.
+// Whether the way down the tree has ended. The loops below ask at their head: SwiftShader and Mesa 22 run a loop's body
+// for lanes that have left it, too, with loads that give 0, and of what it computes only the values that the head
+// merges are kept for them.
 bool isWayOver(uint reference, float chance) { return (reference & leafFlag) != 0u || chance <= 0.0; }
 
 EmitterChoice chooseInTree(LitPoint point, uint bits) {
@@ -126,8 +129,8 @@ EmitterChoice chooseInTree(LitPoint point, uint bits) {
     return EmitterChoice(lightNodeIndex(reference), chance);
 }
 
-// The chance with which chooseInTree chooses an emitter; `turns` are those on the way to it, from the lowest bit on, 1 for
-// a right child.
+// The chance with which chooseInTree chooses an emitter; `turns` are those on the way to it, from the lowest bit on, 1
+// for a right child.
 float chanceInTree(LitPoint point, uint turns) {
     uint reference = 0u;
     float chance = 1.0;

@@ -1,5 +1,5 @@
-// Random dimensions: the table of the pairs of random numbers that a sample takes. Other files call them by these names;
-// none has a number of a pair. pairKeys() makes the hash keys of a pair.
+// Random dimensions: the table of the pairs of random numbers that a sample takes. Other files call them by these
+// names; none has a number of a pair. pairKeys() makes the hash keys of a pair.
 //
 // | pairs     | name                             | taken by                                                         |
 // |-----------|----------------------------------|------------------------------------------------------------------|
@@ -10,8 +10,8 @@
 // | 1024      | lensPair                         | cameras with a lens: the point on the lens                       |
 // | 24295     | alphaTestPair                    | alpha tests: beside the primitive and the ray, a key of its own  |
 //
-// Rows of one integrator do not overlap (tests/shaders/dimensions_test.cpp); a view has no vertices of a path. A new use
-// takes pairs that no row has: another number, or a pair taken twice, changes every picture.
+// Rows of one integrator do not overlap (tests/shaders/dimensions_test.cpp); a view has no vertices of a path. A new
+// use takes pairs that no row has: another number, or a pair taken twice, changes every picture.
 
 const uint pixelPair = 0u;
 

@@ -62,8 +62,9 @@ vec2 samplePixel(uvec2 pixel, uint sampleIndex, uint seed) {
     return unitFloats(sampleBits(pairKeys(pixel, seed, pixelPair), sampleIndex));
 }
 
-// Decides whether a ray passes through an alpha-tested surface: a number in [0, 1) for each primitive at each vertex of a path,
-// whatever the order in which rays meet primitives. `vertex` counts rays: two for each segment, the second one to a light.
+// Decides whether a ray passes through an alpha-tested surface: a number in [0, 1) for each primitive at each vertex of
+// a path, whatever the order in which rays meet primitives. `vertex` counts rays: two for each segment, the second one
+// to a light.
 float alphaTestNumber(uvec2 pixel, uint seed, uint sampleIndex, uint vertex, uint primitive) {
     uvec3 keys = hashKeys(uvec3(pixel, seed)) ^ uvec3(primitive, vertex, alphaTestPair);
     return unitFloat(sampleBits(hashKeys(keys), sampleIndex).x);

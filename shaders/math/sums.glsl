@@ -5,9 +5,9 @@ struct CompensatedSum {
     float rest;  // the sum less `value`
 };
 
-// Kahan, "Further Remarks on Reducing Truncation Errors", CACM 8(1), 1965, with Knuth's exact difference in place of his, so
-// that an added number may be larger than the sum. The relative error of n additions of like sign is that of one. Adding 0
-// changes no bit.
+// Kahan, "Further Remarks on Reducing Truncation Errors", CACM 8(1), 1965, with Knuth's exact difference instead of
+// his, so that an added number may be larger than the sum. The relative error of n additions of like sign is that of
+// one. Adding 0 changes no bit.
 CompensatedSum plus(CompensatedSum sum, float added) {
     float term = added + sum.rest;
     float value = sum.value + term;
@@ -16,8 +16,8 @@ CompensatedSum plus(CompensatedSum sum, float added) {
     float lostOfSum = sum.value - fromSum;
     float lostOfTerm = term - fromTerm;
     float rest = lostOfSum + lostOfTerm;
-    // There is no rest beside a sum that has left the range of floats, nor where it is tiny: then no subnormal number, which
-    // drivers may flush, decides any of its bits.
+    // There is no rest beside a sum that has left the range of floats, nor where it is tiny: then no subnormal number,
+    // which drivers may flush, decides any of its bits.
     bool isKept = abs(value) <= 3.4028234e38 && abs(rest) >= 1e-30;
     return CompensatedSum(value, isKept ? rest : 0.0);
 }

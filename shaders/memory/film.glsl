@@ -1,7 +1,7 @@
 // The film. Samples are added in the order of their indices, whichever slot computed them.
 //
-// The slots of a pixel share its sums: a slot keeps those whose number leaves its lane when divided by `samplesInFlight`.
-// Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples.
+// The slots of a pixel share its sums: a slot keeps those whose number leaves its lane when divided by
+// `samplesInFlight`. Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples.
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
@@ -19,8 +19,8 @@ uint filmWord(uint slot, uint number) {
     return (isSlotUsed[slot] ? filmIndex[slot] : 0u) * filmPixelWords + number + (number & 4u);
 }
 
-// Words are loaded and stored one by one on lavapipe, so that no slot touches more than it has to: there are no rests before
-// the first sample.
+// Words are loaded and stored one by one on lavapipe, so that no slot touches more than it has to: there are no rests
+// before the first sample.
 void loadFilm(uint slot) {
     const uint laneOfCount = filmSampleCountWord & samplesInFlight - 1u;
     uint count = 0u;

@@ -15,8 +15,8 @@ uint firstLaneOfPixel() { return gl_SubgroupInvocationID & ~(samplesInFlight - 1
 
 uint laneInPixel() { return gl_SubgroupInvocationID & (samplesInFlight - 1u); }
 
-// The values of the slots of a pixel, in the order of their samples. Where shuffles are loops over the lanes, every lane
-// gets all values instead and selects those of its pixel (host/gpu/lane_exchange.h).
+// The values of the slots of a pixel, in the order of their samples. Where shuffles are loops over the lanes, every
+// lane gets all values instead and selects those of its pixel (host/gpu/lane_exchange.h).
 void exchangeInPixel(uint mine, out uint values[maxSamplesInFlight]) {
     if (!exchangesByBroadcast) {
         [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane)
@@ -39,7 +39,8 @@ void exchangeInPixel(uint mine, out uint values[maxSamplesInFlight]) {
 
 bool isTrueForAllOfPixel(bool value) {
     if (exchangesByBroadcast) {
-        const uint ofPixel = samplesInFlight == 8u ? 0xFFu : (samplesInFlight == 4u ? 0xFu : (samplesInFlight == 2u ? 3u : 1u));
+        const uint ofPixel =
+            samplesInFlight == 8u ? 0xFFu : (samplesInFlight == 4u ? 0xFu : (samplesInFlight == 2u ? 3u : 1u));
         return (subgroupBallot(value).x >> firstLaneOfPixel() & ofPixel) == ofPixel;
     }
     uint all = value ? 1u : 0u;

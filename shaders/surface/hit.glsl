@@ -28,8 +28,8 @@ SurfaceUv hitUvs(Hit hit, vec3 position) {
     return SurfaceUv(uv, uv);
 }
 
-// The material of a hit at `position` with its textures of `textureSlots` and, if the base colour is among them, the colour
-// of the vertices applied.
+// The material of a hit at `position` with its textures of `textureSlots` and, if the base colour is among them, the
+// colour of the vertices applied.
 MaterialRecord hitMaterial(Hit hit, MaterialRecord material, uint textureSlots, vec3 position) {
     if ((textureSlots & texturing & texturesMaterials) != 0u && material.textures != 0u)
         material = texturedMaterial(material, textureSlots, hitUvs(hit, position));

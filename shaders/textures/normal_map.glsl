@@ -33,8 +33,8 @@ Tangent triangleTangent(TriangleRecord triangle, Coordinates at) {
     return determinant > 0.0 ? Tangent(alongU, alongV) : Tangent(-alongU, -alongV);
 }
 
-// Interpolated tangents of the vertices; w of each corner is the side of alongV. In a triangle without them it is 0, and so
-// are these. `normal` is that of the shading.
+// Interpolated tangents of the vertices; w of each corner is the side of alongV. In a triangle without them it is 0,
+// and so are these. `normal` is that of the shading.
 Tangent vertexTangent(vec4 t0, vec4 t1, vec4 t2, vec3 normal, float u, float v) {
     vec3 alongU = trianglePoint(vec3(t0.x, t0.y, t0.z), vec3(t1.x, t1.y, t1.z), vec3(t2.x, t2.y, t2.z), u, v);
     vec3 alongV = crossProduct(normal, alongU) * t0.w;

@@ -115,8 +115,8 @@ struct TexelPair {
     float share;
 };
 
-// `x` counts texels, from the edge of the image, and a half; `repeats`: beyond an edge the image begins anew, otherwise the
-// texel at the edge goes on.
+// `x` counts texels, from the edge of the image, and a half; `repeats`: beyond an edge the image begins anew, otherwise
+// the texel at the edge goes on.
 TexelPair texelPair(float x, uint size, bool repeats) {
     uint high = uint(x);
     float share = x - float(high);
@@ -246,8 +246,8 @@ MaterialRecord wornMaterial(MaterialRecord material, uint slot, vec3 texel, floa
     return material;
 }
 
-// The material with its textures of `slots` applied at `at`. Those that materials with lobes have are looked up in a loop:
-// inlined for each slot, lookups would be most of the kernel.
+// The material with its textures of `slots` applied at `at`. Those that materials with lobes have are looked up in a
+// loop: inlined for each slot, lookups would be most of the kernel.
 MaterialRecord texturedMaterial(MaterialRecord material, uint slots, SurfaceUv at) {
     uint textures = material.textures;
     if (textures == 0u)

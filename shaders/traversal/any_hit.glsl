@@ -1,5 +1,5 @@
-// Shared by all traversals: the position of a ray in the tree, and the test of a triangle. A ray passes triangles that are
-// culled, and points of alpha-tested ones, as if they were not there.
+// Shared by all traversals: the position of a ray in the tree, and the test of a triangle. A ray passes triangles that
+// are culled, and points of alpha-tested ones, as if they were not there.
 
 bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
 
@@ -14,8 +14,8 @@ struct Candidate {
     uint materialIndex;
 };
 
-// What is met by a hit on a primitive, which is wanting where it is culled, behind the nearest hit so far, or behind the
-// end of a shadow ray; `record` and `instance` are where the primitive comes from.
+// The candidate of a hit on a primitive. It does not count if the face is culled, or if the hit is not nearer than the
+// current one (shadow ray: than its end). `record` and `instance` are where the primitive comes from.
 Candidate candidateOf(uint slot, TriangleHit hit, uint id, uint record, uint instance, uint flags, uint materialIndex,
                   const bool isShadow) {
     bool isMet = hit.distance > 0.0;

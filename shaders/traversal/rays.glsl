@@ -91,7 +91,7 @@ void beginShadow(uint slot, vec3 direction, float distance) {
     path[slot].stage = stageShadow;
 }
 
-// What the path has hit.
+// The nearest hit of the path's ray.
 Hit hitOf(uint slot) {
     return Hit(path[slot].rayLength, path[slot].hitPrimitive, path[slot].hitRecord, path[slot].hitU, path[slot].hitV,
                path[slot].hitInstance);

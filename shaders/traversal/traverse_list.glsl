@@ -1,5 +1,6 @@
-// The traversal of a scene with few triangles: all of them in turn, from registers. First those that the line of the ray
-// goes through, which takes arithmetic alone, and then these by the test of the tree's leaves, which gives the same bits.
+// The traversal of a scene with few triangles: all of them in turn, from registers. First those that the line of the
+// ray goes through, which takes arithmetic alone, and then these by the test of the tree's leaves, which gives the same
+// bits.
 
 void traverseList(uint stage, const bool isShadow) {
     BoxRay boxRay[RAYS];

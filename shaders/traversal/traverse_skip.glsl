@@ -155,8 +155,8 @@ Candidate testNext(uint slot, inout Cursor cursor, InstanceRecord place, Triangl
     return testTriangle(slot, record, cursor.instance, triangle, ray, boxRay, isShadow);
 }
 
-// testNext where leaves may be pairs. The corners are fetched in the order in which the pair has them. Where the line of
-// the ray goes through both triangles, the second one is tested again by itself: the cursor moves to it.
+// testNext where leaves may be pairs. The corners are fetched in the order in which the pair has them. Where the line
+// of the ray goes through both triangles, the second one is tested again by itself: the cursor moves to it.
 Candidate testNextPair(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
                      const bool isShadow) {
     uint leaf = uint(cursor.leaf);
@@ -190,7 +190,8 @@ Candidate testNextPair(uint slot, inout Cursor cursor, InstanceRecord place, Tri
     bool endsLeaf = isPair || (flags & triangleEndsLeaf) != 0u;
     cursor.leaf = found.isBoth ? int(leafFlag | (record + 1u)) : (endsLeaf ? 0 : cursor.leaf + 1);
     uint further = found.isSecond ? 1u : 0u;
-    return candidateOf(slot, found.hit, id + further, record + further, cursor.instance, flags, materialIndex, isShadow);
+    return candidateOf(slot, found.hit, id + further, record + further, cursor.instance, flags, materialIndex,
+                       isShadow);
 }
 
 // `waiting` gets the alpha-tested triangles that rays meet. These rays have stopped on the way.

@@ -18,8 +18,8 @@ namespace hyalite::bench {
 /// Throws Error{Usage} for an unknown name, and as loadObj does.
 [[nodiscard]] TriangleMesh loadMesh(const std::string &name);
 
-/// A sphere of radius 1 with smooth bumps and rough noise on each vertex, closed but for pinholes at its poles, and of
-/// 2 * around * (down - 1) triangles.
+/// A sphere of radius 1 with smooth bumps and rough noise on each vertex, closed except for pinholes at its poles, and
+/// of 2 * around * (down - 1) triangles.
 [[nodiscard]] TriangleMesh noisySphere(int around, int down);
 
 } // namespace hyalite::bench

@@ -14,7 +14,7 @@ namespace hyalite::bench {
 /// Runs once what is timed, and returns the seconds that count.
 using Runner = std::function<double()>;
 
-/// From now on runners count the processor's seconds on all threads together in place of time: less
+/// From now on runners count the processor's seconds on all threads together instead of time: less
 /// like what a user waits for, but the same on a machine that does other things meanwhile.
 void countProcessorSeconds();
 [[nodiscard]] bool areProcessorSecondsCounted();

@@ -22,7 +22,7 @@ while read -r wanted arguments; do
     sum=$(md5sum <"$picture")
     if [ "${sum%% *}" != "$wanted" ]; then
         differing=$((differing + 1))
-        echo "differs: $arguments: ${sum%% *} in place of $wanted"
+        echo "differs: $arguments: ${sum%% *} instead of $wanted"
     fi
 done < <(cat cases.txt slow.txt)
 echo "$differing of $count pictures differ"

@@ -43,7 +43,7 @@ class CommandLine : public ::testing::Test {
 
     void store(const std::string &name, const std::string &text) const;
     [[nodiscard]] std::string load(const std::string &name) const;
-    /// The names in the folder, hidden ones too, but for that of the program's cache.
+    /// The names in the folder, hidden ones too, except for that of the program's cache.
     [[nodiscard]] std::set<std::string> entries() const;
 
     std::filesystem::path folder;

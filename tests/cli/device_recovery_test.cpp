@@ -103,7 +103,7 @@ TEST_F(DeviceRecovery, ADeviceThatFailsForGoodLeavesWhatIsFinished) {
         EXPECT_TRUE(contains(outcome.errors, "reopened 3 times")) << outcome;
         EXPECT_EQ(lastTally.calls.at("vkCreateDevice"), 4);
         EXPECT_TRUE(lastTally.alive.empty());
-        // The copies of the film are made by the clock, but for the first, after the first tile.
+        // The copies of the film are made by the clock, except for the first, after the first tile.
         const long pixels = report().at("finished").at("pixels");
         EXPECT_TRUE(pixels == 32 * 32 || pixels == 2 * 32 * 32) << pixels;
         EXPECT_EQ(report().at("faults").size(), 4u);

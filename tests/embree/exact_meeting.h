@@ -52,7 +52,7 @@ inline Corners cornersOf(const TriangleMesh &mesh, std::uint32_t triangle) {
     return {mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]};
 }
 
-/// `direction` is of unit length, but for rounding.
+/// `direction` is of unit length, except for rounding.
 inline ExactMeeting meetExactly(const Corners &corners, const glm::vec3 &origin, const glm::vec3 &direction) {
     const Vector d(direction);
     std::array<Vector, 3> toCorner;

@@ -1,4 +1,4 @@
-// Renderers in other ranks, with messages in memory in place of MPI: their tiles make the picture of one renderer.
+// Renderers in other ranks, with messages in memory instead of MPI: their tiles make the picture of one renderer.
 #include "host/farm/rank_backend.h"
 
 #include "host/engine/cpu_backend.h"

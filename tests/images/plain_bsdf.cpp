@@ -16,8 +16,8 @@ constexpr double coatReflectance = 0.04; // head on: a refractive index of 1.5
 
 double squared(double x) { return x * x; }
 
-/// D G / (4 view.z), the microfacet BRDF times the cosine of the light, but for Fresnel's term: Walter 2007, equation
-/// 20.
+/// D G / (4 view.z), the microfacet BRDF times the cosine of the light, except for Fresnel's term: Walter 2007,
+/// equation 20.
 double reflectedByFacets(const Vec &view, const Vec &light, double alpha) {
     return ggx(glm::normalize(view + light), alpha) * smith(view, light, alpha) / (4.0 * view.z);
 }
@@ -175,8 +175,8 @@ Vec Bsdf::evaluateGlass(const Vec &view, const Vec &light) const {
                     view.z * squared(indexRatio_ / (indexRatio_ * toView + toLight)));
 }
 
-/// KHR_materials_transmission without volume: what facets reflect, mirrored at the surface. What they send to each other
-/// makes up for it: Turquin 2019.
+/// KHR_materials_transmission without volume: what facets reflect, mirrored at the surface. What they send to each
+/// other makes up for it: Turquin 2019.
 Vec Bsdf::evaluateThin(const Vec &view, const Vec &light) const {
     const Vec mirrored(light.x, light.y, -light.z);
     const double cosine = std::min(glm::dot(view, glm::normalize(view + mirrored)), 1.0);

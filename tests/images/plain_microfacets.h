@@ -34,7 +34,8 @@ namespace hyalite::testing::plain {
 [[nodiscard]] Vec randomFacet(double alpha, Generator &generator);
 
 /// The sheen lobe of white fibres, times the cosine of the light: Estevez and Kulla, "Production Friendly Microfacet
-/// Sheen BRDF", SIGGRAPH 2017 courses, equations 2 to 4, as KHR_materials_sheen has them, but for the least roughness.
+/// Sheen BRDF", SIGGRAPH 2017 courses, equations 2 to 4, as KHR_materials_sheen has them, except for the least
+/// roughness.
 [[nodiscard]] double sheen(const Vec &view, const Vec &light, double roughness);
 
 /// The share of light from one direction that it reflects. Between quadratures at 65 cosines it is linear.

@@ -173,7 +173,7 @@ class Path {
     /// Normals are on the side that the path comes from.
     bool scatter(const SurfacePoint &point, const Substance &substance, const Bsdf &bsdf,
                  const std::optional<Crossing> &sides) {
-        // A shading normal that faces away is that of nothing visible, but for Lambert's law, which has no viewer.
+        // A shading normal that faces away is that of nothing visible, except for Lambert's law, which has no viewer.
         const bool isLambertian = substance.material->kind == MaterialKind::Diffuse;
         const bool isFacing = isLambertian || glm::dot(direction_, point.normal) < 0.0;
         const Frame frame(isFacing ? point.normal : point.geometricNormal);

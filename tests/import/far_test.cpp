@@ -76,7 +76,7 @@ class Far : public GltfFolder {
         return loadScene(write(name, text).string(), options);
     }
 
-    /// Expects the same scene, but for its place.
+    /// Expects the same scene, except for its place.
     static void expectNear(const LoadedScene &far, const LoadedScene &near, const glm::dvec3 &place) {
         EXPECT_EQ(near.scene.origin, glm::dvec3(0.0));
         EXPECT_EQ(far.scene.origin, place);

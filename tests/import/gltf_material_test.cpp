@@ -239,7 +239,7 @@ TEST_F(GltfMaterial, ImagesComeFromFilesViewsAndDataUris) {
     ASSERT_EQ(embedded.scene.textures.size(), 1u);
     EXPECT_TRUE(embedded.scene.textures[0].name.ends_with("scene.glb#/images/0"));
     EXPECT_EQ(embedded.scene.textures[0].levels, (std::vector<std::uint32_t>{0xFFFF8080u}));
-    // A WebP of 2 x 2 pixels, the last one transparent, by the extension and in place of the other source.
+    // A WebP of 2 x 2 pixels, the last one transparent, by the extension and instead of the other source.
     const std::string webp = "data:image/webp;base64,UklGRioAAABXRUJQVlA4TB4AAAAvAUAAEB8gEEjaH3qN+RcQFPk/"
                              "2vwH8KVgFyL6HwE=";
     maker.json["images"].push_back({{"uri", webp}});

@@ -51,7 +51,7 @@ TEST_F(GltfTolerance, ChunksOfAnyLengthAreRead) {
         EXPECT_EQ(loaded.scene.meshes.size(), 1u);
         EXPECT_TRUE(warningsOf(loaded).empty()) << warningsOf(loaded)[0];
     }
-    json += std::string(3, '\0'); // in place of blanks
+    json += std::string(3, '\0'); // instead of blanks
     EXPECT_EQ(loadText(glbOf(json, "", maker.bytes, "")).scene.meshes.size(), 1u);
 }
 

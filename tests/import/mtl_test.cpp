@@ -221,7 +221,7 @@ map_Pm blue.png
         << "one file is one texture, and names may be written as on Windows";
     EXPECT_EQ(materials[1].textures[layout::slotBaseColour]->scale, glm::vec2(4, 1));
     EXPECT_EQ(materials[2].kind, MaterialKind::Principled);
-    EXPECT_EQ(materials[2].roughness, 1.0f) << "the texture stands in place of Pr";
+    EXPECT_EQ(materials[2].roughness, 1.0f) << "the texture stands instead of Pr";
     EXPECT_EQ(materials[2].metallic, 1.0f);
     EXPECT_EQ(materials[2].specular, 0.5f);
 }

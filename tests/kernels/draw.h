@@ -25,7 +25,7 @@ class Draw {
     /// what the functions make of these is far from subnormal.
     [[nodiscard]] float coordinate();
     [[nodiscard]] glm::vec3 point();
-    /// Of unit length but for rounding; often along an axis or in a plane of axes, with zeros of both signs.
+    /// Of unit length except for rounding; often along an axis or in a plane of axes, with zeros of both signs.
     [[nodiscard]] glm::vec3 direction();
     /// A direction from `origin` to `target`, or any where they coincide.
     [[nodiscard]] glm::vec3 towards(const glm::vec3 &origin, const glm::vec3 &target);

@@ -1,4 +1,4 @@
-// Selections with one arm in place of two: valid modules that do the same. That pictures stay what they are is for tests
+// Selections with one arm instead of two: valid modules that do the same. That pictures stay what they are is for tests
 // of images to show.
 #include "host/gpu/spirv/one_armed.h"
 

@@ -92,7 +92,7 @@ bool Device::isMappable(std::uint32_t memoryType) const {
 }
 
 void Device::waitForFence(const std::string &action) {
-    // Counted slices in place of a clock: a suspended program uses up only one of them. No dispatch should take a
+    // Counted slices instead of a clock: a suspended program uses up only one of them. No dispatch should take a
     // second; a busy machine gets a hundred times that. Software drivers compile a kernel in its first dispatch, which
     // can take minutes.
     constexpr std::uint64_t sliceNanos = 1'000'000'000;

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is wrong with a driver's manifest
+/// The fault of a driver's manifest
 /// (https://github.com/KhronosGroup/Vulkan-Loader/blob/main/docs/LoaderDriverInterface.md), or empty.
 std::string faultOf(const fs::path &manifest) {
     std::error_code error;

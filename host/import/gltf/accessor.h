@@ -31,7 +31,7 @@ class Accessor {
   public:
     /// All elements lie in their buffer views. `buffers` outlives the object. Throws Error{BadInput} otherwise.
     Accessor(Buffers &buffers, std::size_t index);
-    /// Numbers from elsewhere, in place of those of the accessor.
+    /// Numbers from elsewhere, instead of those of the accessor.
     Accessor(Buffers &buffers, std::size_t index, std::vector<float> numbers);
 
     Accessor(const Accessor &) = delete;

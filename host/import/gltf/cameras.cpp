@@ -60,7 +60,7 @@ PlacedCamera placed(const Document &document, const JsonNode &node, const glm::d
     return found;
 }
 
-/// What a user may call the camera of a node.
+/// Whether a user's word names the camera of a node.
 bool isCalled(const std::string &choice, const Document &document, std::size_t camera,
               const JsonObject &node) {
     return choice == nameOf(JsonObject(document.at("cameras", camera))) || choice == nameOf(node) ||

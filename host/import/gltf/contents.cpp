@@ -25,7 +25,7 @@
 namespace hyalite::gltf {
 namespace {
 
-/// Meshes that are the same but for their place: by index and weights of morph targets.
+/// Meshes that are the same except for their place: by index and weights of morph targets.
 struct MeshUse {
     std::size_t mesh;
     Deformation deformation;
@@ -224,7 +224,7 @@ bool moveMoreThanCameras(const Document &document, const std::vector<std::size_t
     });
 }
 
-/// What a node places, as people read it.
+/// The contents of a node, for people.
 std::string contentsOf(const Document &document, const JsonObject &node) {
     std::string contents;
     const auto add = [&](std::string_view what, std::string_view name, const JsonNode &index) {

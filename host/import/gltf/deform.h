@@ -9,7 +9,7 @@
 
 namespace hyalite::gltf {
 
-/// What moves the vertices of a mesh.
+/// Morph weights and joints that move the vertices of a mesh.
 struct Deformation {
     std::vector<double> weights{};      ///< of morph targets; missing ones are 0
     std::vector<glm::dmat4x3> joints{}; ///< of a skin; none: the mesh has none

@@ -103,7 +103,7 @@ Chunks chunksOf(const InputFile &file, Losses &losses) {
     return chunks;
 }
 
-/// What all elements of the arrays of the top level are.
+/// Throws unless all elements of the arrays of the top level are objects.
 void checkObjects(const JsonObject &top) {
     for (const std::string_view array :
          {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes",

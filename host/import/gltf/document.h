@@ -42,7 +42,7 @@ class Document {
     [[nodiscard]] JsonObject top() const { return JsonObject(topNode()); }
     [[nodiscard]] JsonNode topNode() const { return {&json_, &fileName_}; }
 
-    /// What readers change or leave out, for warnings.
+    /// Changes and omissions of readers, for warnings.
     [[nodiscard]] Losses &losses() const { return *losses_; }
 
     /// How many elements an array of the top level has; 0 without it.

@@ -46,7 +46,7 @@ void addCorners(CornerValues<Value> &corners, const std::vector<Value> &values,
         corners.corners.push_back(triangle + first);
 }
 
-/// What glTF's v = 0, at the top, is here: what a missing set of coordinates counts as.
+/// The value of missing texture coordinates: glTF's (0, 0), which is at the top.
 constexpr glm::vec2 origin{0.0f, 1.0f};
 
 /// Positions with the triangles' own normals, three corners a triangle: for meshes without normals.

@@ -11,7 +11,7 @@
 
 namespace hyalite::gltf {
 
-/// What a material wants of the meshes that wear it.
+/// Vertex attributes that a material needs of its meshes.
 struct MaterialNeeds {
     bool uvs[2] = {false, false}; ///< sets of texture coordinates
     bool tangents = false;

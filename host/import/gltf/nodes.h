@@ -37,7 +37,7 @@ struct Pose {
 /// The poses that the file gives its nodes, in the order of /nodes.
 [[nodiscard]] std::vector<Pose> readPoses(const Document &document);
 
-/// Which nodes are children of which.
+/// The hierarchy of nodes.
 class NodeTree {
   public:
     /// Memory of a node with its JSON, its pose and its map to the world.

@@ -37,7 +37,7 @@ struct Primitive {
     Attributes attributes; ///< for what follows: weights of joints
 };
 
-/// What was passed over.
+/// Counts of primitives and features that are ignored.
 struct PassedOver {
     std::size_t points = 0; ///< primitives of points
     std::size_t lines = 0;  ///< of lines, strips and loops
