@@ -90,68 +90,68 @@ void failAtPlace(const std::string &file, PlaceUnit unit, std::size_t place, std
 }
 
 MeshBuilder::MeshBuilder(std::string file, const MeshTransform &transform, const glm::dvec3 &origin,
-                         PlaceUnit placeUnit)
-    : unit(placeUnit), rotation(rotationMatrix(transform.rotateDegrees)), scale(transform.scale),
-      translate(transform.translate) {
+                         PlaceUnit unit)
+    : unit_(unit), rotation_(rotationMatrix(transform.rotateDegrees)), scale_(transform.scale),
+      translate_(transform.translate) {
     assert(transform.scale != 0.0);
-    result.mesh.name = std::move(file);
-    result.mesh.origin = origin;
+    result_.mesh.name = std::move(file);
+    result_.mesh.origin = origin;
 }
 
 void MeshBuilder::reserve(std::size_t vertexCount, std::size_t triangleCount) {
-    result.mesh.positions.reserve(vertexCount);
-    result.mesh.triangles.reserve(triangleCount);
+    result_.mesh.positions.reserve(vertexCount);
+    result_.mesh.triangles.reserve(triangleCount);
 }
 
 void MeshBuilder::addPosition(const glm::dvec3 &positionObject, std::size_t place) {
-    const glm::dvec3 world = rotation * (scale * positionObject) + translate;
+    const glm::dvec3 world = rotation_ * (scale_ * positionObject) + translate_;
     if (isWithin(positionObject, maxFloat) && isWithin(world, maxCoordinate)) {
-        result.mesh.positions.emplace_back(world - result.mesh.origin);
+        result_.mesh.positions.emplace_back(world - result_.mesh.origin);
         return;
     }
-    lostPositions.emplace(static_cast<std::uint32_t>(result.mesh.positions.size()),
-                          LostPosition{positionObject, place});
-    result.mesh.positions.emplace_back(0.0f);
+    lostPositions_.emplace(static_cast<std::uint32_t>(result_.mesh.positions.size()),
+                           LostPosition{positionObject, place});
+    result_.mesh.positions.emplace_back(0.0f);
 }
 
 void MeshBuilder::failLost(const LostPosition &lost) const {
     if (!isWithin(lost.object, maxFloat))
         fail(lost.place, "vertex " + describe(lost.object) +
                              " is no finite float; allowed are magnitudes up to " + decimal(maxFloat));
-    fail(lost.place, "the vertex is at " + describe(rotation * (scale * lost.object) + translate) +
+    fail(lost.place, "the vertex is at " + describe(rotation_ * (scale_ * lost.object) + translate_) +
                          " after the transform; allowed are magnitudes up to 1e15");
 }
 
 /// Vertices that no face uses must not change where the mesh is.
 void MeshBuilder::replaceLostPositions() {
-    if (lostPositions.empty())
+    if (lostPositions_.empty())
         return;
-    const std::vector<MeshTriangle> &triangles = result.mesh.triangles;
+    const std::vector<MeshTriangle> &triangles = result_.mesh.triangles;
     const glm::vec3 known =
-        triangles.empty() ? glm::vec3(0.0f) : result.mesh.positions[triangles.front().positions.x];
-    for (const auto &[index, lost] : lostPositions)
-        result.mesh.positions[index] = known;
+        triangles.empty() ? glm::vec3(0.0f) : result_.mesh.positions[triangles.front().positions.x];
+    for (const auto &[index, lost] : lostPositions_)
+        result_.mesh.positions[index] = known;
     const auto &first =
-        *std::ranges::min_element(lostPositions, {}, [](const auto &lost) { return lost.first; });
-    result.report.warnings.push_back(
-        fmt::format("{}: {} that no face uses {} no finite place, such as {}", result.mesh.name,
-                    countText(lostPositions.size(), "vertex", "vertices"),
-                    lostPositions.size() == 1 ? "has" : "have", describe(first.second.object)));
+        *std::ranges::min_element(lostPositions_, {}, [](const auto &lost) { return lost.first; });
+    result_.report.warnings.push_back(
+        fmt::format("{}: {} that no face uses {} no finite place, such as {}", result_.mesh.name,
+                    countText(lostPositions_.size(), "vertex", "vertices"),
+                    lostPositions_.size() == 1 ? "has" : "have", describe(first.second.object)));
 }
 
 void MeshBuilder::setFaceColour(const glm::vec3 &linear) {
-    if (faceColours.empty())
-        colourCorners.assign(result.mesh.triangles.size(), glm::uvec3(0));
-    if (faceColours.empty() || glm::vec3(faceColours.back()) != linear)
-        faceColours.emplace_back(linear, 1.0f);
-    faceColour = static_cast<std::uint32_t>(faceColours.size() - 1);
+    if (faceColours_.empty())
+        colourCorners_.assign(result_.mesh.triangles.size(), glm::uvec3(0));
+    if (faceColours_.empty() || glm::vec3(faceColours_.back()) != linear)
+        faceColours_.emplace_back(linear, 1.0f);
+    faceColour_ = static_cast<std::uint32_t>(faceColours_.size() - 1);
 }
 
 void MeshBuilder::setColour(const glm::vec3 &colour) {
-    std::vector<glm::vec4> &colours = result.mesh.colours.values;
+    std::vector<glm::vec4> &colours = result_.mesh.colours.values;
     if (colours.empty()) // most files have none
-        colours.reserve(result.mesh.positions.capacity());
-    colours.resize(result.mesh.positions.size(), glm::vec4(1.0f));
+        colours.reserve(result_.mesh.positions.capacity());
+    colours.resize(result_.mesh.positions.size(), glm::vec4(1.0f));
     colours.back() = glm::vec4(colour, 1.0f);
 }
 
@@ -160,64 +160,64 @@ void MeshBuilder::addNormal(const glm::dvec3 &normalObject) {
     const double size = largestMagnitude(normalObject);
     glm::vec3 normal = lostNormal;
     if (size > 0.0 && std::isfinite(normalObject.x + normalObject.y + normalObject.z)) {
-        const glm::dvec3 turned = rotation * (normalObject / (scale < 0.0 ? -size : size));
+        const glm::dvec3 turned = rotation_ * (normalObject / (scale_ < 0.0 ? -size : size));
         // In [1, sqrt 3].
         const double length = std::sqrt(turned.x * turned.x + turned.y * turned.y + turned.z * turned.z);
         normal = glm::vec3(turned / length);
     }
-    result.mesh.normals.push_back(normal);
+    result_.mesh.normals.push_back(normal);
 }
 
 void MeshBuilder::addUv(const glm::dvec2 &uv) {
     const auto finite = [](double x) {
         return std::abs(x) <= double{std::numeric_limits<float>::max()} ? static_cast<float>(x) : 0.0f;
     };
-    result.mesh.uvs.emplace_back(finite(uv.x), finite(uv.y));
+    result_.mesh.uvs.emplace_back(finite(uv.x), finite(uv.y));
 }
 
 void MeshBuilder::setMaterial(std::uint32_t index) {
-    material = index;
-    if (!hasMaterials && index != 0) {
-        hasMaterials = true;
-        result.mesh.triangleMaterials.assign(result.mesh.triangles.size(), 0);
+    material_ = index;
+    if (!hasMaterials_ && index != 0) {
+        hasMaterials_ = true;
+        result_.mesh.triangleMaterials.assign(result_.mesh.triangles.size(), 0);
     }
 }
 
 void MeshBuilder::addFace(std::span<const FaceCorner> corners, std::size_t place) {
     if (corners.size() < 3) {
-        ++result.report.unusedStatementCount;
-        dropped.add("few corners", [&] {
-            return placeText(result.mesh.name, unit, place) +
+        ++result_.report.unusedStatementCount;
+        dropped_.add("few corners", [&] {
+            return placeText(result_.mesh.name, unit_, place) +
                    "a face with fewer than three corners is left out";
         });
         return;
     }
-    ++result.report.faceCount;
-    face.clear();
-    bool isCuttable = waitingFaces.empty();
+    ++result_.report.faceCount;
+    face_.clear();
+    bool isCuttable = waitingFaces_.empty();
     for (const FaceCorner &corner : corners) {
-        Corner &added = face.emplace_back(Corner{resolvePosition(corner.position, place),
-                                                 resolveNormal(corner.normal), TriangleMesh::noUv});
+        Corner &added = face_.emplace_back(Corner{resolvePosition(corner.position, place),
+                                                  resolveNormal(corner.normal), TriangleMesh::noUv});
         if (corner.uv > 0)
             added.uv = static_cast<std::uint32_t>(corner.uv) - 1;
         else if (const auto back = static_cast<std::size_t>(-std::int64_t{corner.uv});
-                 back > 0 && back <= result.mesh.uvs.size())
-            added.uv = static_cast<std::uint32_t>(result.mesh.uvs.size() - back);
+                 back > 0 && back <= result_.mesh.uvs.size())
+            added.uv = static_cast<std::uint32_t>(result_.mesh.uvs.size() - back);
         isCuttable = isCuttable && isDefined(added);
     }
     if (isCuttable) {
-        cutFace(face);
+        cutFace(face_);
         return;
     }
-    waitingFaces.push_back({static_cast<std::uint32_t>(place),
-                            static_cast<std::uint32_t>(waitingCorners.size()), material, faceColour});
-    waitingCorners.insert(waitingCorners.end(), face.begin(), face.end());
+    waitingFaces_.push_back({static_cast<std::uint32_t>(place),
+                             static_cast<std::uint32_t>(waitingCorners_.size()), material_, faceColour_});
+    waitingCorners_.insert(waitingCorners_.end(), face_.begin(), face_.end());
 }
 
 std::uint32_t MeshBuilder::resolvePosition(std::int32_t index, std::size_t place) const {
     if (index > 0)
         return static_cast<std::uint32_t>(index) - 1;
-    const std::size_t count = result.mesh.positions.size();
+    const std::size_t count = result_.mesh.positions.size();
     const std::int64_t fromStart = static_cast<std::int64_t>(count) + index;
     if (index == 0 || fromStart < 0)
         fail(place, "the face has the vertex index " + std::to_string(index) + "; " + std::to_string(count) +
@@ -229,28 +229,28 @@ std::uint32_t MeshBuilder::resolveNormal(std::int32_t index) const {
     if (index == 0)
         return MeshTriangle::noNormal;
     const std::int64_t fromStart =
-        index > 0 ? std::int64_t{index} - 1 : static_cast<std::int64_t>(result.mesh.normals.size()) + index;
+        index > 0 ? std::int64_t{index} - 1 : static_cast<std::int64_t>(result_.mesh.normals.size()) + index;
     return fromStart < 0 ? undefinedNormal : static_cast<std::uint32_t>(fromStart);
 }
 
 /// Whether all that the corner names is known already.
 bool MeshBuilder::isDefined(const Corner &corner) const {
-    return corner.position < result.mesh.positions.size() &&
+    return corner.position < result_.mesh.positions.size() &&
            (corner.normal == MeshTriangle::noNormal || corner.normal == undefinedNormal ||
-            corner.normal < result.mesh.normals.size()) &&
-           (corner.uv == TriangleMesh::noUv || corner.uv < result.mesh.uvs.size());
+            corner.normal < result_.mesh.normals.size()) &&
+           (corner.uv == TriangleMesh::noUv || corner.uv < result_.mesh.uvs.size());
 }
 
 void MeshBuilder::requirePosition(const Corner &corner, std::size_t place) const {
-    if (corner.position >= result.mesh.positions.size())
+    if (corner.position >= result_.mesh.positions.size())
         fail(place, "the face has the vertex index " + std::to_string(corner.position + 1) +
-                        "; the file has " + std::to_string(result.mesh.positions.size()));
+                        "; the file has " + std::to_string(result_.mesh.positions.size()));
 }
 
 void MeshBuilder::cutFace(std::span<const Corner> corners) {
-    if (!lostPositions.empty())
+    if (!lostPositions_.empty())
         for (const Corner &corner : corners)
-            if (const auto lost = lostPositions.find(corner.position); lost != lostPositions.end())
+            if (const auto lost = lostPositions_.find(corner.position); lost != lostPositions_.end())
                 failLost(lost->second);
     FaceNormals normals{true, false};
     for (const Corner &corner : corners) {
@@ -262,18 +262,18 @@ void MeshBuilder::cutFace(std::span<const Corner> corners) {
         addTriangle(corners[0], corners[1], corners[2], normals);
         return;
     }
-    ++result.report.polygonCount;
-    polygon.clear();
+    ++result_.report.polygonCount;
+    polygon_.clear();
     for (const Corner &corner : corners)
-        polygon.push_back(result.mesh.positions[corner.position]);
-    for (const glm::uvec3 &part : triangulator.triangulate(polygon))
+        polygon_.push_back(result_.mesh.positions[corner.position]);
+    for (const glm::uvec3 &part : triangulator_.triangulate(polygon_))
         addTriangle(corners[part.x], corners[part.y], corners[part.z], normals);
 }
 
 void MeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner &c, FaceNormals normals) {
-    const std::vector<glm::vec3> &at = result.mesh.positions;
+    const std::vector<glm::vec3> &at = result_.mesh.positions;
     if (isDegenerate(at[a.position], at[b.position], at[c.position])) {
-        ++result.report.degenerateTriangleCount;
+        ++result_.report.degenerateTriangleCount;
         return;
     }
     MeshTriangle triangle{{a.position, b.position, c.position}, glm::uvec3(MeshTriangle::noNormal)};
@@ -283,90 +283,91 @@ void MeshBuilder::addTriangle(const Corner &a, const Corner &b, const Corner &c,
     bool isUndefined = false;
     for (const std::uint32_t normal : {a.normal, b.normal, c.normal}) {
         isUndefined =
-            isUndefined || (normal != MeshTriangle::noNormal && normal >= result.mesh.normals.size());
-        isLost = isLost || (normal < result.mesh.normals.size() && result.mesh.normals[normal] == lostNormal);
+            isUndefined || (normal != MeshTriangle::noNormal && normal >= result_.mesh.normals.size());
+        isLost =
+            isLost || (normal < result_.mesh.normals.size() && result_.mesh.normals[normal] == lostNormal);
     }
-    result.report.undefinedNormalCount += isUndefined;
+    result_.report.undefinedNormalCount += isUndefined;
     isLost = isLost || isUndefined;
     if (isLost) {
         triangle.normals = glm::uvec3(MeshTriangle::noNormal);
-        ++result.report.lostNormalCount;
+        ++result_.report.lostNormalCount;
     }
     glm::uvec3 uvs(a.uv, b.uv, c.uv);
-    if (scale < 0.0) { // the mesh is turned inside out: turn the winding back
+    if (scale_ < 0.0) { // the mesh is turned inside out: turn the winding back
         std::swap(triangle.positions.y, triangle.positions.z);
         std::swap(triangle.normals.y, triangle.normals.z);
         std::swap(uvs.y, uvs.z);
     }
     addTriangleUvs(uvs);
-    result.mesh.triangles.push_back(triangle);
-    if (hasMaterials)
-        result.mesh.triangleMaterials.push_back(material);
-    if (!faceColours.empty())
-        colourCorners.emplace_back(faceColour);
+    result_.mesh.triangles.push_back(triangle);
+    if (hasMaterials_)
+        result_.mesh.triangleMaterials.push_back(material_);
+    if (!faceColours_.empty())
+        colourCorners_.emplace_back(faceColour_);
 }
 
 void MeshBuilder::addTriangleUvs(glm::uvec3 uvs) {
     const bool hasAll =
-        uvs.x < result.mesh.uvs.size() && uvs.y < result.mesh.uvs.size() && uvs.z < result.mesh.uvs.size();
-    if (hasAll && result.mesh.triangleUvs.empty())
-        result.mesh.triangleUvs.assign(result.mesh.triangles.size(), glm::uvec3(TriangleMesh::noUv));
-    result.report.uvLessCount += hasAll ? 0 : 1;
-    if (hasAll || !result.mesh.triangleUvs.empty())
-        result.mesh.triangleUvs.push_back(hasAll ? uvs : glm::uvec3(TriangleMesh::noUv));
+        uvs.x < result_.mesh.uvs.size() && uvs.y < result_.mesh.uvs.size() && uvs.z < result_.mesh.uvs.size();
+    if (hasAll && result_.mesh.triangleUvs.empty())
+        result_.mesh.triangleUvs.assign(result_.mesh.triangles.size(), glm::uvec3(TriangleMesh::noUv));
+    result_.report.uvLessCount += hasAll ? 0 : 1;
+    if (hasAll || !result_.mesh.triangleUvs.empty())
+        result_.mesh.triangleUvs.push_back(hasAll ? uvs : glm::uvec3(TriangleMesh::noUv));
 }
 
 void MeshBuilder::addColours() {
-    CornerValues<glm::vec4> &colours = result.mesh.colours;
+    CornerValues<glm::vec4> &colours = result_.mesh.colours;
     if (colours.values.empty()) {
-        colours = {std::move(faceColours), std::move(colourCorners)};
+        colours = {std::move(faceColours_), std::move(colourCorners_)};
         return;
     }
-    if (!faceColours.empty())
-        dropped.add("colours of faces", [&] {
-            return result.mesh.name + ": colours of faces are left out, as vertices have some, too";
+    if (!faceColours_.empty())
+        dropped_.add("colours of faces", [&] {
+            return result_.mesh.name + ": colours of faces are left out, as vertices have some, too";
         });
-    colours.values.resize(result.mesh.positions.size(), glm::vec4(1.0f));
-    colours.corners.reserve(result.mesh.triangles.size());
-    for (const MeshTriangle &triangle : result.mesh.triangles)
+    colours.values.resize(result_.mesh.positions.size(), glm::vec4(1.0f));
+    colours.corners.reserve(result_.mesh.triangles.size());
+    for (const MeshTriangle &triangle : result_.mesh.triangles)
         colours.corners.push_back(triangle.positions);
 }
 
 ObjMesh MeshBuilder::finish() {
-    MeshReport &report = result.report;
-    for (std::size_t i = 0; i < waitingFaces.size(); ++i) {
-        const std::size_t begin = waitingFaces[i].cornerBegin;
+    MeshReport &report = result_.report;
+    for (std::size_t i = 0; i < waitingFaces_.size(); ++i) {
+        const std::size_t begin = waitingFaces_[i].cornerBegin;
         const std::size_t end =
-            i + 1 < waitingFaces.size() ? waitingFaces[i + 1].cornerBegin : waitingCorners.size();
-        const std::span<const Corner> corners(waitingCorners.data() + begin, end - begin);
+            i + 1 < waitingFaces_.size() ? waitingFaces_[i + 1].cornerBegin : waitingCorners_.size();
+        const std::span<const Corner> corners(waitingCorners_.data() + begin, end - begin);
         for (const Corner &corner : corners)
-            requirePosition(corner, waitingFaces[i].place);
-        material = waitingFaces[i].material;
-        faceColour = waitingFaces[i].colour;
+            requirePosition(corner, waitingFaces_[i].place);
+        material_ = waitingFaces_[i].material;
+        faceColour_ = waitingFaces_[i].colour;
         cutFace(corners);
     }
     const auto mayBeTooSmall = [this] {
-        return result.mesh.origin == glm::dvec3(0.0) && originOf(result.mesh) != glm::dvec3(0.0);
+        return result_.mesh.origin == glm::dvec3(0.0) && originOf(result_.mesh) != glm::dvec3(0.0);
     };
-    if (result.mesh.triangles.empty() && !mayBeTooSmall())
-        throw Error(ErrorKind::BadInput, result.mesh.name + ": no triangle in " +
+    if (result_.mesh.triangles.empty() && !mayBeTooSmall())
+        throw Error(ErrorKind::BadInput, result_.mesh.name + ": no triangle in " +
                                              std::to_string(report.faceCount) + " faces (" +
                                              std::to_string(report.degenerateTriangleCount) +
                                              " dropped for having no area); at least one is needed" +
-                                             (report.faceCount == 0 && !result.mesh.positions.empty()
+                                             (report.faceCount == 0 && !result_.mesh.positions.empty()
                                                   ? ": points and lines alone are no surface"
                                                   : ""));
     replaceLostPositions();
     addColours();
-    std::ranges::move(dropped.warnings(), std::back_inserter(report.warnings));
+    std::ranges::move(dropped_.warnings(), std::back_inserter(report.warnings));
     // No triangle uses a lost normal, but its place must hold a unit vector.
-    std::replace(result.mesh.normals.begin(), result.mesh.normals.end(), lostNormal,
+    std::replace(result_.mesh.normals.begin(), result_.mesh.normals.end(), lostNormal,
                  glm::vec3(0.0f, 0.0f, 1.0f));
-    report.name = result.mesh.name;
-    report.triangleCount = result.mesh.triangles.size();
-    report.vertexCount = result.mesh.positions.size();
-    report.normalCount = result.mesh.normals.size();
-    return std::move(result);
+    report.name = result_.mesh.name;
+    report.triangleCount = result_.mesh.triangles.size();
+    report.vertexCount = result_.mesh.positions.size();
+    report.normalCount = result_.mesh.normals.size();
+    return std::move(result_);
 }
 
 void leaveOutUselessTextures(ObjMesh &loaded) {

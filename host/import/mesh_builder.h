@@ -61,7 +61,7 @@ class MeshBuilder {
     /// Adds texture coordinates. Numbers that are not finite floats count as 0.
     void addUv(const glm::dvec2 &uv);
 
-    [[nodiscard]] std::size_t uvCount() const { return result.mesh.uvs.size(); }
+    [[nodiscard]] std::size_t uvCount() const { return result_.mesh.uvs.size(); }
 
     /// Sets the material of the following faces: an index from 1, or 0 for none.
     void setMaterial(std::uint32_t index);
@@ -69,10 +69,10 @@ class MeshBuilder {
     /// Sets the colour of the following faces, linear, in [0, 1]; it counts where vertices have none.
     void setFaceColour(const glm::vec3 &linear);
 
-    [[nodiscard]] MeshReport &report() { return result.report; }
+    [[nodiscard]] MeshReport &report() { return result_.report; }
 
     /// Faces that are left out; finish() puts them into the report.
-    [[nodiscard]] Losses &losses() { return dropped; }
+    [[nodiscard]] Losses &losses() { return dropped_; }
 
     /// Adds a face, or leaves it out if it has fewer than three corners. Throws Error{BadInput} if a relative index points
     /// before the first vertex, and where a vertex is lost.
@@ -107,7 +107,7 @@ class MeshBuilder {
     };
 
     [[noreturn]] void fail(std::size_t place, std::string_view message) const {
-        failAtPlace(result.mesh.name, unit, place, message);
+        failAtPlace(result_.mesh.name, unit_, place, message);
     }
     [[nodiscard]] std::uint32_t resolvePosition(std::int32_t index, std::size_t place) const;
     [[nodiscard]] std::uint32_t resolveNormal(std::int32_t index) const;
@@ -120,23 +120,23 @@ class MeshBuilder {
     void addTriangleUvs(glm::uvec3 uvs);
     void addColours();
 
-    PlaceUnit unit;
-    glm::dmat3 rotation;
-    double scale;
-    glm::dvec3 translate;
-    std::uint32_t material = 0; ///< of the faces being triangulated
-    bool hasMaterials = false;
-    std::uint32_t faceColour = 0;          ///< of the faces being triangulated: in faceColours
-    std::vector<glm::vec4> faceColours;    ///< empty: faces have none
-    std::vector<glm::uvec3> colourCorners; ///< of triangles, in faceColours
-    std::unordered_map<std::uint32_t, LostPosition> lostPositions; ///< by the index of the vertex
-    Losses dropped;
-    std::vector<Corner> face; ///< the face being added
-    std::vector<Corner> waitingCorners;
-    std::vector<Face> waitingFaces;
-    std::vector<glm::vec3> polygon; ///< positions of the face being triangulated
-    Triangulator triangulator;
-    ObjMesh result;
+    PlaceUnit unit_;
+    glm::dmat3 rotation_;
+    double scale_;
+    glm::dvec3 translate_;
+    std::uint32_t material_ = 0; ///< of the faces being triangulated
+    bool hasMaterials_ = false;
+    std::uint32_t faceColour_ = 0;          ///< of the faces being triangulated: in faceColours_
+    std::vector<glm::vec4> faceColours_;    ///< empty: faces have none
+    std::vector<glm::uvec3> colourCorners_; ///< of triangles, in faceColours_
+    std::unordered_map<std::uint32_t, LostPosition> lostPositions_; ///< by the index of the vertex
+    Losses dropped_;
+    std::vector<Corner> face_; ///< the face being added
+    std::vector<Corner> waitingCorners_;
+    std::vector<Face> waitingFaces_;
+    std::vector<glm::vec3> polygon_; ///< positions of the face being triangulated
+    Triangulator triangulator_;
+    ObjMesh result_;
 };
 
 } // namespace hyalite

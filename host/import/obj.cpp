@@ -40,9 +40,9 @@ namespace {
 /// The materials that an OBJ file names.
 class ObjMaterials {
   public:
-    /// `textureLibrary` may be null: then materials are ignored.
-    ObjMaterials(const std::filesystem::path &file, MeshBuilder &meshBuilder, TextureLibrary *textureLibrary)
-        : finder(folderOf(file)), builder(meshBuilder), textures(textureLibrary) {}
+    /// `textures` may be null: then materials are ignored.
+    ObjMaterials(const std::filesystem::path &file, MeshBuilder &builder, TextureLibrary *textures)
+        : finder_(folderOf(file)), builder_(builder), textures_(textures) {}
 
     /// Reads a statement if it is about materials.
     void take(std::string_view statement) {
@@ -52,11 +52,11 @@ class ObjMaterials {
             use(*used);
     }
 
-    [[nodiscard]] std::vector<Material> give() { return std::move(materials); }
+    [[nodiscard]] std::vector<Material> give() { return std::move(materials_); }
 
     /// Warns of what is lost, and of names of another computer.
     void warn(const std::string &mesh) const {
-        MeshReport &report = builder.report();
+        MeshReport &report = builder_.report();
         if (!report.lostLibraries.empty())
             report.warnings.push_back(fmt::format(
                 "{}: there is no material library {}{} in the mesh's folder: its materials are neutral", mesh,
@@ -70,12 +70,12 @@ class ObjMaterials {
                             countText(report.unknownMaterialCount, "usemtl statement"),
                             report.unknownMaterialCount == 1 ? "s" : "",
                             report.unknownMaterialCount == 1 ? "is" : "are"));
-        if (finder.renamedCount() > 0)
+        if (finder_.renamedCount() > 0)
             report.warnings.push_back(fmt::format(
                 "{}: {} by another name than it says, such as {}", mesh,
-                finder.renamedCount() == 1 ? "1 file was found"
-                                           : fmt::format("{} files were found", finder.renamedCount()),
-                finder.firstRenamed()));
+                finder_.renamedCount() == 1 ? "1 file was found"
+                                            : fmt::format("{} files were found", finder_.renamedCount()),
+                finder_.firstRenamed()));
     }
 
   private:
@@ -94,7 +94,7 @@ class ObjMaterials {
     /// folder is not read, because a mesh may come from a stranger. Each is read once, or a small file could request a
     /// large one again and again.
     void read(std::string_view list) {
-        if (!names.emplace(list).second || readOne(list))
+        if (!names_.emplace(list).second || readOne(list))
             return;
         bool isLost = false;
         // Names may have blanks: ".mtl" ends one.
@@ -105,7 +105,7 @@ class ObjMaterials {
             rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
         }
         if (isLost)
-            builder.report().lostLibraries.emplace_back(list);
+            builder_.report().lostLibraries.emplace_back(list);
     }
 
     /// Behind the first ".mtl" that ends a word, or all of it.
@@ -133,37 +133,37 @@ class ObjMaterials {
 
     /// False if there is no such file.
     bool readOne(std::string_view name) {
-        const std::optional<std::filesystem::path> library = finder.find(finder.folder(), name);
+        const std::optional<std::filesystem::path> library = finder_.find(finder_.folder(), name);
         if (!library)
             return false;
-        if (!libraries.insert(*library).second)
+        if (!libraries_.insert(*library).second)
             return true;
-        builder.report().files.push_back(*library);
-        for (Material &material : loadMtl(*library, {finder, *textures, builder.losses()}))
-            if (indices.emplace(material.name, static_cast<std::uint32_t>(materials.size() + 1)).second)
-                materials.push_back(std::move(material));
+        builder_.report().files.push_back(*library);
+        for (Material &material : loadMtl(*library, {finder_, *textures_, builder_.losses()}))
+            if (indices_.emplace(material.name, static_cast<std::uint32_t>(materials_.size() + 1)).second)
+                materials_.push_back(std::move(material));
         return true;
     }
 
     void use(std::string_view name) {
         const std::uint32_t index = indexOf(name);
-        builder.report().unknownMaterialCount += index == 0;
-        builder.setMaterial(index);
+        builder_.report().unknownMaterialCount += index == 0;
+        builder_.setMaterial(index);
     }
 
     /// The index of a material, from 1; 0 if there is none.
     [[nodiscard]] std::uint32_t indexOf(std::string_view name) const {
-        const auto found = indices.find(name);
-        return found == indices.end() ? 0 : found->second;
+        const auto found = indices_.find(name);
+        return found == indices_.end() ? 0 : found->second;
     }
 
-    FileFinder finder;
-    MeshBuilder &builder;
-    TextureLibrary *textures;
-    std::vector<Material> materials;
-    std::map<std::string, std::uint32_t, std::less<>> indices; ///< of the materials, by name
-    std::set<std::string, std::less<>> names;                  ///< names of requested libraries
-    std::set<std::filesystem::path> libraries;                 ///< files of libraries that were read
+    FileFinder finder_;
+    MeshBuilder &builder_;
+    TextureLibrary *textures_;
+    std::vector<Material> materials_;
+    std::map<std::string, std::uint32_t, std::less<>> indices_; ///< of the materials, by name
+    std::set<std::string, std::less<>> names_;                  ///< names of requested libraries
+    std::set<std::filesystem::path> libraries_;                 ///< files of libraries that were read
 };
 
 // A filter between the file and tinyobjloader, which knows no line numbers and trusts its input. It passes on one
@@ -171,32 +171,32 @@ class ObjMaterials {
 // nearly all of a file, bypass tinyobjloader.
 class CheckedObjSource : public std::streambuf {
   public:
-    /// `objMaterials` may be null: then materials are ignored.
-    CheckedObjSource(ObjLines &objLines, MeshBuilder &meshBuilder, ObjMaterials *objMaterials,
-                     const OnReading &listener)
-        : lines(objLines), builder(meshBuilder), materials(objMaterials), onReading(listener) {}
+    /// `materials` may be null: then materials are ignored.
+    CheckedObjSource(ObjLines &lines, MeshBuilder &builder, ObjMaterials *materials,
+                     const OnReading &onReading)
+        : lines_(lines), builder_(builder), materials_(materials), onReading_(onReading) {}
 
     /// The statement that was passed on last, of which tinyobjloader knows a part.
-    [[nodiscard]] const CheckedStatement &current() const { return statement; }
+    [[nodiscard]] const CheckedStatement &current() const { return statement_; }
 
   protected:
     int_type underflow() override {
         for (;;) {
             while (const char *nextBegin =
-                       readPlainStatement(lines.peek(), lines.peekedLineNumber(), builder))
-                lines.take(nextBegin);
-            const std::optional<std::span<char>> line = lines.next();
+                       readPlainStatement(lines_.peek(), lines_.peekedLineNumber(), builder_))
+                lines_.take(nextBegin);
+            const std::optional<std::span<char>> line = lines_.next();
             if (!line)
                 return traits_type::eof();
             reportProgress();
             lowerKeyword(*line);
-            if (materials != nullptr)
-                materials->take({line->data(), line->size()});
-            statement = checkStatement(*line, lines, builder);
-            if (statement.text.empty())
+            if (materials_ != nullptr)
+                materials_->take({line->data(), line->size()});
+            statement_ = checkStatement(*line, lines_, builder_);
+            if (statement_.text.empty())
                 continue;
-            char *const begin = statement.text.data();
-            setg(begin, begin, begin + statement.text.size());
+            char *const begin = statement_.text.data();
+            setg(begin, begin, begin + statement_.text.size());
             return traits_type::to_int_type(*begin);
         }
     }
@@ -213,18 +213,18 @@ class CheckedObjSource : public std::streambuf {
     }
 
     void reportProgress() {
-        if (!onReading || lines.bytesRead() < nextReportBytes)
+        if (!onReading_ || lines_.bytesRead() < nextReportBytes_)
             return;
-        nextReportBytes = lines.bytesRead() + stepBytes;
-        onReading(lines.shareRead());
+        nextReportBytes_ = lines_.bytesRead() + stepBytes;
+        onReading_(lines_.shareRead());
     }
 
-    ObjLines &lines;
-    MeshBuilder &builder;
-    ObjMaterials *materials;
-    const OnReading &onReading;
-    CheckedStatement statement;
-    std::size_t nextReportBytes = stepBytes;
+    ObjLines &lines_;
+    MeshBuilder &builder_;
+    ObjMaterials *materials_;
+    const OnReading &onReading_;
+    CheckedStatement statement_;
+    std::size_t nextReportBytes_ = stepBytes;
 };
 
 struct CallbackData {

@@ -25,62 +25,62 @@ void failAtLine(const std::string &file, std::size_t line, std::string_view mess
 std::string quoteInput(std::string_view text) { return "\"" + excerpt(text, maxExcerptBytes) + "\""; }
 
 ObjLines::ObjLines(const std::filesystem::path &path)
-    : file(path), name(path.string()), buffer(firstBufferBytes) {
-    if (file.sizeBytes() > maxFileBytes)
-        throw file.bad(
-            fmt::format("has {} bytes; at most {} (4 GiB) are read", file.sizeBytes(), maxFileBytes));
+    : file_(path), name_(path.string()), buffer_(firstBufferBytes) {
+    if (file_.sizeBytes() > maxFileBytes)
+        throw file_.bad(
+            fmt::format("has {} bytes; at most {} (4 GiB) are read", file_.sizeBytes(), maxFileBytes));
     if (refill())
-        lineBegin = scan = byteOrderMarkBytes(head());
+        lineBegin_ = scan_ = byteOrderMarkBytes(head());
 }
 
 double ObjLines::shareRead() const {
-    return file.sizeBytes() > 0 ? static_cast<double>(fileBytes) / static_cast<double>(file.sizeBytes())
-                                : 1.0;
+    return file_.sizeBytes() > 0 ? static_cast<double>(fileBytes_) / static_cast<double>(file_.sizeBytes())
+                                 : 1.0;
 }
 
 // Moves the rest of the current line to the front of the buffer and appends more of the file. Returns false at the end
 // of the file.
 bool ObjLines::refill() {
-    std::memmove(buffer.data(), buffer.data() + lineBegin, filled - lineBegin);
-    scan -= lineBegin;
-    filled -= lineBegin;
-    lineBegin = 0;
-    if (filled > maxLineBytes)
-        failAtLine(name, nextLine,
+    std::memmove(buffer_.data(), buffer_.data() + lineBegin_, filled_ - lineBegin_);
+    scan_ -= lineBegin_;
+    filled_ -= lineBegin_;
+    lineBegin_ = 0;
+    if (filled_ > maxLineBytes)
+        failAtLine(name_, nextLine_,
                    "the line is too long; at most " + std::to_string(maxLineBytes) + " bytes are allowed");
-    if (filled + 1 >= buffer.size() / 2)
-        buffer.resize(buffer.size() * 2);
+    if (filled_ + 1 >= buffer_.size() / 2)
+        buffer_.resize(buffer_.size() * 2);
     const auto count = static_cast<std::size_t>(
-        std::min<std::uint64_t>(buffer.size() - filled - 1, file.sizeBytes() - fileBytes));
-    file.read(fileBytes, std::as_writable_bytes(std::span(buffer).subspan(filled, count)));
-    filled += count;
-    buffer[filled] = '\0';
-    fileBytes += count;
+        std::min<std::uint64_t>(buffer_.size() - filled_ - 1, file_.sizeBytes() - fileBytes_));
+    file_.read(fileBytes_, std::as_writable_bytes(std::span(buffer_).subspan(filled_, count)));
+    filled_ += count;
+    buffer_[filled_] = '\0';
+    fileBytes_ += count;
     return count > 0;
 }
 
-// Overwrites the LF of a CRLF whose CR lies before `scan` with a blank.
+// Overwrites the LF of a CRLF whose CR lies before `scan_` with a blank.
 void ObjLines::skipLineFeed() {
-    if ((scan < filled || refill()) && buffer[scan] == '\n')
-        buffer[scan++] = ' ';
+    if ((scan_ < filled_ || refill()) && buffer_[scan_] == '\n')
+        buffer_[scan_++] = ' ';
 }
 
 std::optional<std::span<char>> ObjLines::next() {
-    lineBegin = scan;
-    line = nextLine;
+    lineBegin_ = scan_;
+    line_ = nextLine_;
     std::size_t indent = 0; // leading blanks, counted once for all continuations of a line
     for (;;) {
-        const char *chars = buffer.data();
-        while (scan < filled && chars[scan] != '\n' && chars[scan] != '\r')
-            ++scan;
-        const bool atFileEnd = scan == filled && !refill();
-        if (!atFileEnd && buffer[scan] != '\n' && buffer[scan] != '\r')
+        const char *chars = buffer_.data();
+        while (scan_ < filled_ && chars[scan_] != '\n' && chars[scan_] != '\r')
+            ++scan_;
+        const bool atFileEnd = scan_ == filled_ && !refill();
+        if (!atFileEnd && buffer_[scan_] != '\n' && buffer_[scan_] != '\r')
             continue;
-        const std::size_t length = scan - lineBegin;
+        const std::size_t length = scan_ - lineBegin_;
         if (atFileEnd && length == 0)
             return std::nullopt;
 
-        char *begin = buffer.data() + lineBegin;
+        char *begin = buffer_.data() + lineBegin_;
         const bool continues = length > 0 && begin[length - 1] == '\\';
         if (continues) {
             while (begin[indent] == ' ' || begin[indent] == '\t')
@@ -90,13 +90,13 @@ std::optional<std::span<char>> ObjLines::next() {
         }
         if (atFileEnd)
             return std::span<char>(begin, length);
-        ++nextLine;
-        const char lineEnd = buffer[scan];
-        buffer[scan++] = ' ';
+        ++nextLine_;
+        const char lineEnd = buffer_[scan_];
+        buffer_[scan_++] = ' ';
         if (lineEnd == '\r')
             skipLineFeed();
-        if (!continues || buffer[lineBegin + indent] == '#')
-            return std::span<char>(buffer.data() + lineBegin, length);
+        if (!continues || buffer_[lineBegin_ + indent] == '#')
+            return std::span<char>(buffer_.data() + lineBegin_, length);
     }
 }
 

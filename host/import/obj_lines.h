@@ -39,46 +39,46 @@ class ObjLines {
 
     /// The beginning of the file, before the first line is taken.
     [[nodiscard]] std::span<const char> head() const {
-        return std::span(buffer).first(std::min(filled, std::size_t{512}));
+        return std::span(buffer_).first(std::min(filled_, std::size_t{512}));
     }
 
     /// The text from the next logical line on, without consuming it. A zero follows the last character in memory,
     /// wherever that is.
-    [[nodiscard]] const char *peek() const { return buffer.data() + scan; }
-    [[nodiscard]] std::size_t peekedLineNumber() const { return nextLine; }
+    [[nodiscard]] const char *peek() const { return buffer_.data() + scan_; }
+    [[nodiscard]] std::size_t peekedLineNumber() const { return nextLine_; }
 
     /// Consumes one line of peek(), with its line end; the next one begins at `nextBegin`.
     void take(const char *nextBegin) {
-        scan = static_cast<std::size_t>(nextBegin - buffer.data());
-        ++nextLine;
+        scan_ = static_cast<std::size_t>(nextBegin - buffer_.data());
+        ++nextLine_;
     }
 
     /// Number of the line that next() returned last, from 1.
-    [[nodiscard]] std::size_t lineNumber() const { return line; }
+    [[nodiscard]] std::size_t lineNumber() const { return line_; }
 
-    [[nodiscard]] const std::string &fileName() const { return name; }
+    [[nodiscard]] const std::string &fileName() const { return name_; }
 
-    [[nodiscard]] std::size_t bytesRead() const { return fileBytes; }
+    [[nodiscard]] std::size_t bytesRead() const { return fileBytes_; }
 
     /// In [0, 1].
     [[nodiscard]] double shareRead() const;
 
     /// Throws an Error about the line that next() returned last.
-    [[noreturn]] void fail(std::string_view message) const { failAtLine(name, line, message); }
+    [[noreturn]] void fail(std::string_view message) const { failAtLine(name_, line_, message); }
 
   private:
     bool refill();
     void skipLineFeed();
 
-    InputFile file;
-    std::string name;
-    std::vector<char> buffer;
-    std::size_t lineBegin = 0; ///< in the buffer
-    std::size_t scan = 0;      ///< first character of the line that has not been looked at
-    std::size_t filled = 0;    ///< characters in the buffer, which has room for one more
-    std::size_t fileBytes = 0; ///< read so far
-    std::size_t line = 0;
-    std::size_t nextLine = 1;
+    InputFile file_;
+    std::string name_;
+    std::vector<char> buffer_;
+    std::size_t lineBegin_ = 0; ///< in the buffer
+    std::size_t scan_ = 0;      ///< first character of the line that has not been looked at
+    std::size_t filled_ = 0;    ///< characters in the buffer, which has room for one more
+    std::size_t fileBytes_ = 0; ///< read so far
+    std::size_t line_ = 0;
+    std::size_t nextLine_ = 1;
 };
 
 } // namespace hyalite

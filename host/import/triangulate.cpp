@@ -19,7 +19,7 @@ constexpr std::size_t leafCornerCount = 16;
 enum CornerState : std::uint8_t {
     clipped = 1,  // no longer part of the polygon
     deferred = 2, // next to an ear that was clipped in this round
-    queued = 4,   // waits in nextRound
+    queued = 4,   // waits in nextRound_
     reflex = 8,   // not strictly convex
 };
 
@@ -55,77 +55,77 @@ void Triangulator::project(std::span<const glm::vec3> corners) {
     int v = (axis + 2) % 3;
     if (normal[axis] < 0.0)
         std::swap(u, v);
-    points.resize(corners.size());
+    points_.resize(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i)
-        points[i] = glm::dvec2(corners[i][u], corners[i][v]);
+        points_[i] = glm::dvec2(corners[i][u], corners[i][v]);
 }
 
 void Triangulator::linkCorners() {
-    const auto count = static_cast<std::uint32_t>(points.size());
-    remaining = count;
-    previous.resize(count);
-    next.resize(count);
+    const auto count = static_cast<std::uint32_t>(points_.size());
+    remaining_ = count;
+    previous_.resize(count);
+    next_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        previous[i] = (i == 0 ? count : i) - 1;
-        next[i] = i + 1 == count ? 0 : i + 1;
+        previous_[i] = (i == 0 ? count : i) - 1;
+        next_[i] = i + 1 == count ? 0 : i + 1;
     }
-    state.assign(count, 0);
+    state_.assign(count, 0);
     buildTree();
     for (std::uint32_t i = 0; i < count; ++i)
         updateReflex(i);
 }
 
 double Triangulator::turn(std::uint32_t corner) const {
-    return orient(points[previous[corner]], points[corner], points[next[corner]]);
+    return orient(points_[previous_[corner]], points_[corner], points_[next_[corner]]);
 }
 
 // Builds a k-d tree: halves the corners along the longer side of their bounds until few are left. J. L. Bentley,
 // "Multidimensional Binary Search Trees Used for Associative Searching", Communications of the ACM 18 (1975).
 void Triangulator::buildTree() {
-    const auto count = static_cast<std::uint32_t>(points.size());
+    const auto count = static_cast<std::uint32_t>(points_.size());
     std::size_t leafCount = 1;
     while (leafCount * leafCornerCount < count)
         leafCount *= 2;
-    treeOrder.resize(count);
-    std::iota(treeOrder.begin(), treeOrder.end(), 0u);
-    leafOf.resize(count);
-    tree.resize(2 * leafCount);
-    tree[1].begin = 0;
-    tree[1].end = count;
-    for (std::uint32_t i = 1; i < tree.size(); ++i) {
-        TreeNode &node = tree[i];
+    treeOrder_.resize(count);
+    std::iota(treeOrder_.begin(), treeOrder_.end(), 0u);
+    leafOf_.resize(count);
+    tree_.resize(2 * leafCount);
+    tree_[1].begin = 0;
+    tree_[1].end = count;
+    for (std::uint32_t i = 1; i < tree_.size(); ++i) {
+        TreeNode &node = tree_[i];
         node.reflexCount = 0;
-        node.low = node.high = points[treeOrder[node.begin]];
+        node.low = node.high = points_[treeOrder_[node.begin]];
         for (std::uint32_t k = node.begin; k < node.end; ++k) {
-            node.low = glm::min(node.low, points[treeOrder[k]]);
-            node.high = glm::max(node.high, points[treeOrder[k]]);
+            node.low = glm::min(node.low, points_[treeOrder_[k]]);
+            node.high = glm::max(node.high, points_[treeOrder_[k]]);
         }
         if (i >= leafCount) {
             for (std::uint32_t k = node.begin; k < node.end; ++k)
-                leafOf[treeOrder[k]] = i;
+                leafOf_[treeOrder_[k]] = i;
             continue;
         }
         const int axis = node.high.x - node.low.x >= node.high.y - node.low.y ? 0 : 1;
         const std::uint32_t middle = node.begin + (node.end - node.begin) / 2;
-        const auto at = [&](std::uint32_t k) { return treeOrder.begin() + k; };
+        const auto at = [&](std::uint32_t k) { return treeOrder_.begin() + k; };
         const auto key = [&](std::uint32_t corner) { // NaN needs a place in the order
-            const double coordinate = points[corner][axis];
+            const double coordinate = points_[corner][axis];
             return std::isnan(coordinate) ? std::numeric_limits<double>::infinity() : coordinate;
         };
         std::nth_element(at(node.begin), at(middle), at(node.end),
                          [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-        tree[2 * i].begin = node.begin;
-        tree[2 * i].end = tree[2 * i + 1].begin = middle;
-        tree[2 * i + 1].end = node.end;
+        tree_[2 * i].begin = node.begin;
+        tree_[2 * i].end = tree_[2 * i + 1].begin = middle;
+        tree_[2 * i + 1].end = node.end;
     }
 }
 
 void Triangulator::setReflex(std::uint32_t corner, bool isReflex) {
-    if (((state[corner] & reflex) != 0) == isReflex)
+    if (((state_[corner] & reflex) != 0) == isReflex)
         return;
-    state[corner] = static_cast<std::uint8_t>(state[corner] ^ reflex);
-    for (std::uint32_t node = leafOf[corner]; node > 0; node /= 2)
-        tree[node].reflexCount += isReflex ? 1u : ~0u;
+    state_[corner] = static_cast<std::uint8_t>(state_[corner] ^ reflex);
+    for (std::uint32_t node = leafOf_[corner]; node > 0; node /= 2)
+        tree_[node].reflexCount += isReflex ? 1u : ~0u;
 }
 
 void Triangulator::updateReflex(std::uint32_t corner) { setReflex(corner, !(turn(corner) > 0.0)); }
@@ -133,17 +133,17 @@ void Triangulator::updateReflex(std::uint32_t corner) { setReflex(corner, !(turn
 bool Triangulator::isEar(std::uint32_t corner, Ear kind) const {
     if (kind == Ear::Any)
         return true;
-    if (state[corner] & reflex)
+    if (state_[corner] & reflex)
         return false;
     return kind == Ear::Convex || !isBlocked(corner, kind);
 }
 
 bool Triangulator::isBlocked(std::uint32_t corner, Ear kind) const {
-    const std::uint32_t before = previous[corner];
-    const std::uint32_t after = next[corner];
-    const glm::dvec2 a = points[before];
-    const glm::dvec2 b = points[corner];
-    const glm::dvec2 c = points[after];
+    const std::uint32_t before = previous_[corner];
+    const std::uint32_t after = next_[corner];
+    const glm::dvec2 a = points_[before];
+    const glm::dvec2 b = points_[corner];
+    const glm::dvec2 c = points_[after];
     const glm::dvec2 low = glm::min(glm::min(a, b), c);
     const glm::dvec2 high = glm::max(glm::max(a, b), c);
 
@@ -165,9 +165,9 @@ bool Triangulator::isBlocked(std::uint32_t corner, Ear kind) const {
         return holdsTip || isInside(highest(node, a, b), highest(node, b, c), highest(node, c, a));
     };
     const auto blocks = [&](std::uint32_t candidate) {
-        if (!(state[candidate] & reflex) || candidate == before || candidate == after)
+        if (!(state_[candidate] & reflex) || candidate == before || candidate == after)
             return false;
-        const glm::dvec2 p = points[candidate];
+        const glm::dvec2 p = points_[candidate];
         if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y)
             return false;
         return isInside(orient(a, b, p), orient(b, c, p), orient(c, a, p)) || p == b;
@@ -178,62 +178,62 @@ bool Triangulator::isBlocked(std::uint32_t corner, Ear kind) const {
     pending[pendingCount++] = 1;
     while (pendingCount > 0) {
         const std::uint32_t i = pending[--pendingCount];
-        const TreeNode &node = tree[i];
+        const TreeNode &node = tree_[i];
         if (!mayBlock(node))
             continue;
-        if (2 * i < tree.size()) {
+        if (2 * i < tree_.size()) {
             pending[pendingCount++] = 2 * i;
             pending[pendingCount++] = 2 * i + 1;
             continue;
         }
         for (std::uint32_t k = node.begin; k < node.end; ++k)
-            if (blocks(treeOrder[k]))
+            if (blocks(treeOrder_[k]))
                 return true;
     }
     return false;
 }
 
 void Triangulator::queueForNextRound(std::uint32_t corner) {
-    if (state[corner] & queued)
+    if (state_[corner] & queued)
         return;
-    state[corner] = static_cast<std::uint8_t>(state[corner] | queued);
-    nextRound.push_back(corner);
+    state_[corner] = static_cast<std::uint8_t>(state_[corner] | queued);
+    nextRound_.push_back(corner);
 }
 
 void Triangulator::clip(std::uint32_t corner) {
-    const std::uint32_t before = previous[corner];
-    const std::uint32_t after = next[corner];
-    triangles.emplace_back(before, corner, after);
-    next[before] = after;
-    previous[after] = before;
+    const std::uint32_t before = previous_[corner];
+    const std::uint32_t after = next_[corner];
+    triangles_.emplace_back(before, corner, after);
+    next_[before] = after;
+    previous_[after] = before;
     setReflex(corner, false);
-    state[corner] = clipped;
-    --remaining;
+    state_[corner] = clipped;
+    --remaining_;
     updateReflex(before);
     updateReflex(after);
     queueForNextRound(before);
     queueForNextRound(after);
-    state[after] = static_cast<std::uint8_t>(state[after] | deferred);
+    state_[after] = static_cast<std::uint8_t>(state_[after] | deferred);
 }
 
 // Each corner is examined once, and again after each clipping beside it: at most 3 n times. The corner after an ear is
 // deferred to the next round, so that a convex polygon is halved repeatedly instead of cut into a fan of slivers.
 void Triangulator::clipEars(Ear kind) {
-    nextRound.clear();
-    const auto count = static_cast<std::uint32_t>(points.size());
+    nextRound_.clear();
+    const auto count = static_cast<std::uint32_t>(points_.size());
     for (std::uint32_t i = 1; i <= count; ++i)
-        if (const std::uint32_t corner = i % count; !(state[corner] & clipped))
-            nextRound.push_back(corner);
-    while (!nextRound.empty() && remaining > 3) {
-        std::swap(thisRound, nextRound);
-        nextRound.clear();
-        for (const std::uint32_t corner : thisRound)
-            if (!(state[corner] & clipped))
-                state[corner] = static_cast<std::uint8_t>(state[corner] & reflex);
-        for (const std::uint32_t corner : thisRound) {
-            if (remaining == 3)
+        if (const std::uint32_t corner = i % count; !(state_[corner] & clipped))
+            nextRound_.push_back(corner);
+    while (!nextRound_.empty() && remaining_ > 3) {
+        std::swap(thisRound_, nextRound_);
+        nextRound_.clear();
+        for (const std::uint32_t corner : thisRound_)
+            if (!(state_[corner] & clipped))
+                state_[corner] = static_cast<std::uint8_t>(state_[corner] & reflex);
+        for (const std::uint32_t corner : thisRound_) {
+            if (remaining_ == 3)
                 return;
-            if (!(state[corner] & (clipped | deferred)) && isEar(corner, kind))
+            if (!(state_[corner] & (clipped | deferred)) && isEar(corner, kind))
                 clip(corner);
         }
     }
@@ -241,21 +241,21 @@ void Triangulator::clipEars(Ear kind) {
 
 std::span<const glm::uvec3> Triangulator::triangulate(std::span<const glm::vec3> corners) {
     assert(corners.size() >= 3 && corners.size() < std::numeric_limits<std::uint32_t>::max());
-    triangles.clear();
+    triangles_.clear();
     if (corners.size() == 3) {
-        triangles.emplace_back(0, 1, 2);
-        return triangles;
+        triangles_.emplace_back(0, 1, 2);
+        return triangles_;
     }
     project(corners);
     linkCorners();
     for (const Ear kind : {Ear::Strict, Ear::Touching, Ear::Convex, Ear::Any})
-        if (remaining > 3)
+        if (remaining_ > 3)
             clipEars(kind);
     std::uint32_t first = 0;
-    while (state[first] & clipped)
+    while (state_[first] & clipped)
         ++first;
-    triangles.emplace_back(first, next[first], next[next[first]]);
-    return triangles;
+    triangles_.emplace_back(first, next_[first], next_[next_[first]]);
+    return triangles_;
 }
 
 } // namespace hyalite

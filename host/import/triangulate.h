@@ -52,21 +52,21 @@ class Triangulator {
     /// Whether a reflex corner, other than those of the ear, prevents clipping it.
     [[nodiscard]] bool isBlocked(std::uint32_t corner, Ear kind) const;
 
-    std::vector<glm::dvec2> points; ///< corners in the plane, counter-clockwise
-    std::vector<std::uint32_t> previous, next;
+    std::vector<glm::dvec2> points_; ///< corners in the plane, counter-clockwise
+    std::vector<std::uint32_t> previous_, next_;
     // A complete binary tree as in a heap: node i has the children 2 i and 2 i + 1, and the leaves come last.
     struct TreeNode {
         glm::dvec2 low, high;          ///< bounds of all its corners
-        std::uint32_t begin, end;      ///< in treeOrder
+        std::uint32_t begin, end;      ///< in treeOrder_
         std::uint32_t reflexCount = 0; ///< number of its remaining corners that are not strictly convex
     };
-    std::vector<TreeNode> tree;           ///< 0 is not used, 1 is the root
-    std::vector<std::uint32_t> treeOrder; ///< corners, leaf by leaf
-    std::vector<std::uint32_t> leafOf;    ///< corner -> node
-    std::vector<std::uint8_t> state;      ///< of each corner: bits of CornerState
-    std::vector<std::uint32_t> thisRound, nextRound;
-    std::vector<glm::uvec3> triangles;
-    std::size_t remaining = 0;
+    std::vector<TreeNode> tree_;           ///< 0 is not used, 1 is the root
+    std::vector<std::uint32_t> treeOrder_; ///< corners, leaf by leaf
+    std::vector<std::uint32_t> leafOf_;    ///< corner -> node
+    std::vector<std::uint8_t> state_;      ///< of each corner: bits of CornerState
+    std::vector<std::uint32_t> thisRound_, nextRound_;
+    std::vector<glm::uvec3> triangles_;
+    std::size_t remaining_ = 0;
 };
 
 } // namespace hyalite

@@ -40,19 +40,19 @@ std::optional<std::string> refusalOf(const std::function<void()> &read) {
 TemporaryFolder::TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "hyalite-fuzz-XXXXXX").string();
     require(mkdtemp(name.data()) != nullptr, "there is no room for a temporary folder");
-    path = name;
+    path_ = name;
 }
 
 TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
+    std::filesystem::remove_all(path_, ignored);
 }
 
 std::filesystem::path TemporaryFolder::write(const std::string &name, std::string_view content) const {
-    std::ofstream stream(path / name, std::ios::binary | std::ios::trunc);
+    std::ofstream stream(path_ / name, std::ios::binary | std::ios::trunc);
     stream.write(content.data(), static_cast<std::streamsize>(content.size()));
     require(static_cast<bool>(stream.flush()), "a temporary file cannot be written");
-    return path / name;
+    return path_ / name;
 }
 
 } // namespace hyalite::fuzz

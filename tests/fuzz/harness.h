@@ -35,7 +35,7 @@ class TemporaryFolder {
     [[nodiscard]] std::filesystem::path write(const std::string &name, std::string_view content) const;
 
   private:
-    std::filesystem::path path;
+    std::filesystem::path path_;
 };
 
 /// The input as text.
