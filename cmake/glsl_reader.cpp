@@ -70,14 +70,13 @@ std::string glslPartOf(const std::string &text) {
     std::istringstream lines(text);
     std::string part;
     int depth = 0; // in #ifdef __cplusplus, before its #else
-    for (std::string line; std::getline(lines, line);) {
+    for (std::string line; std::getline(lines, line);)
         if (line.starts_with("#ifdef __cplusplus"))
             depth = 1;
         else if (line.starts_with("#else") || line.starts_with("#endif"))
             depth = 0;
         else if (depth == 0)
             part += line + "\n";
-    }
     return part;
 }
 

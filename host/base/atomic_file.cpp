@@ -62,30 +62,26 @@ std::string remedyFor(int errorNumber) {
 
 void requireReplaceable(const fs::path &givenPath, const fs::path &targetPath) {
     std::error_code error;
-    if (fs::is_symlink(targetPath, error)) {
+    if (fs::is_symlink(targetPath, error))
         refuse(givenPath, "its symbolic links lead in a circle; remove them, or name another file");
-    }
-    if (!targetPath.has_filename()) {
+    if (!targetPath.has_filename())
         refuse(givenPath, "this names no file; add a file name");
-    }
     struct stat status {};
     if (stat(targetPath.c_str(), &status) != 0) {
         if (errno == ENAMETOOLONG) // an unnamed file could be created all the same
             refuseWithErrno(givenPath, "its name cannot be used", ENAMETOOLONG);
         return;
     }
-    if (S_ISDIR(status.st_mode)) {
+    if (S_ISDIR(status.st_mode))
         refuse(givenPath, "it is a folder; name a file in it");
-    }
     if (!S_ISREG(status.st_mode)) {
         refuse(givenPath,
                "it is not a regular file but a device, pipe or socket, and results replace files as a "
                "whole; name a regular file");
     }
     // rename() would replace a write-protected file, which the user wants to keep.
-    if (faccessat(AT_FDCWD, targetPath.c_str(), W_OK, AT_EACCESS) != 0) {
+    if (faccessat(AT_FDCWD, targetPath.c_str(), W_OK, AT_EACCESS) != 0)
         refuse(givenPath, "it exists and is write-protected; remove it, or name another file");
-    }
     struct stat folder {};
     const uid_t user = geteuid();
     if (stat(targetPath.parent_path().c_str(), &folder) == 0 && (folder.st_mode & S_ISVTX) != 0 &&
@@ -126,12 +122,10 @@ int openForStandardOutput(const fs::path &givenPath) {
 /// fsync; a file system without support for it counts as success. Returns errno, or 0.
 int synchronize(int descriptor) {
     while (fsync(descriptor) != 0) {
-        if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) {
+        if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP)
             return 0;
-        }
-        if (errno != EINTR) {
+        if (errno != EINTR)
             return errno;
-        }
     }
     return 0;
 }
@@ -141,9 +135,8 @@ int synchronize(int descriptor) {
 fs::path followLinks(fs::path path) {
     constexpr int linkCountMax = 40; // as Linux does
     std::error_code error;
-    for (int linkCount = 0; linkCount < linkCountMax && fs::is_symlink(path, error); ++linkCount) {
+    for (int linkCount = 0; linkCount < linkCountMax && fs::is_symlink(path, error); ++linkCount)
         path = path.parent_path() / fs::read_symlink(path, error); // an absolute target replaces the parent
-    }
     return path;
 }
 
@@ -165,26 +158,22 @@ template <class Create> int AtomicFile::claimName(const Create &create) {
 }
 
 AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(target) {
-    if (target.empty()) {
+    if (target.empty())
         refuse(target, "the name is empty; name a file");
-    }
     if (isStandardStream(target)) {
         descriptor_ = openForStandardOutput(target);
-        if (descriptor_ < 0) {
+        if (descriptor_ < 0)
             refuseWithErrno(target, "no file can be created in memory", errno);
-        }
         return;
     }
     std::error_code error; // errors in the path show when the file is created
     targetPath_ = followLinks(fs::absolute(target, error));
     requireReplaceable(givenPath_, targetPath_);
 
-    if (kind == TemporaryFile::Automatic) {
+    if (kind == TemporaryFile::Automatic)
         descriptor_ = openUnnamed(targetPath_.parent_path());
-    }
-    if (descriptor_ >= 0) {
+    if (descriptor_ >= 0)
         return;
-    }
     // Whatever the failure: a named file is tried next, and its error is the one to report.
     const int errorNumber = claimName([this](const fs::path &path) {
         descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -217,9 +206,8 @@ AtomicFile::~AtomicFile() { discard(); }
 void AtomicFile::discard() noexcept {
     if (descriptor_ >= 0) {
         close(descriptor_);
-        if (!temporaryPath_.empty()) {
+        if (!temporaryPath_.empty())
             unlink(temporaryPath_.c_str());
-        }
         descriptor_ = -1;
     }
 }
@@ -232,11 +220,10 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 void AtomicFile::writeAll(int descriptor, std::span<const std::byte> bytes) const {
     while (!bytes.empty()) {
         const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-        if (count >= 0) {
+        if (count >= 0)
             bytes = bytes.subspan(static_cast<std::size_t>(count));
-        } else if (errno != EINTR) {
+        else if (errno != EINTR)
             refuseWithErrno(givenPath_, fmt::format("writing {} bytes", bytes.size()), errno);
-        }
     }
 }
 
@@ -277,17 +264,15 @@ void AtomicFile::commit() {
         pourIntoStandardOutput();
         return;
     }
-    if (const int errorNumber = synchronize(descriptor_); errorNumber != 0) {
+    if (const int errorNumber = synchronize(descriptor_); errorNumber != 0)
         refuseWithErrno(givenPath_, "storing the bytes", errorNumber);
-    }
     if (temporaryPath_.empty()) {
         const int errorNumber = claimName([this](const fs::path &path) {
             return linkat(AT_FDCWD, descriptorPath(descriptor_).c_str(), AT_FDCWD, path.c_str(),
                           AT_SYMLINK_FOLLOW) == 0;
         });
-        if (errorNumber != 0) {
+        if (errorNumber != 0)
             refuseWithErrno(givenPath_, "naming the finished file", errorNumber);
-        }
     }
     if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) { // network file systems report late
         const int errorNumber = errno;
@@ -306,9 +291,8 @@ void AtomicFile::commit() {
     if (folder >= 0) {
         const int errorNumber = synchronize(folder);
         close(folder);
-        if (errorNumber != 0) {
+        if (errorNumber != 0)
             refuseWithErrno(givenPath_, "storing the folder's entry", errorNumber);
-        }
     }
 }
 

@@ -61,12 +61,11 @@ class DocumentWalk : public json::json_sax_t {
     [[nodiscard]] std::vector<Level> &levels() { return levels_; }
     [[nodiscard]] json::json_pointer path() const {
         json::json_pointer path;
-        for (const Level &level : levels_) {
+        for (const Level &level : levels_)
             if (level.isArray)
                 path /= level.begunCount - 1;
             else
                 path /= level.key;
-        }
         return path;
     }
 

@@ -13,9 +13,8 @@ namespace hyalite {
     const double whole = std::round(x);
     const double r = (x - whole) * std::numbers::ln2;
     double sum = 1.0; // Horner's form of the sum of r^k / k!
-    for (int k = termCount; k >= 1; --k) {
+    for (int k = termCount; k >= 1; --k)
         sum = 1.0 + r * sum / k;
-    }
     return std::ldexp(sum, static_cast<int>(whole));
 }
 

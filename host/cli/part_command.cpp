@@ -40,14 +40,13 @@ std::string fileFor(const std::string &file, const Part &own, const Part &part) 
 /// Replaces the value of an option, which follows it or stands in its word behind an equals sign.
 template <class Replace>
 void replaceValue(std::vector<std::string> &words, std::string_view option, const Replace &replace) {
-    for (std::size_t i = 0; i < words.size(); ++i) {
+    for (std::size_t i = 0; i < words.size(); ++i)
         if (words[i] == option && i + 1 < words.size())
             words[i + 1] = replace(words[i + 1]);
         else if (words[i].starts_with(std::string(option) + "="))
             words[i] = fmt::format("{}={}", option, replace(words[i].substr(option.size() + 1)));
         else if (option.size() == 2 && words[i].starts_with(option) && words[i].size() > 2) // -oFILE
             words[i] = fmt::format("{}{}", option, replace(words[i].substr(2)));
-    }
 }
 
 } // namespace

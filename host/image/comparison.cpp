@@ -10,10 +10,9 @@ namespace {
 
 Image equalOutsideOf(const Mask &mask, const Image &reference, const Image &test) {
     Image patched = test;
-    for (std::size_t i = 0; i < patched.pixels().size(); ++i) {
+    for (std::size_t i = 0; i < patched.pixels().size(); ++i)
         if (!isCompared(mask, i))
             patched.pixels()[i] = reference.pixels()[i];
-    }
     return patched;
 }
 
@@ -41,10 +40,9 @@ ImageComparison compareImages(const Image &reference, const Image &test, Encodin
                                       : flipOf(reference, equalOutsideOf(mask, reference, test), comparison);
     comparison.flip = summarizeFlip(comparison.flipMap, mask);
     // A difference also affects its neighbours; the map has only the compared pixels.
-    for (std::size_t i = 0; i < comparison.flipMap.errors.size(); ++i) {
+    for (std::size_t i = 0; i < comparison.flipMap.errors.size(); ++i)
         if (!isCompared(mask, i))
             comparison.flipMap.errors[i] = 0.0f;
-    }
     return comparison;
 }
 

@@ -21,13 +21,11 @@ constexpr double k5 = 0.14;
 
 /// In [0, 1]; 0 for NaN.
 float toneMapAces(float linear, double scale) {
-    if (!(linear > 0.0f)) {
+    if (!(linear > 0.0f))
         return 0.0f;
-    }
     const double exposed = static_cast<double>(linear) * scale;
-    if (exposed > 1e6) { // the curve exceeds 1 here, and its terms would overflow for far larger values
+    if (exposed > 1e6) // the curve exceeds 1 here, and its terms would overflow for far larger values
         return 1.0f;
-    }
     const auto x = static_cast<float>(exposed);
     return clampToUnit(x * (static_cast<float>(k0) * x + static_cast<float>(k1)) /
                        (x * (static_cast<float>(k3) * x + static_cast<float>(k4)) + static_cast<float>(k5)));
@@ -78,17 +76,14 @@ FlipExposures flipExposures(const Image &reference) {
     luminances.reserve(reference.pixels().size());
     for (const glm::vec3 &pixel : reference.pixels()) {
         const double luminance = luminanceOf(pixel);
-        if (std::isfinite(luminance)) { // infinities are white at any exposure
+        if (std::isfinite(luminance)) // infinities are white at any exposure
             luminances.push_back(luminance);
-        }
     }
-    if (luminances.empty()) {
+    if (luminances.empty())
         return {};
-    }
     const double brightest = *std::max_element(luminances.begin(), luminances.end());
-    if (brightest == 0.0) {
+    if (brightest == 0.0)
         return {};
-    }
     double median = medianOf(luminances);
     if (median == 0.0) {
         std::erase(luminances, 0.0);
@@ -125,15 +120,12 @@ ErrorMap flipLinear(const Image &reference, const Image &test, const FlipExposur
         referencePlanes.fill(reference, toLinear);
         testPlanes.fill(test, toLinear);
         const ErrorMap exposed = flipOfOpponents(referencePlanes, testPlanes, kernels);
-        for (std::size_t pixel = 0; pixel < largest.errors.size(); ++pixel) {
+        for (std::size_t pixel = 0; pixel < largest.errors.size(); ++pixel)
             largest.errors[pixel] = std::max(largest.errors[pixel], exposed.errors[pixel]);
-        }
     }
-    for (std::size_t pixel = 0; pixel < largest.errors.size(); ++pixel) {
-        if (hasNan(reference.pixels()[pixel]) != hasNan(test.pixels()[pixel])) {
+    for (std::size_t pixel = 0; pixel < largest.errors.size(); ++pixel)
+        if (hasNan(reference.pixels()[pixel]) != hasNan(test.pixels()[pixel]))
             largest.errors[pixel] = 1.0f;
-        }
-    }
     return largest;
 }
 

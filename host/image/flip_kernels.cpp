@@ -13,25 +13,22 @@ constexpr double pi = std::numbers::pi;
 /// The weights of f at the pixels -radius ... +radius.
 template <typename Function> std::vector<double> sample(int radius, Function f) {
     std::vector<double> weights;
-    for (int i = -radius; i <= radius; ++i) {
+    for (int i = -radius; i <= radius; ++i)
         weights.push_back(f(static_cast<double>(i)));
-    }
     return weights;
 }
 
 double sumOf(const std::vector<double> &weights) {
     double sum = 0.0;
-    for (const double weight : weights) {
+    for (const double weight : weights)
         sum += weight;
-    }
     return sum;
 }
 
 Kernel scaled(const std::vector<double> &weights, double positiveFactor, double negativeFactor) {
     Kernel kernel;
-    for (const double weight : weights) {
+    for (const double weight : weights)
         kernel.push_back(static_cast<float>(weight * (weight < 0.0 ? negativeFactor : positiveFactor)));
-    }
     return kernel;
 }
 
@@ -44,9 +41,8 @@ Kernel withUnitSum(const std::vector<double> &weights) {
 Kernel balanced(const std::vector<double> &weights) {
     double positiveSum = 0.0;
     double negativeSum = 0.0;
-    for (const double weight : weights) {
+    for (const double weight : weights)
         (weight < 0.0 ? negativeSum : positiveSum) += std::abs(weight);
-    }
     return scaled(weights, 1.0 / positiveSum, 1.0 / negativeSum);
 }
 

@@ -18,9 +18,8 @@ void weighRows(const std::vector<const float *> &rows, const Kernel &kernel, std
         for (std::size_t k = 0; k < kernel.size(); ++k) {
             const float weight = kernel[k];
             const float *row = rows[k] + begin;
-            for (std::size_t i = 0; i < block; ++i) {
+            for (std::size_t i = 0; i < block; ++i)
                 sums[i] += weight * row[i];
-            }
         }
         std::copy(sums.begin(), sums.end(), destination + begin);
     }
@@ -58,9 +57,8 @@ class RowFilter {
     void filterRow(const Kernel &kernel, std::vector<float> &result) {
         assert(kernel.size() / 2 == padding_);
         rows_.clear();
-        for (std::size_t k = 0; k < kernel.size(); ++k) {
+        for (std::size_t k = 0; k < kernel.size(); ++k)
             rows_.push_back(padded_.data() + k);
-        }
         result.resize(image_.stride);
         weighRows(rows_, kernel, image_.stride, result.data());
     }

@@ -42,18 +42,14 @@ ImageFormat imageFormatOf(const std::filesystem::path &path) {
     const std::string extension = lowerCase(!streamFormat           ? path.extension().string()
                                             : streamFormat->empty() ? ".png"
                                                                     : "." + *streamFormat);
-    if (extension == ".png") {
+    if (extension == ".png")
         return ImageFormat::Png;
-    }
-    if (extension == ".pfm") {
+    if (extension == ".pfm")
         return ImageFormat::Pfm;
-    }
-    if (extension == ".exr") {
+    if (extension == ".exr")
         return ImageFormat::Exr;
-    }
-    if (extension == ".hdr") {
+    if (extension == ".hdr")
         return ImageFormat::Hdr;
-    }
     throw Error(
         ErrorKind::Usage,
         fmt::format(
@@ -86,18 +82,14 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 LoadedImage readImage(const std::filesystem::path &path) {
     const InputFile file(path);
     const std::vector<std::byte> head = file.head(8);
-    if (isPng(head)) {
+    if (isPng(head))
         return {readPng(file), Encoding::Display};
-    }
-    if (isPfm(head)) {
+    if (isPfm(head))
         return {readPfm(file), Encoding::Linear};
-    }
-    if (isExr(head)) {
+    if (isExr(head))
         return {readExr(file), Encoding::Linear};
-    }
-    if (isHdr(head)) {
+    if (isHdr(head))
         return {readHdr(file), Encoding::Linear};
-    }
     throw file.bad(foreignContent(file, "it is no PNG, OpenEXR, Radiance (HDR) or PFM file"));
 }
 

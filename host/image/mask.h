@@ -19,9 +19,8 @@ using Mask = std::vector<std::uint8_t>;
 [[nodiscard]] inline Mask maskFromImage(const Image &image) {
     Mask mask;
     mask.reserve(image.pixels().size());
-    for (const glm::vec3 &pixel : image.pixels()) {
+    for (const glm::vec3 &pixel : image.pixels())
         mask.push_back(pixel.x >= 0.5f || pixel.y >= 0.5f || pixel.z >= 0.5f ? 1 : 0);
-    }
     return mask;
 }
 

@@ -19,12 +19,10 @@ std::uint32_t positionOnNumberLine(float value) {
 }
 
 double differenceOf(float a, float b) {
-    if (std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b)) {
+    if (std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b))
         return 0.0;
-    }
-    if (!std::isfinite(a) || !std::isfinite(b)) {
+    if (!std::isfinite(a) || !std::isfinite(b))
         return std::numeric_limits<double>::infinity();
-    }
     return static_cast<double>(b) - static_cast<double>(a);
 }
 
@@ -48,9 +46,8 @@ PixelMetrics comparePixels(const Image &a, const Image &b, double outlierThresho
     double sum = 0.0;
     std::size_t worstIndex = 0;
     for (std::size_t i = 0; i < a.pixels().size(); ++i) {
-        if (!isCompared(mask, i)) {
+        if (!isCompared(mask, i))
             continue;
-        }
         ++metrics.pixelCount;
         double pixelMax = 0.0;
         std::uint32_t pixelUlps = 0;

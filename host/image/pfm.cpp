@@ -35,16 +35,13 @@ class HeaderWords {
     HeaderWords(const InputFile &file, std::string_view text) : file_(file), text_(text) {}
 
     [[nodiscard]] std::string_view next(std::string_view what) {
-        while (position_ < text_.size() && isSpace(text_[position_])) {
+        while (position_ < text_.size() && isSpace(text_[position_]))
             ++position_;
-        }
         const std::size_t begin = position_;
-        while (position_ < text_.size() && !isSpace(text_[position_])) {
+        while (position_ < text_.size() && !isSpace(text_[position_]))
             ++position_;
-        }
-        if (position_ == text_.size()) {
+        if (position_ == text_.size())
             throw file_.bad(fmt::format("its PFM header ends before the {}", what));
-        }
         ++position_;
         return text_.substr(begin, position_ - 1 - begin);
     }
@@ -84,9 +81,8 @@ PfmHeader readHeader(const InputFile &file) {
     requireImageSize(file, header.width, header.height);
     const auto pixelCount =
         static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height);
-    if (!std::isfinite(scale) || scale == 0.0) {
+    if (!std::isfinite(scale) || scale == 0.0)
         throw file.bad(fmt::format("the scale in its PFM header is {}, which gives no byte order", scale));
-    }
     header.byteOrder = scale < 0.0 ? std::endian::little : std::endian::big;
 
     const std::uint64_t expectedBytes =

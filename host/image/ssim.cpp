@@ -40,9 +40,8 @@ Weights gaussianWeights() {
         weights[static_cast<std::size_t>(i + radius)] = weight;
         sum += weight;
     }
-    for (double &weight : weights) {
+    for (double &weight : weights)
         weight /= sum;
-    }
     return weights;
 }
 
@@ -71,9 +70,8 @@ void filterRow(const Image &a, const Image &b, const Mask &mask, int channel, in
     }
     for (std::size_t x = 0; x < filtered.size(); ++x) {
         Moments moments;
-        for (std::size_t i = 0; i < weights.size(); ++i) {
+        for (std::size_t i = 0; i < weights.size(); ++i)
             moments.add(weights[i], products[x + i]);
-        }
         filtered[x] = moments;
     }
 }
@@ -83,9 +81,8 @@ void filterRow(const Image &a, const Image &b, const Mask &mask, int channel, in
 std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask) {
     assert(a.width() == b.width() && a.height() == b.height());
     assert(mask.empty() || mask.size() == a.pixels().size());
-    if (a.width() < ssimWindowSide || a.height() < ssimWindowSide) {
+    if (a.width() < ssimWindowSide || a.height() < ssimWindowSide)
         return std::nullopt;
-    }
     const Weights weights = gaussianWeights();
     const auto windowsPerRow = static_cast<std::size_t>(a.width() - 2 * radius);
     std::vector<Moments> products(static_cast<std::size_t>(a.width()));
@@ -99,16 +96,14 @@ std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask)
             filterRow(a, b, mask, channel, lastY, weights, products,
                       rows[static_cast<std::size_t>(lastY % ssimWindowSide)]);
             const int centreY = lastY - radius;
-            if (centreY < radius) {
+            if (centreY < radius)
                 continue;
-            }
             for (std::size_t window = 0; window < windowsPerRow; ++window) {
                 const std::size_t centreIndex =
                     static_cast<std::size_t>(centreY) * static_cast<std::size_t>(a.width()) + window +
                     static_cast<std::size_t>(radius);
-                if (!isCompared(mask, centreIndex)) {
+                if (!isCompared(mask, centreIndex))
                     continue;
-                }
                 Moments moments;
                 for (int i = 0; i < ssimWindowSide; ++i) {
                     const int y = centreY - radius + i;
@@ -120,9 +115,8 @@ std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask)
             }
         }
     }
-    if (windowCount == 0 || !std::isfinite(sum)) {
+    if (windowCount == 0 || !std::isfinite(sum))
         return std::nullopt;
-    }
     return sum / static_cast<double>(windowCount);
 }
 

@@ -29,9 +29,8 @@ float roundUpToFloat(double x) {
 const std::array<float, 255> &toneMapThresholds() {
     static const std::array<float, 255> thresholds = [] {
         std::array<float, 255> table{};
-        for (std::size_t i = 0; i < table.size(); ++i) {
+        for (std::size_t i = 0; i < table.size(); ++i)
             table[i] = roundUpToFloat(std::pow((static_cast<double>(i) + 0.5) / 255.0, 2.2));
-        }
         return table;
     }();
     return thresholds;

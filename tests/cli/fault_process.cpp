@@ -30,14 +30,13 @@ Tally parseTally(const std::string &text) {
     Tally tally;
     std::istringstream lines(text);
     std::string kind, function;
-    for (long number = 0; lines >> kind >> function >> number;) {
+    for (long number = 0; lines >> kind >> function >> number;)
         if (kind == "call")
             tally.calls[function] = number;
         else if (kind == "alive")
             tally.alive[function] = number;
         else
             tally.faults.push_back(function);
-    }
     return tally;
 }
 

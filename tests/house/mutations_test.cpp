@@ -18,12 +18,11 @@ std::string trimmed(const std::string &text) {
 /// Between `|`, of which `\|` is none.
 std::vector<std::string> fieldsOf(const std::string &line) {
     std::vector<std::string> fields(1);
-    for (std::size_t i = 0; i < line.size(); ++i) {
+    for (std::size_t i = 0; i < line.size(); ++i)
         if (line[i] == '|')
             fields.emplace_back();
         else
             fields.back() += line.compare(i, 2, "\\|") == 0 ? line[++i] : line[i];
-    }
     for (std::string &field : fields)
         field = trimmed(field);
     return fields;

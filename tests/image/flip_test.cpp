@@ -27,9 +27,8 @@ float errorAt(const ErrorMap &map, int x, int y) {
 
 double sumOf(const Kernel &kernel, float sign) {
     double sum = 0.0;
-    for (const float weight : kernel) {
+    for (const float weight : kernel)
         sum += weight * sign > 0.0f ? static_cast<double>(weight) : 0.0;
-    }
     return sum;
 }
 
@@ -64,9 +63,8 @@ TEST(Flip, ColourSpacesHaveKnownValues) {
     EXPECT_NEAR(green.z, 83.2f * 0.877f, 0.2f);
     const glm::vec3 colour = {0.2f, 0.7f, 0.4f};
     const glm::vec3 back = linearFromOpponent(opponentFromLinear(colour));
-    for (int channel = 0; channel < 3; ++channel) {
+    for (int channel = 0; channel < 3; ++channel)
         EXPECT_NEAR(back[channel], colour[channel], 1e-5f);
-    }
     EXPECT_NEAR(linearFromSrgb(0.5f), 0.21404114f, 1e-6f);
     EXPECT_EQ(linearFromSrgb(1.0f), 1.0f);
 }
@@ -134,11 +132,10 @@ TEST(Flip, AFarPixelDoesNotChangeAnError) {
     b.at(5, 5) = glm::vec3(1.0f, 0.0f, 1.0f);
     const ErrorMap map = flipDisplay(a, b);
     for (int y = 0; y < 40; ++y) {
-        for (int x = 0; x < 64; ++x) {
+        for (int x = 0; x < 64; ++x)
             if (std::abs(x - 5) > 10 || std::abs(y - 5) > 10) {
                 ASSERT_EQ(errorAt(map, x, y), 0.0f) << x << ' ' << y;
             }
-        }
     }
     EXPECT_GT(errorAt(map, 5, 5), 0.1f);
 }
@@ -150,9 +147,8 @@ TEST(Flip, AnySizeWorks) {
             const Image b = constantPicture(width, height, glm::vec3(1.0f));
             const ErrorMap map = flipDisplay(a, b);
             ASSERT_EQ(map.errors.size(), static_cast<std::size_t>(width * height));
-            for (const float error : map.errors) {
+            for (const float error : map.errors)
                 EXPECT_NEAR(error, 0.9673797634f, 1e-4f) << width << " x " << height;
-            }
         }
     }
 }
@@ -193,9 +189,8 @@ TEST(Flip, ValuesThatAreNoColoursDoNotSpread) {
     Image b = a;
     b.at(20, 20).x = notANumber;
     const ErrorMap map = flipLinear(a, b, flipExposures(a));
-    for (const float error : map.errors) {
+    for (const float error : map.errors)
         ASSERT_TRUE(error >= 0.0f && error <= 1.0f);
-    }
     EXPECT_EQ(errorAt(map, 20, 20), 1.0f);
     EXPECT_EQ(errorAt(map, 40, 40), 0.0f);
 
@@ -203,12 +198,10 @@ TEST(Flip, ValuesThatAreNoColoursDoNotSpread) {
     bright.at(20, 20) = glm::vec3(infinity);
     Image bad = a;
     bad.at(20, 20) = glm::vec3(-infinity, std::numeric_limits<float>::max(), -1.0f);
-    for (const float error : flipLinear(bright, bad, flipExposures(bright)).errors) {
+    for (const float error : flipLinear(bright, bad, flipExposures(bright)).errors)
         ASSERT_TRUE(error >= 0.0f && error <= 1.0f);
-    }
-    for (const float error : flipDisplay(bright, bad).errors) {
+    for (const float error : flipDisplay(bright, bad).errors)
         ASSERT_TRUE(error >= 0.0f && error <= 1.0f);
-    }
 }
 
 TEST(Flip, TheSummaryPoolsTheComparedPixels) {

@@ -17,9 +17,8 @@ TEST(HeatMap, IsNearTheOriginalTable) {
                    {128, {183, 55, 121}}, {200, {253, 152, 105}}, {255, {252, 253, 191}}};
     for (const auto &entry : entries) {
         const auto colour = magma(static_cast<float>(entry.index) / 255.0f);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
+        for (std::size_t channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(colour[channel], entry.colour[channel], 3) << entry.index;
-        }
     }
 }
 

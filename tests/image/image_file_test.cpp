@@ -77,11 +77,9 @@ std::string load(const fs::path &path) {
 Image randomImage(int width, int height, std::uint32_t seed) {
     std::mt19937 random(seed);
     Image image(width, height);
-    for (glm::vec3 &pixel : image.pixels()) {
-        for (int channel = 0; channel < 3; ++channel) {
+    for (glm::vec3 &pixel : image.pixels())
+        for (int channel = 0; channel < 3; ++channel)
             pixel[channel] = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-        }
-    }
     return image;
 }
 
@@ -94,9 +92,8 @@ bool sameBits(const Image &a, const Image &b) {
 
 std::string big32(std::uint32_t value) {
     std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) {
+    for (int shift = 24; shift >= 0; shift -= 8)
         bytes += static_cast<char>((value >> shift) & 0xffu);
-    }
     return bytes;
 }
 
@@ -104,9 +101,8 @@ std::string chunk(const std::string &type, const std::string &data) {
     std::uint32_t crc = 0xffffffffu;
     for (const char c : type + data) {
         crc ^= static_cast<unsigned char>(c);
-        for (int bit = 0; bit < 8; ++bit) {
+        for (int bit = 0; bit < 8; ++bit)
             crc = (crc >> 1) ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
-        }
     }
     return big32(static_cast<std::uint32_t>(data.size())) + type + data + big32(~crc);
 }
@@ -192,9 +188,8 @@ TEST_F(ImageFileTest, DamagedPfmIsRefused) {
     const std::string good = "Pf\n1 1\n-1\n\0\0\0\0"s;
     EXPECT_EQ(readBytes(good).at(0, 0), glm::vec3(0.0f));
     expectBadBytes(good + "x", "make a file of 14 bytes, but it has 15");
-    for (std::size_t size = 0; size < good.size(); ++size) {
+    for (std::size_t size = 0; size < good.size(); ++size)
         expectBadBytes(good.substr(0, size), ": ");
-    }
     expectBadBytes("Pf\n1 x\n-1\n\0\0\0\0"s, "height in its PFM header is 'x'");
     expectBadBytes("Pf\n1.5 1\n-1\n\0\0\0\0"s, "width in its PFM header is '1.5'");
     expectBadBytes("Pf\n99999999999 1\n-1\n"s, "not a number");
@@ -281,11 +276,9 @@ TEST_F(ImageFileTest, InterlacedPngIsRead) {
                              "\x00\x07\x08\x09"s;
     const Image image = readBytes(png(header(3, 3, 8, 0, 1), rows));
     const int expected[3][3] = {{1, 5, 2}, {7, 8, 9}, {3, 6, 4}};
-    for (int y = 0; y < 3; ++y) {
-        for (int x = 0; x < 3; ++x) {
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 3; ++x)
             EXPECT_EQ(image.at(x, y).x, static_cast<float>(expected[y][x]) / 255.0f) << x << ' ' << y;
-        }
-    }
 }
 
 TEST_F(ImageFileTest, AncillaryChunksAndSplitDataArePassedOver) {
@@ -341,9 +334,8 @@ TEST_F(ImageFileTest, DamagedPngIsRefused) {
     const std::string good = pngSignature + ihdr + idat + iend;
     EXPECT_EQ(readBytes(good).at(0, 0), glm::vec3(0.2f));
 
-    for (std::size_t size = 0; size < good.size(); ++size) {
+    for (std::size_t size = 0; size < good.size(); ++size)
         expectBadBytes(good.substr(0, size), ": ");
-    }
     for (std::size_t i = 0; i < good.size(); ++i) { // each bit of the file is under a checksum or checked
         for (int bit = 0; bit < 8; ++bit) {
             std::string bytes = good;

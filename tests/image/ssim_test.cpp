@@ -27,13 +27,11 @@ double plainSsim(const Image &a, const Image &b) {
             for (int left = 0; left + 11 <= a.width(); ++left) {
                 const auto average = [&](auto term) {
                     double total = 0.0;
-                    for (int j = 0; j < 11; ++j) {
-                        for (int i = 0; i < 11; ++i) {
+                    for (int j = 0; j < 11; ++j)
+                        for (int i = 0; i < 11; ++i)
                             total += weights[j][i] / weightSum *
                                      term(static_cast<double>(a.at(left + i, top + j)[channel]),
                                           static_cast<double>(b.at(left + i, top + j)[channel]));
-                        }
-                    }
                     return total;
                 };
                 const double meanA = average([](double va, double) { return va; });
@@ -86,9 +84,8 @@ TEST(Ssim, ClosedFormOfConstantImages) {
 TEST(Ssim, AnInvertedPictureIsNegative) {
     const Image a = displayPicture(40, 30, 1);
     Image b = a;
-    for (glm::vec3 &pixel : b.pixels()) {
+    for (glm::vec3 &pixel : b.pixels())
         pixel = glm::vec3(1.0f) - pixel;
-    }
     EXPECT_LT(meanSsim(a, b).value(), 0.0);
 }
 

@@ -49,9 +49,8 @@ TEST(ToneMap, ThresholdsDoNotDependOnTheLibrarysPow) {
 }
 
 TEST(ToneMap, EveryLevelComesBackFromItsCentre) {
-    for (int level = 0; level <= 255; ++level) {
+    for (int level = 0; level <= 255; ++level)
         EXPECT_EQ(encodeLevel(static_cast<float>(std::pow(level / 255.0, 2.2))), level);
-    }
 }
 
 TEST(ToneMap, AgreesWithPowOnRandomFloats) {

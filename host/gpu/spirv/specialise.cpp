@@ -110,12 +110,11 @@ class Specialiser {
         }
         // The merge instruction and the branch.
         const std::size_t end = block.only != 0 ? block.end - 2 : block.end;
-        for (std::size_t i = block.begin + 1; i < end; ++i) {
+        for (std::size_t i = block.begin + 1; i < end; ++i)
             if (instructions_[i].opcode() == spv::Op::OpPhi)
                 writePhi(words, block, instructions_[i].words);
             else
                 copy(words, instructions_[i]);
-        }
         if (block.only != 0)
             append(words, spv::Op::OpBranch, {block.only});
     }
