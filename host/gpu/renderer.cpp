@@ -42,6 +42,8 @@ std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
 constexpr int maxRetries = 3;
 constexpr std::uint32_t minSteps = 256; // lower bound when dispatches are halved
 
+} // namespace
+
 /// When to copy the film to the host, because a lost device loses its film: often, except for at most a hundredth of
 /// the time.
 class FilmKeeper {
@@ -57,8 +59,6 @@ class FilmKeeper {
   private:
     std::int64_t dueNanos_ = 0;
 };
-
-} // namespace
 
 /// A scene that stays on the device until another one is rendered.
 struct ResidentScene {
@@ -188,6 +188,129 @@ struct Renderer::State {
     }
 };
 
+/// One attempt at a render: adds the missing samples to the result, and keeps its film and rays consistent.
+class Renderer::Attempt {
+  public:
+    /// `isBegun`: the film of the result may have samples.
+    Attempt(State &state, const PackedScene &scene, const RenderSettings &settings, bool isBegun,
+            const RenderHooks &hooks, Result &result)
+        : state_(state), scene_(scene), settings_(settings), isBegun_(isBegun), hooks_(hooks),
+          result_(result), config_(state.configFor(scene, settings.integrator, showsWork(settings))),
+          scenePlan_(planScene(scene, isSkipList())) {}
+
+    void run() {
+        if (hooks_.timeline != nullptr)
+            hooks_.timeline->clock = state_.device->timestamps().describe();
+        const std::vector<Crop> bands = cutIntoBands(result_.film.crop, state_.info);
+        const Job firstJob = jobOf(bands.front());
+        const JobPlan firstPlan = planJob(firstJob, config_, state_.info);
+        state_.keepOnly(scene_, isSkipList());
+        result_.memory = state_.requireMemory(scenePlan_, firstPlan);
+        // A driver compiles a pipeline on one processor. Meanwhile the others prepare the buffers.
+        std::future<void> firstPipeline = std::async(std::launch::async, [&] {
+            TileRenderer::makePipeline(*state_.device, state_.pipelines, config_, firstJob, scenePlan_,
+                                       firstPlan);
+        });
+        const SceneBuffers &buffers = state_.buffersOf(firstJob, scenePlan_, isSkipList());
+        result_.timing.uploadSeconds = endStage("upload");
+        for (const Crop &band : bands)
+            if (!renderBand(band, buffers, firstPipeline))
+                return;
+    }
+
+  private:
+    [[nodiscard]] bool isSkipList() const { return config_.traversal == Traversal::SkipList; }
+
+    [[nodiscard]] Job jobOf(const Crop &band) const {
+        return {scene_, settings_, band, 0, static_cast<std::uint32_t>(settings_.samplesPerPixel), false};
+    }
+
+    /// Returns the time of the stage.
+    double endStage(const char *name) {
+        const Span span = watch_.lap();
+        if (hooks_.timeline != nullptr)
+            hooks_.timeline->stages.push_back({name, span, state_.device->allocatedBytes()});
+        return span.seconds();
+    }
+
+    /// Returns false if the hooks stop the render.
+    bool renderBand(const Crop &band, const SceneBuffers &buffers, std::future<void> &firstPipeline) {
+        const Crop crop = result_.film.crop;
+        const auto width = static_cast<std::size_t>(crop.width());
+        const std::span<layout::FilmPixel> pixels =
+            std::span(result_.film.pixels)
+                .subspan(static_cast<std::size_t>(band.y0 - crop.y0) * width,
+                         static_cast<std::size_t>(band.height()) * width);
+        Job job = jobOf(band);
+        if (isBegun_)
+            job.film = pixels;
+        const RayCounts raysBefore = result_.rays;
+        DispatchCosts &costs = state_.resident->costs[settings_.integrator];
+        RenderTiming &timing = result_.timing;
+        TileRenderer tiles(*state_.device, state_.pipelines, buffers, config_, job, scenePlan_,
+                           planJob(job, config_, state_.info), costs);
+        timing.pipelineSeconds += endStage("buffers");
+        if (firstPipeline.valid())
+            firstPipeline.get();
+        tiles.makeKernel();
+        timing.pipelineSeconds += endStage("pipeline");
+        tiles.warmUp();
+        timing.pipelineSeconds += endStage("first dispatch");
+
+        const double rowsBefore = band.y0 - crop.y0;
+        const TileTotals totals = tiles.run(
+            [&](double share) {
+                if (hooks_.onProgress)
+                    hooks_.onProgress((rowsBefore + share * band.height()) / crop.height());
+            },
+            hooks_.timeline, hooks_.shouldStop,
+            [&](const RayCounts &rays) { copyFilm(tiles, pixels, raysBefore + rays); });
+        if (pixels.size() >= DispatchSizer::minPixels) // fewer leave most slots idle
+            costs = tiles.costs();
+        result_.work += totals.work;
+        result_.lanes += totals.lanes;
+        timing.dispatchCount += totals.dispatchCount;
+        timing.pipelineSeconds += tiles.lateBuildSeconds();
+        timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();
+        tiles.readFilm(pixels);
+        result_.rays = raysBefore + totals.rays;
+        endStage("readback");
+        return !totals.isStopped;
+    }
+
+    /// Between two dispatches: copies the film to the result and to a snapshot, if it is time.
+    void copyFilm(const TileRenderer &tiles, std::span<layout::FilmPixel> band, const RayCounts &rays) {
+        // The work of lost dispatches is unknown, so a render that counts starts again.
+        if (!config_.isCounting && keeper_.isDue()) {
+            keeper_.keep([&] { tiles.readFilm(band); });
+            result_.rays = rays;
+        }
+        if (hooks_.snapshots == nullptr || !hooks_.snapshots->isWanted())
+            return;
+        const auto copyTo = [&](std::span<layout::FilmPixel> copy) {
+            const std::span<layout::FilmPixel> pixels = result_.film.pixels;
+            const auto begin = static_cast<std::size_t>(band.data() - pixels.data());
+            const std::size_t end = begin + band.size();
+            // Other bands have all their samples, or those from before the render.
+            std::ranges::copy(pixels.first(begin), copy.begin());
+            std::ranges::copy(pixels.subspan(end), copy.subspan(end).begin());
+            tiles.readFilm(copy.subspan(begin, band.size()));
+        };
+        hooks_.snapshots->take(copyTo, rays);
+    }
+
+    State &state_;
+    const PackedScene &scene_;
+    const RenderSettings &settings_;
+    const bool isBegun_;
+    const RenderHooks &hooks_;
+    Result &result_;
+    Stopwatch watch_;
+    FilmKeeper keeper_;
+    const RenderConfig config_;
+    const ScenePlan scenePlan_;
+};
+
 Renderer::Renderer(const DeviceInfo &device, const RenderConfig &config, const KernelChoices &preferred)
     : state_(std::make_unique<State>(device, config, preferred)) {}
 Renderer::~Renderer() = default;
@@ -223,7 +346,7 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
         try {
             if (retry > 0 || !state_->device)
                 state_->reopen();
-            renderOnce(scene, settings, isBegun, hooks, result);
+            Attempt(*state_, scene, settings, isBegun, hooks, result).run();
             return result;
         } catch (const DeviceFault &fault) {
             state_->forget();
@@ -241,101 +364,6 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
             if (hooks.shouldStop && hooks.shouldStop())
                 return result;
         }
-    }
-}
-
-void Renderer::renderOnce(const PackedScene &scene, const RenderSettings &settings, bool isBegun,
-                          const RenderHooks &hooks, Result &result) {
-    const Crop crop = result.film.crop;
-    FilmKeeper keeper;
-    Stopwatch watch;
-    // Ends a stage and returns its time.
-    const auto endStage = [&](const char *name) {
-        const Span span = watch.lap();
-        if (hooks.timeline != nullptr)
-            hooks.timeline->stages.push_back({name, span, state_->device->allocatedBytes()});
-        return span.seconds();
-    };
-    if (hooks.timeline != nullptr)
-        hooks.timeline->clock = state_->device->timestamps().describe();
-    const RenderConfig config = state_->configFor(scene, settings.integrator, showsWork(settings));
-    const bool isSkipList = config.traversal == Traversal::SkipList;
-    const auto jobOf = [&](const Crop &band) {
-        return Job{scene, settings, band, 0, static_cast<std::uint32_t>(settings.samplesPerPixel), false};
-    };
-    const std::vector<Crop> bands = cutIntoBands(crop, state_->info);
-    const ScenePlan scenePlan = planScene(scene, isSkipList);
-    const Job firstJob = jobOf(bands.front());
-    const JobPlan firstPlan = planJob(firstJob, config, state_->info);
-    state_->keepOnly(scene, isSkipList);
-    result.memory = state_->requireMemory(scenePlan, firstPlan);
-    // A driver compiles a pipeline on one processor. Meanwhile the others prepare the buffers.
-    std::future<void> firstPipeline = std::async(std::launch::async, [&] {
-        TileRenderer::makePipeline(*state_->device, state_->pipelines, config, firstJob, scenePlan,
-                                   firstPlan);
-    });
-    const SceneBuffers &buffers = state_->buffersOf(firstJob, scenePlan, isSkipList);
-    result.timing.uploadSeconds = endStage("upload");
-    DispatchCosts &costs = state_->resident->costs[settings.integrator];
-
-    for (const Crop &band : bands) {
-        const std::size_t width = static_cast<std::size_t>(crop.width());
-        const std::size_t bandBegin = static_cast<std::size_t>(band.y0 - crop.y0) * width;
-        const std::size_t bandSize = static_cast<std::size_t>(band.height()) * width;
-        const std::span<layout::FilmPixel> pixels = result.film.pixels;
-        const std::span<layout::FilmPixel> bandPixels = pixels.subspan(bandBegin, bandSize);
-        Job job = jobOf(band);
-        if (isBegun)
-            job.film = bandPixels;
-        const RayCounts raysBefore = result.rays;
-        TileRenderer tiles(*state_->device, state_->pipelines, buffers, config, job, scenePlan,
-                           planJob(job, config, state_->info), costs);
-        result.timing.pipelineSeconds += endStage("buffers");
-        if (firstPipeline.valid())
-            firstPipeline.get();
-        tiles.makeKernel();
-        result.timing.pipelineSeconds += endStage("pipeline");
-        tiles.warmUp();
-        result.timing.pipelineSeconds += endStage("first dispatch");
-
-        const double rowsBefore = band.y0 - crop.y0;
-        const TileTotals totals = tiles.run(
-            [&](double share) {
-                if (hooks.onProgress)
-                    hooks.onProgress((rowsBefore + share * band.height()) / crop.height());
-            },
-            hooks.timeline, hooks.shouldStop,
-            [&](const RayCounts &rays) {
-                const RayCounts raysSoFar = raysBefore + rays;
-                // The work of lost dispatches is unknown, so a render that counts starts again.
-                if (!config.isCounting && keeper.isDue()) {
-                    keeper.keep([&] { tiles.readFilm(bandPixels); });
-                    result.rays = raysSoFar;
-                }
-                if (hooks.snapshots == nullptr || !hooks.snapshots->isWanted())
-                    return;
-                hooks.snapshots->take(
-                    [&](std::span<layout::FilmPixel> copy) {
-                        // Other bands have all their samples, or those from before the render.
-                        std::ranges::copy(pixels.first(bandBegin), copy.begin());
-                        std::ranges::copy(pixels.subspan(bandBegin + bandSize),
-                                          copy.subspan(bandBegin + bandSize).begin());
-                        tiles.readFilm(copy.subspan(bandBegin, bandSize));
-                    },
-                    raysSoFar);
-            });
-        if (bandSize >= DispatchSizer::minPixels) // fewer leave most slots idle
-            costs = tiles.costs();
-        result.work += totals.work;
-        result.lanes += totals.lanes;
-        result.timing.dispatchCount += totals.dispatchCount;
-        result.timing.pipelineSeconds += tiles.lateBuildSeconds();
-        result.timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();
-        tiles.readFilm(bandPixels);
-        result.rays = raysBefore + totals.rays;
-        endStage("readback");
-        if (totals.isStopped)
-            break;
     }
 }
 

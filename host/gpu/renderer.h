@@ -75,11 +75,7 @@ class Renderer {
 
   private:
     struct State;
-
-    /// One attempt: adds the missing samples to the result, and keeps film and rays consistent. `isBegun`: the film may
-    /// have samples.
-    void renderOnce(const PackedScene &scene, const RenderSettings &settings, bool isBegun,
-                    const RenderHooks &hooks, Result &result);
+    class Attempt;
 
     std::unique_ptr<State> state_;
 };

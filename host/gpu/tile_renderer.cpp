@@ -235,68 +235,13 @@ TileRenderer::Program &TileRenderer::resumableProgram(Timeline *timeline) {
 TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Timeline *timeline,
                              const std::function<bool()> &shouldStop,
                              const std::function<void(const RayCounts &)> &onPause) {
-    const double samplesWanted = static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin);
-    std::uint64_t samplesFinished = samplesInFilm_;
-    TileTotals totals;
-    const auto dispatch = [&](Program &program, bool isResumed) {
-        const Step step = runOnce(program);
-        sizer_.learnWork(step.workSeconds, step.counters.workDone);
-        samplesFinished += step.counters.finishedSamples;
-        totals.rays += raysOf(step.counters);
-        totals.work += workOf(step.counters);
-        totals.lanes += lanesOf(step.counters, device_.info().subgroupSize *
-                                                   static_cast<std::uint32_t>(config_.slotsPerInvocation));
-        if (timeline != nullptr)
-            timeline->dispatches.push_back(describe(program, step, isResumed));
-        ++totals.dispatchCount;
-        if (onProgress)
-            onProgress(static_cast<double>(samplesFinished) / samplesWanted);
-        totals.isStopped = shouldStop && shouldStop();
-        if (onPause && !totals.isStopped)
-            onPause(totals.rays);
-        return step;
-    };
-    // The film knows how far each pixel is, so an item can be halved at any time, except inside a long sample.
-    const auto addSamples = [&](WorkItem &item, std::uint32_t end) {
-        moveTo(item.tile);
-        const std::uint64_t pixels = item.tile.pixelCount();
-        const std::uint32_t most = plan_.regeneratesPaths ? plan_.samplesInFlight : samplesInPass;
-        dispatch_.sampleEnd = item.begin + std::min({sizer_.samples(pixels), most, end - item.begin});
-        dispatch_.isResumed = 0;
-        double seconds = 0.0;
-        std::uint64_t finished = 0;
-        bool isResumed = false;
-        bool isUnfinished = true;
-        while (isUnfinished && !totals.isStopped) {
-            const bool isDirect = direct_ && !item.isLong;
-            const Step step = dispatch(isDirect ? *direct_ : resumableProgram(timeline), isResumed);
-            isResumed = true;
-            isUnfinished = step.counters.unfinishedSlots > 0;
-            seconds += step.workSeconds;
-            finished += step.counters.finishedSamples;
-            // Samples that were in the film already take no time.
-            sizer_.learnSamples(seconds,
-                                isUnfinished ? finished : pixels * (dispatch_.sampleEnd - item.begin));
-            if (!isDirect) {
-                dispatch_.isResumed = 1;
-                continue;
-            }
-            item.isLong = isUnfinished && step.counters.finishedSamples == 0;
-            const bool isTooLarge = isUnfinished && mustHalve(item, end);
-            if (plan_.regeneratesPaths && (item.isLong || isTooLarge))
-                stacks_.clear(); // what waits behind an unfinished sample
-            if (isTooLarge)
-                return;
-        }
-        item.begin = dispatch_.sampleEnd;
-        item.isLong = false;
-    };
+    Run run{onProgress, timeline, shouldStop, onPause, samplesInFilm_, {}};
     // Passes over the whole image: a render that is stopped early has samples everywhere.
     for (std::uint32_t begin = job_.sampleBegin + fewestInFilm_;
-         begin < job_.sampleEnd && !totals.isStopped;) {
+         begin < job_.sampleEnd && !run.totals.isStopped;) {
         const std::uint32_t end = begin + std::min(samplesInPass, job_.sampleEnd - begin);
         std::vector<WorkItem> waiting = cutFilm(begin);
-        while (!waiting.empty() && !totals.isStopped) {
+        while (!waiting.empty() && !run.totals.isStopped) {
             WorkItem &item = waiting.back();
             if (item.begin == end || unfinished_.in(item.tile).unfinished == 0) {
                 waiting.pop_back();
@@ -305,12 +250,67 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
                 std::tie(half.tile, item.tile) = item.tile.halves();
                 waiting.push_back(half);
             } else {
-                addSamples(item, end);
+                addSamples(item, end, run);
             }
         }
         begin = end;
     }
-    return totals;
+    return run.totals;
+}
+
+void TileRenderer::addSamples(WorkItem &item, std::uint32_t end, Run &run) {
+    moveTo(item.tile);
+    const std::uint64_t pixels = item.tile.pixelCount();
+    const std::uint32_t most = plan_.regeneratesPaths ? plan_.samplesInFlight : samplesInPass;
+    dispatch_.sampleEnd = item.begin + std::min({sizer_.samples(pixels), most, end - item.begin});
+    dispatch_.isResumed = 0;
+    double seconds = 0.0;
+    std::uint64_t finished = 0;
+    bool isResumed = false;
+    bool isUnfinished = true;
+    while (isUnfinished && !run.totals.isStopped) {
+        const bool isDirect = direct_ && !item.isLong;
+        const Step step = dispatch(isDirect ? *direct_ : resumableProgram(run.timeline), isResumed, run);
+        isResumed = true;
+        isUnfinished = step.counters.unfinishedSlots > 0;
+        seconds += step.workSeconds;
+        finished += step.counters.finishedSamples;
+        // Samples that were in the film already take no time.
+        sizer_.learnSamples(seconds, isUnfinished ? finished : pixels * (dispatch_.sampleEnd - item.begin));
+        if (!isDirect) {
+            dispatch_.isResumed = 1;
+            continue;
+        }
+        item.isLong = isUnfinished && step.counters.finishedSamples == 0;
+        const bool isTooLarge = isUnfinished && mustHalve(item, end);
+        if (plan_.regeneratesPaths && (item.isLong || isTooLarge))
+            stacks_.clear(); // what waits behind an unfinished sample
+        if (isTooLarge)
+            return;
+    }
+    item.begin = dispatch_.sampleEnd;
+    item.isLong = false;
+}
+
+TileRenderer::Step TileRenderer::dispatch(Program &program, bool isResumed, Run &run) {
+    const Step step = runOnce(program);
+    sizer_.learnWork(step.workSeconds, step.counters.workDone);
+    run.samplesFinished += step.counters.finishedSamples;
+    TileTotals &totals = run.totals;
+    totals.rays += raysOf(step.counters);
+    totals.work += workOf(step.counters);
+    totals.lanes += lanesOf(step.counters, device_.info().subgroupSize *
+                                               static_cast<std::uint32_t>(config_.slotsPerInvocation));
+    if (run.timeline != nullptr)
+        run.timeline->dispatches.push_back(describe(program, step, isResumed));
+    ++totals.dispatchCount;
+    if (run.onProgress)
+        run.onProgress(static_cast<double>(run.samplesFinished) /
+                       (static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin)));
+    totals.isStopped = run.shouldStop && run.shouldStop();
+    if (run.onPause && !totals.isStopped)
+        run.onPause(totals.rays);
+    return step;
 }
 
 std::vector<TileRenderer::WorkItem> TileRenderer::cutFilm(std::uint32_t begin) const {

@@ -94,6 +94,22 @@ class TileRenderer {
         bool isLong;         ///< a sample takes more steps than a slot has in one dispatch
     };
 
+    /// A call of run(): its arguments, and what has come of it so far.
+    struct Run {
+        const std::function<void(double)> &onProgress;
+        Timeline *timeline;
+        const std::function<bool()> &shouldStop;
+        const std::function<void(const RayCounts &)> &onPause;
+        std::uint64_t samplesFinished;
+        TileTotals totals;
+    };
+
+    /// Takes samples of an item, up to `end`, until they are in the film, the item is found too large, or the run is
+    /// stopped. The film knows how far each pixel is, so an item can be halved at any time, except inside a long sample.
+    void addSamples(WorkItem &item, std::uint32_t end, Run &run);
+    /// Dispatches once, and reports it to the caller of run().
+    Step dispatch(Program &program, bool isResumed, Run &run);
+
     [[nodiscard]] std::size_t filmPixelCount() const;
     [[nodiscard]] std::uint32_t slotCount(const Tile &tile) const;
     /// The film in tiles of the largest size, the first one last.

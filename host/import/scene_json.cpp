@@ -288,6 +288,23 @@ void readMaterials(const JsonObject &materials, const TextureSource &source, Jso
     }
 }
 
+/// Returns whether the file chooses an integrator.
+bool takeSettings(const JsonObject &top, JsonFaults &faults, LoadedScene &loaded) {
+    bool hasIntegrator = false;
+    faults.collect([&] {
+        const std::optional<JsonNode> node = top.find("settings");
+        if (!node)
+            return;
+        const JsonObject settings(*node);
+        faults.collect([&] { settings.allowOnly(scene_keys::settings); });
+        hasIntegrator = settings.find("integrator").has_value();
+        loaded.settings = readSettings(settings, faults);
+        loaded.scene.shadowThroughGlass = static_cast<float>(
+            settings.number("shadowThroughGlass", limits::fraction, loaded.scene.shadowThroughGlass));
+    });
+    return hasIntegrator;
+}
+
 LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::path &file,
                          const LoadOptions &options) {
     const std::string fileName = file.string();
@@ -300,18 +317,7 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
     LoadedScene loaded;
     loaded.file = file;
     Scene &scene = loaded.scene;
-    bool hasIntegrator = false;
-    faults.collect([&] {
-        const std::optional<JsonNode> node = top.find("settings");
-        if (!node)
-            return;
-        const JsonObject settings(*node);
-        faults.collect([&] { settings.allowOnly(scene_keys::settings); });
-        hasIntegrator = settings.find("integrator").has_value();
-        loaded.settings = readSettings(settings, faults);
-        scene.shadowThroughGlass = static_cast<float>(
-            settings.number("shadowThroughGlass", limits::fraction, scene.shadowThroughGlass));
-    });
+    const bool hasIntegrator = takeSettings(top, faults, loaded);
     if (!hasIntegrator && speaksOfEmission(document))
         loaded.settings.integrator = Integrator::Path;
     if (options.events.onOutline)

@@ -16,14 +16,24 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     if (info.index < 0 || static_cast<std::size_t>(info.index) >= devices.size())
         throw Error(ErrorKind::NoDevice, fmt::format("device {} is gone", info.name));
     physical_ = devices[static_cast<std::size_t>(info.index)];
-
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-
     const std::uint32_t family = findComputeQueueFamily(physical_);
+    createDevice(family);
+    createCommands(family);
+    timestamps_ = Timestamps(instance_.get(), physical_, device_.get(), family, info.hasCalibratedTimestamps);
+    debugUtils_ = DebugUtils(instance_, device_.get());
+    debugUtils_.name(VK_OBJECT_TYPE_DEVICE, device_.get(), "the device");
+    debugUtils_.name(VK_OBJECT_TYPE_QUEUE, queue_, "the queue");
+    debugUtils_.name(VK_OBJECT_TYPE_COMMAND_POOL, commandPool_.get(), "the command pool");
+    debugUtils_.name(VK_OBJECT_TYPE_COMMAND_BUFFER, commandBuffer_, "the command buffer");
+    debugUtils_.name(VK_OBJECT_TYPE_FENCE, fence_.get(), "the fence");
+}
+
+void Device::createDevice(std::uint32_t queueFamily) {
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueFamilyIndex = family;
+    queue.queueFamilyIndex = queueFamily;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
     VkDeviceCreateInfo create{};
@@ -31,27 +41,30 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     std::vector<const char *> extensions;
-    if (info.canRoundToNearestEven || info.canPreserveSignedZeroInfNan)
+    if (info_.canRoundToNearestEven || info_.canPreserveSignedZeroInfNan)
         extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
-    if (info.hasCalibratedTimestamps)
+    if (info_.hasCalibratedTimestamps)
         extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
-    if (info.isPortabilitySubset)
+    if (info_.isPortabilitySubset)
         extensions.push_back(portabilitySubset);
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     VkDevice device = VK_NULL_HANDLE;
     check(vkCreateDevice(physical_, &create, nullptr, &device),
-          fmt::format("vkCreateDevice for {}", info.name));
+          fmt::format("vkCreateDevice for {}", info_.name));
     device_ = DeviceHandle(NoParent{}, device);
-    vkGetDeviceQueue(device, family, 0, &queue_);
+    vkGetDeviceQueue(device, queueFamily, 0, &queue_);
+}
 
+void Device::createCommands(std::uint32_t queueFamily) {
+    const VkDevice device = device_.get();
     VkCommandPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    pool.queueFamilyIndex = family;
+    pool.queueFamilyIndex = queueFamily;
     VkCommandPool commandPool = VK_NULL_HANDLE;
     check(vkCreateCommandPool(device, &pool, nullptr, &commandPool),
-          fmt::format("vkCreateCommandPool for {}", info.name));
+          fmt::format("vkCreateCommandPool for {}", info_.name));
     commandPool_ = CommandPoolHandle(device, commandPool);
 
     VkCommandBufferAllocateInfo allocate{};
@@ -60,21 +73,14 @@ Device::Device(const DeviceInfo &info, Transfers transfers)
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     check(vkAllocateCommandBuffers(device, &allocate, &commandBuffer_),
-          fmt::format("vkAllocateCommandBuffers for {}", info.name));
+          fmt::format("vkAllocateCommandBuffers for {}", info_.name));
 
     VkFenceCreateInfo fenceInfo{};
     fenceInfo.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     VkFence fence = VK_NULL_HANDLE;
-    check(vkCreateFence(device, &fenceInfo, nullptr, &fence), fmt::format("vkCreateFence for {}", info.name));
+    check(vkCreateFence(device, &fenceInfo, nullptr, &fence),
+          fmt::format("vkCreateFence for {}", info_.name));
     fence_ = FenceHandle(device, fence);
-
-    timestamps_ = Timestamps(instance_.get(), physical_, device, family, info.hasCalibratedTimestamps);
-    debugUtils_ = DebugUtils(instance_, device);
-    debugUtils_.name(VK_OBJECT_TYPE_DEVICE, device, "the device");
-    debugUtils_.name(VK_OBJECT_TYPE_QUEUE, queue_, "the queue");
-    debugUtils_.name(VK_OBJECT_TYPE_COMMAND_POOL, commandPool, "the command pool");
-    debugUtils_.name(VK_OBJECT_TYPE_COMMAND_BUFFER, commandBuffer_, "the command buffer");
-    debugUtils_.name(VK_OBJECT_TYPE_FENCE, fence, "the fence");
 }
 
 std::uint32_t Device::findMemoryType(std::uint32_t typeBits, VkMemoryPropertyFlags flags) const {

@@ -42,6 +42,10 @@ class Device {
     void submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record);
 
   private:
+    /// With one queue of the family.
+    void createDevice(std::uint32_t queueFamily);
+    /// The command buffer, its pool and its fence.
+    void createCommands(std::uint32_t queueFamily);
     void waitForFence(const std::string &action);
 
     DeviceInfo info_;

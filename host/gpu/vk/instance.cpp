@@ -69,6 +69,18 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEX
     return VK_FALSE;
 }
 
+/// A messenger that keeps the first warning or error of the validation layer.
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::string &firstMessage) {
+    VkDebugUtilsMessengerCreateInfoEXT info{};
+    info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    info.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+    info.pfnUserCallback = keepMessage;
+    info.pUserData = &firstMessage;
+    return info;
+}
+
 } // namespace
 
 Instance::Instance() : firstMessage_(std::make_unique<std::string>()) {
@@ -93,14 +105,7 @@ void Instance::create() {
     application.pApplicationName = "hyalite";
     application.apiVersion = VK_API_VERSION_1_1;
 
-    VkDebugUtilsMessengerCreateInfoEXT messenger{};
-    messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
-    messenger.messageSeverity =
-        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-    messenger.pfnUserCallback = keepMessage;
-    messenger.pUserData = firstMessage_.get();
-
+    const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(*firstMessage_);
     const VkValidationFeatureEnableEXT synchronisation =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features{};

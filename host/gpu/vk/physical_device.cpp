@@ -54,57 +54,18 @@ std::string findRejection(VkPhysicalDevice device, const VkPhysicalDevicePropert
     return {};
 }
 
-} // namespace
-
-std::uint32_t findComputeQueueFamily(VkPhysicalDevice device) {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    for (std::uint32_t i = 0; i < count; ++i)
-        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].queueCount > 0)
-            return i;
-    return VK_QUEUE_FAMILY_IGNORED;
-}
-
-DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
-    VkPhysicalDeviceProperties properties{};
-    vkGetPhysicalDeviceProperties(device, &properties);
-    DeviceInfo info;
-    info.name = properties.deviceName;
-    info.type = deviceType(properties.deviceType);
-    info.apiVersion = versionText(properties.apiVersion);
-    info.driver = fmt::format("driver {:#x}", properties.driverVersion);
-    info.vendorId = properties.vendorID;
-    info.deviceId = properties.deviceID;
-    info.maxWorkgroupInvocations = properties.limits.maxComputeWorkGroupInvocations;
-    info.maxWorkgroupCount = properties.limits.maxComputeWorkGroupCount[0];
-    info.maxStorageBufferBytes = properties.limits.maxStorageBufferRange;
-    info.maxTexelBufferElements = properties.limits.maxTexelBufferElements;
-    info.maxStorageBuffersPerStage = properties.limits.maxPerStageDescriptorStorageBuffers;
-    info.maxStorageImagesPerStage = properties.limits.maxPerStageDescriptorStorageImages;
-    info.rejection = findRejection(device, properties);
-
+std::uint64_t largestDeviceHeapBytes(VkPhysicalDevice device) {
     VkPhysicalDeviceMemoryProperties memory{};
     vkGetPhysicalDeviceMemoryProperties(device, &memory);
+    std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
         if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
-            info.deviceMemoryBytes =
-                std::max<std::uint64_t>(info.deviceMemoryBytes, memory.memoryHeaps[i].size);
+            bytes = std::max<std::uint64_t>(bytes, memory.memoryHeaps[i].size);
+    return bytes;
+}
 
-    const std::uint32_t family = findComputeQueueFamily(device);
-    if (family != VK_QUEUE_FAMILY_IGNORED) {
-        std::uint32_t count = 0;
-        vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-        std::vector<VkQueueFamilyProperties> families(count);
-        vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-        info.hasTimestamps = families[family].timestampValidBits > 0;
-    }
-    info.isPortabilitySubset = hasExtension(device, portabilitySubset);
-    info.hasCalibratedTimestamps = hasExtension(device, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
-    if (properties.apiVersion < VK_API_VERSION_1_1)
-        return info;
-
+/// Subgroups, driver, float controls and the largest allocation, which Vulkan 1.0 does not tell.
+void describeByProperties2(VkPhysicalDevice device, std::uint32_t apiVersion, DeviceInfo &info) {
     // The chain must not contain structures of unsupported extensions.
     VkPhysicalDeviceSubgroupProperties subgroup{};
     subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
@@ -112,7 +73,7 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
     VkPhysicalDeviceFloatControlsProperties floats{};
     floats.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES;
-    const bool is12 = properties.apiVersion >= VK_API_VERSION_1_2;
+    const bool is12 = apiVersion >= VK_API_VERSION_1_2;
     const bool hasDriver = is12 || hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
     // We use Vulkan 1.1, in which float controls are an extension, even if the device supports later versions.
     const bool hasFloats = hasExtension(device, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
@@ -150,6 +111,51 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
         info.canRoundToNearestEven = floats.shaderRoundingModeRTEFloat32 == VK_TRUE;
         info.canPreserveSignedZeroInfNan = floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE;
     }
+}
+
+} // namespace
+
+std::vector<VkQueueFamilyProperties> queueFamiliesOf(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    return families;
+}
+
+std::uint32_t findComputeQueueFamily(VkPhysicalDevice device) {
+    const std::vector<VkQueueFamilyProperties> families = queueFamiliesOf(device);
+    for (std::uint32_t i = 0; i < families.size(); ++i)
+        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].queueCount > 0)
+            return i;
+    return VK_QUEUE_FAMILY_IGNORED;
+}
+
+DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device, &properties);
+    DeviceInfo info;
+    info.name = properties.deviceName;
+    info.type = deviceType(properties.deviceType);
+    info.apiVersion = versionText(properties.apiVersion);
+    info.driver = fmt::format("driver {:#x}", properties.driverVersion);
+    info.vendorId = properties.vendorID;
+    info.deviceId = properties.deviceID;
+    info.maxWorkgroupInvocations = properties.limits.maxComputeWorkGroupInvocations;
+    info.maxWorkgroupCount = properties.limits.maxComputeWorkGroupCount[0];
+    info.maxStorageBufferBytes = properties.limits.maxStorageBufferRange;
+    info.maxTexelBufferElements = properties.limits.maxTexelBufferElements;
+    info.maxStorageBuffersPerStage = properties.limits.maxPerStageDescriptorStorageBuffers;
+    info.maxStorageImagesPerStage = properties.limits.maxPerStageDescriptorStorageImages;
+    info.deviceMemoryBytes = largestDeviceHeapBytes(device);
+    info.rejection = findRejection(device, properties);
+    const std::uint32_t family = findComputeQueueFamily(device);
+    info.hasTimestamps =
+        family != VK_QUEUE_FAMILY_IGNORED && queueFamiliesOf(device)[family].timestampValidBits > 0;
+    info.isPortabilitySubset = hasExtension(device, portabilitySubset);
+    info.hasCalibratedTimestamps = hasExtension(device, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+    if (properties.apiVersion >= VK_API_VERSION_1_1)
+        describeByProperties2(device, properties.apiVersion, info);
     return info;
 }
 

@@ -5,6 +5,9 @@
 
 #include <vulkan/vulkan.h>
 
+#include <cstdint>
+#include <vector>
+
 namespace hyalite::gpu {
 
 /// An extension that devices offer which lack a part of Vulkan, and that must then be enabled. Vulkan's headers have its
@@ -13,6 +16,8 @@ inline constexpr const char *portabilitySubset = "VK_KHR_portability_subset";
 
 /// Everything except the index.
 [[nodiscard]] DeviceInfo describePhysicalDevice(VkPhysicalDevice device);
+
+[[nodiscard]] std::vector<VkQueueFamilyProperties> queueFamiliesOf(VkPhysicalDevice device);
 
 /// The first queue family that can compute, or VK_QUEUE_FAMILY_IGNORED.
 [[nodiscard]] std::uint32_t findComputeQueueFamily(VkPhysicalDevice device);

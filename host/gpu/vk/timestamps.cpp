@@ -1,6 +1,7 @@
 #include "host/gpu/vk/timestamps.h"
 
 #include "host/gpu/vk/check.h"
+#include "host/gpu/vk/physical_device.h"
 #include "host/gpu/vk/ticks.h"
 
 #include <fmt/format.h>
@@ -38,11 +39,7 @@ bool canCalibrate(VkInstance instance, VkPhysicalDevice physical) {
 Timestamps::Timestamps(VkInstance instance, VkPhysicalDevice physical, VkDevice device,
                        std::uint32_t queueFamily, bool isCalibrationEnabled)
     : device_(device) {
-    std::uint32_t familyCount = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &familyCount, nullptr);
-    std::vector<VkQueueFamilyProperties> families(familyCount);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &familyCount, families.data());
-    validBits_ = std::min(families[queueFamily].timestampValidBits, 64u);
+    validBits_ = std::min(queueFamiliesOf(physical)[queueFamily].timestampValidBits, 64u);
     if (validBits_ == 0)
         return;
     VkPhysicalDeviceProperties properties{};
