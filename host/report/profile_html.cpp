@@ -211,6 +211,46 @@ std::string provenance(const Profile &profile) {
     return html + "</dl>\n";
 }
 
+std::string headFigures(const Profile &profile, const StageSummary &frame,
+                        const std::vector<KernelSummary> &kernels) {
+    RayCounts rays;
+    double kernelSeconds = 0.0;
+    std::size_t launchCount = 0;
+    for (const KernelSummary &kernel : kernels) {
+        rays += kernel.rays;
+        kernelSeconds += kernel.times.medianFrameMillis() * 1e-3;
+        launchCount += kernel.times.launchCount;
+    }
+    std::string html = figure(millisText(frame.launch.median) + " ms",
+                              fmt::format("a frame, median of {}", frame.launch.count));
+    html += figure(fmt::format("{:.2f} Mray/s", kernelSeconds > 0.0
+                                                    ? static_cast<double>(rays.total()) / 1e6 / kernelSeconds
+                                                    : 0.0),
+                   "while kernels run");
+    html += figure(roundedText(rays.total(), "rays"), "in a frame");
+    html += figure(countText(launchCount, "dispatch", "dispatches"), "in a frame");
+    html += figure(sizeText(profile.sceneBytes), "of scene data");
+    if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
+        html += figure(sizeText(bytes), "in buffers on the device");
+    return html;
+}
+
+std::string stageTable(const std::vector<StageSummary> &stages, const StageSummary &frame) {
+    std::string rows = headline("stage");
+    for (const StageSummary &stage : stages)
+        rows += timesRow(stage);
+    const std::array<std::string, 9> sums{"frame",
+                                          "1",
+                                          millisText(frame.medianFrameMillis()),
+                                          shareText(frame.share),
+                                          millisText(frame.launch.min),
+                                          millisText(frame.launch.median),
+                                          millisText(frame.launch.p95),
+                                          millisText(frame.launch.max),
+                                          ""};
+    return tableOf(rows + row("td", sums, "sum"));
+}
+
 } // namespace
 
 std::string base64(std::span<const std::byte> bytes) {
@@ -234,15 +274,6 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
     const StageSummary frame = summariseFrame(profile);
     const Provenance &origin = profile.origin;
     const std::string sceneName = std::filesystem::path(origin.scene).filename().string();
-    RayCounts rays;
-    double kernelSeconds = 0.0;
-    std::size_t launchCount = 0;
-    for (const KernelSummary &kernel : kernels) {
-        rays += kernel.rays;
-        kernelSeconds += kernel.times.medianFrameMillis() * 1e-3;
-        launchCount += kernel.times.launchCount;
-    }
-
     std::string html =
         fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -259,36 +290,13 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
         "<div class=\"top\">\n<img alt=\"The image that was rendered\" width=\"{}\" height=\"{}\" "
         "src=\"data:image/png;base64,{}\">\n<div class=\"figures\">\n",
         origin.width, origin.height, base64(png));
-    html += figure(millisText(frame.launch.median) + " ms",
-                   fmt::format("a frame, median of {}", frame.launch.count));
-    html += figure(fmt::format("{:.2f} Mray/s", kernelSeconds > 0.0
-                                                    ? static_cast<double>(rays.total()) / 1e6 / kernelSeconds
-                                                    : 0.0),
-                   "while kernels run");
-    html += figure(roundedText(rays.total(), "rays"), "in a frame");
-    html += figure(countText(launchCount, "dispatch", "dispatches"), "in a frame");
-    html += figure(sizeText(profile.sceneBytes), "of scene data");
-    if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
-        html += figure(sizeText(bytes), "in buffers on the device");
-    html += "</div>\n</div>\n";
+    html += headFigures(profile, frame, kernels) + "</div>\n</div>\n";
 
     html += "<h2>Where a frame's time goes</h2>\n" + phaseBar(stages);
-    std::string rows = headline("stage");
-    for (const StageSummary &stage : stages)
-        rows += timesRow(stage);
-    const std::array<std::string, 9> sums{"frame",
-                                          "1",
-                                          millisText(frame.medianFrameMillis()),
-                                          shareText(frame.share),
-                                          millisText(frame.launch.min),
-                                          millisText(frame.launch.median),
-                                          millisText(frame.launch.p95),
-                                          millisText(frame.launch.max),
-                                          ""};
-    html += "<h2>Stages</h2>\n" + tableOf(rows + row("td", sums, "sum"));
+    html += "<h2>Stages</h2>\n" + stageTable(stages, frame);
     html += fmt::format("<p class=\"note\">Stages come to {} of the frames' time.</p>\n",
                         shareText(stageShare(stages)));
-    rows = headline("kernel");
+    std::string rows = headline("kernel");
     for (const KernelSummary &kernel : kernels)
         rows += timesRow(kernel.times);
     html += "<h2>Kernels</h2>\n" + tableOf(rows);
