@@ -2,12 +2,12 @@
 //
 // Two correct programs in float32 may name different triangles where a ray passes within rounding of an edge, where
 // two triangles lie at the same distance, or where a triangle lies at the ray's start. Each difference is put to all
-// triangles of the mesh in long double (exact_meeting.h): what that cannot explain fails the test.
+// triangles of the mesh in long double (exact_intersection.h): what that cannot explain fails the test.
 #include "host/import/obj.h"
 #include "host/packing/packed_scene.h"
 #include "host/reference/closest_hit.h"
 #include "tests/embree/embree_scene.h"
-#include "tests/embree/exact_meeting.h"
+#include "tests/embree/exact_intersection.h"
 #include "tests/embree/meshes.h"
 #include "tests/fixtures/leaves.h"
 #include "tests/fixtures/test_scene.h"
@@ -24,7 +24,7 @@ namespace {
 using glm::dvec3;
 using glm::vec3;
 using testing::Doubt;
-using testing::ExactMeeting;
+using testing::ExactIntersection;
 using testing::Real;
 using FloatRay = reference::Ray<float>;
 using FloatHit = reference::Hit<float>;
@@ -47,7 +47,7 @@ class Subject {
             clusters_.push_back(boundCluster(first));
     }
 
-    /// Calls visit(triangle, meeting) for all triangles but the excluded one that the ray may meet, in whichever
+    /// Calls visit(triangle, intersection) for all triangles but the excluded one that the ray may hit, in whichever
     /// program, and for some more.
     template <class Visitor> void visitNearby(const FloatRay &ray, Visitor &&visit) const {
         for (std::size_t i = 0; i < clusters_.size(); ++i) {
@@ -60,8 +60,8 @@ class Subject {
             for (std::size_t triangle = first; triangle < end; ++triangle) {
                 const std::uint32_t index = static_cast<std::uint32_t>(triangle);
                 if (index + layout::minFirstTriangleId != ray.excluded && isNearby(ray, index))
-                    visit(index,
-                          testing::meetExactly(testing::cornersOf(mesh, index), ray.origin, ray.direction));
+                    visit(index, testing::intersectExactly(testing::cornersOf(mesh, index), ray.origin,
+                                                           ray.direction));
             }
         }
     }
@@ -119,31 +119,32 @@ enum class Reason { Edge, Grazing, Tie, Start, Count };
 
 /// Whether a program with such doubts may say that this is the nearest triangle, or that there is none.
 bool isDefensible(const Subject &subject, const FloatRay &ray, std::optional<std::uint32_t> answer,
-                  Doubt ExactMeeting::*doubt) {
-    Real certainlyMetBy = std::numeric_limits<Real>::infinity();
-    subject.visitNearby(ray, [&](std::uint32_t, const ExactMeeting &meeting) {
-        if (meeting.isCertain(meeting.*doubt))
-            certainlyMetBy = std::min(certainlyMetBy, meeting.t + (meeting.*doubt).tError);
+                  Doubt ExactIntersection::*doubt) {
+    Real certainlyHitBy = std::numeric_limits<Real>::infinity();
+    subject.visitNearby(ray, [&](std::uint32_t, const ExactIntersection &intersection) {
+        if (intersection.isCertain(intersection.*doubt))
+            certainlyHitBy = std::min(certainlyHitBy, intersection.t + (intersection.*doubt).tError);
     });
     if (!answer)
-        return certainlyMetBy == std::numeric_limits<Real>::infinity();
-    const ExactMeeting meeting =
-        testing::meetExactly(testing::cornersOf(subject.mesh, *answer), ray.origin, ray.direction);
-    return meeting.isPossible(meeting.*doubt) && meeting.t - (meeting.*doubt).tError <= certainlyMetBy;
+        return certainlyHitBy == std::numeric_limits<Real>::infinity();
+    const ExactIntersection intersection =
+        testing::intersectExactly(testing::cornersOf(subject.mesh, *answer), ray.origin, ray.direction);
+    return intersection.isPossible(intersection.*doubt) &&
+           intersection.t - (intersection.*doubt).tError <= certainlyHitBy;
 }
 
 /// What made two defensible answers differ, as the nearer one of the two triangles shows.
 Reason reasonFor(const Subject &subject, const FloatRay &ray, std::optional<std::uint32_t> ours,
                  std::optional<std::uint32_t> theirs) {
-    ExactMeeting nearest;
+    ExactIntersection nearest;
     nearest.t = std::numeric_limits<Real>::infinity();
     for (const std::optional<std::uint32_t> &answer : {ours, theirs}) {
         if (!answer)
             continue;
-        const ExactMeeting meeting =
-            testing::meetExactly(testing::cornersOf(subject.mesh, *answer), ray.origin, ray.direction);
-        if (meeting.t < nearest.t)
-            nearest = meeting;
+        const ExactIntersection intersection =
+            testing::intersectExactly(testing::cornersOf(subject.mesh, *answer), ray.origin, ray.direction);
+        if (intersection.t < nearest.t)
+            nearest = intersection;
     }
     if (nearest.t <= std::max(nearest.ours.tError, nearest.theirs.tError))
         return Reason::Start;
@@ -201,8 +202,8 @@ struct Rates {
 /// Compares distances and normals where both found the same triangle.
 void compareHits(const Subject &subject, const FloatRay &ray, const FloatHit &ours,
                  const testing::EmbreeScene::Hit &theirs, Rates &rates) {
-    const ExactMeeting exact =
-        testing::meetExactly(testing::cornersOf(subject.mesh, theirs.triangle), ray.origin, ray.direction);
+    const ExactIntersection exact = testing::intersectExactly(
+        testing::cornersOf(subject.mesh, theirs.triangle), ray.origin, ray.direction);
     const Real ourT = Real(ours.distance);
     const Real theirT = Real(theirs.t);
     rates.ourDistance = std::max(rates.ourDistance, std::abs(ourT - exact.t) / exact.ours.tError);
@@ -242,8 +243,8 @@ void compareRay(const Subject &subject, const FloatRay &ray, const FloatHit &hit
             compareHits(subject, ray, hit, *theirs, rates);
         return;
     }
-    const bool isOursWrong = !isDefensible(subject, ray, ourTriangle, &ExactMeeting::ours);
-    const bool isTheirsWrong = !isDefensible(subject, ray, theirTriangle, &ExactMeeting::theirs);
+    const bool isOursWrong = !isDefensible(subject, ray, ourTriangle, &ExactIntersection::ours);
+    const bool isTheirsWrong = !isDefensible(subject, ray, theirTriangle, &ExactIntersection::theirs);
     rates.oursWrong += isOursWrong ? 1 : 0;
     rates.theirsWrong += isTheirsWrong ? 1 : 0;
     if (!isOursWrong && !isTheirsWrong)
@@ -299,18 +300,20 @@ void compareShadows(const Subject &subject, const char *kind, const std::vector<
         if (isBlocked == subject.embree.isOccluded(ray.origin, ray.direction, length))
             continue;
         ++differenceCount;
-        const auto isInDoubt = [&](Doubt ExactMeeting::*doubt, bool answer) {
+        const auto isInDoubt = [&](Doubt ExactIntersection::*doubt, bool answer) {
             bool isPossible = false;
             bool isCertain = false;
-            subject.visitNearby(ray, [&](std::uint32_t, const ExactMeeting &meeting) {
-                const Real error = (meeting.*doubt).tError;
-                isPossible = isPossible || (meeting.isPossible(meeting.*doubt) && meeting.t - error < end);
-                isCertain = isCertain || (meeting.isCertain(meeting.*doubt) && meeting.t + error < end);
+            subject.visitNearby(ray, [&](std::uint32_t, const ExactIntersection &intersection) {
+                const Real error = (intersection.*doubt).tError;
+                isPossible = isPossible ||
+                             (intersection.isPossible(intersection.*doubt) && intersection.t - error < end);
+                isCertain = isCertain ||
+                            (intersection.isCertain(intersection.*doubt) && intersection.t + error < end);
             });
             return answer ? isPossible : !isCertain;
         };
-        const bool isExplained =
-            isInDoubt(&ExactMeeting::ours, isBlocked) && isInDoubt(&ExactMeeting::theirs, !isBlocked);
+        const bool isExplained = isInDoubt(&ExactIntersection::ours, isBlocked) &&
+                                 isInDoubt(&ExactIntersection::theirs, !isBlocked);
         wrongCount += isExplained ? 0 : 1;
     }
     fmt::print("{:<11} {:<8} {:>5} rays, {:4.1f} % blocked; differences: explained {}, wrong {}\n",

@@ -172,7 +172,7 @@ dvec3 directionThrough(const Camera &camera, const dvec2 &position) {
 }
 
 /// Where the line meets the wall's plane, in units of the direction; nothing unless inside of the wall and ahead.
-std::optional<double> meetWall(const Wall &wall, const dvec3 &origin, const dvec3 &direction) {
+std::optional<double> intersectWall(const Wall &wall, const dvec3 &origin, const dvec3 &direction) {
     const dvec3 normal = glm::cross(wall.edgeU, wall.edgeV);
     const double t = glm::dot(wall.corner - origin, normal) / glm::dot(direction, normal);
     const dvec3 offset = origin + t * direction - wall.corner;
@@ -223,7 +223,7 @@ const Wall wallAhead{{-32.0, -32.0, -10.0}, {64.0, 0.0, 0.0}, {0.0, 64.0, 0.0}};
 /// The light that a point of the wall reflects, were nothing else in the scene.
 Prediction wallPrediction(const TestScene &scene, const Wall &wall, const dvec2 &position) {
     const dvec3 direction = directionThrough(scene.camera, position);
-    const std::optional<double> t = meetWall(wall, scene.camera.position, direction);
+    const std::optional<double> t = intersectWall(wall, scene.camera.position, direction);
     if (!t)
         return {0, dvec3(scene.background)};
     const dvec3 point = scene.camera.position + *t * direction;
@@ -392,15 +392,15 @@ TEST(Shadow, IsDimmedOnceByGlass) {
                   {.tolerance = 1e-5, .marginPixels = 1e-3, .regions = 6});
 }
 
-// ---- Glass balls. Every meeting with the surface has the same angle, outside of the glass, and the same reflectance R
+// ---- Glass balls. Every hit of the surface has the same angle, outside of the glass, and the same reflectance R
 
 /// Sine of the angle at which the ray meets a ball: beyond 1 it misses.
 double sineAtBall(const dvec3 &origin, const dvec3 &direction, const dvec3 &centre, double radius) {
     return glm::length(glm::cross(glm::normalize(direction), centre - origin)) / radius;
 }
 
-/// What comes back under a background of 1. R is reflected by the first meeting; (1-R) enters; a segment inside with
-/// j meetings behind it carries (1-R) R^j tint^(j+1) to its end and lets (1-R) of that out, as long as it may split:
+/// What comes back under a background of 1. R is reflected by the first hit; (1-R) enters; a segment inside with
+/// j hits behind it carries (1-R) R^j tint^(j+1) to its end and lets (1-R) of that out, as long as it may split:
 ///
 ///     R + (1-R)^2 tint (1 - (R tint)^(depth-2)) / (1 - R tint)
 double furnaceBall(double reflectance, double tint, int depth) {
@@ -430,7 +430,7 @@ TEST(Furnace, GlassBallLosesWhatDepthCutsOff) {
                 Prediction prediction{1};
                 for (int c = 0; c < 3; ++c)
                     prediction.radiance[c] = furnaceBall(reflectance, static_cast<double>(tint[c]), depth);
-                // Each meeting adds rounding to the angle inside, which is n^2 / cos of that outside.
+                // Each hit adds rounding to the angle inside, which is n^2 / cos of that outside.
                 prediction.condition = 1.0 / (cosine * cosine);
                 prediction.offset = 2e-7; // without it, an index of 1 would ask for all digits of nearly 0
                 return prediction;

@@ -11,7 +11,7 @@ namespace hyalite::testing::plain {
 namespace {
 
 /// Cramer's rule.
-std::optional<Meeting> meetTriangle(const Shape &shape, const Vec &origin, const Vec &direction) {
+std::optional<Hit> intersectTriangle(const Shape &shape, const Vec &origin, const Vec &direction) {
     const Vec side1 = shape.corners[1] - shape.corners[0];
     const Vec side2 = shape.corners[2] - shape.corners[0];
     const Vec p = glm::cross(direction, side2);
@@ -23,22 +23,22 @@ std::optional<Meeting> meetTriangle(const Shape &shape, const Vec &origin, const
     const double distance = glm::dot(side2, q) / determinant;
     if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 1e-9))
         return {};
-    return Meeting{&shape, distance, {1.0 - u - v, u, v}};
+    return Hit{&shape, distance, {1.0 - u - v, u, v}};
 }
 
 /// The quadratic formula; of a ray that starts on the sphere one root is 0.
-std::optional<Meeting> meetSphere(const Shape &shape, const Vec &origin, const Vec &direction,
-                                  bool startsOnIt) {
+std::optional<Hit> intersectSphere(const Shape &shape, const Vec &origin, const Vec &direction,
+                                   bool startsOnIt) {
     const Vec f = origin - shape.centre;
     const double half = glm::dot(f, direction);
     if (startsOnIt)
-        return half < 0.0 ? std::optional(Meeting{&shape, -2.0 * half}) : std::nullopt;
+        return half < 0.0 ? std::optional(Hit{&shape, -2.0 * half}) : std::nullopt;
     const double radicand = half * half - glm::dot(f, f) + shape.radius * shape.radius;
     if (radicand <= 0.0)
         return {};
     const double root = std::sqrt(radicand);
     const double distance = -half - root > 1e-9 ? -half - root : -half + root;
-    return distance > 1e-9 ? std::optional(Meeting{&shape, distance}) : std::nullopt;
+    return distance > 1e-9 ? std::optional(Hit{&shape, distance}) : std::nullopt;
 }
 
 /// Directions of growing u and v by the chain rule: e1 = s.x U + s.y V and e2 = t.x U + t.y V, solved for U and V.
@@ -116,28 +116,27 @@ std::vector<Shape> shapesOf(const Scene &scene) {
     return shapes;
 }
 
-std::optional<Meeting> meet(const Shape &shape, const Vec &origin, const Vec &direction, const Shape *left) {
+std::optional<Hit> intersect(const Shape &shape, const Vec &origin, const Vec &direction, const Shape *left) {
     if (shape.isSphere)
-        return meetSphere(shape, origin, direction, &shape == left);
-    return &shape == left ? std::nullopt : meetTriangle(shape, origin, direction);
+        return intersectSphere(shape, origin, direction, &shape == left);
+    return &shape == left ? std::nullopt : intersectTriangle(shape, origin, direction);
 }
 
-Vec2 uvOf(const Meeting &meeting, const Vec &position) {
-    const Shape &shape = *meeting.shape;
+Vec2 uvOf(const Hit &hit, const Vec &position) {
+    const Shape &shape = *hit.shape;
     if (!shape.isSphere)
-        return meeting.weights.x * shape.uvs[0] + meeting.weights.y * shape.uvs[1] +
-               meeting.weights.z * shape.uvs[2];
+        return hit.weights.x * shape.uvs[0] + hit.weights.y * shape.uvs[1] + hit.weights.z * shape.uvs[2];
     // Longitude from the middle at +z to the right as seen from outside, latitude from the bottom.
     const Vec outward = (position - shape.centre) / shape.radius;
     return {0.5 + std::atan2(outward.x, outward.z) / (2.0 * std::numbers::pi),
             0.5 + std::asin(std::clamp(outward.y, -1.0, 1.0)) / std::numbers::pi};
 }
 
-SurfacePoint pointAt(const Meeting &meeting, const Vec &origin, const Vec &direction) {
-    const Shape &shape = *meeting.shape;
+SurfacePoint pointAt(const Hit &hit, const Vec &origin, const Vec &direction) {
+    const Shape &shape = *hit.shape;
     SurfacePoint point{};
-    point.position = origin + meeting.distance * direction;
-    point.uv = uvOf(meeting, point.position);
+    point.position = origin + hit.distance * direction;
+    point.uv = uvOf(hit, point.position);
     if (shape.isSphere) {
         const Vec outward = (point.position - shape.centre) / shape.radius;
         point.normal = shape.isInward ? -outward : outward;
@@ -150,9 +149,8 @@ SurfacePoint pointAt(const Meeting &meeting, const Vec &origin, const Vec &direc
         glm::normalize(glm::cross(shape.corners[1] - shape.corners[0], shape.corners[2] - shape.corners[0]));
     point.normal = point.geometricNormal;
     if (shape.isSmooth) {
-        point.normal =
-            glm::normalize(meeting.weights.x * shape.normals[0] + meeting.weights.y * shape.normals[1] +
-                           meeting.weights.z * shape.normals[2]);
+        point.normal = glm::normalize(hit.weights.x * shape.normals[0] + hit.weights.y * shape.normals[1] +
+                                      hit.weights.z * shape.normals[2]);
         if (glm::dot(point.normal, point.geometricNormal) < 0.0)
             point.geometricNormal = -point.geometricNormal;
     }

@@ -43,8 +43,8 @@ struct Shape {
     [[nodiscard]] Vec randomPoint(Generator &generator) const;
 };
 
-/// Where a ray meets a shape.
-struct Meeting {
+/// Where a ray hits a shape.
+struct Hit {
     const Shape *shape = nullptr;
     double distance = 0.0; ///< > 0
     Vec weights{0.0};      ///< Triangle: of its corners; they add up to 1
@@ -63,14 +63,14 @@ struct SurfacePoint {
 /// All shapes of a scene, spheres first.
 [[nodiscard]] std::vector<Shape> shapesOf(const Scene &scene);
 
-/// Where a ray that leaves the shape `left` (or none) meets `shape`. `direction` is of unit length.
-[[nodiscard]] std::optional<Meeting> meet(const Shape &shape, const Vec &origin, const Vec &direction,
-                                          const Shape *left);
+/// Where a ray that leaves the shape `left` (or none) hits `shape`. `direction` is of unit length.
+[[nodiscard]] std::optional<Hit> intersect(const Shape &shape, const Vec &origin, const Vec &direction,
+                                           const Shape *left);
 
-[[nodiscard]] SurfacePoint pointAt(const Meeting &meeting, const Vec &origin, const Vec &direction);
+[[nodiscard]] SurfacePoint pointAt(const Hit &hit, const Vec &origin, const Vec &direction);
 
 /// Texture coordinates alone.
-[[nodiscard]] Vec2 uvOf(const Meeting &meeting, const Vec &position);
+[[nodiscard]] Vec2 uvOf(const Hit &hit, const Vec &position);
 
 /// Coordinates of a direction in the frame whose z is the unit vector `normal`, and back.
 class Frame {

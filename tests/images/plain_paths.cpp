@@ -27,20 +27,20 @@ struct World {
         : scene(plainScene), search(how), shapes(shapesOf(plainScene)), substances(plainScene),
           emitters(plainScene, shapes) {}
 
-    [[nodiscard]] std::optional<Meeting> nearest(const Vec &origin, const Vec &direction, const Shape *left,
-                                                 Generator &generator) const {
-        std::optional<Meeting> best;
+    [[nodiscard]] std::optional<Hit> nearest(const Vec &origin, const Vec &direction, const Shape *left,
+                                             Generator &generator) const {
+        std::optional<Hit> best;
         for (const Shape &shape : shapes) {
-            const std::optional<Meeting> meeting = meet(shape, origin, direction, left);
-            if (!meeting || (best && meeting->distance >= best->distance))
+            const std::optional<Hit> hit = intersect(shape, origin, direction, left);
+            if (!hit || (best && hit->distance >= best->distance))
                 continue;
             if (shape.isAlphaTested &&
-                uniform(generator) >= substances.presence(shape.materialIndex, uvOf(*meeting, Vec(0.0))))
+                uniform(generator) >= substances.presence(shape.materialIndex, uvOf(*hit, Vec(0.0))))
                 continue;
             if (shape.isCulled && glm::dot(direction, glm::cross(shape.corners[1] - shape.corners[0],
                                                                  shape.corners[2] - shape.corners[0])) > 0.0)
                 continue;
-            best = meeting;
+            best = hit;
         }
         return best;
     }
@@ -48,8 +48,8 @@ struct World {
     /// Shadow rays pass no glass.
     [[nodiscard]] bool isVisible(const Vec &origin, const Vec &direction, double distance, const Shape *left,
                                  Generator &generator) const {
-        const std::optional<Meeting> meeting = nearest(origin, direction, left, generator);
-        return !meeting || meeting->distance >= distance;
+        const std::optional<Hit> hit = nearest(origin, direction, left, generator);
+        return !hit || hit->distance >= distance;
     }
 
     const TestScene &scene;
@@ -99,15 +99,14 @@ class Path {
   private:
     /// Follows one segment; whether the path goes on.
     bool advance(int segment) {
-        const std::optional<Meeting> meeting = world_.nearest(origin_, direction_, left_, generator_);
-        throughput_ *=
-            media_.transmittance(meeting ? meeting->distance : std::numeric_limits<double>::infinity());
-        if (!meeting) {
+        const std::optional<Hit> hit = world_.nearest(origin_, direction_, left_, generator_);
+        throughput_ *= media_.transmittance(hit ? hit->distance : std::numeric_limits<double>::infinity());
+        if (!hit) {
             radiance_ += throughput_ * surroundings(world_.scene, direction_);
             return false;
         }
-        SurfacePoint point = pointAt(*meeting, origin_, direction_);
-        const std::uint32_t materialIndex = meeting->shape->materialIndex;
+        SurfacePoint point = pointAt(*hit, origin_, direction_);
+        const std::uint32_t materialIndex = hit->shape->materialIndex;
         world_.substances.bendNormal(materialIndex, direction_, point);
         const Substance substance = world_.substances.at(materialIndex, point.uv);
         if (seesEmitters_)
@@ -121,7 +120,7 @@ class Path {
         if (isPassable)
             sides = crossing(media_, materialIndex, !isBehind);
         origin_ = point.position;
-        left_ = meeting->shape;
+        left_ = hit->shape;
         if (isSmooth(substance, isPassable, sides)) {
             seesEmitters_ = true;
             return isPassable ? passGlass(point, *sides, isBehind) : reflect(point, substance);
@@ -221,11 +220,10 @@ class Path {
         const Vec value = evaluate(direction);
         if (!(distance > 0.0) || value == Vec(0.0))
             return;
-        const std::optional<Meeting> meeting = world_.nearest(point.position, direction, left_, generator_);
-        if (!meeting || meeting->shape != choice.shape ||
-            std::abs(meeting->distance - distance) > 1e-6 * distance)
+        const std::optional<Hit> hit = world_.nearest(point.position, direction, left_, generator_);
+        if (!hit || hit->shape != choice.shape || std::abs(hit->distance - distance) > 1e-6 * distance)
             return;
-        const SurfacePoint at = pointAt(*meeting, point.position, direction);
+        const SurfacePoint at = pointAt(*hit, point.position, direction);
         const Vec emission = emitted(world_.substances.at(choice.shape->materialIndex, at.uv), at, direction);
         const double solidAngle = std::abs(glm::dot(direction, at.geometricNormal)) * world_.emitters.area() /
                                   (distance * distance);
