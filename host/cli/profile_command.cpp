@@ -100,13 +100,12 @@ Baseline readBaseline(const ProfileOptions &options) {
 ExitCode judge(const Measurement &measurement, const Baseline &baseline) {
     if (!baseline.figures)
         return ExitCode::Ok;
-    if (measurement.isCut()) {
+    if (measurement.isCut) {
         printResult("\nNOT compared with the baseline: the time limit ended what it is compared with\n");
         return ExitCode::AnswerIsNo;
     }
-    const Profile &profile = measurement.profile();
-    const BaselineComparison comparison =
-        compareWithBaseline(*baseline.figures, figuresOf(profile), baseline.maxRegression, baseline.gate);
+    const BaselineComparison comparison = compareWithBaseline(
+        *baseline.figures, figuresOf(measurement.profile), baseline.maxRegression, baseline.gate);
     fmt::print("\n{}", cleanText(comparisonTable(comparison, baseline.maxRegression, baseline.gate)));
     return comparison.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
@@ -117,28 +116,21 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     requireDistinctFiles(outputs, {resolveScene(options.measurement.scene.scene).string(), options.baseline});
     ProfileFiles files(options.paths);
     TerminalObserver observer(options.isQuiet);
-    Measurement measurement(options.measurement, commandLine, observer);
-    const Profile &profile = measurement.profile();
-    measurement.prepareScene();
-    requireDistinctFiles(outputs, measurement.scene().loaded.inputFiles);
-    measurement.openDevice();
-    files.requireSizes(profile.origin.width, profile.origin.height);
+    const MeasurementSubject subject = prepareMeasurement(options.measurement, commandLine, observer);
+    const Provenance &origin = subject.profile.origin;
+    requireDistinctFiles(outputs, subject.scene.loaded.inputFiles);
+    files.requireSizes(origin.width, origin.height);
     if (baseline.figures)
-        requireSameJob(*baseline.figures, profile);
-    printHead(profile, measurement.device());
-    const bool isCounting = options.measurement.isCounting || files.wantsHeatMap(measurement.scene());
-    measurement.startTime(isCounting);
-    if (const std::optional<std::string> fault = measurement.verify()) {
-        printFault(*fault, measurement.device());
+        requireSameJob(*baseline.figures, subject.profile);
+    printHead(subject.profile, *subject.device);
+    Measurement measurement =
+        measure(subject, options.measurement, files.wantsHeatMap(subject.scene), observer);
+    if (measurement.fault) {
+        printFault(*measurement.fault, *subject.device);
         return ExitCode::AnswerIsNo;
     }
-    measurement.measure();
-    if (isCounting)
-        measurement.countWork();
-    if (options.measurement.isCounting)
-        measurement.countKernelWork();
     files.writeImage(measurement);
-    printMeasured(profile);
+    printMeasured(measurement.profile);
     files.writeFigures(measurement);
     return judge(measurement, baseline);
 }

@@ -72,28 +72,27 @@ bool ProfileFiles::wantsHeatMap(const PreparedScene &scene) const {
 void ProfileFiles::writeImage(Measurement &measurement) {
     if (!image_)
         return;
-    Profile &profile = measurement.profile();
+    Profile &profile = measurement.profile;
     Stopwatch watch;
-    const Image image = measurement.film().toImage();
+    const Image image = measurement.film.toImage();
     Picture picture(image);
     picture.attributes = originOf(profile);
-    writeFilm(*image_, format_, measurement.film(), picture, profile.origin.settings);
+    writeFilm(*image_, format_, measurement.film, picture, profile.origin.settings);
     image_->commit();
     profile.hostStages.push_back({"write", watch.lap()});
 }
 
 void ProfileFiles::writeFigures(const Measurement &measurement) {
-    const Profile &profile = measurement.profile();
+    const Profile &profile = measurement.profile;
     std::vector<std::byte> heatMap;
-    if (measurement.heatMap())
-        heatMap = pngOf(*measurement.heatMap(), profile);
+    if (measurement.heatMap)
+        heatMap = pngOf(*measurement.heatMap, profile);
     store(report_, jsonText(profileToJson(profile)));
     store(csv_, profileCsv(profile));
     store(trace_, jsonText(profileToTrace(profile)));
     if (html_)
-        store(html_,
-              profileHtml(profile, pngOf(drawFilm(measurement.film(), profile.origin.settings), profile),
-                          heatMap));
+        store(html_, profileHtml(profile, pngOf(drawFilm(measurement.film, profile.origin.settings), profile),
+                                 heatMap));
     if (heatMap_) {
         heatMap_->write(heatMap);
         heatMap_->commit();

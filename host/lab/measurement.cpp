@@ -22,163 +22,204 @@ RayCounts raysOf(const Frame &frame) {
     return rays;
 }
 
+class MeasurementRun {
+  public:
+    MeasurementRun(const MeasurementSubject &subject, const MeasurementRequest &request, bool wantsHeatMap,
+                   Observer &observer)
+        : scene_(subject.scene), device_(*subject.device), request_(request),
+          isCounting_(request.isCounting || wantsHeatMap), observer_(observer),
+          limit_(request.timeLimitSeconds), measuring_(limit_.share(isCounting_ ? 0.5 : 1.0)) {
+        profile_ = subject.profile;
+        profile_.timeLimitSeconds = request.timeLimitSeconds;
+    }
+
+    Measurement measure() {
+        result_.fault = verify();
+        if (result_.fault)
+            return std::move(result_);
+        renderFrames();
+        if (isCounting_)
+            countWork();
+        if (request_.isCounting)
+            countKernelWork();
+        result_.isCut = result_.isCut || measuredShare(profile_) < 1.0;
+        return std::move(result_);
+    }
+
+  private:
+    [[nodiscard]] bool isVerifiable() const { return !isReference(request_.device); }
+
+    /// Returns whether the frame is finished.
+    bool renderFrame(const std::string &label, bool isMeasured) {
+        Frame frame;
+        frame.label = label;
+        Stopwatch watch;
+        BackendResult result = render(device_, scene_.loaded.settings,
+                                      {.name = label, .limit = measuring_, .timeline = &frame.timeline});
+        frame.span = watch.lap();
+        frame.finishedShare = finishedShare(result.film);
+        const bool isFinished = frame.finishedShare == 1.0;
+        frame.isMeasured = isMeasured && isFinished;
+        if (frame.finishedShare > filmShare_) {
+            filmShare_ = frame.finishedShare;
+            result_.film = std::move(result.film);
+        }
+        profile_.frames.push_back(std::move(frame));
+        return isFinished;
+    }
+
+    /// Returns how the first frame differs from the CPU twin's, or nothing.
+    std::optional<std::string> verify() {
+        if (request_.isUnverified || !isVerifiable()) {
+            profile_.verification =
+                request_.isUnverified ? "not verified, as asked" : "not verified: it is the reference itself";
+            return std::nullopt;
+        }
+        profile_.verification = "not verified: the time limit came before the CPU twin had finished";
+        if (!renderFrame("verification", false)) {
+            profile_.leftOut.emplace_back("the verification");
+            return std::nullopt;
+        }
+        const std::unique_ptr<Backend> twin = openBackend("cpu", observer_);
+        Stopwatch watch;
+        const BackendResult wanted =
+            render(*twin, scene_.loaded.settings, {.name = "the CPU twin", .limit = measuring_.share(0.5)});
+        profile_.hostStages.push_back({"the CPU twin", watch.lap()});
+        if (finishedShare(wanted.film) < 1.0) {
+            profile_.leftOut.emplace_back("the verification");
+            return std::nullopt;
+        }
+        if (const std::size_t count = differingPixelCount(result_.film, wanted.film); count > 0)
+            return fmt::format("{} of {} pixels differ from the CPU twin's", count,
+                               wanted.film.pixels.size());
+        if (const RayCounts rays = raysOf(profile_.frames.back()); rays != wanted.rays)
+            return fmt::format("{} rays were traced, and {} by the CPU twin", rays.total(),
+                               wanted.rays.total());
+        profile_.isVerified = true;
+        profile_.verification = "equal to the CPU twin, bit for bit, ray counts too";
+        return std::nullopt;
+    }
+
+    /// Renders the warm-ups and the repeats.
+    void renderFrames() {
+        const auto isTimeLeft = [this] { return profile_.frames.empty() || !measuring_.isReached(); };
+        for (int i = 1; i <= request_.warmupCount && isTimeLeft(); ++i)
+            (void)renderFrame(fmt::format("warm-up {}", i), false);
+        int measuredCount = 0;
+        while (measuredCount < request_.repeatCount && isTimeLeft() &&
+               renderFrame(fmt::format("repeat {}", measuredCount + 1), true))
+            ++measuredCount;
+        if (measuredCount == request_.repeatCount)
+            return;
+        if (measuredCount > 0) {
+            profile_.leftOut.push_back(
+                fmt::format("{} of {} repeats", request_.repeatCount - measuredCount, request_.repeatCount));
+            return;
+        }
+        Frame &most = *std::ranges::max_element(profile_.frames, {}, &Frame::finishedShare);
+        most.isMeasured = true;
+        profile_.leftOut.push_back(
+            fmt::format("all repeats: the measured frame is the {}, {}", most.label,
+                        most.finishedShare < 1.0
+                            ? fmt::format("ended at {} of its samples", shareText(most.finishedShare))
+                            : "which is finished"));
+    }
+
+    /// Counts the work of the rays of the integrator, in a traversal with a stack, whichever kernel is measured.
+    void countWork() {
+        const std::unique_ptr<Backend> counter =
+            openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_));
+        RenderSettings settings = scene_.loaded.settings;
+        settings.isWorkShown = true;
+        const BackendResult result = render(
+            *counter, settings, {.name = "counting", .limit = limit_.share(request_.isCounting ? 0.5 : 1.0)});
+        if (const double share = finishedShare(result.film); share < 1.0)
+            cutCount("the work of the rays: the heat map shows the samples", share);
+        else
+            profile_.work = result.work;
+        const std::vector<float> tests = testsPerSample(result.film);
+        std::vector<float> ofSampled;
+        for (std::size_t i = 0; i < tests.size(); ++i)
+            if (result.film.pixels[i].sampleCount > 0)
+                ofSampled.push_back(tests[i]);
+        profile_.workHistogram = binWork(ofSampled);
+        result_.heatMap = drawCost(result.film);
+    }
+
+    /// Renders once more and counts the work of the measured kernel's traversal, if it has one.
+    void countKernelWork() {
+        if (!isVerifiable())
+            return;
+        gpu::RenderConfig config = renderConfigFor(request_.deviceOptions);
+        config.isCounting = true;
+        const std::unique_ptr<Backend> counter =
+            openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_), config);
+        const BackendResult result =
+            render(*counter, scene_.loaded.settings, {.name = "counting the kernel's work", .limit = limit_});
+        if (const double share = finishedShare(result.film); share < 1.0)
+            cutCount("the work of the kernel: the samples", share);
+        else
+            profile_.kernelWork =
+                KernelWork{counter->identity(scene_.packed, scene_.loaded.settings.integrator).kernel,
+                           result.work, result.lanes};
+    }
+
+    /// Notes a count that the time limit cut.
+    void cutCount(const char *what, double share) {
+        result_.isCut = true;
+        profile_.leftOut.push_back(fmt::format("{}, of which {} are there", what, shareText(share)));
+    }
+
+    BackendResult render(Backend &backend, const RenderSettings &settings, const RenderTask &task) const {
+        return unlessFailed(hyalite::render(backend, scene_.packed, settings, scene_.crop, observer_, task));
+    }
+
+    double finishedShare(const Film &film) const {
+        const int samplesPerPixel = scene_.loaded.settings.samplesPerPixel;
+        const FinishedWork finished = finishedWork(film, std::span(&film.crop, 1), samplesPerPixel);
+        return static_cast<double>(finished.sampleCount) / static_cast<double>(finished.wantedPixelCount) /
+               samplesPerPixel;
+    }
+
+    const PreparedScene &scene_;
+    Backend &device_;
+    const MeasurementRequest &request_;
+    const bool isCounting_;
+    Observer &observer_;
+    const TimeLimit limit_;     ///< of all renders
+    const TimeLimit measuring_; ///< of those before the counts
+    Measurement result_;        ///< its film is that of the frame that is finished most
+    Profile &profile_ = result_.profile;
+    double filmShare_ = -1.0; ///< how much of that is finished
+};
+
 } // namespace
 
-Measurement::Measurement(const MeasurementRequest &request, const std::string &commandLine,
-                         Observer &observer)
-    : request_(request), observer_(observer) {
-    profile_.origin.commandLine = commandLine;
-}
-
-void Measurement::prepareScene() {
-    watch_ = {};
-    scene_ = hyalite::prepareScene(request_.scene, Source::Dropped, observer_);
-    const Span prepared = watch_.lap();
+MeasurementSubject prepareMeasurement(const MeasurementRequest &request, const std::string &commandLine,
+                                      Observer &observer) {
+    Stopwatch watch;
+    MeasurementSubject subject{prepareScene(request.scene, Source::Dropped, observer), {}, {}};
+    const PreparedScene &scene = subject.scene;
+    Profile &profile = subject.profile;
+    const Span prepared = watch.lap();
     const auto nanos = [](double seconds) { return std::llround(seconds * 1e9); };
-    const std::int64_t loaded = prepared.beginNanos + nanos(scene_.loadSeconds);
-    profile_.hostStages.push_back({"load", {prepared.beginNanos, loaded}});
-    profile_.hostStages.push_back({"build", {loaded, loaded + nanos(scene_.buildSeconds)}});
-    profile_.origin = provenanceOf(scene_, profile_.origin.commandLine);
-    profile_.sceneBytes = scene_.packed.sizeBytes();
+    const std::int64_t loaded = prepared.beginNanos + nanos(scene.loadSeconds);
+    profile.hostStages.push_back({"load", {prepared.beginNanos, loaded}});
+    profile.hostStages.push_back({"build", {loaded, loaded + nanos(scene.buildSeconds)}});
+    profile.origin = provenanceOf(scene, commandLine);
+    profile.sceneBytes = scene.packed.sizeBytes();
+    requireFilmMemory(scene.crop, 2);
+    watch = {};
+    subject.device = openBackend(request.device, observer, processorsFor(request.threadCount, scene),
+                                 renderConfigFor(request.deviceOptions));
+    profile.hostStages.push_back({"open the device", watch.lap()});
+    profile.device = subject.device->identity(scene.packed, profile.origin.settings.integrator);
+    return subject;
 }
 
-void Measurement::openDevice() {
-    requireFilmMemory(scene_.crop, 2);
-    watch_ = {};
-    backend_ = openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_),
-                           renderConfigFor(request_.deviceOptions));
-    profile_.hostStages.push_back({"open the device", watch_.lap()});
-    profile_.device = backend_->identity(scene_.packed, profile_.origin.settings.integrator);
-}
-
-void Measurement::startTime(bool isCounting) {
-    limit_ = TimeLimit(request_.timeLimitSeconds);
-    measuring_ = limit_.share(isCounting ? 0.5 : 1.0);
-    profile_.timeLimitSeconds = request_.timeLimitSeconds;
-}
-
-BackendResult Measurement::render(Backend &backend, const RenderSettings &settings,
-                                  const RenderTask &task) const {
-    return unlessFailed(hyalite::render(backend, scene_.packed, settings, scene_.crop, observer_, task));
-}
-
-double Measurement::finishedShare(const Film &film) const {
-    const int samplesPerPixel = scene_.loaded.settings.samplesPerPixel;
-    const FinishedWork finished = finishedWork(film, std::span(&film.crop, 1), samplesPerPixel);
-    return static_cast<double>(finished.sampleCount) / static_cast<double>(finished.wantedPixelCount) /
-           samplesPerPixel;
-}
-
-bool Measurement::renderFrame(const std::string &label, bool isMeasured) {
-    Frame frame;
-    frame.label = label;
-    Stopwatch watch;
-    BackendResult result = render(*backend_, scene_.loaded.settings,
-                                  {.name = label, .limit = measuring_, .timeline = &frame.timeline});
-    frame.span = watch.lap();
-    frame.finishedShare = finishedShare(result.film);
-    const bool isFinished = frame.finishedShare == 1.0;
-    frame.isMeasured = isMeasured && isFinished;
-    if (!film_ || frame.finishedShare > filmShare_) {
-        filmShare_ = frame.finishedShare;
-        film_ = std::move(result.film);
-    }
-    profile_.frames.push_back(std::move(frame));
-    return isFinished;
-}
-
-std::optional<std::string> Measurement::verify() {
-    if (request_.isUnverified || !isVerifiable()) {
-        profile_.verification =
-            request_.isUnverified ? "not verified, as asked" : "not verified: it is the reference itself";
-        return std::nullopt;
-    }
-    profile_.verification = "not verified: the time limit came before the CPU twin had finished";
-    if (!renderFrame("verification", false)) {
-        profile_.leftOut.emplace_back("the verification");
-        return std::nullopt;
-    }
-    const std::unique_ptr<Backend> twin = openBackend("cpu", observer_);
-    Stopwatch watch;
-    const BackendResult wanted =
-        render(*twin, scene_.loaded.settings, {.name = "the CPU twin", .limit = measuring_.share(0.5)});
-    profile_.hostStages.push_back({"the CPU twin", watch.lap()});
-    if (finishedShare(wanted.film) < 1.0) {
-        profile_.leftOut.emplace_back("the verification");
-        return std::nullopt;
-    }
-    if (const std::size_t count = differingPixelCount(*film_, wanted.film); count > 0)
-        return fmt::format("{} of {} pixels differ from the CPU twin's", count, wanted.film.pixels.size());
-    if (const RayCounts rays = raysOf(profile_.frames.back()); rays != wanted.rays)
-        return fmt::format("{} rays were traced, and {} by the CPU twin", rays.total(), wanted.rays.total());
-    profile_.isVerified = true;
-    profile_.verification = "equal to the CPU twin, bit for bit, ray counts too";
-    return std::nullopt;
-}
-
-void Measurement::measure() {
-    const auto isTimeLeft = [this] { return profile_.frames.empty() || !measuring_.isReached(); };
-    for (int i = 1; i <= request_.warmupCount && isTimeLeft(); ++i)
-        (void)renderFrame(fmt::format("warm-up {}", i), false);
-    int measuredCount = 0;
-    while (measuredCount < request_.repeatCount && isTimeLeft() &&
-           renderFrame(fmt::format("repeat {}", measuredCount + 1), true))
-        ++measuredCount;
-    if (measuredCount == request_.repeatCount)
-        return;
-    if (measuredCount > 0) {
-        profile_.leftOut.push_back(
-            fmt::format("{} of {} repeats", request_.repeatCount - measuredCount, request_.repeatCount));
-        return;
-    }
-    Frame &most = *std::ranges::max_element(profile_.frames, {}, &Frame::finishedShare);
-    most.isMeasured = true;
-    profile_.leftOut.push_back(fmt::format(
-        "all repeats: the measured frame is the {}, {}", most.label,
-        most.finishedShare < 1.0 ? fmt::format("ended at {} of its samples", shareText(most.finishedShare))
-                                 : "which is finished"));
-}
-
-void Measurement::cutCount(const char *what, double share) {
-    isCountCut_ = true;
-    profile_.leftOut.push_back(fmt::format("{}, of which {} are there", what, shareText(share)));
-}
-
-void Measurement::countWork() {
-    const std::unique_ptr<Backend> counter =
-        openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_));
-    RenderSettings settings = scene_.loaded.settings;
-    settings.isWorkShown = true;
-    const BackendResult result = render(
-        *counter, settings, {.name = "counting", .limit = limit_.share(request_.isCounting ? 0.5 : 1.0)});
-    if (const double share = finishedShare(result.film); share < 1.0)
-        cutCount("the work of the rays: the heat map shows the samples", share);
-    else
-        profile_.work = result.work;
-    const std::vector<float> tests = testsPerSample(result.film);
-    std::vector<float> ofSampled;
-    for (std::size_t i = 0; i < tests.size(); ++i)
-        if (result.film.pixels[i].sampleCount > 0)
-            ofSampled.push_back(tests[i]);
-    profile_.workHistogram = binWork(ofSampled);
-    heatMap_ = drawCost(result.film);
-}
-
-void Measurement::countKernelWork() {
-    if (!isVerifiable())
-        return;
-    gpu::RenderConfig config = renderConfigFor(request_.deviceOptions);
-    config.isCounting = true;
-    const std::unique_ptr<Backend> counter =
-        openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_), config);
-    const BackendResult result =
-        render(*counter, scene_.loaded.settings, {.name = "counting the kernel's work", .limit = limit_});
-    if (const double share = finishedShare(result.film); share < 1.0)
-        cutCount("the work of the kernel: the samples", share);
-    else
-        profile_.kernelWork =
-            KernelWork{counter->identity(scene_.packed, scene_.loaded.settings.integrator).kernel,
-                       result.work, result.lanes};
+Measurement measure(const MeasurementSubject &subject, const MeasurementRequest &request, bool wantsHeatMap,
+                    Observer &observer) {
+    return MeasurementRun(subject, request, wantsHeatMap, observer).measure();
 }
 
 } // namespace hyalite
