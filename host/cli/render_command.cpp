@@ -190,7 +190,7 @@ void requireSequenceOptions(const RenderRequest &request, const SequenceOptions 
 
 /// One picture, or one frame of a sequence, from a session that may be prepared already.
 ExitCode renderOne(const RenderRequest &request, const std::string &commandLine, RenderSession &session,
-                   TerminalObserver &observer, bool isQuiet) {
+                   TerminalObserver &observer) {
     PictureFiles files = openFiles(request);
     if (!session.isPrepared())
         session.prepare(request);
@@ -198,19 +198,19 @@ ExitCode renderOne(const RenderRequest &request, const std::string &commandLine,
     requireRoom(files, session.scene().crop);
     session.open();
     observer.catchSignals();
-    if (session.isFirstPicture() && !isQuiet)
+    if (session.isFirstPicture() && !observer.isQuiet())
         printDevice(session);
     PictureBeginning begun = beginPicture(files, commandLine, session);
     if (begun.isFinished) {
-        if (!isQuiet)
+        if (!observer.isQuiet())
             printResult("{}: {} is finished\n", request.output,
                         request.part ? fmt::format("part {} of {}", request.part->index, request.part->count)
                                      : fmt::format("frame {}", *request.frame));
         return ExitCode::Ok;
     }
-    printResumed(begun, request, isQuiet);
+    printResumed(begun, request, observer.isQuiet());
     const FinishedPicture picture = finishPicture(files, std::move(begun), session);
-    printOutcome(picture, request, isQuiet);
+    printOutcome(picture, request, observer.isQuiet());
     if (picture.failure)
         throw Error(*picture.failure);
     const std::optional<Stop> stop = observer.wantsStop();
@@ -233,7 +233,7 @@ ExitCode serve(const RenderRequest &request, Ranks &ranks) {
     return ExitCode::Ok;
 }
 
-ExitCode runRender(const RenderRequest &request, const std::string &commandLine, bool isQuiet) {
+ExitCode runRender(const RenderRequest &request, const std::string &commandLine, TerminalObserver &observer) {
     requireOptionsThatGoTogether(request);
     const std::unique_ptr<Ranks> ranks = joinRanks();
     if (ranks != nullptr && ranks->rank() > 0)
@@ -241,13 +241,12 @@ ExitCode runRender(const RenderRequest &request, const std::string &commandLine,
     std::optional<RankPool> pool;
     if (ranks != nullptr)
         pool.emplace(*ranks);
-    TerminalObserver observer(isQuiet);
     RenderSession session(observer, pool ? &*pool : nullptr);
-    return renderOne(request, commandLine, session, observer, isQuiet);
+    return renderOne(request, commandLine, session, observer);
 }
 
 ExitCode runSequence(RenderRequest request, const SequenceOptions &options, const std::string &commandLine,
-                     bool isQuiet) {
+                     TerminalObserver &observer) {
     requireSequenceOptions(request, options);
     const std::unique_ptr<Ranks> ranks = joinRanks();
     if (ranks != nullptr && request.part)
@@ -257,12 +256,11 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
             Part{static_cast<std::uint32_t>(ranks->rank()) + 1, static_cast<std::uint32_t>(ranks->count())};
     Sequence sequence(request, options);
     if (sequence.frames().empty()) {
-        if (!isQuiet)
+        if (!observer.isQuiet())
             printResult("part {} of {} has no frame\n", request.part->index, request.part->count);
         return ExitCode::Ok;
     }
     requireOptionsThatGoTogether(sequence.requestOf(sequence.frames().front()));
-    TerminalObserver observer(isQuiet);
     RenderSession session(observer);
     sequence.prepare(session);
     const TimeLimit limit(request.timeLimitSeconds);
@@ -274,8 +272,7 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
         }
         ofFrame.timeLimitSeconds = limit.secondsLeft();
         sequence.moveTo(frame, session);
-        if (const ExitCode code = renderOne(ofFrame, commandLine, session, observer, isQuiet);
-            code != ExitCode::Ok)
+        if (const ExitCode code = renderOne(ofFrame, commandLine, session, observer); code != ExitCode::Ok)
             return code;
     }
     return ExitCode::Ok;
@@ -294,9 +291,10 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
         request->words = context.words;
         if (sequence->framesPerSecond && !sequence->areGiven())
             throw Error(ErrorKind::Usage, "--fps needs --frames FIRST..LAST");
+        TerminalObserver observer(*isQuiet);
         context.exitCode = sequence->areGiven()
-                               ? runSequence(*request, *sequence, context.commandLine, *isQuiet)
-                               : runRender(*request, context.commandLine, *isQuiet);
+                               ? runSequence(*request, *sequence, context.commandLine, observer)
+                               : runRender(*request, context.commandLine, observer);
     });
 }
 

@@ -15,6 +15,8 @@ class TerminalObserver : public Observer {
     /// Quiet: without progress and advice.
     explicit TerminalObserver(bool isQuiet) : isQuiet_(isQuiet) {}
 
+    [[nodiscard]] bool isQuiet() const { return isQuiet_; }
+
     void begin(const std::string &task, bool mayCompile) override;
     void progress(double share) override { line_->update(share); }
     void end() override { line_.reset(); }
