@@ -55,9 +55,9 @@ void explainEndByLibrary() {
 /// Throws Error{Usage} for more threads than OpenMP survives: it keeps them on the stack.
 void requireThreadCount() {
     constexpr int maxThreads = 4096;
-    if (const int found = omp_get_max_threads(); found > maxThreads)
+    if (const int count = omp_get_max_threads(); count > maxThreads)
         throw Error(ErrorKind::Usage,
-                    fmt::format("OMP_NUM_THREADS: found {}; allowed: a whole number from 1 to {}", found,
+                    fmt::format("OMP_NUM_THREADS: found {}; allowed: a whole number from 1 to {}", count,
                                 maxThreads));
 }
 

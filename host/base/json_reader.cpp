@@ -80,10 +80,10 @@ void JsonNode::fail(std::string_view message, Remedy remedy) const {
 }
 
 double JsonNode::number(const Interval &allowed) const {
-    const double found = value->is_number() ? allowed.rounded(value->get<double>()) : 0.0;
-    if (!value->is_number() || !allowed.contains(found))
+    const double number = value->is_number() ? allowed.rounded(value->get<double>()) : 0.0;
+    if (!value->is_number() || !allowed.contains(number))
         refuse("a number " + allowed.text());
-    return found;
+    return number;
 }
 
 glm::dvec3 JsonNode::vector(const Interval &allowed) const {
@@ -115,10 +115,10 @@ glm::dvec3 JsonNode::colour(const Interval &allowed) const {
 }
 
 double JsonNode::wholeNumber(const Interval &allowed) const {
-    const double found = value->is_number() ? value->get<double>() : 0.5;
-    if (found != std::trunc(found) || !allowed.contains(found))
+    const double number = value->is_number() ? value->get<double>() : 0.5;
+    if (number != std::trunc(number) || !allowed.contains(number))
         refuse("a whole number " + allowed.text());
-    return found;
+    return number;
 }
 
 bool JsonNode::boolean() const {
@@ -130,19 +130,19 @@ bool JsonNode::boolean() const {
 std::string JsonNode::text() const {
     if (!value->is_string())
         refuse("a text");
-    const std::string &found = value->get_ref<const std::string &>();
-    if (found.find('\0') != std::string::npos)
+    const std::string &text = value->get_ref<const std::string &>();
+    if (text.find('\0') != std::string::npos)
         refuse("a text without the character NUL"); // the system would cut a file name there
-    return found;
+    return text;
 }
 
 std::size_t JsonNode::indexOfName(std::span<const std::string_view> names) const {
     if (!value->is_string())
         refuse(quotedList(names));
-    const std::string &found = value->get_ref<const std::string &>();
-    const auto name = std::find(names.begin(), names.end(), found);
+    const std::string &text = value->get_ref<const std::string &>();
+    const auto name = std::find(names.begin(), names.end(), text);
     if (name == names.end())
-        refuse(quotedList(names) + suggestion(found, names));
+        refuse(quotedList(names) + suggestion(text, names));
     return static_cast<std::size_t>(name - names.begin());
 }
 

@@ -91,8 +91,8 @@ class Builder {
 
     /// An instance, or a pair of triangles, has a leaf of its own.
     [[nodiscard]] std::size_t leafSizeFor(std::span<const BuildTriangle> range) const {
-        const auto isAlone = [&](const BuildTriangle &one) {
-            return one.inputIndex >= firstInstance_ || isPair(isJoined_, one);
+        const auto isAlone = [&](const BuildTriangle &triangle) {
+            return triangle.inputIndex >= firstInstance_ || isPair(isJoined_, triangle);
         };
         return range.size() <= leafSize_ && std::ranges::any_of(range, isAlone) ? 1 : leafSize_;
     }

@@ -99,10 +99,10 @@ CLI::Option *addChoiceFor(CLI::App &command, const std::string &name, const std:
         words.push_back(word);
     const std::string typeName = fmt::format("{}", fmt::join(words, "|"));
     const auto read = [name, take, choices, words = std::move(words)](const CLI::results_t &typed) {
-        const auto found = std::ranges::find(words, typed.front());
-        if (found == words.end())
+        const auto chosen = std::ranges::find(words, typed.front());
+        if (chosen == words.end())
             refuseValue(name, typed.front(), quotedList(words) + suggestion(typed.front(), words));
-        take(choices[static_cast<std::size_t>(found - words.begin())].second);
+        take(choices[static_cast<std::size_t>(chosen - words.begin())].second);
         return true;
     };
     return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);

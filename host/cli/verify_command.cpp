@@ -168,7 +168,7 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
     requireKernels(options.kernels);
     const std::vector<Subject> subjects = subjectsOf(options.devices);
     if (!options.kernels.empty() &&
-        std::ranges::none_of(subjects, [](const Subject &one) { return one.device.has_value(); }))
+        std::ranges::none_of(subjects, [](const Subject &subject) { return subject.device.has_value(); }))
         throw Error(ErrorKind::Usage, "--kernels: found --device cpu, which has none to choose from");
     if (!options.isQuiet)
         printResult("{} films of {}, version {}\n", shipped.films.size(),

@@ -73,8 +73,8 @@ void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
 /// Throws for an option that neither the integrator nor a view looks at.
 void requireEffect(const SceneOptions &options, Integrator integrator) {
     for (const SettingChange &change : options.settings) {
-        const auto isUsedBy = [&](Integrator one) {
-            return std::ranges::find(change.option->integrators, one) != change.option->integrators.end();
+        const auto isUsedBy = [&](Integrator user) {
+            return std::ranges::find(change.option->integrators, user) != change.option->integrators.end();
         };
         if (change.option == nullptr || change.option->integrators.empty() || isUsedBy(integrator) ||
             std::ranges::any_of(options.views, isUsedBy))

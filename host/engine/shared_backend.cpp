@@ -19,10 +19,10 @@ class SharedBackend : public Backend {
     }
 
     [[nodiscard]] std::string name() const override {
-        return joined([](const Backend &one) { return one.name(); });
+        return joined([](const Backend &backend) { return backend.name(); });
     }
     [[nodiscard]] std::string description() const override {
-        return joined([](const Backend &one) { return one.description(); }, "; ");
+        return joined([](const Backend &backend) { return backend.description(); }, "; ");
     }
     [[nodiscard]] RendererIdentity identity(const PackedScene &scene, Integrator integrator) const override {
         std::vector<RendererIdentity> all;
@@ -53,12 +53,13 @@ class SharedBackend : public Backend {
     }
     [[nodiscard]] gpu::BitGuarantee bits() const override {
         return std::ranges::min_element(members_, {},
-                                        [](const Member &one) { return one.backend->bits().degree; })
+                                        [](const Member &member) { return member.backend->bits().degree; })
             ->backend->bits();
     }
     [[nodiscard]] std::string precision() const override { return members_.front().backend->precision(); }
     [[nodiscard]] bool hasCompiler() const override {
-        return std::ranges::any_of(members_, [](const Member &one) { return one.backend->hasCompiler(); });
+        return std::ranges::any_of(members_,
+                                   [](const Member &member) { return member.backend->hasCompiler(); });
     }
 
     [[nodiscard]] BackendResult render(const PackedScene &scene, const RenderSettings &settings, Film begun,

@@ -36,9 +36,9 @@ void requireEqualBits(const std::string &name, const Film &film, const std::stri
         if (haveEqualBits(film.pixels[i], right.pixels[i]))
             continue;
         using Bits = std::array<std::uint32_t, 3>;
-        const auto sum = std::ranges::find_if(sums, [&](const Sum &one) {
-            return std::bit_cast<Bits>(film.pixels[i].*one.values) !=
-                   std::bit_cast<Bits>(right.pixels[i].*one.values);
+        const auto sum = std::ranges::find_if(sums, [&](const Sum &each) {
+            return std::bit_cast<Bits>(film.pixels[i].*each.values) !=
+                   std::bit_cast<Bits>(right.pixels[i].*each.values);
         });
         const Sum &differing = sum != sums.end() ? *sum : sums.front();
         const glm::vec3 &a = film.pixels[i].*differing.values;

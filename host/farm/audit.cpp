@@ -29,8 +29,9 @@ std::vector<Candidate> candidatesOf(const Merger &merged, std::uint64_t seed) {
                 const std::array<int, 2> corner{tile.x0, tile.y0};
                 candidates.push_back({hashBytes(std::as_bytes(std::span(corner)), seed), part, tile});
             }
-    std::ranges::sort(candidates, {},
-                      [](const Candidate &one) { return std::tuple(one.rank, one.tile.y0, one.tile.x0); });
+    std::ranges::sort(candidates, {}, [](const Candidate &candidate) {
+        return std::tuple(candidate.rank, candidate.tile.y0, candidate.tile.x0);
+    });
     return candidates;
 }
 

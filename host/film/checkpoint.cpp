@@ -249,12 +249,12 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<
     writeHashed(std::as_bytes(std::span(identity_)));
     writeHashed(std::as_bytes(std::span(subject_.origin)));
     const std::span<const Crop> squares = partition_.squaresOf(subject_.part.index);
-    const auto writeFilm = [&](const Film &one) {
+    const auto writeFilm = [&](const Film &whole) {
         if (subject_.part.count == 1) {
-            writeHashed(std::as_bytes(std::span(one.pixels)));
+            writeHashed(std::as_bytes(std::span(whole.pixels)));
             return;
         }
-        const std::vector<layout::FilmPixel> own = pixelsIn(one, squares);
+        const std::vector<layout::FilmPixel> own = pixelsIn(whole, squares);
         writeHashed(std::as_bytes(std::span(own)));
     };
     writeFilm(film);

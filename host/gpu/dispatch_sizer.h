@@ -88,13 +88,14 @@ class DispatchSizer {
     /// A higher cost is learned at once, because the next dispatch must not be long; a lower one gradually, faster with
     /// more `weight`. No dispatch raises the cost more than fourfold: the machine may have been busy with something
     /// else.
-    static void learn(double &known, double found, double weight) {
-        if (found <= 0.0)
+    static void learn(double &known, double measured, double weight) {
+        if (measured <= 0.0)
             return;
         if (known == 0.0)
-            known = found;
+            known = measured;
         else
-            known = found > known ? std::min(found, 4.0 * known) : known + 0.25 * weight * (found - known);
+            known = measured > known ? std::min(measured, 4.0 * known)
+                                     : known + 0.25 * weight * (measured - known);
     }
 
     double seconds_;

@@ -15,12 +15,12 @@ std::shared_ptr<Pipeline> PipelineCache::get(Device &device, const std::string &
                                              std::span<const std::uint32_t> spirv,
                                              const SpecializationConstants &constants,
                                              std::span<const BufferUse> bindings) {
-    const auto found = std::ranges::find_if(kept_, [&](const Kept &one) {
-        return one.spirv == spirv.data() && one.constants == constants &&
-               std::ranges::equal(one.bindings, bindings);
+    const auto same = std::ranges::find_if(kept_, [&](const Kept &kept) {
+        return kept.spirv == spirv.data() && kept.constants == constants &&
+               std::ranges::equal(kept.bindings, bindings);
     });
-    if (found != kept_.end()) {
-        kept_.splice(kept_.begin(), kept_, found);
+    if (same != kept_.end()) {
+        kept_.splice(kept_.begin(), kept_, same);
         return kept_.front().pipeline;
     }
     auto made = std::make_shared<Pipeline>(device, name, spirv, constants, bindings);

@@ -24,10 +24,10 @@ bool hasWideVectors() {
 void requireVectorWidth() {
     constexpr const char *width = "LP_NATIVE_VECTOR_WIDTH";
     const char *const bits = std::getenv(width);
-    const std::string_view found = bits != nullptr ? bits : "";
-    if (!found.empty() && found != "128" && found != "256" && found != "512")
+    const std::string_view given = bits != nullptr ? bits : "";
+    if (!given.empty() && given != "128" && given != "256" && given != "512")
         throw Error(ErrorKind::Usage, fmt::format("{}: found \"{}\"; allowed: 128, 256 or 512, or unset it",
-                                                  width, excerpt(found)));
+                                                  width, excerpt(given)));
 }
 
 } // namespace hyalite::gpu

@@ -132,14 +132,14 @@ class SafeHeader {
                                                                                   {"tiles", 9},
                                                                                   {"chunkCount", 4}}};
         const bool isText = name == "name" || name == "type"; // of a part
-        const auto found =
+        const auto sized =
             std::find_if(needed.begin(), needed.end(), [&](const auto &n) { return n.first == name; });
         const bool isRight = name == "channels"      ? isChannelList(valueBegin, size)
-                             : found != needed.end() ? found->second == size
+                             : sized != needed.end() ? sized->second == size
                                                      : true;
         if (!isRight)
             throw file_.bad(fmt::format("its OpenEXR attribute {} is damaged", name));
-        if (name != "channels" && !isText && found == needed.end())
+        if (name != "channels" && !isText && sized == needed.end())
             std::fill_n(bytes_.begin() + static_cast<std::ptrdiff_t>(typeBegin), typeSize, std::byte{'~'});
         return valueBegin + size;
     }
@@ -219,14 +219,14 @@ std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &c
 [[noreturn]] void refuseChannels(const InputFile &file, const Imf::ChannelList &channels,
                                  const std::string &layer) {
     const std::string prefix = prefixOf(layer);
-    std::vector<std::string> found;
+    std::vector<std::string> names;
     constexpr std::size_t maxListed = 12;
     std::size_t count = 0;
     for (Imf::ChannelList::ConstIterator i = channels.begin(); i != channels.end(); ++i)
         if (++count <= maxListed)
-            found.push_back(excerpt(i.name(), 40));
+            names.push_back(excerpt(i.name(), 40));
     throw file.bad(fmt::format("it has no channels {}R, {}G and {}B, but {}{}", prefix, prefix, prefix,
-                               found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", ")),
+                               names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")),
                                count > maxListed ? fmt::format(" and {} more", count - maxListed) : ""));
 }
 

@@ -35,18 +35,18 @@ std::optional<std::filesystem::path> FileFinder::findExactly(const std::filesyst
 
 const FileFinder::Listing &FileFinder::listingOf(const std::filesystem::path &folder) {
     constexpr std::size_t maxEntries = 100'000;
-    const auto [found, isNew] = listings_.try_emplace(folder);
+    const auto [listing, isNew] = listings_.try_emplace(folder);
     if (!isNew)
-        return found->second;
+        return listing->second;
     std::error_code error; // a folder that is missing or may not be read has no entries
     for (std::filesystem::directory_iterator entry(folder, error), end;
-         !error && entry != end && found->second.size() < maxEntries; entry.increment(error)) {
+         !error && entry != end && listing->second.size() < maxEntries; entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        const auto [place, isFirst] = found->second.try_emplace(lowerCase(name), name);
+        const auto [place, isFirst] = listing->second.try_emplace(lowerCase(name), name);
         if (!isFirst) // two names that differ in case alone: the same one each time
             place->second = std::min(place->second, name);
     }
-    return found->second;
+    return listing->second;
 }
 
 std::optional<std::filesystem::path> FileFinder::findInAnyCase(const std::filesystem::path &base,
@@ -65,10 +65,10 @@ std::optional<std::filesystem::path> FileFinder::findInAnyCase(const std::filesy
         if (error || !isInside)
             return std::nullopt;
         const Listing &listing = listingOf(canonical);
-        const auto found = listing.find(lowerCase(part.string()));
-        if (found == listing.end())
+        const auto entry = listing.find(lowerCase(part.string()));
+        if (entry == listing.end())
             return std::nullopt;
-        file /= found->second;
+        file /= entry->second;
     }
     return findExactly(file);
 }
@@ -82,25 +82,25 @@ std::filesystem::path folderOf(const std::filesystem::path &file) {
 std::optional<std::filesystem::path> FileFinder::find(const std::filesystem::path &base,
                                                       std::string_view name) {
     const auto [known, isNew] = known_.try_emplace(base.string() + '\0' + std::string(name));
-    std::optional<std::filesystem::path> &found = known->second;
+    std::optional<std::filesystem::path> &file = known->second;
     if (!isNew)
-        return found;
-    found = findExactly(base / name);
-    if (found)
-        return found;
+        return file;
+    file = findExactly(base / name);
+    if (file)
+        return file;
     std::string slashed(trimmed(name));
     std::ranges::replace(slashed, '\\', '/');
-    for (std::string_view rest = slashed; !found && !rest.empty();) {
+    for (std::string_view rest = slashed; !file && !rest.empty();) {
         const std::filesystem::path part = std::filesystem::path(rest).relative_path();
         if (!part.empty())
-            found = findInAnyCase(base, part);
+            file = findInAnyCase(base, part);
         const std::size_t slash = rest.find_first_of("/:");
         rest = slash == std::string_view::npos ? std::string_view() : rest.substr(slash + 1);
     }
-    if (found && renamedCount_++ == 0)
+    if (file && renamedCount_++ == 0)
         firstRenamed_ = fmt::format("{}, which is {}", quoteInput(name),
-                                    found->lexically_relative(folder_).generic_string());
-    return found;
+                                    file->lexically_relative(folder_).generic_string());
+    return file;
 }
 
 } // namespace hyalite

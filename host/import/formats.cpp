@@ -65,10 +65,10 @@ constexpr auto table = std::to_array<Format>({
 const Format &formatOfStandardInput() {
     const std::span<const std::byte> input = standardInput();
     const std::span bytes(reinterpret_cast<const char *>(input.data()), input.size());
-    const auto found =
+    const auto known =
         std::ranges::find_if(table, [&](const Format &format) { return format.hasContent(bytes); });
-    if (found != table.end())
-        return *found;
+    if (known != table.end())
+        return *known;
     const InputFile file("-");
     throw file.bad(foreignContent(file, fmt::format("it is no {}", listOfExtensions())));
 }
@@ -80,9 +80,9 @@ std::span<const Format> formats() { return table; }
 const Format *formatOf(const std::filesystem::path &file) {
     if (isStandardStream(file))
         return &formatOfStandardInput();
-    const auto found = std::ranges::find_if(
+    const auto known = std::ranges::find_if(
         table, [&](const Format &format) { return hasExtension(file, format.extension); });
-    return found == table.end() ? nullptr : &*found;
+    return known == table.end() ? nullptr : &*known;
 }
 
 std::string listOfExtensions() {

@@ -15,9 +15,9 @@ class Losses {
   public:
     /// `text()` is asked for the first of a kind alone, so that a million of them cost little. Kinds are few.
     template <class Text> void add(std::string_view kind, const Text &text) {
-        const auto found = std::ranges::find(rows_, kind, &Row::kind);
-        if (found != rows_.end())
-            ++found->count;
+        const auto row = std::ranges::find(rows_, kind, &Row::kind);
+        if (row != rows_.end())
+            ++row->count;
         else
             rows_.push_back({std::string(kind), text(), 1});
     }

@@ -153,8 +153,8 @@ class ObjMaterials {
 
     /// The index of a material, from 1; 0 if there is none.
     [[nodiscard]] std::uint32_t indexOf(std::string_view name) const {
-        const auto found = indices_.find(name);
-        return found == indices_.end() ? 0 : found->second;
+        const auto index = indices_.find(name);
+        return index == indices_.end() ? 0 : index->second;
     }
 
     FileFinder finder_;

@@ -77,11 +77,11 @@ RowPlan planRow(const PlyElement &element) {
     RowPlan plan;
     std::array<const PlyProperty *, roleCount> given{};
     for (const PlyProperty &property : element.properties) {
-        const auto *const found = std::ranges::find(roleNames, property.name, &RoleName::name);
-        const bool isUsed = found != std::end(roleNames) && !property.isList && given[found->role] == nullptr;
+        const auto *const known = std::ranges::find(roleNames, property.name, &RoleName::name);
+        const bool isUsed = known != std::end(roleNames) && !property.isList && given[known->role] == nullptr;
         if (isUsed)
-            given[found->role] = &property;
-        plan.roles.push_back(isUsed ? found->role : unusedRole);
+            given[known->role] = &property;
+        plan.roles.push_back(isUsed ? known->role : unusedRole);
     }
     const auto hasAll = [&](Role first, Role last) {
         return std::all_of(given.begin() + first, given.begin() + last + 1,
@@ -470,13 +470,13 @@ std::vector<Material> texturedMaterials(const PlyHeader &header, const std::file
                                    reason);
             });
         };
-        const std::optional<std::filesystem::path> found = files.find(files.folder(), name);
-        if (!found) {
+        const std::optional<std::filesystem::path> image = files.find(files.folder(), name);
+        if (!image) {
             lose("no texture", "there is no such file in the mesh's folder");
             continue;
         }
         try {
-            material.textures[layout::slotBaseColour] = TextureUse{.textureIndex = textures->load(*found)};
+            material.textures[layout::slotBaseColour] = TextureUse{.textureIndex = textures->load(*image)};
             material.albedo = glm::vec3(1.0f);
         } catch (const Error &error) {
             if (error.kind != ErrorKind::BadInput)

@@ -54,9 +54,9 @@ class HeaderReader {
     /// The next word. Empty at the end of the line.
     std::string_view word() {
         line_.remove_prefix(std::min(line_.find_first_not_of(blanks), line_.size()));
-        const std::string_view found = line_.substr(0, line_.find_first_of(blanks));
-        line_.remove_prefix(found.size());
-        return found;
+        const std::string_view first = line_.substr(0, line_.find_first_of(blanks));
+        line_.remove_prefix(first.size());
+        return first;
     }
 
     /// The rest of the line, without blanks around it.
@@ -67,14 +67,14 @@ class HeaderReader {
 
     PlyType type() {
         const std::string name = small();
-        const auto *const found =
+        const auto *const type =
             std::ranges::find(typeNames, name, &std::pair<std::string_view, PlyType>::first);
-        if (found == std::end(typeNames))
+        if (type == std::end(typeNames))
             fail(
                 fmt::format("{} is no type of PLY; allowed are char, uchar, short, ushort, int, uint, float, "
                             "double, and int8 to float64",
                             quoteInput(name)));
-        return found->second;
+        return type->second;
     }
 
     [[noreturn]] void fail(std::string_view message) const { failAtLine(fileName_, lineNumber_, message); }

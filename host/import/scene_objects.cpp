@@ -23,9 +23,9 @@ namespace {
 /// The index of the material that the text names.
 std::uint32_t readMaterialIndex(const JsonNode &node, const std::vector<Material> &materials) {
     const std::string name = node.text();
-    const auto found = std::find_if(materials.begin(), materials.end(),
+    const auto named = std::find_if(materials.begin(), materials.end(),
                                     [&](const Material &material) { return material.name == name; });
-    if (found == materials.end()) {
+    if (named == materials.end()) {
         std::vector<std::string_view> names;
         names.reserve(materials.size());
         for (const Material &material : materials)
@@ -33,7 +33,7 @@ std::uint32_t readMaterialIndex(const JsonNode &node, const std::vector<Material
         node.refuse(names.empty() ? "a name in /materials, which defines none"
                                   : "a name in /materials: " + quotedList(names) + suggestion(name, names));
     }
-    return static_cast<std::uint32_t>(found - materials.begin());
+    return static_cast<std::uint32_t>(named - materials.begin());
 }
 
 Sphere readSphere(const JsonObject &object, const std::vector<Material> &materials) {
@@ -131,12 +131,12 @@ void overrideMaterials(const JsonObject &object, MeshFile &file, std::uint32_t f
     for (const Material &material : file.materials)
         names.push_back(material.name);
     for (const auto &[name, replacement] : JsonObject(*overrides).members(limits::materialCount)) {
-        const auto found = std::ranges::find(names, name);
-        if (found == names.end())
+        const auto place = std::ranges::find(names, name);
+        if (place == names.end())
             replacement.fail("the mesh has no material of this name; " +
                              (names.empty() ? "this mesh has none at all"
                                             : "it has " + quotedList(names) + suggestion(name, names)));
-        const std::uint32_t replaced = first + static_cast<std::uint32_t>(found - names.begin());
+        const std::uint32_t replaced = first + static_cast<std::uint32_t>(place - names.begin());
         const std::uint32_t index = readMaterialIndex(replacement, named);
         for (PlacedMesh &placed : file.meshes) {
             std::ranges::replace(placed.mesh.triangleMaterials, replaced, index);

@@ -153,8 +153,8 @@ void readBinary(std::span<const char> bytes, const std::string &fileName, Vertex
     }
 }
 
-bool isWord(std::string_view found, std::string_view lower) {
-    return std::ranges::equal(found, lower, [](char a, char b) { return lowerCase(a) == b; });
+bool isWord(std::string_view word, std::string_view lower) {
+    return std::ranges::equal(word, lower, [](char a, char b) { return lowerCase(a) == b; });
 }
 
 constexpr std::string_view keywords[] = {"facet",    "outer", "vertex",   "endloop",

@@ -18,8 +18,8 @@ std::uint32_t TextureLibrary::load(const std::filesystem::path &file) {
     std::string key = std::filesystem::weakly_canonical(file, error).string();
     if (key.empty())
         key = file.string();
-    if (const auto found = indices_.find(key); found != indices_.end())
-        return found->second;
+    if (const auto known = indices_.find(key); known != indices_.end())
+        return known->second;
     if (const auto failure = failures_.find(key); failure != failures_.end())
         throw Error(ErrorKind::BadInput, failure->second);
     try {
@@ -32,8 +32,8 @@ std::uint32_t TextureLibrary::load(const std::filesystem::path &file) {
 }
 
 std::uint32_t TextureLibrary::load(const std::string &name, std::span<const std::byte> image) {
-    const auto found = indices_.find(name);
-    return found != indices_.end() ? found->second : add(name, InputFile(name, image));
+    const auto known = indices_.find(name);
+    return known != indices_.end() ? known->second : add(name, InputFile(name, image));
 }
 
 std::uint32_t TextureLibrary::add(const std::string &key, const InputFile &file) {

@@ -89,11 +89,11 @@ PreparedScene prepare(const ShippedFilms &shipped, const ShippedFilm &film) {
 
 /// The first dispatch that rendered this pixel.
 std::optional<DispatchRecord> dispatchOf(const Timeline &timeline, const glm::ivec2 &pixel) {
-    const auto found = std::ranges::find_if(timeline.dispatches, [&](const DispatchRecord &dispatch) {
+    const auto first = std::ranges::find_if(timeline.dispatches, [&](const DispatchRecord &dispatch) {
         return pixel.x >= dispatch.tileX && pixel.x < dispatch.tileX + dispatch.tileWidth &&
                pixel.y >= dispatch.tileY && pixel.y < dispatch.tileY + dispatch.tileHeight;
     });
-    return found == timeline.dispatches.end() ? std::nullopt : std::optional(*found);
+    return first == timeline.dispatches.end() ? std::nullopt : std::optional(*first);
 }
 
 /// Compares a film with that of the CPU twin, which is rendered for it.
@@ -153,8 +153,8 @@ void runAll(std::vector<Renderers> &workers, std::size_t count,
             for (std::size_t i = next++; i < count; i = next++)
                 work(renderers, i);
         }));
-    for (std::future<void> &one : running)
-        one.get();
+    for (std::future<void> &worker : running)
+        worker.get();
 }
 
 } // namespace

@@ -81,13 +81,13 @@ std::vector<std::uint32_t> emittingTriangles(const PackedScene &packed,
 }
 
 /// Emitters are chosen with a probability in proportion to their power. Returns the power of all.
-double chooseByPower(std::vector<Candidate> found, PackedScene &packed) {
+double chooseByPower(std::vector<Candidate> candidates, PackedScene &packed) {
     double finiteTotal = 0.0;
-    for (const Candidate &candidate : found)
+    for (const Candidate &candidate : candidates)
         finiteTotal += candidate.power;
     // Infinitely distant emitters have no comparable power: each counts as much as all finite ones together.
     double total = finiteTotal;
-    for (Candidate &candidate : found)
+    for (Candidate &candidate : candidates)
         if (candidate.isInfinite) {
             candidate.power = finiteTotal > 0.0 ? finiteTotal : 1.0;
             total += candidate.power;
@@ -95,11 +95,11 @@ double chooseByPower(std::vector<Candidate> found, PackedScene &packed) {
     constexpr double all = 4294967296.0; // number of 32-bit values
     double powerBefore = 0.0;
     double numbersBefore = 0.0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        layout::EmitterRecord &emitter = found[i].emitter;
-        const double area = found[i].area;
-        powerBefore += found[i].power;
-        const double numbers = i + 1 == found.size() ? all : std::floor(powerBefore / total * all);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        layout::EmitterRecord &emitter = candidates[i].emitter;
+        const double area = candidates[i].area;
+        powerBefore += candidates[i].power;
+        const double numbers = i + 1 == candidates.size() ? all : std::floor(powerBefore / total * all);
         if (numbers <= numbersBefore)
             continue; // probability below 2^-32
         emitter.cumulative = static_cast<std::uint32_t>(std::fmin(numbers, all - 1.0));
@@ -164,16 +164,17 @@ TreeLight treeLight(const Candidate &candidate, const PackedScene &packed, doubl
 }
 
 /// Emitters with a place go into the light tree. Each of the others is chosen as often as all of them together.
-void chooseByTree(std::vector<Candidate> found, PackedScene &packed) {
-    if (found.size() >= layout::noEmitter)
+void chooseByTree(std::vector<Candidate> candidates, PackedScene &packed) {
+    if (candidates.size() >= layout::noEmitter)
         throw Error(
             ErrorKind::LimitExceeded,
             fmt::format("the scene has {} lights and emitting primitives; a light tree holds at most {}",
-                        found.size(), layout::noEmitter - 1));
-    const auto infiniteEnd = std::stable_partition(
-        found.begin(), found.end(), [](const Candidate &candidate) { return candidate.isInfinite; });
-    const std::span<const Candidate> finite(infiniteEnd, found.end());
-    packed.infiniteEmitterCount = static_cast<std::uint32_t>(found.size() - finite.size());
+                        candidates.size(), layout::noEmitter - 1));
+    const auto infiniteEnd =
+        std::stable_partition(candidates.begin(), candidates.end(),
+                              [](const Candidate &candidate) { return candidate.isInfinite; });
+    const std::span<const Candidate> finite(infiniteEnd, candidates.end());
+    packed.infiniteEmitterCount = static_cast<std::uint32_t>(candidates.size() - finite.size());
     const std::uint32_t numbers = 0xFFFFFFFFu / (packed.infiniteEmitterCount + 1); // as in emitters.glsl
     const float infiniteChance = static_cast<float>(numbers) * 0x1p-32f;
     if (packed.lighting & layout::lightsByEnvironment)
@@ -197,14 +198,14 @@ void chooseByTree(std::vector<Candidate> found, PackedScene &packed) {
         sphere.emitter = layout::noEmitter;
     for (layout::TriangleRecord &triangle : packed.triangles)
         triangle.flags |= layout::noEmitter << layout::triangleEmitterShift;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        layout::EmitterRecord &emitter = found[i].emitter;
-        if (found[i].isInfinite)
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        layout::EmitterRecord &emitter = candidates[i].emitter;
+        if (candidates[i].isInfinite)
             emitter.probability = infiniteChance;
         else
             emitter.cumulative = tree.turns[i - packed.infiniteEmitterCount];
-        if (found[i].area > 0.0)
-            emitter.pdf = static_cast<float>(1.0 / found[i].area);
+        if (candidates[i].area > 0.0)
+            emitter.pdf = static_cast<float>(1.0 / candidates[i].area);
         if (emitter.kind == layout::emitterSphere)
             packed.spheres[emitter.record].emitter = static_cast<std::uint32_t>(i);
         if (emitter.kind == layout::emitterTriangle) {
@@ -253,10 +254,10 @@ void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, Pack
     std::vector<double> exitances; // of each material
     for (const layout::MaterialRecord &material : packed.materials)
         exitances.push_back(exitance(packed, material));
-    std::vector<Candidate> found;
+    std::vector<Candidate> candidates;
     const auto add = [&](const layout::EmitterRecord &emitter, double power, double area) {
         if (power > 0.0)
-            found.push_back({emitter, power, area, false});
+            candidates.push_back({emitter, power, area, false});
     };
     for (std::size_t i = 0; i < packed.lights.size(); ++i) {
         const double power = mean(scene.lights[i].power);
@@ -264,7 +265,7 @@ void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, Pack
         if (emitter.kind != layout::emitterDirectional)
             add(emitter, power * (emitter.kind == layout::emitterSpot ? coneShare(emitter) : 1.0), 0.0);
         else if (power > 0.0)
-            found.push_back({emitter, 0.0, 0.0, true});
+            candidates.push_back({emitter, 0.0, 0.0, true});
     }
     for (std::size_t i = 0; i < packed.spheres.size(); ++i) {
         const layout::SphereRecord &sphere = packed.spheres[i];
@@ -285,16 +286,16 @@ void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, Pack
     if (isLitAround) {
         layout::EmitterRecord emitter{};
         emitter.kind = layout::emitterEnvironment;
-        found.push_back({emitter, 0.0, 0.0, true});
+        candidates.push_back({emitter, 0.0, 0.0, true});
     }
 
-    for (const Candidate &candidate : found)
+    for (const Candidate &candidate : candidates)
         packed.lighting |= 1u << candidate.emitter.kind;
     double total = 1.0; // of the light tree: emitterPdf > 0 marks what emits
-    if (isChosenByTree(choice, found, packed))
-        chooseByTree(std::move(found), packed);
+    if (isChosenByTree(choice, candidates, packed))
+        chooseByTree(std::move(candidates), packed);
     else
-        total = chooseByPower(std::move(found), packed);
+        total = chooseByPower(std::move(candidates), packed);
     for (std::size_t i = 0; i < packed.materials.size(); ++i)
         packed.materials[i].emitterPdf = total > 0.0 ? static_cast<float>(exitances[i] / total) : 0.0f;
 }

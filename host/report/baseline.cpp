@@ -83,9 +83,9 @@ ProfileFigures figuresOf(const Json &json) {
 }
 
 template <class Entry> const Entry *findNamed(const std::vector<Entry> &entries, const std::string &name) {
-    const auto found =
+    const auto named =
         std::find_if(entries.begin(), entries.end(), [&](const Entry &entry) { return entry.name == name; });
-    return found == entries.end() ? nullptr : &*found;
+    return named == entries.end() ? nullptr : &*named;
 }
 
 /// Calls onBoth(old, now) for what has the same name on both sides, and lists what has not.

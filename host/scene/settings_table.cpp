@@ -26,10 +26,10 @@ template <class Number> Number valueFrom(const nlohmann::json &json, const Numbe
 }
 
 template <class Value> Value valueFrom(const nlohmann::json &json, const ChoiceSetting<Value> &choice) {
-    const auto found = std::ranges::find(choice.names, json.get<std::string>(), &Name<Value>::first);
-    if (found == choice.names.end())
+    const auto name = std::ranges::find(choice.names, json.get<std::string>(), &Name<Value>::first);
+    if (name == choice.names.end())
         throw Error(ErrorKind::BadInput, fmt::format("settings: {} is no word for any", json.dump()));
-    return found->second;
+    return name->second;
 }
 
 } // namespace

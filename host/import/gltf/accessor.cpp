@@ -181,10 +181,10 @@ Accessor::Accessor(Buffers &buffers, std::size_t index, std::vector<float> numbe
 const std::byte *Accessor::at(std::size_t element, std::size_t component) const {
     const std::size_t place = component / rowCount_ * columnBytes_ + component % rowCount_ * componentBytes_;
     if (sparse_) {
-        const auto found = std::ranges::lower_bound(sparse_->indices, element);
-        if (found != sparse_->indices.end() && *found == element)
+        const auto replaced = std::ranges::lower_bound(sparse_->indices, element);
+        if (replaced != sparse_->indices.end() && *replaced == element)
             return sparse_->values.data() +
-                   static_cast<std::size_t>(found - sparse_->indices.begin()) *
+                   static_cast<std::size_t>(replaced - sparse_->indices.begin()) *
                        (columnBytes_ * (componentCount_ / rowCount_)) +
                    place;
     }
@@ -193,11 +193,11 @@ const std::byte *Accessor::at(std::size_t element, std::size_t component) const 
 
 float Accessor::number(std::size_t element, std::size_t component) const {
     const std::byte *const bytes = at(element, component);
-    const float found = bytes == nullptr ? 0.0f : decoded(bytes, componentType_, isNormalized_);
-    if (!std::isfinite(found))
+    const float number = bytes == nullptr ? 0.0f : decoded(bytes, componentType_, isNormalized_);
+    if (!std::isfinite(number))
         node_.fail(fmt::format("component {} of element {} is {}; allowed: finite numbers", component,
-                               element, found));
-    return found;
+                               element, number));
+    return number;
 }
 
 std::uint32_t Accessor::whole(std::size_t element, std::size_t component) const {

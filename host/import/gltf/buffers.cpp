@@ -46,8 +46,8 @@ std::vector<std::byte> Buffers::readBuffer(const JsonNode &uri) {
 }
 
 std::span<const std::byte> Buffers::buffer(std::size_t index) {
-    if (const auto found = buffers_.find(index); found != buffers_.end())
-        return found->second;
+    if (const auto known = buffers_.find(index); known != buffers_.end())
+        return known->second;
     const JsonObject object(document_.at("buffers", index));
     const JsonNode length = object.at("byteLength");
     const auto sizeBytes = static_cast<std::size_t>(length.wholeNumber({1.0, byteCount.high}));
@@ -94,8 +94,8 @@ BufferView Buffers::decompressedView(const JsonNode &node, const JsonObject &com
 }
 
 BufferView Buffers::view(std::size_t index) {
-    if (const auto found = views_.find(index); found != views_.end())
-        return found->second;
+    if (const auto known = views_.find(index); known != views_.end())
+        return known->second;
     const JsonNode node = document_.at("bufferViews", index);
     const std::optional<JsonObject> compression = extensionOf(JsonObject(node), "EXT_meshopt_compression");
     const BufferView view = compression ? decompressedView(node, *compression) : plainView(node);

@@ -23,9 +23,9 @@ template <class Aimed> void aim(const glm::dmat4x3 &toWorld, Aimed &aimed) {
 }
 
 /// Nothing for a shape that no image has. `node` says it.
-std::optional<double> aspectRatio(const Document &document, const JsonNode &node, double found) {
-    if (found > 0.0 && std::isfinite(found))
-        return found;
+std::optional<double> aspectRatio(const Document &document, const JsonNode &node, double ratio) {
+    if (ratio > 0.0 && std::isfinite(ratio))
+        return ratio;
     document.losses().add("aspect ratio", [&] {
         return fmt::format("{}: {}: {} is passed over, as no image has that shape", document.fileName(),
                            node.path.to_string(), node.value->get<double>());
@@ -35,29 +35,29 @@ std::optional<double> aspectRatio(const Document &document, const JsonNode &node
 
 PlacedCamera placed(const Document &document, const JsonNode &node, const glm::dmat4x3 &toWorld) {
     const JsonObject object(node);
-    PlacedCamera found;
-    Camera &camera = found.camera;
+    PlacedCamera result;
+    Camera &camera = result.camera;
     aim(toWorld, camera);
     const std::string type = object.text("type");
     if (type == "perspective") {
         const JsonObject perspective(object.at("perspective"));
-        found.verticalFovDegrees =
+        result.verticalFovDegrees =
             glm::degrees(perspective.number("yfov", {0.0, std::numbers::pi, false, false}));
         camera.horizontalFovDegrees =
-            horizontalFovDegrees(*found.verticalFovDegrees, camera.width, camera.height);
+            horizontalFovDegrees(*result.verticalFovDegrees, camera.width, camera.height);
         if (const std::optional<JsonNode> ratio = perspective.find("aspectRatio"))
-            found.aspectRatio = aspectRatio(document, *ratio, ratio->number(anyNumber));
+            result.aspectRatio = aspectRatio(document, *ratio, ratio->number(anyNumber));
     } else if (type == "orthographic") {
         const JsonObject orthographic(object.at("orthographic"));
         camera.kind = CameraKind::Orthographic;
         camera.viewWidth = 2.0 * orthographic.number("xmag", {0.0, 0.5 * limits::viewWidth.high, false});
         if (const std::optional<JsonNode> height = orthographic.find("ymag"))
-            found.aspectRatio =
+            result.aspectRatio =
                 aspectRatio(document, *height, 0.5 * camera.viewWidth / height->number(anyNumber));
     } else {
         object.at("type").refuse("\"perspective\" or \"orthographic\"");
     }
-    return found;
+    return result;
 }
 
 /// Whether a user's word names the camera of a node.
@@ -79,9 +79,9 @@ std::optional<PlacedCamera> readCamera(const Document &document, const std::vect
         if (!camera || !(glm::length(map[2]) > 0.0 && glm::length(map[1]) > 0.0))
             continue;
         if (choice.empty() || isCalled(choice, document, *camera, node)) {
-            PlacedCamera found = placed(document, document.at("cameras", *camera), map);
-            found.node = index;
-            return found;
+            PlacedCamera result = placed(document, document.at("cameras", *camera), map);
+            result.node = index;
+            return result;
         }
         const std::string own = nameOf(JsonObject(document.at("cameras", *camera)));
         const std::string name = own.empty() ? nameOf(node) : own;

@@ -78,12 +78,12 @@ class StatedBounds {
     static std::optional<glm::dvec3> statedPoint(const nlohmann::json &accessor, const char *key) {
         if (accessor.value("normalized", nlohmann::json()) == true)
             return glm::dvec3(*key == 'm' && key[1] == 'i' ? -1.0 : 1.0);
-        const auto found = accessor.find(key);
+        const auto point = accessor.find(key);
         const auto isNumber = [](const nlohmann::json &number) { return number.is_number(); };
-        if (found == accessor.end() || !found->is_array() || found->size() != 3 ||
-            !std::ranges::all_of(*found, isNumber))
+        if (point == accessor.end() || !point->is_array() || point->size() != 3 ||
+            !std::ranges::all_of(*point, isNumber))
             return std::nullopt;
-        return glm::dvec3((*found)[0].get<double>(), (*found)[1].get<double>(), (*found)[2].get<double>());
+        return glm::dvec3((*point)[0].get<double>(), (*point)[1].get<double>(), (*point)[2].get<double>());
     }
 
     const Document &document_;

@@ -15,12 +15,12 @@ namespace {
 template <class Value>
 void addDeltas(const Attributes &target, std::string_view name, double weight, const Vertices &vertices,
                std::vector<Value> &values) {
-    const auto found = target.find(name);
-    if (found == target.end() || values.empty())
+    const auto deltas = target.find(name);
+    if (deltas == target.end() || values.empty())
         return;
-    found->second.requireType("VEC3");
+    deltas->second.requireType("VEC3");
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const glm::dvec3 delta = weight * glm::dvec3(found->second.vec3(vertices.sources[i]));
+        const glm::dvec3 delta = weight * glm::dvec3(deltas->second.vec3(vertices.sources[i]));
         for (glm::length_t axis = 0; axis < 3; ++axis)
             values[i][axis] = static_cast<float>(static_cast<double>(values[i][axis]) + delta[axis]);
     }

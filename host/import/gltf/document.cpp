@@ -196,12 +196,12 @@ std::vector<double> numbersOf(const JsonNode &node, std::size_t count, const Int
 }
 
 double clampedNumber(const Document &document, const JsonNode &node, const Interval &allowed) {
-    const double found = node.number(anyNumber);
-    const double clamped = std::clamp(found, allowed.low, allowed.high);
-    if (clamped != found)
+    const double number = node.number(anyNumber);
+    const double clamped = std::clamp(number, allowed.low, allowed.high);
+    if (clamped != number)
         document.losses().add("number beyond its range", [&] {
             return fmt::format("{}: {}: {} counts as {}; allowed: {}", document.fileName(),
-                               node.path.to_string(), found, clamped, allowed.text());
+                               node.path.to_string(), number, clamped, allowed.text());
         });
     return clamped;
 }

@@ -13,11 +13,11 @@ std::vector<glm::dmat4x3> readInstancing(Buffers &buffers, const JsonObject &ext
     if (attributes.empty())
         node.refuse("TRANSLATION, ROTATION or SCALE");
     const auto accessor = [&](std::string_view name, std::string_view type) -> const Accessor * {
-        const auto found = attributes.find(name);
-        if (found == attributes.end())
+        const auto attribute = attributes.find(name);
+        if (attribute == attributes.end())
             return nullptr;
-        found->second.requireType(type);
-        return &found->second;
+        attribute->second.requireType(type);
+        return &attribute->second;
     };
     const Accessor *const translations = accessor("TRANSLATION", "VEC3");
     const Accessor *const rotations = accessor("ROTATION", "VEC4");

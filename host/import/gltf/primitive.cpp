@@ -25,8 +25,8 @@ bool isRead(std::string_view attribute) {
 }
 
 const Accessor *find(const Attributes &attributes, std::string_view name) {
-    const auto found = attributes.find(name);
-    return found == attributes.end() ? nullptr : &found->second;
+    const auto attribute = attributes.find(name);
+    return attribute == attributes.end() ? nullptr : &attribute->second;
 }
 
 /// The vertices of the primitive in their order.

@@ -17,10 +17,10 @@ Wrap readWrap(const JsonObject &sampler, std::string_view key) {
     constexpr int repeat = 10497;
     constexpr int mirror = 33648;
     constexpr int clamp = 33071;
-    const int found = sampler.integer<int>(key, {0, 65535}, repeat);
-    if (found != repeat && found != mirror && found != clamp)
+    const int mode = sampler.integer<int>(key, {0, 65535}, repeat);
+    if (mode != repeat && mode != mirror && mode != clamp)
         sampler.at(key).refuse("33071, 33648 or 10497");
-    return found == repeat ? Wrap::Repeat : found == mirror ? Wrap::Mirror : Wrap::Clamp;
+    return mode == repeat ? Wrap::Repeat : mode == mirror ? Wrap::Mirror : Wrap::Clamp;
 }
 
 void readSampler(const JsonObject &sampler, TextureUse &use) {
@@ -95,8 +95,8 @@ std::optional<TextureUse> TextureReader::read(const JsonNode &textureInfo) {
 }
 
 std::optional<std::uint32_t> TextureReader::image(std::size_t index) {
-    if (const auto found = images_.find(index); found != images_.end())
-        return found->second;
+    if (const auto known = images_.find(index); known != images_.end())
+        return known->second;
     const JsonNode node = buffers_.document().at("images", index);
     const JsonObject object(node);
     const std::string name = fmt::format("{}#/images/{}", buffers_.document().fileName(), index);
