@@ -25,7 +25,7 @@ target=all
 needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
         libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
         zlib1g-dev libpng-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
-needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils)
+needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils nodejs)
 declare -A needed_for_farm=([parallel]="parallel" [mpi]="libopenmpi-dev openmpi-bin procps" [slurm]="munge procps slurm-client slurmctld slurmd"
                            [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")
 needed_for_bench=(libbenchmark-dev libembree-dev)
@@ -108,7 +108,7 @@ check_by_clang_tidy() {
         grep -F -e "$build/host/" -e "$build/CMakeFiles/" -e "$root/host/" -e "$root/cmake/" | sort -u |
         xargs -r -d '\n' ls -S | # the longest first
         xargs -P "$(nproc)" -I UNIT clang-tidy-14 --quiet --config-file="$root/.clang-tidy" UNIT -- -std=c++20 -fopenmp \
-            -DHYALITE_VERSION='"0"' -I"$root" -I"$build/kernels" -isystem /usr/include/Imath 2>&1 |
+            -DHYALITE_VERSION='"0"' -I"$root" -I"$build" -I"$build/kernels" -isystem /usr/include/Imath 2>&1 |
         sed '/warnings\{0,1\} generated\.$/d'
 }
 

@@ -1,4 +1,4 @@
-// Profile as an HTML page: one self-contained file, without network access or scripts.
+// Profile as an HTML page: profile.html with the report in it. It needs no network; its script shows the figures.
 #pragma once
 
 #include "host/report/profile.h"
@@ -6,14 +6,14 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace hyalite {
 
 /// RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
-/// `png` is the encoded image, and `heatMapPng` that of its work, if it was counted.
+/// `png` is the encoded image, and `heatMapPng` that of its work, if it was counted: they become "picture" and "heatMap"
+/// of the report (profile_json.h).
 [[nodiscard]] std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
                                       std::span<const std::byte> heatMapPng = {});
 

@@ -54,6 +54,8 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
         json["finishedShare"] = share;
     json["repeats"] = frames.size();
     json["frameMillis"] = frames;
+    json["frame"] = summaryToJson(summariseFrame(profile));
+    json["frame"].erase("frameMillis");
     json["stageShare"] = stageShare(summariseStages(profile));
     for (const StageSummary &stage : summariseStages(profile))
         json["stages"].push_back(summaryToJson(stage));

@@ -1,9 +1,16 @@
 #include "host/base/markup.h"
+#include "host/report/figure_text.h"
 #include "host/report/profile_html.h"
+#include "host/report/profile_json.h"
+#include "tests/fixtures/page_fixture.h"
 #include "tests/fixtures/profile_fixture.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <regex>
 #include <set>
 #include <vector>
@@ -12,12 +19,43 @@ namespace hyalite {
 namespace {
 
 using testing::handMadeProfile;
+using testing::reportInPage;
 
-std::string encoded(std::string_view text) { return base64(std::as_bytes(std::span(text))); }
+std::span<const std::byte> bytesOf(std::string_view text) { return std::as_bytes(std::span(text)); }
+std::string encoded(std::string_view text) { return base64(bytesOf(text)); }
 
-std::string pageOf(const Profile &profile) {
-    const std::array<std::byte, 4> png{std::byte{0x89}, std::byte{'P'}, std::byte{'N'}, std::byte{'G'}};
-    return profileHtml(profile, png);
+/// With a value wherever a report can have one.
+Profile fullProfile() {
+    Profile profile = handMadeProfile({1.0, 1.6, 2.0}); // no figure is a half, which C++ rounds to even
+    profile.origin.coordinateOrigin = {1.0, 2.0, 3.0};
+    profile.device.kernel = "skip-list";
+    profile.timeLimitSeconds = 60.0;
+    profile.leftOut = {"two repeats"};
+    profile.frames.back().finishedShare = 0.25;
+    profile.work = WorkCounts{10, 20, 30, 4};
+    profile.kernelWork = KernelWork{"skip-list", {50, 60, 70, 0}, {80, 900, 32}};
+    profile.workHistogram = {{1.0, 2.0, 75}, {2.0, 4.0, 25}};
+    return profile;
+}
+
+std::string pageOf(const Profile &profile) { return profileHtml(profile, bytesOf("\x89PNG")); }
+std::string fullPage() { return profileHtml(fullProfile(), bytesOf("\x89PNG"), bytesOf("foo")); }
+
+/// What tests/report/page_script.js prints about a page.
+std::string runScript(const std::string &page, const std::string &mode = "") {
+    const std::filesystem::path file =
+        std::filesystem::path(::testing::TempDir()) /
+        fmt::format("{}.html", ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::ofstream(file) << page;
+    const std::string command = fmt::format("node '{}/tests/report/page_script.js' '{}' {} 2>&1",
+                                            HYALITE_SOURCE_DIR, file.string(), mode);
+    FILE *const pipe = popen(command.c_str(), "r");
+    std::string text;
+    for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;)
+        text += static_cast<char>(letter);
+    EXPECT_EQ(pclose(pipe), 0) << text;
+    std::filesystem::remove(file);
+    return text;
 }
 
 /// Expects every element to be closed where it should be.
@@ -40,6 +78,18 @@ void expectWellFormed(const std::string &page) {
     EXPECT_TRUE(open.empty()) << open.back();
 }
 
+/// The cells of a row of times, by the functions that the table in the terminal is made with.
+std::string timesRow(const StageSummary &stage) {
+    std::string html = "<tr>";
+    for (const std::string &text :
+         {stage.name, std::to_string(stage.launchCount), millisText(stage.medianFrameMillis()),
+          stage.isInFrame ? shareText(stage.share) : "–", millisText(stage.launch.min),
+          millisText(stage.launch.median), millisText(stage.launch.p95), millisText(stage.launch.max),
+          stage.firstMillis ? millisText(*stage.firstMillis) : "–"})
+        html += fmt::format("<td>{}</td>", text);
+    return html + "</tr>";
+}
+
 TEST(Base64, HasTheVectorsOfRfc4648) {
     EXPECT_EQ(encoded(""), "");
     EXPECT_EQ(encoded("f"), "Zg==");
@@ -51,48 +101,86 @@ TEST(Base64, HasTheVectorsOfRfc4648) {
     EXPECT_EQ(encoded("\xff\xfe\xfd"), "//79");
 }
 
-TEST(ProfileHtml, IsWellFormedAndNeedsNothingElse) {
-    const std::string page = pageOf(handMadeProfile({1.0, 1.5, 2.0}));
-    expectWellFormed(page);
+TEST(ProfileHtml, HoldsTheReportAndNeedsNothingElse) {
+    const std::string page = fullPage();
+    nlohmann::json report = profileToJson(fullProfile());
+    report["picture"] = "iVBORw==";
+    report["heatMap"] = "Zm9v";
+    EXPECT_EQ(reportInPage(page), report);
     EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
-    EXPECT_NE(page.find("src=\"data:image/png;base64,iVBORw==\""), std::string::npos);
-    for (const char *outside : {"http:", "https:", "<script", "<link", "url(", "@import"})
+    EXPECT_TRUE(page.ends_with("</html>\n"));
+    for (const char *outside :
+         {"http:", "https:", "<link", "url(", "import", "fetch", "XMLHttp", "src=\"/", "script src"})
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+    expectWellFormed(std::regex_replace(page, std::regex("<script>[^]*</script>"), ""));
+    expectWellFormed(runScript(page));
+}
+
+TEST(ProfileHtml, ShowsEveryFigureOfTheReport) {
+    // Times of single frames stand in the report alone, as do the version of its form and the stack of a kernel, which
+    // may have none. `verification` and `timeLimit` say the rest in words.
+    const std::regex others("profileVersion|(stages\\.\\d+\\.|kernels\\.\\d+\\.|)frameMillis\\.\\d+|"
+                            "work\\.skip-list\\.deepestStack|isVerified|finishedShare|"
+                            "(kernels\\.\\d+|frame)\\.isInFrame");
+    std::istringstream paths(runScript(fullPage(), "unshown"));
+    std::size_t count = 0;
+    for (std::string path; std::getline(paths, path); ++count)
+        EXPECT_TRUE(std::regex_match(path, others)) << path;
+    EXPECT_EQ(count, 24u); // that the report was looked through
+}
+
+TEST(ProfileHtml, HasTheTimesThatTheTableHas) {
+    const Profile profile = fullProfile();
+    const std::string markup = runScript(pageOf(profile));
+    std::vector<StageSummary> rows = summariseStages(profile);
+    for (const KernelSummary &kernel : summariseKernels(profile))
+        rows.push_back(kernel.times);
+    rows.push_back(summariseFrame(profile));
+    for (const StageSummary &stage : rows)
+        EXPECT_NE(markup.find(timesRow(stage)), std::string::npos) << timesRow(stage) << markup;
 }
 
 TEST(ProfileHtml, HasTheFiguresAndWhereTheyComeFrom) {
-    const Profile profile = handMadeProfile({1.0, 1.5, 2.0});
-    const std::string page = pageOf(profile);
-    for (const char *part : {"<td>upload</td>", "<td>dispatches</td>", "<td>write</td>", "<td>a</td>",
-                             "<td>b</td>", "60.0 %", "hyalite profile a.json", "the device", "the driver 1.0",
-                             "a clock", "hyalite " HYALITE_VERSION, "12 triangles"})
-        EXPECT_NE(page.find(part), std::string::npos) << part;
+    const std::string markup = runScript(fullPage());
+    for (const char *part :
+         {"a.json on the device\n<h1>a.json on the device</h1>", "64 by 48 pixels, 4 samples per pixel",
+          "the driver 1.0", "hyalite profile a.json", "hyalite " HYALITE_VERSION,
+          "a.json, 12 triangles, 345 bytes", "<dd>1, 2, 3</dd>",
+          "<b>106.0 ms</b><span>a frame, median of 3</span>", "<b>10.0 k rays</b>", "<b>2.4 KiB</b>",
+          "<b>3 dispatches</b>", "base64,iVBORw==\"", "base64,Zm9v\"", "1 to 2</td><td>75</td><td>75.0 %",
+          "2 to 4</td><td>25</td>", "width:33.333", "10 inner nodes, 20 boxes, 30 triangles, deepest stack 4",
+          "time limit of 60 s: two repeats", "900 slots\nor 35.2 % of them busy"})
+        EXPECT_NE(markup.find(part), std::string::npos) << part << markup;
 }
 
-TEST(ProfileHtml, HasTheHeatMapAndTheHistogramWhereWorkWasCounted) {
+TEST(ProfileHtml, DoesNotShowWhatIsNotAvailable) {
     Profile profile = handMadeProfile({1.0});
-    EXPECT_EQ(pageOf(profile).find("tests per sample"), std::string::npos);
-    profile.work = WorkCounts{10, 20, 30, 4};
-    profile.workHistogram = {{1.0, 2.0, 75}, {2.0, 4.0, 25}};
-    const std::array<std::byte, 3> image{std::byte{1}, std::byte{2}, std::byte{3}};
-    const std::array<std::byte, 3> heatMap{std::byte{'f'}, std::byte{'o'}, std::byte{'o'}};
-    const std::string page = profileHtml(profile, image, heatMap);
-    expectWellFormed(page);
-    for (const char *part : {"base64,Zm9v\"", "1 to 2</td><td>75</td><td>75.0 %", "2 to 4</td><td>25</td>",
-                             "width:33.3%", "deepest stack 4"})
-        EXPECT_NE(page.find(part), std::string::npos) << part;
+    for (Frame &frame : profile.frames) {
+        for (DispatchRecord &dispatch : frame.timeline.dispatches)
+            dispatch.times = {};
+        for (StageRecord &stage : frame.timeline.stages)
+            stage.deviceBytes = 0;
+    }
+    const std::string markup = runScript(pageOf(profile));
+    EXPECT_NE(markup.find("<b>–</b><span>while kernels run"), std::string::npos) << markup;
+    for (const char *part : {"buffers on the device", "tests per sample", "Where the rays have work",
+                             "SPIR-V", "Origin", "time limit", "undefined", "NaN", "Infinity"})
+        EXPECT_EQ(markup.find(part), std::string::npos) << part;
 }
 
 TEST(ProfileHtml, NamesMayHoldAnything) {
     Profile profile = handMadeProfile({1.0});
-    profile.origin.commandLine = "hyalite profile '<b>&\"c\"</b>.json'";
-    profile.device.name = "</title><img>\x1b\xff";
+    profile.origin.commandLine = "hyalite profile '</script><!--<script>&\"c\"</b>.json'";
+    profile.device.name = "</title><img>\x1b\u202e\xff";
     profile.frames.back().timeline.stages[0].name = "\"><p>";
     const std::string page = pageOf(profile);
-    expectWellFormed(page);
-    EXPECT_NE(page.find("'&lt;b&gt;&amp;&quot;c&quot;&lt;/b&gt;.json'"), std::string::npos);
-    EXPECT_EQ(page.find('\x1b'), std::string::npos);
-    EXPECT_EQ(page.find('\xff'), std::string::npos);
+    EXPECT_EQ(reportInPage(page).at("commandLine"), profile.origin.commandLine);
+    const std::string markup = runScript(page);
+    expectWellFormed(markup.substr(markup.find('\n')));
+    EXPECT_NE(markup.find("'&#60;/script&#62;&#60;!--&#60;script&#62;&#38;&#34;c&#34;&#60;/b&#62;.json'"),
+              std::string::npos);
+    EXPECT_NE(markup.find("&#60;/title&#62;&#60;img&#62;\ufffd\ufffd\ufffd</h1>"), std::string::npos)
+        << markup;
     EXPECT_EQ(markupText("a < b & c > \"d\""), "a &lt; b &amp; c &gt; &quot;d&quot;");
 }
 
