@@ -19,7 +19,7 @@ struct ObjMesh {
 };
 
 /// Loads all faces of all groups of an OBJ file as one mesh. Faces may be v, v/vt, v//vn or v/vt/vn, with negative
-/// indices. A v may have a colour behind it (obj_plain.h). Polygons may have up to 65,536 corners and be concave
+/// indices. A v may have a colour behind it (obj_statement.cpp). Polygons may have up to 65,536 corners and be concave
 /// (triangulate.h). A triangle has texture coordinates if the file defines them for all three corners, and the
 /// geometric normal if one of its normals is not defined, of which a warning says. If `textures` is given, materials
 /// are read (mtl.h) from libraries in or below the folder of the mesh. Coordinates are transformed in double and

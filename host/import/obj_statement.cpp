@@ -113,22 +113,29 @@ bool isNotFinite(std::string_view token) {
 }
 
 /// Reads an index of 32 bits with an optional sign. Returns the position after it, or null.
-inline const char *readIndex(const char *at, std::int32_t &index) {
+const char *readAnyIndex(const char *at, std::int32_t &index) {
     constexpr std::uint64_t limit = std::uint64_t{1} << 31;
     const bool isNegative = *at == '-';
     if (isNegative || *at == '+')
         ++at;
-    const char *digits = at;
+    const char *const digits = at;
     std::uint64_t value = 0;
     for (; isDigit(*at); ++at)
-        value = value * 10 + static_cast<std::uint64_t>(*at - '0');
+        value = std::min(value * 10 + static_cast<std::uint64_t>(*at - '0'), 2 * limit); // of any length
     index = static_cast<std::int32_t>(isNegative ? -value : value);
-    const auto isWhole = [&] { // a number of any length may overflow; leading zeros do not count
-        while (*digits == '0')
-            ++digits;
-        return at - digits <= 10 && value < limit + isNegative;
-    };
-    return at != digits && (at - digits <= 9 || isWhole()) ? at : nullptr;
+    return at != digits && value < limit + isNegative ? at : nullptr;
+}
+
+/// The same, quickly for one to nine digits without a sign, as nearly all are.
+inline const char *readIndex(const char *at, std::int32_t &index) {
+    const char *const digits = at;
+    std::uint32_t value = 0;
+    for (; isDigit(*at); ++at)
+        value = value * 10 + static_cast<std::uint32_t>(*at - '0');
+    if (at == digits || at - digits > 9)
+        return readAnyIndex(digits, index);
+    index = static_cast<std::int32_t>(value);
+    return at;
 }
 
 /// Reads a corner: v, v/vt, v//vn or v/vt/vn, or v/, v// and v/vt/ as some programs write them. Only vt may be 0.
@@ -152,14 +159,14 @@ inline const char *readCorner(const char *at, FaceCorner &corner) {
 
 /// Reads corners up to the first token that is none, of which there are at most 8. Returns that token's position.
 const char *readCorners(const char *at, std::array<FaceCorner, 8> &corners, std::size_t &count) {
-    for (count = 0; count < corners.size(); ++count) {
-        at = skipBlanks(at);
+    at = skipBlanks(at);
+    for (count = 0; count < corners.size() && !endsToken(*at); ++count) {
         const char *const behind = readCorner(at, corners[count]);
         if (!behind)
-            return at;
-        at = behind;
+            break;
+        at = skipBlanks(behind);
     }
-    return skipBlanks(at);
+    return at;
 }
 
 /// The colour behind the coordinates of a v, which begins at `at` and ends before the line end: three numbers, or the
