@@ -1,4 +1,4 @@
-# From shaders/kernels/*.comp to arrays of SPIR-V in the program:
+# From shaders/*/*.comp to arrays of SPIR-V in the program:
 #
 #   glslangValidator -> kernel_tool decorate -> spirv-opt -> kernel_tool embed, which numbers the ids anew
 #
@@ -100,7 +100,7 @@ endfunction()
 
 # hyalite_pixel_sources(TARGET HEADER FILES...)
 #
-# Makes a header with `pixelSources`, a hash of the files.
+# Makes a header with `pixelSourcesHash`, a hash of the files.
 function(hyalite_pixel_sources target header)
     set(output ${PROJECT_BINARY_DIR}/kernels/${header})
     list(JOIN ARGN "|" files)

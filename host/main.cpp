@@ -168,14 +168,14 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
                               fmt::print("{}", manualPage(app));
                               throw CLI::Success();
                           })
-        ->trigger_on_parse() // before CLI11 2.5 and later asks for a command
+        ->trigger_on_parse() // before CLI11 from 2.5 on demands a command
         ->group("");
     app.add_flag_callback("--bash-completion",
                           [&app] {
                               fmt::print("{}", bashCompletion(app));
                               throw CLI::Success();
                           })
-        ->trigger_on_parse() // before CLI11 2.5 and later asks for a command
+        ->trigger_on_parse() // before CLI11 from 2.5 on demands a command
         ->group("");
     app.parse_complete_callback(requireThreadCount); // of a command that runs
     try {

@@ -20,7 +20,7 @@ enum class ErrorKind {
     HungUp,           ///< SIGHUP, before there was a result
     Interrupted,      ///< SIGINT, likewise
     Terminated,       ///< SIGTERM, likewise
-    Internal          ///< a bug of ours; so is every exception that is not an Error
+    Internal          ///< a bug of ours; so is every other exception, except for lack of memory or threads
 };
 
 /// Remedies. The command line has the words for them.

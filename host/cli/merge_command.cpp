@@ -165,8 +165,8 @@ void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger, co
     picture.wholeWidth = origin.wholeWidth;
     picture.wholeHeight = origin.wholeHeight;
     picture.attributes = attributesOf(provenanceOf(merger, commandLine));
-    picture.integrator = origin.integrator;
-    picture.exposureStops = origin.exposureStops;
+    picture.settings.integrator = origin.integrator;
+    picture.settings.exposureStops = origin.exposureStops;
     picture.tone = options.tone.value_or(ToneCurve::Gamma);
     writeFilmPicture(file, format, picture);
     file.commit();

@@ -41,7 +41,7 @@ std::vector<NamedFile> outputsOf(const RenderRequest &request) {
     return outputs;
 }
 
-bool isOnOracle(const RenderRequest &request) {
+bool isInDouble(const RenderRequest &request) {
     return std::ranges::find(request.devices, "cpu-double") != request.devices.end();
 }
 
@@ -59,7 +59,7 @@ void requirePartOptions(const RenderRequest &request) {
     if (request.partialSeconds || request.tone)
         throw Error(ErrorKind::Usage,
                     fmt::format("--part: {} is for pictures", request.tone ? "--tone" : "--partial"));
-    if (isOnOracle(request))
+    if (isInDouble(request))
         throw Error(ErrorKind::Usage,
                     "--part: cpu-double sums in double precision, which a part does not hold; "
                     "use --device cpu or a Vulkan device");
@@ -84,7 +84,7 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
         throw Error(ErrorKind::Usage, "--resume needs --checkpoint FILE to resume from");
     if (request.checkpoint.empty() && request.checkpointSeconds)
         throw Error(ErrorKind::Usage, "--checkpoint-interval needs --checkpoint FILE to write to");
-    if (!request.checkpoint.empty() && isOnOracle(request))
+    if (!request.checkpoint.empty() && isInDouble(request))
         throw Error(ErrorKind::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
                     "not hold; use --device cpu or a Vulkan device");

@@ -47,8 +47,10 @@ class Backend {
     [[nodiscard]] virtual std::string precision() const { return "float32"; }
     /// Whether a driver may compile for long before the first ray.
     [[nodiscard]] virtual bool hasCompiler() const { return true; }
-    /// Adds the missing samples to `begun`, whose crop is that of the scene's image. What a backend needs of a scene it may
-    /// keep for the next render of the same one.
+    /// Adds the missing samples to `begun`, whose crop is that of the scene's image. A backend may keep its copy of a
+    /// scene for the next render of the same one; it does not refer to `scene` after it returns. One thread renders at a
+    /// time. Throws Error{LimitExceeded} if the scene or its films are too large, and Error{Usage} for a setting that it
+    /// cannot render.
     [[nodiscard]] virtual BackendResult render(const PackedScene &scene, const RenderSettings &settings,
                                                Film begun, const RenderHooks &hooks = {}) = 0;
     /// Traces one sample of one pixel of the whole image.

@@ -1,4 +1,4 @@
-// Observer: who watches a render and what prepares for it, and may end it early. Nothing below it prints.
+// Observer: receives progress and messages of preparation and rendering, and may request a stop. Nothing below it prints.
 #pragma once
 
 #include "host/base/error.h"

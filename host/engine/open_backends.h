@@ -52,7 +52,8 @@ struct OpenedRenderers {
                                             const gpu::ProcessorUse &processors = {},
                                             const gpu::RenderConfig &config = {});
 
-/// The same, in a thread of its own. The kernel of a render config, and the observer, must outlive the opening.
+/// The same, in a thread of its own. `config.kernel` refers to memory that, as the
+/// observer, must live until the future is ready.
 [[nodiscard]] std::future<OpenedRenderers> beginOpeningRenderers(const RendererNames &names,
                                                                  Observer &observer,
                                                                  const gpu::ProcessorUse &processors,

@@ -35,7 +35,7 @@ struct SceneOptions {
     std::optional<double> environmentScale;
     std::optional<double> environmentRotateDegrees;
     std::vector<int> crop;
-    LoadOptions load;         ///< but its events
+    LoadOptions load;         ///< its events are set by prepareScene
     bool isFlattened = false; ///< instances become meshes
 };
 

@@ -11,7 +11,7 @@ struct RayCounts {
     std::uint64_t shadow = 0;
     std::uint64_t reflection = 0;
     std::uint64_t refraction = 0;
-    std::uint64_t bounce = 0; ///< scattered by diffuse surfaces
+    std::uint64_t bounce = 0; ///< scattered by surfaces that are not specular
 
     [[nodiscard]] std::uint64_t total() const { return primary + shadow + reflection + refraction + bounce; }
     RayCounts &operator+=(const RayCounts &other) {

@@ -14,7 +14,7 @@ namespace hyalite {
 struct Format {
     std::string_view extension; ///< ".obj", in lower case
     /// Whether a file without a name, standard input, is of this format. The first row that says so is right.
-    bool (*hasContent)(std::span<const char> bytes) = nullptr;
+    bool (*hasContent)(std::span<const char> bytes);
     /// Reads the file as a scene. Null: a file of meshes alone, which is framed and lit.
     LoadedScene (*readScene)(const std::filesystem::path &file, const LoadOptions &options) = nullptr;
     bool hasChoices = false; ///< of cameras, scenes and times: LoadOptions

@@ -16,10 +16,7 @@ void writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &p
     all.layers = filmLayers(picture.film);
     std::ranges::move(viewLayers(picture.views), std::back_inserter(all.layers));
     all.attributes = picture.attributes;
-    RenderSettings shown;
-    shown.integrator = picture.integrator;
-    shown.exposureStops = picture.exposureStops;
-    writeFilm(file, format, picture.film, all, shown, picture.tone);
+    writeFilm(file, format, picture.film, all, picture.settings, picture.tone);
 }
 
 } // namespace hyalite

@@ -15,8 +15,7 @@ struct FilmPicture {
     int wholeWidth = 0; ///< of the image that the film's crop is part of
     int wholeHeight = 0;
     std::vector<Attribute> attributes{};
-    Integrator integrator = Integrator::Path;
-    double exposureStops = 0.0;
+    RenderSettings settings{};
     ToneCurve tone = ToneCurve::Gamma;
 };
 

@@ -222,8 +222,7 @@ class PictureRender {
             picture.attributes.emplace_back("frame", fmt::format("{}", *request_.frame));
             picture.attributes.emplace_back("identity", begun_.frameIdentity);
         }
-        picture.integrator = loaded.settings.integrator;
-        picture.exposureStops = loaded.settings.exposureStops;
+        picture.settings = loaded.settings;
         picture.tone = toneOf(request_);
         writeFilmPicture(file, formatOf(request_), picture);
     }

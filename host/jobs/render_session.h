@@ -46,12 +46,12 @@ class RenderSession {
     /// Loads and builds the scene, and opens the renderers at the same time, as soon as the outline is known. Throws as
     /// prepareScene() does.
     void prepare(const RenderRequest &request);
-    /// Another scene for the same renderers. Nobody watches: what there is to say was said of the first one.
+    /// Another scene for the same renderers. The observer gets nothing: the first scene's messages cover it.
     void replaceScene(const SceneOptions &options);
     [[nodiscard]] Observer &observer() const { return observer_; }
     /// Waits for the renderers, for each picture anew. Throws as openRenderers() does.
     void open();
-    /// Whether the scene was loaded, and the renderers opened, for the picture that they were opened for last.
+    /// Whether this is the session's first picture, which has the time of loading and opening.
     [[nodiscard]] bool isFirstPicture() const { return isFirstPicture_; }
 
     [[nodiscard]] bool isPrepared() const { return scene_.has_value(); }

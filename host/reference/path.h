@@ -4,7 +4,7 @@
 // shaders/integrators/path.comp. Here a path is followed vertex by vertex; the order of all sums is the same.
 //
 // `maxDepth` bounds the segments of a path from the eye to the light, so that neither technique finds longer paths than
-// the other. Each vertex has three pairs of random numbers.
+// the other. Each vertex has pairs of random numbers of its own (shaders/math/dimensions.glsl).
 #pragma once
 
 #include "host/film/ray_counts.h"

@@ -1,4 +1,5 @@
-// The reference renderer on the CPU: the twin of the kernels, and the same text in double precision as an oracle.
+// The reference renderer on the CPU: the twin of the kernels, and the same text in double precision, which measures
+// rounding.
 #pragma once
 
 #include "host/film/film.h"

@@ -66,21 +66,21 @@ enum class AlphaMode : std::uint32_t { Opaque = 0, CutOut = 1, Blend = 2 };
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Diffuse;
-    glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]; Principled: its base colour
+    glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]; Principled, Gltf: its base colour
     bool twoSided = false;        ///< Diffuse, Principled, Gltf: reflects and emits on both sides
-    bool reflectsBehind = false;  ///< likewise: reflects on both sides, but emits on that of the normal alone
-    float refractiveIndex = 1.5f; ///< Dielectric, Principled: relative to the surroundings, in [1, 10]
+    bool reflectsBehind = false;  ///< Diffuse, Principled, Gltf: reflects on both sides, but emits on that of the normal alone
+    float refractiveIndex = 1.5f; ///< Dielectric, Principled, Gltf: relative to the surroundings, in [1, 10]
     /// Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only.
     glm::vec3 segmentTint{1.0f};
-    glm::vec3 absorption{0.0f}; ///< Dielectric: per unit of length, >= 0; path only
-    int priority = 0; ///< Dielectric: where several overlap, the glass of the highest is there; path only
-    /// Diffuse, Principled: radiance on the side of the normal, on both where twoSided; >= 0.
+    glm::vec3 absorption{0.0f}; ///< of glass of any kind: per unit of length, >= 0; path only
+    int priority = 0; ///< where glass overlaps, that of the highest is there; path only
+    /// Diffuse, Principled, Gltf: radiance on the side of the normal, on both where twoSided; >= 0.
     glm::vec3 emission{0.0f};
     /// Conductor: real part of the refractive index, in [0, 20].
     glm::vec3 conductorIndex = metalNames[0].second.index;
     glm::vec3 conductorExtinction = metalNames[0].second.extinction; ///< and its imaginary part, in [0, 20]
-    float roughness = 0.0f;    ///< Dielectric, Conductor, Principled: in [0, 1]
-    float metallic = 0.0f;     ///< Principled: in [0, 1], as are those that follow
+    float roughness = 0.0f;    ///< Dielectric, Conductor, Principled, Gltf: in [0, 1]
+    float metallic = 0.0f;     ///< Principled, Gltf: in [0, 1], as are those that follow
     float specular = 0.5f;     ///< reflectance seen head on, 0.5 being that of the refractive index
     float transmission = 0.0f; ///< share of what is no metal that is glass
     float clearcoat = 0.0f;    ///< and then transmission is 0
@@ -102,7 +102,7 @@ struct Material {
     float opacity = 1.0f;        ///< in [0, 1]; a factor on that of the texture and of the mesh's colours
     float alphaCutoff = 0.5f;    ///< CutOut, >= 0
     bool isCulled = false;       ///< triangles are not there for rays that come from behind
-    TextureSlots textures{};     ///< Diffuse, Principled; factors on albedo, emission, roughness and metallic
+    TextureSlots textures{};     ///< Diffuse, Principled, Gltf: factors on albedo, emission, roughness and metallic
     float normalStrength = 1.0f; ///< how far a normal map turns normals; in [0, 100]
 };
 

@@ -1,7 +1,7 @@
 // The scene as plain data: world space, linear RGB, nothing of files or devices.
 //
 // World space is right-handed with +y up. Positions and lengths share one arbitrary unit. Loaders fill a
-// Scene, `validateScene` (validate.h) checks it once, and everything downstream may rely on what it promises.
+// Scene, `validateScene` (validate.h) checks it, and everything downstream may rely on what it promises.
 #pragma once
 
 #include "host/image/image.h"

@@ -14,7 +14,7 @@ enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 /// 1.5 pixels from the centre.
 enum class FilterKind { Box, BlackmanHarris };
 
-/// How a shadow ray chooses its emitter. Power: always the brightest ones. Tree: by where they are. Auto: by a tree if there
+/// How a shadow ray chooses its emitter. Power: with probability in proportion to power. Tree: by where they are. Auto: by a tree if there
 /// are many.
 enum class LightChoice { Auto, Power, Tree };
 
@@ -30,7 +30,7 @@ struct RenderSettings {
     /// Sobol only: samples at the centre are at the centre of any filter.
     FilterKind filter = FilterKind::Box;
     std::uint32_t seed = 0;
-    /// Path: maximum that indirect light adds to a sample, per channel; 0: no limit.
+    /// Path: upper bound, per channel, on each contribution at the second hit or later; 0: none.
     double radianceLimit = 0.0;
     LightChoice lightChoice = LightChoice::Auto; ///< Path
     double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve

@@ -1,7 +1,7 @@
 // GGX directional albedo, and two ways to give back what single scattering loses.
 //
-// Opaque facets: Kulla-Conty. A single-scattering model loses the light that one facet sends to another: up to half of
-// it at roughness 1. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, add
+// Opaque facets: Kulla-Conty. A single-scattering model loses the light that one facet sends to another: up to two
+// thirds of it at roughness 1. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, add
 // it back as a second, diffuse lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)). It is reciprocal, and conserves
 // energy exactly for the E of the table, because E and its averages are interpolated linearly.
 //

@@ -131,7 +131,7 @@ struct Crossing {
     uint before; // counts as in media.glsl
     uint beyond;
     float eta;    // refractive index before divided by the one beyond
-    bool isNullInterface; // both sides are inside glass of higher priority: there is no interface
+    bool isNullInterface; // the same glass is effective on both sides
 };
 
 Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {

@@ -532,7 +532,7 @@ struct FrameRecord {
     float environmentProbability; // of choosing it among all emitters
     float lensScale;              // the lens' radius in units of pixelRight and pixelUp
     float focusDistance;          // along the view direction
-    float radianceLimit; // path: maximum that indirect light adds to a sample, per channel; or infinity
+    float radianceLimit; // path: bound per channel on each contribution from the second hit on; or infinity
     uint filterTexels;   // the first one
     // Nodes of the scene's own tree in each skip list; those of meshes with instances follow.
     uint topListLength;
@@ -567,7 +567,7 @@ struct DispatchConstants {
     uint interleave;
     uint traceCapacity;  // events in the trace buffer
     uint workBudget;     // of DispatchProgress::workDone
-    uint samplesPerSlot; // in turn: the mean
+    uint samplesPerSlot; // the mean number that a slot takes one after another
 };
 
 // ---- Results
@@ -604,7 +604,7 @@ struct DispatchProgress {
     uint shadowRays;
     uint reflectionRays;
     uint refractionRays;
-    uint bounceRays; // scattered by diffuse surfaces
+    uint bounceRays; // scattered by surfaces that are not specular
     // roughly in traversal steps: of the busiest lane of each subgroup, or of each lane
     uint workDone;
     // The rest is counted only where constantIsCounting is set.
@@ -674,7 +674,7 @@ struct PathRecord {
     uint lightIndex;
     vec3 surfaceGeometricNormal;
     uint rayDepth;      // segment number of the current ray: 1 for a primary ray
-    vec3 surfaceWeight; // throughput * albedo / pi
+    vec3 surfaceWeight; // what the light adds if it is visible; whitted: throughput * albedo / pi
     uint rayMedium;     // material of the glass around the ray, or noMaterial
     vec3 surfaceError;  // bound on the rounding error of surfacePosition
     uint sampleIndex;

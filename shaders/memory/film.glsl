@@ -1,7 +1,7 @@
 // The film. Samples are added in the order of their indices, whichever slot computed them.
 //
-// The slots of a pixel share its sums: a slot keeps those whose number leaves its lane when divided by
-// `samplesInFlight`. Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples.
+// The slots of a pixel share its sums: the slot at lane L of a pixel keeps the sums n with n mod samplesInFlight = L.
+// Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples.
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 

@@ -37,7 +37,8 @@ class Device {
     [[nodiscard]] std::uint64_t &allocatedBytes() { return allocatedBytes_; }
 
     /// Records commands with `record`, submits them and waits until they are finished. Throws DeviceFault naming
-    /// `action` if the device fails or does not finish within two minutes. After a time-out the device and its objects
+    /// `action` if the device fails or does not finish within two minutes; a software device, which compiles kernels
+    /// meanwhile, has twenty. After a time-out the device and its objects
     /// are never destroyed, because they may still be in use.
     void submit(const std::string &action, const std::function<void(VkCommandBuffer)> &record);
 
