@@ -5,15 +5,15 @@
 // LEAVES.glsl includes the leaf files, by paths below ROOT, and they may include others.
 //
 // GLSL and C++ differ in little that leaves use. Each struct and each function that has to do with floats becomes a
-// template over `Real`, float or double; literals become `Real(0.5)`, so that no sum is taken in another precision. What a
-// function reads of the scene (constants, frame, records) comes in a parameter `scene` of its own in C++, of the type
-// SceneView<Real> (host/reference/scene_view.h), which has members of the same names.
+// template over `Real`, float or double; literals become `Real(0.5)`, so that no sum is taken in another precision.
+// What a function reads of the scene (constants, frame, records) comes in a parameter `scene` of its own in C++, of the
+// type SceneView<Real> (host/reference/scene_view.h), which has members of the same names.
 //
 //   GLSL   float pdfCosine(float cosine) { return cosine * inversePi; }
 //   C++    template <class Real> inline Real pdfCosine(Real cosine) { return cosine * inversePi<Real>; }
 //
-// Leaves keep to this part of GLSL: functions, structs and constants at the top level, every function defined before it is
-// used, no swizzles (vec2(v) takes the first two components), no arrays and no preprocessor.
+// Leaves keep to this part of GLSL: functions, structs and constants at the top level, every function defined before it
+// is used, no swizzles (vec2(v) takes the first two components), no arrays and no preprocessor.
 #include "cmake/glsl_reader.h"
 
 #include <cstdio>

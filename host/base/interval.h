@@ -25,8 +25,8 @@ struct Interval {
                (highIncluded ? value <= highest : value < highest);
     }
 
-    /// The number of the interval that `value` stands for: itself, or an end that it is beyond by what adding and rounding
-    /// floats leaves, 2^-21 of the end or of 1. Where there is none, `value`.
+    /// The number of the interval that `value` stands for: itself, or an end that it is beyond by what adding and
+    /// rounding floats leaves, 2^-21 of the end or of 1. Where there is none, `value`.
     [[nodiscard]] double rounded(double value) const {
         constexpr double rounding = 1.0 / (1 << 21);
         const auto isNear = [&](double end) {

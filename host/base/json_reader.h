@@ -145,8 +145,8 @@ class JsonObject {
     JsonNode node_;
 };
 
-/// `; did you mean "centre"?` for the candidate nearest to `word`, or nothing where none is near. A word that other programs
-/// have for a candidate, or that is a part of one, is near.
+/// `; did you mean "centre"?` for the candidate nearest to `word`, or nothing where none is near. A word that other
+/// programs have for a candidate, or that is a part of one, is near.
 [[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> candidates);
 
 /// `"a", "b", "c"`, safe for terminals; `...` after 32 names.

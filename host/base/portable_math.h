@@ -1,5 +1,5 @@
-// Exponential and logarithm in double precision, made of + - * / only: pow() and log() of C libraries differ in the last
-// bit. Leaf functions have those of float32 (shaders/math/functions.glsl).
+// Exponential and logarithm in double precision, made of + - * / only: pow() and log() of C libraries differ in the
+// last bit. Leaf functions have those of float32 (shaders/math/functions.glsl).
 #pragma once
 
 #include <cmath>

@@ -17,8 +17,8 @@ namespace hyalite {
     return standardStreamFormat(path).has_value();
 }
 
-/// All of standard input, which is read once and kept. Throws Error{BadInput} where it is a terminal, is empty, has more
-/// than 4 GiB or fails.
+/// All of standard input, which is read once and kept. Throws Error{BadInput} where it is a terminal, is empty, has
+/// more than 4 GiB or fails.
 [[nodiscard]] std::span<const std::byte> standardInput();
 
 } // namespace hyalite

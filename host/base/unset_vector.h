@@ -1,6 +1,6 @@
 // Unset vectors: their elements begin without a value, for large arrays that several threads fill. std::vector would
-// first set all of them to zero by one thread, which takes as long as to fill them, above all in fresh memory: its pages
-// are cleared by the system when they are first written, by the thread that writes.
+// first set all of them to zero by one thread, which takes as long as to fill them, above all in fresh memory: its
+// pages are cleared by the system when they are first written, by the thread that writes.
 #pragma once
 
 #include <memory>

@@ -77,8 +77,8 @@ struct Bvh {
 /// A leaf of the others holds at most `leafSize` (>= 1) triangles. The tree depends on the arguments only.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, std::vector<BuildTriangle> triangles, int leafSize);
 
-/// Builds over a scene's triangles, its spheres in the tree (tree_spheres.h) and its instances, which have leaves of their
-/// own; and over each prototype. Omits duplicates
+/// Builds over a scene's triangles, its spheres in the tree (tree_spheres.h) and its instances, which have leaves of
+/// their own; and over each prototype. Omits duplicates
 /// (duplicates.h) among the triangles of meshes from Bvh::order. The set of duplicates does not depend on the tree.
 /// Throws Error{LimitExceeded} as buildTriangles does.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize);

@@ -63,8 +63,8 @@ Key Keys::of(const BuildTriangle &triangle) const {
     return key;
 }
 
-/// Tells triangles that may have a duplicate from those that have none, by a bit for each of many values of a hash of the
-/// centroid. Which these are does not depend on the order in which threads come.
+/// Tells triangles that may have a duplicate from those that have none, by a bit for each of many values of a hash of
+/// the centroid. Which these are does not depend on the order in which threads come.
 class CentroidFilter {
   public:
     explicit CentroidFilter(std::size_t count)

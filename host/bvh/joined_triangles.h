@@ -16,12 +16,12 @@ using JoinedItems = std::vector<bool>;
     return item.inputIndex < isJoined.size() && isJoined[item.inputIndex];
 }
 
-/// Joins each triangle with the one that follows it in its mesh if they have a material and an edge in common, which runs
-/// through them in opposite directions, and if neither is in a pair yet. Where a mesh was made of quads these are their
-/// halves; the best pairs that there are would save rays no more.
+/// Joins each triangle with the one that follows it in its mesh if they have a material and an edge in common, which
+/// runs through them in opposite directions, and if neither is in a pair yet. Where a mesh was made of quads these are
+/// their halves; the best pairs that there are would save rays no more.
 ///
-/// `items` begins with triangles of `meshes`, by increasing index; other items may follow. Of each pair the first stays,
-/// with the box around both and the middle of it as its centroid; the second is removed.
+/// `items` begins with triangles of `meshes`, by increasing index; other items may follow. Of each pair the first
+/// stays, with the box around both and the middle of it as its centroid; the second is removed.
 [[nodiscard]] JoinedItems joinTriangles(std::span<const TriangleMesh> meshes,
                                         std::vector<BuildTriangle> &items);
 

@@ -1,4 +1,5 @@
-// The observer of commands: progress and messages on standard error, signals as a wish to stop, settings for the driver.
+// The observer of commands: progress and messages on standard error, signals as a wish to stop, settings for the
+// driver.
 #pragma once
 
 #include "host/cli/progress.h"

@@ -48,9 +48,9 @@ class Backend {
     /// Whether a driver may compile for long before the first ray.
     [[nodiscard]] virtual bool hasCompiler() const { return true; }
     /// Adds the missing samples to `begun`, whose crop is that of the scene's image. A backend may keep its copy of a
-    /// scene for the next render of the same one; it does not refer to `scene` after it returns. One thread renders at a
-    /// time. Throws Error{LimitExceeded} if the scene or its films are too large, and Error{Usage} for a setting that it
-    /// cannot render.
+    /// scene for the next render of the same one; it does not refer to `scene` after it returns. One thread renders at
+    /// a time. Throws Error{LimitExceeded} if the scene or its films are too large, and Error{Usage} for a setting that
+    /// it cannot render.
     [[nodiscard]] virtual BackendResult render(const PackedScene &scene, const RenderSettings &settings,
                                                Film begun, const RenderHooks &hooks = {}) = 0;
     /// Traces one sample of one pixel of the whole image.
@@ -70,9 +70,9 @@ struct RenderTask {
     double shareOfOthers = 0.0;
 };
 
-/// Adds the missing samples to `begun`, until the observer wants a stop or the limit is reached. `begun` is of a crop of
-/// the scene's image; without samples, it is rendered from the beginning. Throws Error{LimitExceeded} with the size of the
-/// film if memory is too small for it. Device faults are noted.
+/// Adds the missing samples to `begun`, until the observer wants a stop or the limit is reached. `begun` is of a crop
+/// of the scene's image; without samples, it is rendered from the beginning. Throws Error{LimitExceeded} with the size
+/// of the film if memory is too small for it. Device faults are noted.
 [[nodiscard]] BackendResult render(Backend &backend, const PackedScene &scene, const RenderSettings &settings,
                                    Film begun, Observer &observer, const RenderTask &task);
 

@@ -1,4 +1,5 @@
-// Observer: receives progress and messages of preparation and rendering, and may request a stop. Nothing below it prints.
+// Observer: receives progress and messages of preparation and rendering, and may request a stop. Nothing below it
+// prints.
 #pragma once
 
 #include "host/base/error.h"

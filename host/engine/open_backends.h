@@ -30,8 +30,8 @@ struct DeviceOptions {
 [[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const SceneOutline &outline);
 [[nodiscard]] gpu::ProcessorUse processorsFor(int threadCount, const PreparedScene &scene);
 
-/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. The observer is asked for settings of the
-/// driver first, if there is one. Throws Error{NoDevice}, and Error{Usage} if a kernel is chosen for the reference
+/// Opens "cpu", "cpu-double", or a device by "auto", index or part of its name. The observer is asked for settings of
+/// the driver first, if there is one. Throws Error{NoDevice}, and Error{Usage} if a kernel is chosen for the reference
 /// renderer.
 [[nodiscard]] std::unique_ptr<Backend> openBackend(const std::string &name, Observer &observer,
                                                    const gpu::ProcessorUse &processors = {},

@@ -18,8 +18,8 @@ struct Member {
     [[nodiscard]] bool isLeftOut() const { return failure.has_value(); }
 };
 
-/// Renders by all members that are not left out, as Backend::render() does. Those that fail are left out from then on. So
-/// are those whose bits are not the CPU's, in a spot check before a member's first tile by each integrator.
+/// Renders by all members that are not left out, as Backend::render() does. Those that fail are left out from then on.
+/// So are those whose bits are not the CPU's, in a spot check before a member's first tile by each integrator.
 [[nodiscard]] BackendResult renderShared(std::vector<Member> &members, const PackedScene &scene,
                                          const RenderSettings &settings, Film begun,
                                          const RenderHooks &hooks);

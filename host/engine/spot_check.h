@@ -26,8 +26,9 @@ class SpotCheck {
               const std::function<bool()> &shouldStop);
 
     /// Compares all bits of the backend's films with the CPU's. Each thread may check a backend of its own. Throws
-    /// Error{DeviceLost}, with backend, pixel and both values, at the first difference, and the failure of a backend that
-    /// fails. Adds Vulkan calls that failed, and after which it went on, to `faults`. Returns false if it was stopped.
+    /// Error{DeviceLost}, with backend, pixel and both values, at the first difference, and the failure of a backend
+    /// that fails. Adds Vulkan calls that failed, and after which it went on, to `faults`. Returns false if it was
+    /// stopped.
     ///
     /// A backend with another precision() than the CPU has bits of its own, and is not compared; nor is the CPU.
     [[nodiscard]] bool run(Backend &backend, std::vector<std::string> &faults);

@@ -44,9 +44,9 @@ struct TileWish {
 
 /// The pixels of a renderer's next tile: a sixteenth of what would be its share of all that waits, so that a tile which
 /// costs more than was guessed does not end after all others (tests/bench/farm_model.cpp: with half of the share 256
-/// renderers take 1.7 times as long); all of it if it is the only one. But what it renders in 0.05 s at least and in 2 s
-/// at most, eight times the last tile at most, and a workgroup's 64 at least. Tiles that took longer would lose more when
-/// the program is killed between two checkpoints, and shorter ones cost more than they gain.
+/// renderers take 1.7 times as long); all of it if it is the only one. But what it renders in 0.05 s at least and in 2
+/// s at most, eight times the last tile at most, and a workgroup's 64 at least. Tiles that took longer would lose more
+/// when the program is killed between two checkpoints, and shorter ones cost more than they gain.
 [[nodiscard]] std::uint64_t tilePixels(const TileWish &wish);
 
 } // namespace hyalite

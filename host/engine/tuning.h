@@ -26,8 +26,8 @@ struct Tuning {
 /// Error{OutputNotWritten} if none of these variables is set.
 [[nodiscard]] std::filesystem::path tuningFile();
 
-/// The entry for this device, this version of its driver and these kernels. An unreadable file is noted and passed over,
-/// because tuning changes no bit of any image.
+/// The entry for this device, this version of its driver and these kernels. An unreadable file is noted and passed
+/// over, because tuning changes no bit of any image.
 [[nodiscard]] Tuning readTuning(const gpu::DeviceInfo &device, Observer &observer = nobody());
 
 /// Stores an entry, and keeps those of other devices, unless the file is unreadable, which is noted. Throws

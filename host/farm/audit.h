@@ -27,8 +27,8 @@ struct AuditResult {
 /// The seed by which tiles are chosen unless the user has one: a hash of the picture, which no maker of a part knows.
 [[nodiscard]] std::uint64_t auditSeed(const Merger &merged);
 
-/// Renders `share` of the tiles of the parts that are there, in (0, 1] and one at least, and compares the pixels bit for
-/// bit; layers are not compared. `scene` is that of the parts.
+/// Renders `share` of the tiles of the parts that are there, in (0, 1] and one at least, and compares the pixels bit
+/// for bit; layers are not compared. `scene` is that of the parts.
 [[nodiscard]] AuditResult audit(const Merger &merged, Backend &backend, const PreparedScene &scene,
                                 double share, std::uint64_t seed, Observer &observer);
 

@@ -19,8 +19,8 @@ class RankPool {
     RankPool(const RankPool &) = delete;
     RankPool &operator=(const RankPool &) = delete;
 
-    /// Waits until each rank has said what it has, and makes a backend of it. One that could not load the scene or open a
-    /// renderer, or that adds other samples to a film than `backend` does, is left out, with a note. They render the
+    /// Waits until each rank has said what it has, and makes a backend of it. One that could not load the scene or open
+    /// a renderer, or that adds other samples to a film than `backend` does, is left out, with a note. They render the
     /// scene that the ranks have loaded, whichever they are given. The backends must not outlive this.
     [[nodiscard]] std::vector<std::unique_ptr<Backend>>
     backends(const PreparedScene &scene, const Backend &backend, std::vector<std::string> &notes);

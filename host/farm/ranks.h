@@ -21,8 +21,8 @@ class Ranks {
     [[nodiscard]] virtual std::optional<std::vector<std::byte>> poll(int from) = 0;
 };
 
-/// The ranks of this program, or null if it was started alone. Leaves them when it is destroyed. Throws Error{Usage} where
-/// it was started by mpirun, and was built without MPI.
+/// The ranks of this program, or null if it was started alone. Leaves them when it is destroyed. Throws Error{Usage}
+/// where it was started by mpirun, and was built without MPI.
 [[nodiscard]] std::unique_ptr<Ranks> joinRanks();
 
 } // namespace hyalite

@@ -6,8 +6,8 @@
 namespace hyalite {
 
 /// Held from the beginning of a render to its end. The lock is one of the system (flock) on the file FILE.lock: it ends
-/// with the process, however that ends, and a lock file that is left over blocks nobody. What it says tells it from files
-/// that others made, which are neither written nor removed.
+/// with the process, however that ends, and a lock file that is left over blocks nobody. What it says tells it from
+/// files that others made, which are neither written nor removed.
 class CheckpointLock {
   public:
     /// Throws Error{OutputNotWritten} if another render holds the lock, with its process, or if FILE.lock is not ours

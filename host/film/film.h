@@ -33,8 +33,8 @@ namespace hyalite {
 ///     (sum x^2 - (sum x)^2 / n) / (n - 1) / n
 ///
 /// with Bessel's correction. It assumes independent samples; low-discrepancy samples have less variance. NaN below two
-/// samples. Squares are rounded to float32 before they are summed: variances of samples below 2^-24 of the squared mean are
-/// lost in rounding.
+/// samples. Squares are rounded to float32 before they are summed: variances of samples below 2^-24 of the squared mean
+/// are lost in rounding.
 [[nodiscard]] inline glm::dvec3 varianceOfMean(const layout::FilmPixel &pixel) {
     if (pixel.sampleCount < 2)
         return glm::dvec3(std::numeric_limits<double>::quiet_NaN());

@@ -74,8 +74,8 @@ std::uint32_t Partition::maxParts(const Crop &crop) {
 Partition::Partition(const Crop &crop, std::uint32_t partCount) : crop_(crop) {
     assert(partCount >= 1 && partCount <= maxParts(crop));
     const Squares squares = divide(crop, partCount);
-    // Along Morton's curve squares that follow one another are near. Of each run of `partCount` every part gets one, in an
-    // order that changes from run to run, so that no part has all squares of a column.
+    // Along Morton's curve squares that follow one another are near. Of each run of `partCount` every part gets one, in
+    // an order that changes from run to run, so that no part has all squares of a column.
     std::vector<std::pair<std::uint64_t, Crop>> curve;
     curve.reserve(squares.count());
     for (std::uint32_t row = 0; row < squares.rows; ++row)

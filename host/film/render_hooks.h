@@ -29,7 +29,8 @@ class SnapshotTaker {
 struct RenderHooks {
     /// Called occasionally, never by two threads at once, with the finished fraction of the film's samples, in [0, 1].
     std::function<void(double)> onProgress{};
-    /// Called often, possibly by several threads at once. Once it returns true, the film has the samples that are finished.
+    /// Called often, possibly by several threads at once. Once it returns true, the film has the samples that are
+    /// finished.
     std::function<bool()> shouldStop{};
     Timeline *timeline = nullptr;       ///< records what happened when
     SnapshotTaker *snapshots = nullptr; ///< takes copies of the film

@@ -145,8 +145,8 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.stackSize = std::bit_ceil(std::max(static_cast<std::uint32_t>(job.scene.treeDepth), 8u));
     // A direct kernel drops unfinished samples and repeats them, so they would be counted and traced twice.
     planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
-    // Where every pass takes the same time, lanes whose paths have ended cost as much as others. In a tree few rays take
-    // less, and whitted's paths end together.
+    // Where every pass takes the same time, lanes whose paths have ended cost as much as others. In a tree few rays
+    // take less, and whitted's paths end together.
     planned.regeneratesPaths = planned.isDirect && rowOf(job.settings.integrator).aimsAtEmitters &&
                                !job.scene.needsTree(job.settings.integrator);
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));

@@ -59,8 +59,9 @@ struct MemoryPlan {
 };
 
 /// `isStaged`: transfers go through staging buffers. `residentBytes` of the scene are on the device already. Throws
-/// Error{LimitExceeded}, with the largest buffers and the remedy, if a buffer is larger than the device allows, or device
-/// or host have too little memory. Drivers would fail in the middle of the render, or exhaust the memory of the system.
+/// Error{LimitExceeded}, with the largest buffers and the remedy, if a buffer is larger than the device allows, or
+/// device or host have too little memory. Drivers would fail in the middle of the render, or exhaust the memory of the
+/// system.
 MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged, const DeviceInfo &device,
                          std::uint64_t residentBytes = 0);
 

@@ -17,7 +17,8 @@ struct ProcessorUse {
 /// Whether the processor has vectors of 512 bits.
 [[nodiscard]] bool hasWideVectors();
 
-/// Throws Error{Usage} for a vector width in the environment that lavapipe does not have: Mesa crashes with less than 128.
+/// Throws Error{Usage} for a vector width in the environment that lavapipe does not have: Mesa crashes with less than
+/// 128.
 void requireVectorWidth();
 
 } // namespace hyalite::gpu

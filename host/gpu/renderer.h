@@ -32,9 +32,9 @@ struct Result {
     std::optional<Error> failure{}; ///< why the device ended the render early, or empty
 };
 
-/// Renders scenes on one device, which is opened once, and again after a failure. It keeps the last scene on the device,
-/// and the pipelines of the last renders: the next render of the same scene, by another camera or in another crop, begins
-/// at once.
+/// Renders scenes on one device, which is opened once, and again after a failure. It keeps the last scene on the
+/// device, and the pipelines of the last renders: the next render of the same scene, by another camera or in another
+/// crop, begins at once.
 class Renderer {
   public:
     /// `preferred` kernels run if `config` names none.

@@ -105,7 +105,8 @@ class TileRenderer {
     };
 
     /// Takes samples of an item, up to `end`, until they are in the film, the item is found too large, or the run is
-    /// stopped. The film knows how far each pixel is, so an item can be halved at any time, except inside a long sample.
+    /// stopped. The film knows how far each pixel is, so an item can be halved at any time, except inside a long
+    /// sample.
     void addSamples(WorkItem &item, std::uint32_t end, Run &run);
     /// Dispatches once, and reports it to the caller of run().
     Step dispatch(Program &program, bool isResumed, Run &run);

@@ -14,8 +14,8 @@ namespace hyalite::gpu {
 /// Counts blocks of 8x8 pixels, by a table of sums (F. Crow, "Summed-Area Tables for Texture Mapping", 1984).
 class UnfinishedBlocks {
   public:
-    /// A film of width x height pixels, row by row, at the start of a render up to `sampleEnd` samples. Without pixels all
-    /// blocks are unfinished.
+    /// A film of width x height pixels, row by row, at the start of a render up to `sampleEnd` samples. Without pixels
+    /// all blocks are unfinished.
     UnfinishedBlocks(std::span<const layout::FilmPixel> film, std::uint32_t width, std::uint32_t height,
                      std::uint32_t sampleEnd);
 

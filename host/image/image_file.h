@@ -55,9 +55,9 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 [[nodiscard]] std::string pixelHash(std::span<const std::uint8_t> levels);
 [[nodiscard]] std::string pixelHash(const Image &linear);
 
-/// Whether this is a whole image of this size, with an attribute of this text, in printable ASCII, which is found in the
-/// first MiB, as the hash of its pixels is. Reads all of the file: it may have been cut short on its way from another
-/// machine, or painted over.
+/// Whether this is a whole image of this size, with an attribute of this text, in printable ASCII, which is found in
+/// the first MiB, as the hash of its pixels is. Reads all of the file: it may have been cut short on its way from
+/// another machine, or painted over.
 [[nodiscard]] bool isImageWith(const std::filesystem::path &path, const std::string &text, int width,
                                int height);
 

@@ -122,8 +122,8 @@ struct PngDecoder {
         std::longjmp(decoder.failed, 1);
     }
 
-    /// libpng treats much damage as a warning, which begins with the name of the chunk. Ancillary chunks, whose names begin
-    /// with a small letter, may be wrong: only transparency is read of them.
+    /// libpng treats much damage as a warning, which begins with the name of the chunk. Ancillary chunks, whose names
+    /// begin with a small letter, may be wrong: only transparency is read of them.
     static void warn(png_structp png, png_const_charp what) {
         const std::string_view text = what;
         const bool isAncillary = text.front() >= 'a' && text.front() <= 'z';
@@ -148,8 +148,8 @@ bool readPngInfo(PngDecoder &decoder) {
     return true;
 }
 
-/// Decodes the pixels to `channelCount` levels each, the fourth of which is alpha, and reads on to the end. Returns false
-/// on failure.
+/// Decodes the pixels to `channelCount` levels each, the fourth of which is alpha, and reads on to the end. Returns
+/// false on failure.
 bool readPngLevels(PngDecoder &decoder, std::span<std::byte> levels, int channelCount) {
     if (setjmp(decoder.failed) != 0)
         return false;

@@ -33,10 +33,10 @@ void writePng(AtomicFile &file, int width, int height, std::span<const std::uint
                                                std::span<const Attribute> attributes = {});
 
 /// Reads every kind of PNG (1 to 16 bits, grey, RGB, palette, interlaced) as display-encoded values in [0, 1]: level /
-/// 255, or / 65535 for 16 bits. Alpha is dropped and the colours stay as stored; colour profiles, gamma chunks and texts
-/// are passed over, damaged or not. Throws Error{BadInput} for damaged files, which includes a wrong checksum of a chunk
-/// that is used and an end that is missing, and Error{LimitExceeded} where the pixels are compressed so densely that they
-/// would take more memory than readingBytesMax. Bytes after the end are padding.
+/// 255, or / 65535 for 16 bits. Alpha is dropped and the colours stay as stored; colour profiles, gamma chunks and
+/// texts are passed over, damaged or not. Throws Error{BadInput} for damaged files, which includes a wrong checksum of
+/// a chunk that is used and an end that is missing, and Error{LimitExceeded} where the pixels are compressed so densely
+/// that they would take more memory than readingBytesMax. Bytes after the end are padding.
 [[nodiscard]] Image readPng(const InputFile &file);
 
 /// Reads every kind of PNG as 8-bit levels (the upper 8 of 16 bits), with its alpha channel, or the transparency of its

@@ -11,8 +11,9 @@ namespace hyalite {
 /// Whether the file's first bytes are those of a format that readTexture() reads. Throws as InputFile does.
 [[nodiscard]] bool isTextureFile(const std::filesystem::path &path);
 
-/// Reads a PNG, a JPEG or a WebP as 8-bit levels (of 16 bits the upper 8), or a Radiance file as floats, told apart by their
-/// first bytes. Throws as readPng(), readJpeg(), readWebp() and readHdr() do, and Error{BadInput} for what is none of these.
+/// Reads a PNG, a JPEG or a WebP as 8-bit levels (of 16 bits the upper 8), or a Radiance file as floats, told apart by
+/// their first bytes. Throws as readPng(), readJpeg(), readWebp() and readHdr() do, and Error{BadInput} for what is
+/// none of these.
 [[nodiscard]] Texture readTexture(const std::filesystem::path &path);
 [[nodiscard]] Texture readTexture(const InputFile &file);
 

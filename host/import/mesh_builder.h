@@ -74,13 +74,13 @@ class MeshBuilder {
     /// Faces that are left out; finish() puts them into the report.
     [[nodiscard]] Losses &losses() { return dropped_; }
 
-    /// Adds a face, or leaves it out if it has fewer than three corners. Throws Error{BadInput} if a relative index points
-    /// before the first vertex, and where a vertex is lost.
+    /// Adds a face, or leaves it out if it has fewer than three corners. Throws Error{BadInput} if a relative index
+    /// points before the first vertex, and where a vertex is lost.
     void addFace(std::span<const FaceCorner> corners, std::size_t place);
 
     /// Moves the mesh out. Normals and texture coordinates that the file does not define are left out. Throws
-    /// Error{BadInput} for indices past the last vertex of the file, for faces with a lost vertex, and if no triangle is
-    /// left; not of a far mesh relative to zero (origin.h), whose triangles may be too small there.
+    /// Error{BadInput} for indices past the last vertex of the file, for faces with a lost vertex, and if no triangle
+    /// is left; not of a far mesh relative to zero (origin.h), whose triangles may be too small there.
     [[nodiscard]] ObjMesh finish();
 
   private:

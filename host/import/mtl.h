@@ -34,11 +34,12 @@ struct MtlTextures {
 ///     map_d               opacity, by its alpha if it has that, cut out at a half; without it by the alpha of map_Kd
 ///     norm, map_Bump, bump  a normal map; -bm says how strong
 ///
-/// README.md says what programs write. Keywords may be in any letter case. Names are relative to the folder of the library;
-/// FileFinder also finds those of another computer. -s and -o scale and move a texture. Fractions are clamped to [0, 1].
-/// Statements that cannot be read or are not used, other options, missing and damaged textures, other formats, other uses,
-/// and pictures as map_Bump whose colours are no normals are left out, as `losses` say. Throws Error{BadInput} if it is not
-/// a regular file, and for more materials than limits::materialCount; and Error{LimitExceeded} as TextureLibrary does.
+/// README.md says what programs write. Keywords may be in any letter case. Names are relative to the folder of the
+/// library; FileFinder also finds those of another computer. -s and -o scale and move a texture. Fractions are clamped
+/// to [0, 1]. Statements that cannot be read or are not used, other options, missing and damaged textures, other
+/// formats, other uses, and pictures as map_Bump whose colours are no normals are left out, as `losses` say. Throws
+/// Error{BadInput} if it is not a regular file, and for more materials than limits::materialCount; and
+/// Error{LimitExceeded} as TextureLibrary does.
 [[nodiscard]] std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures textures);
 
 } // namespace hyalite

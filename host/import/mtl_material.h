@@ -30,12 +30,12 @@ struct MtlStatements {
     bool isCutOut = false;   ///< map_Kd has transparent places
 };
 
-/// `d` counts before `Tr`, which some programs write with the meaning of d beside it. Alone, a Tr of 1 is opaque, too: it
-/// is what programs write that take Tr for d, and whoever wants nothing to be seen writes no mesh. In [0, 1].
+/// `d` counts before `Tr`, which some programs write with the meaning of d beside it. Alone, a Tr of 1 is opaque, too:
+/// it is what programs write that take Tr for d, and whoever wants nothing to be seen writes no mesh. In [0, 1].
 [[nodiscard]] float opacityOf(const MtlStatements &mtl);
 
-/// Programs write `illum` as they like, for instance 4 or 7 for all that they have. It makes a metal or glass of what has
-/// no look of its own: no colour, no texture, and nothing of the physical statements.
+/// Programs write `illum` as they like, for instance 4 or 7 for all that they have. It makes a metal or glass of what
+/// has no look of its own: no colour, no texture, and nothing of the physical statements.
 [[nodiscard]] Material materialOf(const MtlStatements &mtl);
 
 } // namespace hyalite

@@ -18,16 +18,17 @@ namespace hyalite {
 ///                        colour, where vertices have none; and texnumber, which texture of the header is meant
 ///     element tristrips  a list vertex_indices or vertex_index: strips of triangles, -1 between two
 ///
-/// Comments "TextureFile NAME" of the header name pictures in or below the folder of the mesh, which are read if `textures`
-/// is given: then the mesh has a material for each, and colours of vertices are left out. What is not used is one warning
-/// a kind. A file that ends within its faces, or has fewer rows than it announces, is read as far as it goes, with a warning.
+/// Comments "TextureFile NAME" of the header name pictures in or below the folder of the mesh, which are read if
+/// `textures` is given: then the mesh has a material for each, and colours of vertices are left out. What is not used
+/// is one warning a kind. A file that ends within its faces, or has fewer rows than it announces, is read as far as it
+/// goes, with a warning.
 ///
 /// Text has a row a line. The transform is as for loadObj. The file has at most 4 GiB; memory stays below 64 MiB + 64
 /// times its size.
 ///
 /// Throws Error{BadInput}, with file and line or byte, if the file is not regular or cannot be read, for a header that
-/// is wrong or announces more vertices than the file can hold, for indices out of range, numbers that are not finite floats and
-/// coordinates beyond 1e15 after the transform; and if there is no triangle at all, as in a point cloud.
+/// is wrong or announces more vertices than the file can hold, for indices out of range, numbers that are not finite
+/// floats and coordinates beyond 1e15 after the transform; and if there is no triangle at all, as in a point cloud.
 [[nodiscard]] ObjMesh loadPly(const std::filesystem::path &file, const MeshTransform &transform = {},
                               const OnReading &onReading = {}, TextureLibrary *textures = nullptr);
 

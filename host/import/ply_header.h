@@ -43,8 +43,8 @@ struct PlyHeader {
 };
 
 /// Reads the header of a PLY file after G. Turk, "The PLY Polygon File Format" (1994), whose lines end in LF, CR or
-/// CRLF, after a byte order mark or not. Other comments, obj_info and unknown lines are passed over. Throws Error{BadInput} "FILE:LINE: ..." for what is
-/// wrong.
+/// CRLF, after a byte order mark or not. Other comments, obj_info and unknown lines are passed over. Throws
+/// Error{BadInput} "FILE:LINE: ..." for what is wrong.
 [[nodiscard]] PlyHeader readPlyHeader(std::span<const char> file, const std::string &fileName);
 
 } // namespace hyalite

@@ -1,4 +1,5 @@
-// The scene file: JSON in, Scene out. assets/README.md describes it for people, assets/hyalite-scene.schema.json for editors.
+// The scene file: JSON in, Scene out. assets/README.md describes it for people, assets/hyalite-scene.schema.json for
+// editors.
 #pragma once
 
 #include "host/import/loaded_scene.h"

@@ -29,8 +29,8 @@ constexpr std::size_t headBytes = 84; ///< 80 of text, and the number of triangl
 constexpr std::size_t triangleBytes = 50;
 constexpr std::uint64_t stepTriangles = 65536; ///< between two reports of progress
 
-/// Numbers the distinct vertices of a mesh, from 0, in the order in which they come. Vertices whose coordinates are equal
-/// as floats are one; `isExact`: relative to the first one. A hash table with open addressing.
+/// Numbers the distinct vertices of a mesh, from 0, in the order in which they come. Vertices whose coordinates are
+/// equal as floats are one; `isExact`: relative to the first one. A hash table with open addressing.
 class VertexMerger {
   public:
     VertexMerger(MeshBuilder &builder, bool isExact)

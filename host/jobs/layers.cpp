@@ -19,8 +19,8 @@ glm::vec3 normalOf(const glm::vec3 &colour) {
     return colour == glm::vec3(0.0f) ? colour : 2.0f * colour - 1.0f;
 }
 
-/// Makes planar depths of distances along rays, but in a panorama, which has no plane. `begun` has pixels whose depths are
-/// planar already, or is null.
+/// Makes planar depths of distances along rays, but in a panorama, which has no plane. `begun` has pixels whose depths
+/// are planar already, or is null.
 void flattenDepths(const PreparedScene &scene, const Film *begun, Film &film) {
     constexpr float ofNothing = 1e10f; // as Blender writes
     const reference::SceneView<float> view(scene.packed, layout::samplerCentre);

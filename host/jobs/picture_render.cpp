@@ -75,8 +75,8 @@ PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report
     return origin;
 }
 
-/// The checkpoint to go on from, if there is one. A damaged part is overwritten; one of another picture is an error. A frame
-/// that has changed begins anew, as it does without a checkpoint.
+/// The checkpoint to go on from, if there is one. A damaged part is overwritten; one of another picture is an error. A
+/// frame that has changed begins anew, as it does without a checkpoint.
 std::optional<ResumedCheckpoint> readBegun(const RenderRequest &request, const RenderIdentity &identity,
                                            const CheckpointSubject &subject, std::string &damage) {
     if (!request.isResuming)

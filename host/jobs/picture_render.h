@@ -1,5 +1,5 @@
-// One picture from request to files: openFiles, beginPicture, finishPicture. Each takes what the one before it gave, and the
-// caller may tell of it in between.
+// One picture from request to files: openFiles, beginPicture, finishPicture. Each takes what the one before it gave,
+// and the caller may tell of it in between.
 #pragma once
 
 #include "host/base/atomic_file.h"

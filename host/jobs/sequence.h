@@ -25,14 +25,14 @@ struct SequenceOptions {
     [[nodiscard]] bool areGiven() const { return frames || turntable; }
 };
 
-/// "frame.####.exr" in frame 7 is "frame.0007.exr". Throws Error{Usage} unless the name of the file has exactly one run of
-/// #; `option` is for the message.
+/// "frame.####.exr" in frame 7 is "frame.0007.exr". Throws Error{Usage} unless the name of the file has exactly one run
+/// of #; `option` is for the message.
 [[nodiscard]] std::string nameOfFrame(const std::string &pattern, int frame, const std::string &option);
 
 class Sequence {
   public:
-    /// The file names of the request have #, which the numbers of frames replace. Throws Error{Usage} if one has none, or
-    /// if two files would have the same name.
+    /// The file names of the request have #, which the numbers of frames replace. Throws Error{Usage} if one has none,
+    /// or if two files would have the same name.
     Sequence(RenderRequest request, const SequenceOptions &options);
 
     /// The frames to render: those of the part, if one is asked for; they are dealt in turn.

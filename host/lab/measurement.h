@@ -49,7 +49,8 @@ struct Measurement {
 /// twin; then the warm-ups and the repeats, and what the request or a heat map counts.
 ///
 /// The time limit begins here, and leaves half of the time to the counts, if there are any. If it leaves no repeat, the
-/// frame that is finished most is measured. Of a render that it stops remains what it has finished; the profile says so.
+/// frame that is finished most is measured. Of a render that it stops remains what it has finished; the profile says
+/// so.
 [[nodiscard]] Measurement measure(const MeasurementSubject &subject, const MeasurementRequest &request,
                                   bool wantsHeatMap, Observer &observer);
 

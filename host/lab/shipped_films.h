@@ -1,4 +1,5 @@
-// Shipped films: small scenes that are installed with the program, and hashes of their films, the same on every machine.
+// Shipped films: small scenes that are installed with the program, and hashes of their films, the same on every
+// machine.
 #pragma once
 
 #include "host/film/film.h"

@@ -21,7 +21,8 @@ struct KernelRates {
     std::size_t best = 0;
 };
 
-/// Runs work in a process of its own, and returns its result or throws its Error: inOwnProcess() of host/process/apart.h.
+/// Runs work in a process of its own, and returns its result or throws its Error: inOwnProcess() of
+/// host/process/apart.h.
 using RunApart = std::function<nlohmann::json(const std::function<nlohmann::json()> &work)>;
 
 /// Renders small images of shipped scenes with each kernel, in several rounds, and verifies that all images are equal.

@@ -217,8 +217,8 @@ void chooseByTree(std::vector<Candidate> candidates, PackedScene &packed) {
     }
 }
 
-/// Whether lights stand so far apart that it pays to know where they are: a tree of 38 lamps (many-lights), and one of a
-/// small lamp of many triangles (still-life), have 0.96 of the variance of a choice by power, in 1.1 of the time.
+/// Whether lights stand so far apart that it pays to know where they are: a tree of 38 lamps (many-lights), and one of
+/// a small lamp of many triangles (still-life), have 0.96 of the variance of a choice by power, in 1.1 of the time.
 bool areApart(const std::vector<Candidate> &found, const PackedScene &packed) {
     constexpr std::ptrdiff_t few = 64;
     constexpr double near = 0.25; // of the size of the scene's tree

@@ -56,7 +56,8 @@ struct Cluster {
         intensity += other.intensity;
     }
 
-    /// In proportion to the surface of a sphere around the lights, the solid angle of their normals and their intensity.
+    /// In proportion to the surface of a sphere around the lights, the solid angle of their normals and their
+    /// intensity.
     [[nodiscard]] double cost() const {
         if (intensity == 0.0)
             return 0.0;

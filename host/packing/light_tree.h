@@ -29,9 +29,10 @@ struct LightTree {
     std::vector<std::uint32_t> turns;
 };
 
-/// Builds the tree over at least two lights, on all threads; it depends on the lights only. Splits are those of the lowest
-/// cost between 12 bins along the longest axis, by intensity, size and bounds on orientation. Conty and Kulla, "Importance
-/// Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018, section 3.1; the measure of a cone is an approximation.
+/// Builds the tree over at least two lights, on all threads; it depends on the lights only. Splits are those of the
+/// lowest cost between 12 bins along the longest axis, by intensity, size and bounds on orientation. Conty and Kulla,
+/// "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018, section 3.1; the measure of a cone is
+/// an approximation.
 [[nodiscard]] LightTree buildLightTree(std::span<const TreeLight> lights);
 
 } // namespace hyalite

@@ -15,8 +15,8 @@ namespace hyalite {
 
 namespace {
 
-/// The solid angle of a triangle seen from the origin, positive if it is seen from behind: van Oosterom and Strackee, "The
-/// Solid Angle of a Plane Triangle", 1983.
+/// The solid angle of a triangle seen from the origin, positive if it is seen from behind: van Oosterom and Strackee,
+/// "The Solid Angle of a Plane Triangle", 1983.
 double solidAngle(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c) {
     const double volume = glm::dot(a, glm::cross(b, c));
     const double la = glm::length(a);
@@ -26,8 +26,8 @@ double solidAngle(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c)
            std::atan2(volume, la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la);
 }
 
-/// Adds to `windings`, of each material, how often the mesh winds around zero. `place` brings corners there. Returns whether
-/// the box of a triangle of glass reaches into the one around zero.
+/// Adds to `windings`, of each material, how often the mesh winds around zero. `place` brings corners there. Returns
+/// whether the box of a triangle of glass reaches into the one around zero.
 template <class Place>
 bool addWindings(const Scene &scene, const TriangleMesh &mesh, const Place &place, const glm::dvec3 &spread,
                  std::vector<double> &windings) {

@@ -41,8 +41,8 @@ template <class Record>
 using RecordVector = std::conditional_t<isFilledByThreads<Record>, UnsetVector<Record>, std::vector<Record>>;
 
 struct PackedScene {
-    /// Given by packScene, and no other time to another scene: scenes of one serial number differ at most in `frame` and
-    /// `camera`, so that a device that holds one holds the others. 0: unknown.
+    /// Given by packScene, and no other time to another scene: scenes of one serial number differ at most in `frame`
+    /// and `camera`, so that a device that holds one holds the others. 0: unknown.
     std::uint64_t serial = 0;
     layout::FrameRecord frame{};         ///< without what the settings of a render decide: frameOf() adds it
     UnsetVector<layout::NodePair> nodes; ///< never empty
@@ -74,8 +74,8 @@ struct PackedScene {
     std::uint32_t anyHit = 0;    ///< bits of layout::anyHit...
     std::uint32_t camera = layout::cameraPinhole;
 
-    /// How many of `trianglePairs` rays of a kernel over skip lists test in turn; 0: they go through the tree. Where light
-    /// comes from within, paths are long and their rays go everywhere. The tree takes less time for others.
+    /// How many of `trianglePairs` rays of a kernel over skip lists test in turn; 0: they go through the tree. Where
+    /// light comes from within, paths are long and their rays go everywhere. The tree takes less time for others.
     [[nodiscard]] std::size_t listedPairs(Integrator integrator) const {
         return rowOf(integrator).aimsAtEmitters ? trianglePairs.size() : 0;
     }
@@ -111,8 +111,8 @@ inline constexpr std::size_t maxDecodedBytes = std::size_t{64} << 20;
 /// Choices about the packed bytes. Images by light choices agree in their mean, and do not depend on the rest.
 struct PackOptions {
     LightChoice lightChoice = LightChoice::Auto;
-    /// 8-bit textures are decoded to floats if all of them then take at most so many bytes: a lookup reads 4 rows in place
-    /// of 16.
+    /// 8-bit textures are decoded to floats if all of them then take at most so many bytes: a lookup reads 4 rows in
+    /// place of 16.
     std::size_t maxDecoded = maxDecodedBytes;
 };
 

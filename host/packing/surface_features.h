@@ -19,7 +19,8 @@ namespace hyalite {
 /// Whether any vertex is less than opaque by its colour.
 [[nodiscard]] bool hasTransparentColours(const TriangleMesh &mesh);
 
-/// Bits of layout::anyHit...: how rays pass through triangles of the material. `hasTransparentColours` is that of their mesh.
+/// Bits of layout::anyHit...: how rays pass through triangles of the material. `hasTransparentColours` is that of their
+/// mesh.
 [[nodiscard]] std::uint32_t anyHitOf(const Material &material, bool hasTransparentColours);
 
 } // namespace hyalite

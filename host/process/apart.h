@@ -7,8 +7,8 @@
 
 namespace hyalite {
 
-/// Runs `work` in a process of its own and returns its result, of at most 64 KiB as text. Throws the Error that it throws,
-/// and Error{DeviceLost} if a signal ended it. The calling process has no other thread.
+/// Runs `work` in a process of its own and returns its result, of at most 64 KiB as text. Throws the Error that it
+/// throws, and Error{DeviceLost} if a signal ended it. The calling process has no other thread.
 [[nodiscard]] nlohmann::json inOwnProcess(const std::function<nlohmann::json()> &work);
 
 } // namespace hyalite

@@ -7,9 +7,9 @@ namespace hyalite {
 
 /// During its lifetime SIGPIPE is ignored. SIGINT, SIGTERM and SIGHUP end the program at once, by their default action,
 /// until there are results to keep: from then on the first one is only recorded, and a second one ends the program. One
-/// within `echoSeconds` counts as the same signal, because `timeout` and terminals behind wrappers send each signal twice.
-/// Signals that were ignored when the program started, as in background jobs of a script, stay ignored. At most one object
-/// exists at a time.
+/// within `echoSeconds` counts as the same signal, because `timeout` and terminals behind wrappers send each signal
+/// twice. Signals that were ignored when the program started, as in background jobs of a script, stay ignored. At most
+/// one object exists at a time.
 class CaughtSignals {
   public:
     static constexpr double echoSeconds = 0.2;

@@ -110,8 +110,8 @@ template <class Real> struct Candidate {
     TriangleHit<Real> hit;
 };
 
-/// visitTriangles of a scene with a tree. There is no code for what it does not hold: that for instances would take 5 % of
-/// the time.
+/// visitTriangles of a scene with a tree. There is no code for what it does not hold: that for instances would take 5 %
+/// of the time.
 template <bool hasInstances, bool hasSpheres, class Real, class Counter, class Visitor>
 [[gnu::flatten]] // GCC would call the triangle test in some builds and inline it in others: a quarter of the time
 void visitTree(const SceneView<Real> &scene, const Ray<Real> &ray, const Real &reach, Counter &counter,

@@ -21,8 +21,8 @@ struct Divergence {
     std::uint32_t eventIndex = 0; ///< in both traces
 };
 
-/// Compares two traces of the same sample, step by step. `firstTriangleId` is that of the scene's frame. Points are told
-/// in the coordinates of its file: those of the scene + `origin`.
+/// Compares two traces of the same sample, step by step. `firstTriangleId` is that of the scene's frame. Points are
+/// told in the coordinates of its file: those of the scene + `origin`.
 [[nodiscard]] std::optional<Divergence> findDivergence(const std::vector<layout::TraceEvent> &a,
                                                        const std::vector<layout::TraceEvent> &b,
                                                        std::uint32_t firstTriangleId,

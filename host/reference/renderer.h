@@ -25,9 +25,10 @@ struct Result {
     WorkCounts work; ///< all 0 unless counting was asked for, or samples show the work
 };
 
-/// Adds the missing samples to `begun`, whose crop is that of the scene's image. The result does not depend on the number
-/// of threads, nor, with Float32, on which samples were there. `hooks.shouldStop` is asked after each sample. With Float64
-/// each pixel of a snapshot has either all its samples or only those that it began with. No timeline is recorded.
+/// Adds the missing samples to `begun`, whose crop is that of the scene's image. The result does not depend on the
+/// number of threads, nor, with Float32, on which samples were there. `hooks.shouldStop` is asked after each sample.
+/// With Float64 each pixel of a snapshot has either all its samples or only those that it began with. No timeline is
+/// recorded.
 [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, Film begun,
                             const Options &options = {}, const RenderHooks &hooks = {});
 

@@ -37,13 +37,14 @@ struct CameraKey {
 enum class KeyInterpolation { Smooth, Linear };
 
 /// The path through keys, whose frames increase; it stands still before the first one. Points of the path and what it
-/// looks at (position + direction) are interpolated, and each other number by itself, between those of its keys. Smooth:
-/// cubic Hermite splines whose slope at a key is that of the parabola through it and its neighbours (finite differences
-/// for unequal intervals), at the ends that to the neighbour.
+/// looks at (position + direction) are interpolated, and each other number by itself, between those of its keys.
+/// Smooth: cubic Hermite splines whose slope at a key is that of the parabola through it and its neighbours (finite
+/// differences for unequal intervals), at the ends that to the neighbour.
 [[nodiscard]] CameraPath pathThrough(std::span<const CameraKey> keys, KeyInterpolation interpolation);
 
-/// `frameCount` poses on a full circle around an axis through `pivot`, counter-clockwise seen from where the axis points:
-/// frame 0 is the camera itself. The axis has any length but zero; it may be the camera's up vector, which then stays.
+/// `frameCount` poses on a full circle around an axis through `pivot`, counter-clockwise seen from where the axis
+/// points: frame 0 is the camera itself. The axis has any length but zero; it may be the camera's up vector, which then
+/// stays.
 [[nodiscard]] CameraPath turntable(const Camera &camera, const glm::dvec3 &pivot, const glm::dvec3 &axis,
                                    int frameCount);
 

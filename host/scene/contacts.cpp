@@ -58,8 +58,8 @@ glm::dvec3 unitNormal(const Corners &corners) {
 
 // ---- Which surface moves
 
-/// The order in which surfaces give way: opaque ones never, then glass by descending priority, as its materials are packed,
-/// then those with a smaller `place`.
+/// The order in which surfaces give way: opaque ones never, then glass by descending priority, as its materials are
+/// packed, then those with a smaller `place`.
 using Rank = std::tuple<bool, int, std::uint32_t, std::uint32_t>;
 
 Rank rankOf(const std::vector<Material> &materials, std::uint32_t material, std::uint32_t place) {
@@ -168,8 +168,8 @@ Size sizeOf(const std::vector<glm::dvec3> &polygon) {
     return size;
 }
 
-/// Whether two nearly parallel triangles are at most `gap` from each other in a quarter of where they face each other. Where
-/// they only have an edge in common, or cross each other, they do not touch.
+/// Whether two nearly parallel triangles are at most `gap` from each other in a quarter of where they face each other.
+/// Where they only have an edge in common, or cross each other, they do not touch.
 bool touch(const Corners &a, const glm::dvec3 &normal, const Corners &b, double gap) {
     std::vector<glm::dvec3> facing(b.begin(), b.end());
     for (std::size_t i = 0; i < 3; ++i) {

@@ -54,7 +54,8 @@ inline constexpr Bounds noBounds{glm::dvec3(std::numeric_limits<double>::infinit
 
 /// A scene of the mesh alone: two-sided, of the neutral material, before dark grey, seen by frameCamera at the default
 /// size and 40 degrees. A key light from the upper left and a weaker fill light from near the camera: what
-/// faces one of them has a radiance near 0.7 or 0.2, whatever the size of the mesh. Its origin becomes that of the scene.
+/// faces one of them has a radiance near 0.7 or 0.2, whatever the size of the mesh. Its origin becomes that of the
+/// scene.
 [[nodiscard]] Scene frameMesh(TriangleMesh mesh);
 
 } // namespace hyalite

@@ -42,8 +42,8 @@ enum class Wrap : std::uint32_t { Repeat = 0, Mirror = 1, Clamp = 2 };
 enum class Channel : std::uint32_t { Red = 0, Green = 1, Blue = 2, Alpha = 3 };
 
 /// How a material wears one of the scene's textures: at (u, v) it shows what the image has at
-/// (scale.x u + shear.x v + offset.x, shear.y u + scale.y v + offset.y). Images begin at the bottom left, v = 0, and end at
-/// the top, v = 1.
+/// (scale.x u + shear.x v + offset.x, shear.y u + scale.y v + offset.y). Images begin at the bottom left, v = 0, and
+/// end at the top, v = 1.
 struct TextureUse {
     std::uint32_t textureIndex = 0;
     glm::vec2 scale{1.0f};
@@ -68,12 +68,12 @@ struct Material {
     MaterialKind kind = MaterialKind::Diffuse;
     glm::vec3 albedo{0.5f};       ///< Diffuse: in [0, 1]; Principled, Gltf: its base colour
     bool twoSided = false;        ///< Diffuse, Principled, Gltf: reflects and emits on both sides
-    bool reflectsBehind = false;  ///< Diffuse, Principled, Gltf: reflects on both sides, but emits on that of the normal alone
+    bool reflectsBehind = false;  ///< the same three: reflects on both sides, and emits on that of the normal
     float refractiveIndex = 1.5f; ///< Dielectric, Principled, Gltf: relative to the surroundings, in [1, 10]
     /// Dielectric: factor on all that a segment inside returns, whatever its length; Whitted only.
     glm::vec3 segmentTint{1.0f};
     glm::vec3 absorption{0.0f}; ///< of glass of any kind: per unit of length, >= 0; path only
-    int priority = 0; ///< where glass overlaps, that of the highest is there; path only
+    int priority = 0;           ///< where glass overlaps, that of the highest is there; path only
     /// Diffuse, Principled, Gltf: radiance on the side of the normal, on both where twoSided; >= 0.
     glm::vec3 emission{0.0f};
     /// Conductor: real part of the refractive index, in [0, 20].
@@ -102,7 +102,7 @@ struct Material {
     float opacity = 1.0f;        ///< in [0, 1]; a factor on that of the texture and of the mesh's colours
     float alphaCutoff = 0.5f;    ///< CutOut, >= 0
     bool isCulled = false;       ///< triangles are not there for rays that come from behind
-    TextureSlots textures{};     ///< Diffuse, Principled, Gltf: factors on albedo, emission, roughness and metallic
+    TextureSlots textures{};     ///< Diffuse, Principled, Gltf: most are factors on what is above
     float normalStrength = 1.0f; ///< how far a normal map turns normals; in [0, 100]
 };
 

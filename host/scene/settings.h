@@ -14,8 +14,8 @@ enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
 /// 1.5 pixels from the centre.
 enum class FilterKind { Box, BlackmanHarris };
 
-/// How a shadow ray chooses its emitter. Power: with probability in proportion to power. Tree: by where they are. Auto: by a tree if there
-/// are many.
+/// How a shadow ray chooses its emitter. Power: with probability in proportion to power. Tree: by where they are. Auto:
+/// by a tree if there are many.
 enum class LightChoice { Auto, Power, Tree };
 
 /// Each may be set by a scene file and overridden by the command line; settings_table.h has their ranges.

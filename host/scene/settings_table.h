@@ -1,4 +1,5 @@
-// Render settings, one row each. To add a setting: its member in RenderSettings (settings.h), its row here, and its use.
+// Render settings, one row each. To add a setting: its member in RenderSettings (settings.h), its row here, and its
+// use.
 //
 // Made from the rows: the reader of "settings" in scene files, command-line options, validation, the JSON of reports,
 // the identity of checkpoints, and, by tests/scene/settings_table_test.cpp, the schema and the tables of documents.

@@ -16,8 +16,8 @@ struct Solids {
     std::uint32_t count = 0;
 };
 
-/// Triangles of one glass belong together where they share corners: by index if these make a closed surface, else by position,
-/// as many files give each triangle, or each side of a crease, corners of its own.
+/// Triangles of one glass belong together where they share corners: by index if these make a closed surface, else by
+/// position, as many files give each triangle, or each side of a crease, corners of its own.
 [[nodiscard]] Solids solidsOf(const TriangleMesh &mesh, const std::vector<Material> &materials);
 
 } // namespace hyalite

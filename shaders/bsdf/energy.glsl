@@ -1,9 +1,9 @@
 // GGX directional albedo, and two ways to give back what single scattering loses.
 //
 // Opaque facets: Kulla-Conty. A single-scattering model loses the light that one facet sends to another: up to two
-// thirds of it at roughness 1. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses, add
-// it back as a second, diffuse lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)). It is reciprocal, and conserves
-// energy exactly for the E of the table, because E and its averages are interpolated linearly.
+// thirds of it at roughness 1. Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
+// courses, add it back as a second, diffuse lobe, (1 - E(o)) (1 - E(i)) / (pi (1 - average E)). It is reciprocal, and
+// conserves energy exactly for the E of the table, because E and its averages are interpolated linearly.
 //
 // Glass: Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019. What single scattering
 // reflects and transmits is divided by E(o), the albedo of both together for the side of the viewer. Directions and

@@ -7,7 +7,7 @@ void beginSample(uint slot);  // stageNextSample: the primary ray
 void shadeHit(uint slot);     // stageClosest: the nearest hit is known
 void sampleDirectLight(uint slot);   // stageNextLight: on a surface, choose a light
 void addLight(uint slot);     // stageShadow: the shadow ray has arrived, or was stopped
-void advancePaths();          // runs samples to their end, or until the step budget is spent; where they regenerate: one pass
+void advancePaths();          // runs samples to their end, or until the budget is spent; regenerating: one pass
 
 // The work of a pass without its traversals, in traversal steps, by the times of both on lavapipe.
 const uint workPerPass = 32u + sphereCount;

@@ -18,7 +18,8 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr int firstRoulette = 3; // segment behind which paths may end by chance
 
-/// M. O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random Number Generation".
+/// M. O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random Number
+/// Generation".
 class Pcg32 {
   public:
     Pcg32(std::uint64_t seed, std::uint64_t stream) : step_(stream << 1u | 1u) {

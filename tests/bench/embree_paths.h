@@ -1,6 +1,6 @@
-// A path tracer as a C++ programmer writes it on Embree's calls for one ray, with all threads: next-event estimation and
-// bounces by the cosine of their angle, weighted by the power heuristic, and Russian roulette. It shares no code with
-// ours, but, if told, our samples.
+// A path tracer as a C++ programmer writes it on Embree's calls for one ray, with all threads: next-event estimation
+// and bounces by the cosine of their angle, weighted by the power heuristic, and Russian roulette. It shares no code
+// with ours, but, if told, our samples.
 #pragma once
 
 #include "host/image/image.h"
@@ -18,8 +18,8 @@ enum class PathSamples { Independent, Stratified };
 
 class EmbreePaths {
   public:
-    /// `scene`, which outlives this, has triangles of diffuse materials without normals of their own, some of which emit,
-    /// and a pinhole.
+    /// `scene`, which outlives this, has triangles of diffuse materials without normals of their own, some of which
+    /// emit, and a pinhole.
     explicit EmbreePaths(const TestScene &scene);
 
     /// The mean of the samples of each pixel, of paths of at most settings.maxDepth segments.

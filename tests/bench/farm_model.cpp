@@ -1,9 +1,11 @@
-// farm_model [--scene NAME] [--spp COUNT] [--whole SECONDS] [--start SECONDS] [--tile SECONDS] [--merge SECONDS] [--network BYTES]
+// farm_model [--scene NAME] [--spp COUNT] [--whole SECONDS] [--start SECONDS] [--tile SECONDS] [--merge SECONDS]
+// [--network BYTES]
 //
-// Computes, and does not measure, how long a picture takes on 1 to 10,000 nodes like this machine, in parts and by ranks.
-// What it computes with is measured, here or elsewhere:
+// Computes, and does not measure, how long a picture takes on 1 to 10,000 nodes like this machine, in parts and by
+// ranks. What it computes with is measured, here or elsewhere:
 //
-// - the work of each block of 8x8 pixels of the scene at 1920x1080: by the CPU twin, 2 samples a pixel, one thread; scaled
+// - the work of each block of 8x8 pixels of the scene at 1920x1080: by the CPU twin, 2 samples a pixel, one thread;
+// scaled
 //   so that the whole picture takes what this machine's device takes for it (8 samples, or --whole SECONDS);
 // - the options: start of a process, setting up a tile, reading a part in `merge`, bytes a second between ranks.
 //

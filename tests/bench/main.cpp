@@ -1,7 +1,7 @@
 // hyalite_bench [--device=NAME] [--driver=FILE.json]... [--cpu-time] [--benchmark_filter=...] [--benchmark_out=FILE]...
 //
-// Verifies, measures, and prints tables in the end. --driver names the manifest of a Vulkan driver, which gets a column of
-// its own where processes are timed. --cpu-time counts processor seconds instead of time: for machines that do other
+// Verifies, measures, and prints tables in the end. --driver names the manifest of a Vulkan driver, which gets a column
+// of its own where processes are timed. --cpu-time counts processor seconds instead of time: for machines that do other
 // things meanwhile, and for devices that compute on the CPU. Exit code 1: a result was wrong or something was missing.
 #include "host/process/lavapipe.h"
 #include "tests/bench/race.h"

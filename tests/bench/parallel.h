@@ -11,8 +11,8 @@ namespace hyalite::bench {
 
 [[nodiscard]] inline unsigned threadCount() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-/// Calls body(begin, end) for ranges of at most `chunk` of `count` items, on all threads at once. OpenMP is not used, as
-/// its threads go on spinning for some time: in the way of what is timed next.
+/// Calls body(begin, end) for ranges of at most `chunk` of `count` items, on all threads at once. OpenMP is not used,
+/// as its threads go on spinning for some time: in the way of what is timed next.
 template <class Body> void inChunks(std::size_t count, std::size_t chunk, const Body &body) {
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {

@@ -31,8 +31,8 @@ struct Rival {
 /// Of at least one value.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// Runs the contestant and then each rival, for each iteration of `state`, which uses manual time. Counters get medians:
-/// "seconds" and the rivals'. Nothing is run before to warm up: who checks results has done that.
+/// Runs the contestant and then each rival, for each iteration of `state`, which uses manual time. Counters get
+/// medians: "seconds" and the rivals'. Nothing is run before to warm up: who checks results has done that.
 void race(benchmark::State &state, const Runner &contestant, std::span<const Rival> rivals);
 
 /// Registers a benchmark that uses manual time. What `measure` throws is shown as its error.

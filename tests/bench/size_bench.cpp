@@ -38,8 +38,8 @@ TriangleMesh sphereOf(int triangleCount) {
     return noisySphere(around, 1 + std::max(1, static_cast<int>(std::lround(0.5 * triangleCount / around))));
 }
 
-/// Calls place(x, z, random) for so many places, one somewhere in each cell of a square grid around the origin whose cells
-/// have the size 1. Returns half the side of the square.
+/// Calls place(x, z, random) for so many places, one somewhere in each cell of a square grid around the origin whose
+/// cells have the size 1. Returns half the side of the square.
 template <class Place> double scatter(int count, const Place &place) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> jitter(0.2, 0.8);

@@ -12,8 +12,8 @@
 namespace hyalite::bench {
 
 /// Shows benchmarks on the console as they finish, and gathers them into tables. A benchmark is called
-/// TABLE/ROW/COLUMN. Its counters make the cell: "ns/ray" alone, or "Mray/s" or else "seconds", "seconds in all", and the
-/// first one called "of RIVAL", which is the rival's time divided by this one's.
+/// TABLE/ROW/COLUMN. Its counters make the cell: "ns/ray" alone, or "Mray/s" or else "seconds", "seconds in all", and
+/// the first one called "of RIVAL", which is the rival's time divided by this one's.
 class TableReporter : public benchmark::ConsoleReporter {
   public:
     TableReporter();

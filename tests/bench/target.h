@@ -17,8 +17,8 @@ struct Target {
 
 inline const Target cpuReference{"CPU reference", "cpu"};
 
-/// The best device of one driver, which is not installed: `manifest` is a JSON file as VK_DRIVER_FILES takes it. The name
-/// is the driver's own, "llvmpipe Mesa 25.0.7 (LLVM 15.0.6)", found by rendering an image of one pixel. Throws
+/// The best device of one driver, which is not installed: `manifest` is a JSON file as VK_DRIVER_FILES takes it. The
+/// name is the driver's own, "llvmpipe Mesa 25.0.7 (LLVM 15.0.6)", found by rendering an image of one pixel. Throws
 /// Error{BadInput}, and std::runtime_error where the driver does not work.
 [[nodiscard]] Target targetOf(const std::filesystem::path &manifest);
 

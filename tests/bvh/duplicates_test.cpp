@@ -25,8 +25,8 @@ std::vector<std::uint32_t> indicesOf(std::span<const BuildTriangle> triangles) {
 
 std::set<std::uint32_t> keptIn(const Bvh &bvh) { return {bvh.order.begin(), bvh.order.end()}; }
 
-/// A soup in which half of the triangles come again, from one to `most` times, anywhere; in two meshes that share corners
-/// and a material. Some come again turned, turned inside out, or in another material: those stay.
+/// A soup in which half of the triangles come again, from one to `most` times, anywhere; in two meshes that share
+/// corners and a material. Some come again turned, turned inside out, or in another material: those stay.
 Scene sceneWithCopies(Random &random, std::size_t count, int most) {
     Scene scene = testing::sceneOf(testing::triangleSoup(random, count, 1.0, 0.3));
     scene.materials.push_back({});

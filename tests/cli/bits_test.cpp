@@ -1,5 +1,5 @@
-// The pictures of tests/bits/cases.txt, bit for bit. Devices are compared with the CPU twin elsewhere; this holds the twin
-// to what it was.
+// The pictures of tests/bits/cases.txt, bit for bit. Devices are compared with the CPU twin elsewhere; this holds the
+// twin to what it was.
 #include "tests/cli/command_line.h"
 
 #include <gtest/gtest.h>

@@ -74,8 +74,8 @@ class DeviceFaults : public FaultyDevice {
         EXPECT_EQ(entries(), std::set<std::string>{}) << "files are left";
     }
 
-    /// Lets each call of `line` fail, one in each run, in every way that it can if everything is tested. `known`: how often
-    /// functions are called elsewhere, where the same numbers of calls fail.
+    /// Lets each call of `line` fail, one in each run, in every way that it can if everything is tested. `known`: how
+    /// often functions are called elsewhere, where the same numbers of calls fail.
     void failEachCall(const std::string &line, const std::string &fakes,
                       const std::map<std::string, long> &known = {}) {
         ASSERT_EQ(runHere(line, "", fakes).exitCode, 0);

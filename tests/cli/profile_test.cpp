@@ -47,7 +47,8 @@ TEST_F(ProfileCommand, SaysThatNothingWasVerified) {
 TEST_F(ProfileCommand, StagesFillTheFrame) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
         const nlohmann::json report = profile("spheres --device " + device + smallProfiled);
-        // Structure, not speed: what is not in any stage is bookkeeping, and bad luck of short frames on a busy machine.
+        // Structure, not speed: what is not in any stage is bookkeeping, and bad luck of short frames on a busy
+        // machine.
         EXPECT_GT(report.at("stageShare").get<double>(), 0.5);
         EXPECT_LE(report.at("stageShare").get<double>(), 1.0 + 1e-9);
         EXPECT_EQ(report.at("frameMillis").size(), 2u);

@@ -1,8 +1,8 @@
 // Documents: their commands work as they stand there, their links lead somewhere, and they keep to their size.
 //
-// In blocks that open with ```sh every line that begins with `hyalite ` is run, in order and in one folder a document: what
-// one command writes is there for the next. Blocks that open with ```sh no-test are left out. A block that opens with
-// ```json NAME is a file of that folder, for the commands below it.
+// In blocks that open with ```sh every line that begins with `hyalite ` is run, in order and in one folder a document:
+// what one command writes is there for the next. Blocks that open with ```sh no-test are left out. A block that opens
+// with ```json NAME is a file of that folder, for the commands below it.
 #include "tests/cli/command_line.h"
 
 #include <gtest/gtest.h>
@@ -125,7 +125,8 @@ struct EveryDocument : CommandLine, ::testing::WithParamInterface<std::string> {
     const Document document = readDocument(source / GetParam());
 };
 
-/// A picture whose command does not say its size is a small one here: that the command works is tested, not how long it takes.
+/// A picture whose command does not say its size is a small one here: that the command works is tested, not how long it
+/// takes.
 std::string withSize(const std::string &arguments) {
     const std::regex makesPictures("(render|compare|profile) .*");
     const bool isSized = contains(arguments, "--width") || contains(arguments, "--crop");

@@ -1,6 +1,7 @@
 // Renders that are killed, stopped or cut short go on from their checkpoint to the same image, to the bit.
 //
-// No test waits for a moment: a render is killed when it has written a checkpoint, or is over before, and either is fine.
+// No test waits for a moment: a render is killed when it has written a checkpoint, or is over before, and either is
+// fine.
 #include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
 

@@ -1,7 +1,7 @@
 // Renders that are stopped, by signals and by --time-limit: what is finished is written, whole.
 //
-// No test waits for a moment: a time limit has passed before the first dispatch ends, a signal comes when a checkpoint shows
-// that work was finished, and there is far more work than that.
+// No test waits for a moment: a time limit has passed before the first dispatch ends, a signal comes when a checkpoint
+// shows that work was finished, and there is far more work than that.
 #include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
 

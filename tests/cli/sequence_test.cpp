@@ -1,5 +1,5 @@
-// Sequences: frames of a moving camera are the pictures that one would render one by one; they resume, and machines share
-// them.
+// Sequences: frames of a moving camera are the pictures that one would render one by one; they resume, and machines
+// share them.
 #include "host/base/error.h"
 #include "host/jobs/sequence.h"
 #include "tests/cli/command_line.h"

@@ -1,7 +1,7 @@
 // A Vulkan layer that makes calls fail, lies about what a device can do, and counts calls and objects.
 //
-// As any explicit layer it is enabled by VK_ADD_LAYER_PATH and VK_INSTANCE_LAYERS=VK_LAYER_HYALITE_faults, and told what
-// to do by
+// As any explicit layer it is enabled by VK_ADD_LAYER_PATH and VK_INSTANCE_LAYERS=VK_LAYER_HYALITE_faults, and told
+// what to do by
 //
 //   HYALITE_FAULTS      which calls fail: "vkQueueSubmit:5:VK_ERROR_DEVICE_LOST" is the fifth of the process,
 //                       "vkQueueSubmit:5+:..." the fifth and all that follow, "*:5:..." the fifth call of all that

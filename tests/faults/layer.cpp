@@ -1,5 +1,5 @@
-// What stands between the loader and the driver: each function is found by its name, counts its calls, and passes them on
-// unless they are to fail. See "Loader and layer interface" of the Vulkan loader.
+// What stands between the loader and the driver: each function is found by its name, counts its calls, and passes them
+// on unless they are to fail. See "Loader and layer interface" of the Vulkan loader.
 #include "tests/faults/fakes.h"
 #include "tests/faults/fault_layer.h"
 #include "tests/faults/plan.h"
@@ -101,8 +101,8 @@ template <std::size_t size> struct Text {
     constexpr Text(const char (&text)[size]) { std::copy(text, text + size, characters); }
 };
 
-/// While it lives, and if it is wanted, no limit on the sizes of files holds: Mesa 25 and later allocate memory as files,
-/// which a limit that stands in for a full disk must not touch.
+/// While it lives, and if it is wanted, no limit on the sizes of files holds: Mesa 25 and later allocate memory as
+/// files, which a limit that stands in for a full disk must not touch.
 class UnlimitedFiles {
   public:
     UnlimitedFiles() : isWanted_(plan().isFaked("unlimited-memory-files")) {

@@ -70,8 +70,8 @@ TEST(ToneCurve, MiddleGreyIsWhereThePublishedCurvesPutIt) {
     EXPECT_NEAR(shown(0.18, ToneCurve::Srgb), 0.4614, 1e-4);
     // The fit at 0.18 is 0.036734 / 0.347885 = 0.10559, for the rows of both matrices add up to 1.
     EXPECT_NEAR(shown(0.18, ToneCurve::Aces), srgbEncoded(0.10559), 2e-4);
-    // (log2 0.18 + 12.47393) / 16.5 = 0.60606, and the polynomial of it: 0.76812 - 3.28213 + 4.31192 - 1.52889 + 0.15787
-    // + 0.07218 - 0.00232.
+    // (log2 0.18 + 12.47393) / 16.5 = 0.60606, and the polynomial of it: 0.76812 - 3.28213 + 4.31192 - 1.52889 +
+    // 0.15787 + 0.07218 - 0.00232.
     EXPECT_NEAR(shown(0.18, ToneCurve::Agx), 0.49675, 2e-4);
 }
 

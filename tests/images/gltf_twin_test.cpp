@@ -1,5 +1,6 @@
-// Materials and attributes of glTF: both renderers make one picture, by the kernels in turn, with instances and without. What that
-// picture is, closed forms and the plain path tracer say (transparency_test.cpp, plain_materials_test.cpp).
+// Materials and attributes of glTF: both renderers make one picture, by the kernels in turn, with instances and
+// without. What that picture is, closed forms and the plain path tracer say (transparency_test.cpp,
+// plain_materials_test.cpp).
 #include "host/scene/instances.h"
 #include "tests/fixtures/geometry_fixture.h"
 #include "tests/fixtures/test_scene.h"

@@ -1,5 +1,5 @@
-// A scene with instances has the picture of the same scene with a mesh for each instance, bit for bit, by the kernels in
-// turn.
+// A scene with instances has the picture of the same scene with a mesh for each instance, bit for bit, by the kernels
+// in turn.
 #include "host/scene/instances.h"
 #include "tests/fixtures/geometry_fixture.h"
 #include "tests/fixtures/test_scene.h"

@@ -1,5 +1,5 @@
-// Drivers optimise what we give them, each in its own way. spirv-opt stands for all of them: it inlines, folds, reorders
-// and removes, as far as SPIR-V allows it. What it makes of our kernels must compute the same bits.
+// Drivers optimise what we give them, each in its own way. spirv-opt stands for all of them: it inlines, folds,
+// reorders and removes, as far as SPIR-V allows it. What it makes of our kernels must compute the same bits.
 #include "tests/fixtures/test_extent.h"
 #include "tests/images/rendering.h"
 

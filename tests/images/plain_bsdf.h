@@ -4,8 +4,8 @@
 // A principled material is Burley's mixture ("Physically Based Shading at Disney", SIGGRAPH 2012 courses) of metal,
 // plastic and glass under a clear coat, with four choices of this program: what facets do not reflect at once comes
 // back as in Kulla and Conty ("Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 courses); the colour
-// below a plastic surface gets what the surface does not reflect in the same way; what facets of glass do not pass on at
-// once makes up for it in what they do (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models",
+// below a plastic surface gets what the surface does not reflect in the same way; what facets of glass do not pass on
+// at once makes up for it in what they do (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models",
 // 2019); and the coat leaves 1 - coat E(view).
 //
 // A material of glTF is the specification's, with the first three of these choices, and with facets of thin glass as of

@@ -21,8 +21,8 @@ namespace hyalite::testing {
 [[nodiscard]] PackedScene pack(const TestScene &scene, std::size_t maxDecoded = maxDecodedBytes);
 
 /// The renderer of all tests of a process, on the device of test_device.h, by this configuration until the next call:
-/// drivers take longer to compile a kernel than to run it, and tests share what they have in common. `config` is neither
-/// staged nor has a kernel of its own.
+/// drivers take longer to compile a kernel than to run it, and tests share what they have in common. `config` is
+/// neither staged nor has a kernel of its own.
 [[nodiscard]] gpu::Renderer &rendererBy(const gpu::RenderConfig &config);
 
 /// The four kernels that are shipped: a traversal with a number of slots each.

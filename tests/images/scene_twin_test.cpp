@@ -83,8 +83,8 @@ TEST(Twins, AgreeWithACameraInsideGlass) {
     expectTwins(scene);
 }
 
-// A sphere so small that the point where it is met is its centre, which has no normal: a ray passes on, through glass of
-// higher priority around it, in a direction that has nothing to do with the normal.
+// A sphere so small that the point where it is met is its centre, which has no normal: a ray passes on, through glass
+// of higher priority around it, in a direction that has nothing to do with the normal.
 TEST(Twins, AgreeOnASphereWithoutANormal) {
     TestScene scene;
     scene.camera.direction = {0, 0, -1};

@@ -63,7 +63,8 @@ TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
     }
 }
 
-// One ray keeps one of the lanes busy, however many there are; and every node and every triangle is looked at in a pass.
+// One ray keeps one of the lanes busy, however many there are; and every node and every triangle is looked at in a
+// pass.
 TEST(LaneCounts, AreThoseOfTheRaysThatAreTraced) {
     const TestScene scene = testing::shippedScene("cat", 64, 64, 8);
     const gpu::Result result = testing::renderOnDevice(scene, counting(gpu::Traversal::SkipList, 2));

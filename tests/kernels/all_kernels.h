@@ -19,8 +19,8 @@ namespace testing {
     return kernels;
 }
 
-/// All of them if everything is tested; else each third from `first` on, so that three tests of different passes look at
-/// each kernel once.
+/// All of them if everything is tested; else each third from `first` on, so that three tests of different passes look
+/// at each kernel once.
 [[nodiscard]] inline std::vector<EmbeddedKernel> kernelsInTurn(std::size_t first) {
     std::vector<EmbeddedKernel> kernels = allKernels();
     if (!isTestingAll())

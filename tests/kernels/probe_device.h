@@ -52,8 +52,8 @@ using TwinCall = std::function<void(Draw &draw, Words &input, Words &expected)>;
 /// Whether renders may use the device's own / and sqrt, which are then correctly rounded.
 [[nodiscard]] bool isDivisionNative();
 
-/// Expects the function's results for probeInputCount inputs to be the twin's to the bit, with our / and sqrt and, where
-/// renders may use them, with the device's own.
+/// Expects the function's results for probeInputCount inputs to be the twin's to the bit, with our / and sqrt and,
+/// where renders may use them, with the device's own.
 void expectTwin(std::uint32_t function, const TwinCall &call, const ProbeScene &scene = {});
 
 } // namespace hyalite::testing

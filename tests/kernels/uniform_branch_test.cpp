@@ -1,6 +1,6 @@
-// No branch of our kernels depends on uniform values alone. lavapipe (Mesa 22.3) writes the values of such branches into
-// the code and lowers the kernel anew for each dispatch: a search whose length came from the width of an environment made
-// renders 2 to 10 times slower.
+// No branch of our kernels depends on uniform values alone. lavapipe (Mesa 22.3) writes the values of such branches
+// into the code and lowers the kernel anew for each dispatch: a search whose length came from the width of an
+// environment made renders 2 to 10 times slower.
 #include "host/gpu/spirv/specialise.h"
 
 #include "host/gpu/spirv/instructions.h"

@@ -1,5 +1,5 @@
-// What a random scene is checked for: both renderers, bit for bit, whether subnormal numbers are flushed or not, and radiances
-// that can be.
+// What a random scene is checked for: both renderers, bit for bit, whether subnormal numbers are flushed or not, and
+// radiances that can be.
 #pragma once
 
 #include "host/gpu/renderer.h"

@@ -123,7 +123,8 @@ TEST(PathFurnace, AWhiteBallInGlassIsInvisibleToo) {
 }
 
 TEST(Path, BeginsInTheGlassAroundEachOrigin) {
-    // A block of what absorbs and does not refract, down to x = 0: rays along -z that begin in it are in it for 10 units.
+    // A block of what absorbs and does not refract, down to x = 0: rays along -z that begin in it are in it for 10
+    // units.
     const double inside = std::exp(-1.0);
     TestScene scene = sceneFrom({0.5, 0, 0}, 1024);
     scene.background = glm::vec3(1.0f);
@@ -152,8 +153,8 @@ TEST(Path, BeginsInTheGlassAroundEachOrigin) {
 }
 
 TEST(Path, ADiffuseSilhouetteDoesNotDependOnOtherMaterials) {
-    // The shading normals lean 60 degrees to the left, and the eye is 60 degrees to the right: it sees the wall, but they
-    // face away. Of an even sky a surface that leans by an angle sees (1 + cos) / 2 (Lambert's law).
+    // The shading normals lean 60 degrees to the left, and the eye is 60 degrees to the right: it sees the wall, but
+    // they face away. Of an even sky a surface that leans by an angle sees (1 + cos) / 2 (Lambert's law).
     for (const bool isBesideMetal : {false, true}) {
         TestScene scene = sceneFrom({5.0 * std::sqrt(3.0), 0, 5.0}, 4096);
         scene.camera.direction = -scene.camera.position;

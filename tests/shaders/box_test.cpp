@@ -168,8 +168,8 @@ TEST(Box, ClosedFormsOfTheInterval) {
 }
 
 TEST(Box, IsWiderByAllThatTheTriangleTestMayBeOff) {
-    // box.glsl: the triangle test and the slab test together move a plane by up to 11 u M. No smaller pad is promised to
-    // do, however rare the rays are that show it.
+    // box.glsl: the triangle test and the slab test together move a plane by up to 11 u M. No smaller pad is promised
+    // to do, however rare the rays are that show it.
     Random random(205);
     Tally missed("boxes missed within 11 u M", random.seed());
     for (int i = 0; i < 500'000; ++i) {

@@ -169,8 +169,8 @@ TEST(RoughFurnace, PrincipledGlassDoes) {
             EXPECT_NEAR(evenAlbedoOf(material, viewAt(cosine), eta), 1.0, 0.01) << eta << ", " << cosine;
 }
 
-/// What a ball of rough glass in white light sends to an eye far away, averaged over its disc. A chord meets the sphere at
-/// the angle at which it left it, so that cosines are all there is to follow.
+/// What a ball of rough glass in white light sends to an eye far away, averaged over its disc. A chord meets the sphere
+/// at the angle at which it left it, so that cosines are all there is to follow.
 Albedo ballOf(double index, double roughness, std::uint64_t seed) {
     constexpr int count = 100000;
     constexpr int maxSegments = 4000;

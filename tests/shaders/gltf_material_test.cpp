@@ -1,5 +1,5 @@
-// Materials of glTF: sheen, thin glass, anisotropy and coats keep energy, and draw directions with the density that they
-// say they have. What they look like is judged by the plain path tracer (tests/images/plain_materials_test.cpp).
+// Materials of glTF: sheen, thin glass, anisotropy and coats keep energy, and draw directions with the density that
+// they say they have. What they look like is judged by the plain path tracer (tests/images/plain_materials_test.cpp).
 #include "tests/fixtures/bsdf_fixture.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,8 @@ Bsdf<double> stretched(double alpha, float anisotropy, const Direction &view) {
 }
 
 /// What facets reflect once of even light, by quadrature of glTF's formula: GGX and the height-correlated Smith term of
-/// appendix B.3.5 of its specification, stretched as in KHR_materials_anisotropy. `fresnel` takes the cosine to the facet.
+/// appendix B.3.5 of its specification, stretched as in KHR_materials_anisotropy. `fresnel` takes the cosine to the
+/// facet.
 template <class Fresnel>
 double reflectedOnce(const Direction &view, const Vec2<double> &alphas, const Fresnel &fresnel) {
     const auto hidden = [&](const Direction &w) {

@@ -121,7 +121,8 @@ TEST(Random, OwenScrambleKeepsWhatIsNestedNested) {
 }
 
 TEST(Random, OwenScrambleFlipsEachBitHalfOfTheTime) {
-    // Given everything above it, a bit is flipped for about half of all keys: within 5 standard deviations of 8192 keys.
+    // Given everything above it, a bit is flipped for about half of all keys: within 5 standard deviations of 8192
+    // keys.
     Random random(306);
     for (const std::uint32_t x : {0u, 0xFFFFFFFFu, 0x12345678u}) {
         std::array<int, 32> flips{};

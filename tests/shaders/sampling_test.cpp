@@ -25,8 +25,8 @@ double chiSquareDeviations(const std::vector<int> &counts) {
     return (std::cbrt(chiSquare / freedom) - (1.0 - spread)) / std::sqrt(spread);
 }
 
-/// Maps samples back to the unit square by the cumulative distributions of what they ought to be, and expects that to be
-/// filled evenly.
+/// Maps samples back to the unit square by the cumulative distributions of what they ought to be, and expects that to
+/// be filled evenly.
 template <class Draw> void expectUniform(std::uint64_t seed, const Draw &draw) {
     constexpr int side = 24;
     std::vector<int> counts(side * side, 0);

@@ -182,7 +182,8 @@ TEST(Sphere, ARayThatLeavesItOutwardsNeverMeetsItAgain) {
         const glm::vec3 direction(glm::dot(any, normal) < 0 ? -any : any);
         if (glm::dot(glm::dvec3(direction), normal) > 1e-6)
             again.check(!(point->distanceAlong(direction) > 0));
-        // Tangential up to rounding: the sign of the cosine is not certain, but a chord as short as that does not count.
+        // Tangential up to rounding: the sign of the cosine is not certain, but a chord as short as that does not
+        // count.
         const glm::dvec3 tangent = glm::normalize(glm::cross(normal, any));
         const glm::vec3 nearlyTangent(glm::normalize(tangent + normal * random.logUniform(1e-9, 1e-6)));
         if (dotProduct(nearlyTangent, point->surface.normal) > 0)

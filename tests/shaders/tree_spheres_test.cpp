@@ -122,7 +122,8 @@ TEST_P(TreeSpheres, AreHitAsByALoop) {
     different.expectNone();
 }
 
-// The box leaves hits alone: they are those of the sphere by itself, which sphere_test.cpp compares with the closed form.
+// The box leaves hits alone: they are those of the sphere by itself, which sphere_test.cpp compares with the closed
+// form.
 TEST_P(TreeSpheres, AreHitWhereTheyAre) {
     const Case each = GetParam();
     Random random(812);

@@ -96,9 +96,9 @@ class Function {
     }
 
   private:
-    /// The blocks that go from an arm straight to the merge block of its selection. Constructs within the arm are passed
-    /// from their header to their merge block: only to leave a loop or a switch do branches go further out, and the
-    /// arm's selection is neither.
+    /// The blocks that go from an arm straight to the merge block of its selection. Constructs within the arm are
+    /// passed from their header to their merge block: only to leave a loop or a switch do branches go further out, and
+    /// the arm's selection is neither.
     std::set<Block *> lastOfArm(std::uint32_t arm, std::uint32_t merge) {
         std::set<Block *> last;
         std::set<std::uint32_t> met{merge};
@@ -129,7 +129,8 @@ class Function {
     }
 
     /// Puts a block between the arms of the selection that `header` heads, if it has two: the merge block of the first
-    /// arm, and the header of the second. Values that the first arm sends to the merge block come by way of a phi there.
+    /// arm, and the header of the second. Values that the first arm sends to the merge block come by way of a phi
+    /// there.
     void makeOneArmed(Block &header) {
         if (opcodeOf(header.terminator()) != spv::Op::OpBranchConditional || header.merge() == nullptr ||
             opcodeOf(*header.merge()) != spv::Op::OpSelectionMerge)

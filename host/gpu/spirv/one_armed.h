@@ -3,8 +3,8 @@
 //   if (c) A else B   ->   if (c) A; if (!c) B
 //
 // SwiftShader's compiler takes time that doubles with each two-armed selection in a loop: ten take 0.02 s, 25 more than
-// 5 s, and kernels have up to a hundred. With one-armed selections its time is linear. On lavapipe 22.3.6 and 25.0.7 the
-// frames of the shipped scenes take as long in either form (tests/bench/README.md).
+// 5 s, and kernels have up to a hundred. With one-armed selections its time is linear. On lavapipe 22.3.6 and 25.0.7
+// the frames of the shipped scenes take as long in either form (tests/bench/README.md).
 #pragma once
 
 #include <cstdint>

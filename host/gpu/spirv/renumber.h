@@ -1,5 +1,5 @@
-// Ids of a SPIR-V module without gaps. Drivers make an array of all ids up to the bound, a hundred bytes each; spirv-opt
-// leaves one id in four of a kernel, and specialise() one in twelve of these.
+// Ids of a SPIR-V module without gaps. Drivers make an array of all ids up to the bound, a hundred bytes each;
+// spirv-opt leaves one id in four of a kernel, and specialise() one in twelve of these.
 #pragma once
 
 #include <cstdint>

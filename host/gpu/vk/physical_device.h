@@ -10,8 +10,8 @@
 
 namespace hyalite::gpu {
 
-/// An extension that devices offer which lack a part of Vulkan, and that must then be enabled. Vulkan's headers have its
-/// name among those of provisional extensions only.
+/// An extension that devices offer which lack a part of Vulkan, and that must then be enabled. Vulkan's headers have
+/// its name among those of provisional extensions only.
 inline constexpr const char *portabilitySubset = "VK_KHR_portability_subset";
 
 /// Everything except the index.

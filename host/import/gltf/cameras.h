@@ -33,8 +33,8 @@ struct PlacedCamera {
                                                      const std::vector<glm::dmat4x3> &toWorld,
                                                      const std::string &choice);
 
-/// The path of the camera as the animations move it and the nodes above it, from the sequence's first frame to its last.
-/// `rest` are the poses that the file gives its nodes.
+/// The path of the camera as the animations move it and the nodes above it, from the sequence's first frame to its
+/// last. `rest` are the poses that the file gives its nodes.
 [[nodiscard]] CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const std::vector<Pose> &rest,
                                         const PlacedCamera &camera, const SequenceTimes &sequence);
 

@@ -214,7 +214,8 @@ void readMeshes(Buffers &buffers, const std::vector<MeshUse> &uses, const OnRead
     addWarnings(reader.findings(), buffers.document().fileName(), file.report);
 }
 
-/// Whether one of the nodes that move has a mesh or a light. Joints of a skin may be any node: a mesh with a skin moves.
+/// Whether one of the nodes that move has a mesh or a light. Joints of a skin may be any node: a mesh with a skin
+/// moves.
 bool moveMoreThanCameras(const Document &document, const std::vector<std::size_t> &nodes,
                          const std::vector<bool> &moving) {
     return std::ranges::any_of(nodes, [&](std::size_t index) {
