@@ -45,7 +45,8 @@ Memory memoryNow() {
             static_cast<double>(mallinfo2().uordblks) / 1024.0};
 }
 
-// A leak grows in every batch; pages that come and go with what happens to be free do not: the least growth is judged.
+// A leak grows in every batch; pages that come and go with what happens to be free do not: the least growth is judged,
+// of up to ten batches.
 TEST_F(ManyRenders, GrowNoMemory) {
     // For long runs by hand: HYALITE_TEST_SCALE=10 renders a thousand times.
     const char *scale = std::getenv("HYALITE_TEST_SCALE");
@@ -53,8 +54,15 @@ TEST_F(ManyRenders, GrowNoMemory) {
     prepareProcess();
     prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0); // pages of 2 MiB would hide what is looked for
     render(20);                            // until the heap has its holes
+    // The loader and lavapipe keep 0.2 KiB of each instance that there ever was. With a heap a thread a render took 17
+    // KiB of resident memory.
+    const Memory limit{5.0 * count, 1.0 * count};
     Memory least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-    for (int batch = 0; batch < 4; ++batch) {
+    const auto isWithin = [&] {
+        return least.residentKibibytes < limit.residentKibibytes &&
+               least.allocatedKibibytes < limit.allocatedKibibytes;
+    };
+    for (int batch = 0; batch < 10 && !isWithin(); ++batch) {
         const Memory before = memoryNow();
         render(count);
         const Memory after = memoryNow();
@@ -65,10 +73,8 @@ TEST_F(ManyRenders, GrowNoMemory) {
         least.residentKibibytes = std::min(least.residentKibibytes, growth.residentKibibytes);
         least.allocatedKibibytes = std::min(least.allocatedKibibytes, growth.allocatedKibibytes);
     }
-    // The loader and lavapipe keep 0.2 KiB of each instance that there ever was.
-    EXPECT_LT(least.allocatedKibibytes, 1.0 * count);
-    // With a heap a thread it was 17 KiB a render.
-    EXPECT_LT(least.residentKibibytes, 5.0 * count);
+    EXPECT_LT(least.allocatedKibibytes, limit.allocatedKibibytes);
+    EXPECT_LT(least.residentKibibytes, limit.residentKibibytes);
 }
 #endif
 
