@@ -246,12 +246,10 @@ MaterialRecord wornMaterial(MaterialRecord material, uint slot, vec3 texel, floa
     return material;
 }
 
-// The material with its textures of `slots` applied at `at`. Those that materials with lobes have are looked up in a
-// loop: inlined for each slot, lookups would be most of the kernel.
+// A material that has textures, with those of `slots` applied at `at`. Those that materials with lobes have are looked
+// up in a loop: inlined for each slot, lookups would be most of the kernel.
 MaterialRecord texturedMaterial(MaterialRecord material, uint slots, SurfaceUv at) {
     uint textures = material.textures;
-    if (textures == 0u)
-        return material;
     if ((slots & texturesBaseColour) != 0u && isTextured(textures, slotBaseColour))
         material.albedo *= lookUpTexture(textureRow(textures, slotBaseColour), at);
     if ((slots & texturesEmission) != 0u && isTextured(textures, slotEmission))
