@@ -37,13 +37,14 @@ void write(const std::string &path, const std::string &bytes) {
 }
 
 void decorate(const std::string &from, const std::string &to) {
-    const std::vector<std::uint32_t> words = hyalite::gpu::decorateNoContraction(read(from));
+    const std::vector<std::uint32_t> words = hyalite::core::gpu::decorateNoContraction(read(from));
     write(to, std::string(reinterpret_cast<const char *>(words.data()), words.size() * sizeof(words[0])));
 }
 
 void embed(const std::string &from, const std::string &variable, const std::string &to) {
-    const std::vector<std::uint32_t> words = hyalite::gpu::renumber(read(from));
-    const std::string hash = hyalite::hashText(hyalite::hashBytes(std::as_bytes(std::span(words))));
+    const std::vector<std::uint32_t> words = hyalite::core::gpu::renumber(read(from));
+    const std::string hash =
+        hyalite::core::hashText(hyalite::core::hashBytes(std::as_bytes(std::span(words))));
     std::string text = "#pragma once\n#include <cstdint>\n\nconst std::uint64_t " + variable + "Hash = 0x" +
                        hash + ";\nconst std::uint32_t " + variable + "[] = {";
     std::size_t count = 0;

@@ -30,7 +30,7 @@
 
 namespace {
 
-using namespace hyalite;
+using namespace hyalite::core;
 
 /// A file that is opened takes the lowest free descriptor. If that of a stream were free, messages would end up in an
 /// image.

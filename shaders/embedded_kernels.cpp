@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::span<const std::uint32_t> embeddedKernel(std::string_view name) {
     const auto kernel = std::ranges::find(embeddedKernels(), name, &EmbeddedKernel::name);
@@ -17,4 +17,4 @@ std::span<const std::uint32_t> embeddedKernel(std::string_view name) {
 
 const char *pixelSources() { return pixelSourcesHash; }
 
-} // namespace hyalite
+} // namespace hyalite::core

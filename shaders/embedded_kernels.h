@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct EmbeddedKernel {
     std::string_view name;
@@ -22,4 +22,4 @@ struct EmbeddedKernel {
 /// A hash of the sources of kernels, CPU twin and packing, in hexadecimal digits.
 [[nodiscard]] const char *pixelSources();
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -19,7 +19,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -296,4 +296,4 @@ void AtomicFile::commit() {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

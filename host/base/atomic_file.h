@@ -14,7 +14,7 @@
 #include <span>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The target of `path`, which may be a link, even a dangling one, where canonical() fails and open() would create a
 /// file. Of links in a circle it is one of them. Parent folders may still be links.
@@ -70,4 +70,4 @@ class AtomicFile {
     int descriptor_ = -1;                 ///< -1 once committed, discarded or moved from
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::string excerpt(std::string_view text, std::size_t maxBytes) {
     return end < text.size() ? line + "..." : line;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Valid UTF-8 without control characters except line feeds, and without characters that change lines or the direction
 /// of text (Unicode Standard Annex 9, section 2), which can make one name look like another. Every other byte or
@@ -15,4 +15,4 @@ namespace hyalite {
 /// An excerpt of a file for a message: clean, on one line, and cut after `maxBytes` with "...".
 [[nodiscard]] std::string excerpt(std::string_view text, std::size_t maxBytes = 100);
 
-} // namespace hyalite
+} // namespace hyalite::core

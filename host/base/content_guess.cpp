@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using namespace std::string_view_literals;
@@ -92,4 +92,4 @@ std::string foreignContent(const InputFile &file, const std::string &message) {
     return guess.empty() ? message : message + "; it looks like " + guess;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

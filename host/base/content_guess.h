@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The size of a byte order mark of UTF-8 at the beginning: 3, or 0 without one.
 [[nodiscard]] std::size_t byteOrderMarkBytes(std::span<const char> head);
@@ -25,4 +25,4 @@ namespace hyalite {
 /// Size of the head that guessContent() takes.
 inline constexpr std::size_t guessedBytes = 512;
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Of the numbers 0 to count - 1, each at first in a set of its own.
 class DisjointSets {
@@ -26,4 +26,4 @@ class DisjointSets {
     std::vector<std::size_t> parents_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 enum class ErrorKind {
     Usage,            ///< the request contradicts itself
@@ -47,4 +47,4 @@ class Error : public std::runtime_error {
     const Remedy remedy;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

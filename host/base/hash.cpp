@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed) {
     return XXH64(bytes.data(), bytes.size(), seed);
@@ -11,4 +11,4 @@ std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed) {
 
 std::string hashText(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// XXH64, the same on every machine. Y. Collet, "xxHash fast digest algorithm", version 0.1.1.
 [[nodiscard]] std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed = 0);
@@ -14,4 +14,4 @@ namespace hyalite {
 /// As 16 hexadecimal digits: JSON has no numbers of 64 bits.
 [[nodiscard]] std::string hashText(std::uint64_t hash);
 
-} // namespace hyalite
+} // namespace hyalite::core

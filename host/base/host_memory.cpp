@@ -7,7 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::optional<std::uint64_t> availableHostBytes() {
     std::ifstream stream("/proc/meminfo");
@@ -27,4 +27,4 @@ std::optional<std::uint64_t> addressSpaceLeft() {
     return limit.rlim_cur - std::min<std::uint64_t>(used, limit.rlim_cur);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Bytes available without swapping out other programs; empty if the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> availableHostBytes();
@@ -12,4 +12,4 @@ namespace hyalite {
 /// Bytes of address space that a limit (ulimit -v) leaves; empty without a limit.
 [[nodiscard]] std::optional<std::uint64_t> addressSpaceLeft();
 
-} // namespace hyalite
+} // namespace hyalite::core

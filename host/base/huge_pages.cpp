@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -23,7 +23,7 @@ void preferHugePages(void *begin, std::size_t sizeBytes) noexcept {
     static_cast<void>(madvise(static_cast<std::byte *>(begin) + skipped, wholeBytes, MADV_HUGEPAGE));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core
 
 // The sanitizers have operators of their own.
 #if defined(__has_feature)
@@ -35,18 +35,19 @@ void preferHugePages(void *begin, std::size_t sizeBytes) noexcept {
 
 namespace {
 
-constexpr std::size_t largeBytes = hyalite::hugePageBytes / 2; // so that less than half of a page lies idle
+constexpr std::size_t largeBytes =
+    hyalite::core::hugePageBytes / 2; // so that less than half of a page lies idle
 
 void *allocate(std::size_t sizeBytes) noexcept {
     if (sizeBytes < largeBytes)
         return std::malloc(sizeBytes > 0 ? sizeBytes : 1);
     if (sizeBytes > static_cast<std::size_t>(PTRDIFF_MAX))
         return nullptr; // rounded up it could begin at 0 again
-    const std::size_t pages = sizeBytes / hyalite::hugePageBytes + 1;
+    const std::size_t pages = sizeBytes / hyalite::core::hugePageBytes + 1;
     void *memory = nullptr;
-    if (posix_memalign(&memory, hyalite::hugePageBytes, pages * hyalite::hugePageBytes) != 0)
+    if (posix_memalign(&memory, hyalite::core::hugePageBytes, pages * hyalite::core::hugePageBytes) != 0)
         return nullptr;
-    hyalite::preferHugePages(memory, pages * hyalite::hugePageBytes);
+    hyalite::core::preferHugePages(memory, pages * hyalite::core::hugePageBytes);
     return memory;
 }
 

@@ -6,10 +6,10 @@
 
 #include <cstddef>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Requests huge pages for those that lie wholly in the range. Before its first use: pages that are there stay. A
 /// system without huge pages does nothing.
 void preferHugePages(void *begin, std::size_t sizeBytes) noexcept;
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -102,4 +102,4 @@ Error InputFile::bad(const std::string &found) const {
     return Error(ErrorKind::BadInput, fmt::format("{}: {}", path_.string(), found));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

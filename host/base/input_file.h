@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 class InputFile {
   public:
@@ -46,4 +46,4 @@ class InputFile {
     std::span<const std::byte> contents_{};
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <concepts>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// An interval. No interval contains NaN.
 struct Interval {
@@ -47,4 +47,4 @@ struct Interval {
     }
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

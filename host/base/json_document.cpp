@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using nlohmann::json;
@@ -256,4 +256,4 @@ void failAt(const std::string &fileName, const nlohmann::json::json_pointer &pat
     throw JsonError({{path, fmt::format("{}: {}: {}", fileName, place, message)}}, remedy);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

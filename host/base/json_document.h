@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Parses a regular file of at most 512 MiB, nested at most 32 deep. Throws Error{BadInput}: a syntax error
 /// says "FILE:LINE:COLUMN: ...", a key given twice says "FILE: /path/to/the/key: ...".
@@ -45,4 +45,4 @@ class JsonError : public Error {
 [[noreturn]] void failAt(const std::string &fileName, const nlohmann::json::json_pointer &path,
                          std::string_view message, Remedy remedy = Remedy::None);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using nlohmann::json;
@@ -256,4 +256,4 @@ std::string quotedList(std::span<const std::string_view> words) {
     return words.size() > maxListed ? list + ", ..." : list;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

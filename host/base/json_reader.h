@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A value with its position. It refers to a document and a file name, which outlive it.
 struct JsonNode {
@@ -152,4 +152,4 @@ class JsonObject {
 /// `"a", "b", "c"`, safe for terminals; `...` after 32 names.
 [[nodiscard]] std::string quotedList(std::span<const std::string_view> words);
 
-} // namespace hyalite
+} // namespace hyalite::core

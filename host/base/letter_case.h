@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 [[nodiscard]] constexpr char lowerCase(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -17,4 +17,4 @@ namespace hyalite {
     return small;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

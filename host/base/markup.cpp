@@ -2,7 +2,7 @@
 
 #include "host/base/clean_text.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::string markupText(std::string_view text) {
     std::string escaped;
@@ -27,4 +27,4 @@ std::string markupText(std::string_view text) {
     return escaped;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Prints on standard error, without terminal escapes, which names from files could contain. A message that cannot be
 /// written, to a closed pipe or a full disk, is not an error.
@@ -47,4 +47,4 @@ void printResult(fmt::format_string<decltype(shownArgument(std::declval<const Ar
     fmt::print(resultStream, "{}", fmt::format(format, shownArgument(arguments)...));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

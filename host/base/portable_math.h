@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// 2^x, for |x| <= 1000.
 [[nodiscard]] inline double exp2Portable(double x) {
@@ -31,4 +31,4 @@ namespace hyalite {
     return (isUpper ? exponent : exponent - 1) + 2.0 * s * sum / std::numbers::ln2;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

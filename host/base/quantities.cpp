@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::string countText(std::uint64_t count, std::string_view singular) {
     return countText(count, singular, fmt::format("{}s", singular));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// "12 s", "3 min 05 s", "2 h 10 min".
 [[nodiscard]] std::string durationText(double seconds);
@@ -22,4 +22,4 @@ namespace hyalite {
 /// The same for words that only take an s: "1 light", "0 lights".
 [[nodiscard]] std::string countText(std::uint64_t count, std::string_view singular);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -30,4 +30,4 @@ std::string shellLine(std::span<const char *const> words) {
     return line;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

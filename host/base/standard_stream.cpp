@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::span<const std::byte> standardInput() {
     return bytes;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The format that the name of a standard stream says: "exr" of "exr:-", and nothing of "-". Empty for the name of a
 /// file: one of this name is "./-".
@@ -21,4 +21,4 @@ namespace hyalite {
 /// more than 4 GiB or fails.
 [[nodiscard]] std::span<const std::byte> standardInput();
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numeric>
 
-namespace hyalite {
+namespace hyalite::core {
 
 double quantile(std::span<const double> values, double share) {
     assert(!values.empty() && share >= 0.0 && share <= 1.0);
@@ -33,4 +33,4 @@ double relativeSpread(std::span<const double> values) {
     return (quantile(values, 0.75) - quantile(values, 0.25)) / 2.0 / median;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The quantile `share`, in [0, 1], of `values`, by linear interpolation. `values` is not empty; its order does not
 /// matter.
@@ -26,4 +26,4 @@ struct Summary {
 /// and for a median of 0.
 [[nodiscard]] double relativeSpread(std::span<const double> values);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 template <class T> struct UnsetAllocator : std::allocator<T> {
     static_assert(std::is_trivially_copyable_v<T>, "nothing but bytes may be left unset");
@@ -28,4 +28,4 @@ template <class T> struct UnsetAllocator : std::allocator<T> {
 /// after they were written. `(n, value)` and `resize(n, value)` set them.
 template <class T> using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 
-} // namespace hyalite
+} // namespace hyalite::core

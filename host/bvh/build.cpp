@@ -19,7 +19,7 @@
 #include <memory>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -433,4 +433,4 @@ Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize) {
     return bvh;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// An axis-aligned box in world space; the default one is empty and neutral under `extend`.
 struct Box {
@@ -83,4 +83,4 @@ struct Bvh {
 /// Throws Error{LimitExceeded} as buildTriangles does.
 [[nodiscard]] Bvh buildBvh(TreeKind kind, const Scene &scene, int leafSize);
 
-} // namespace hyalite
+} // namespace hyalite::core

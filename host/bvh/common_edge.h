@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 using Corners = std::array<glm::vec3, 3>;
 
@@ -37,4 +37,4 @@ struct CommonEdge {
     return std::nullopt;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

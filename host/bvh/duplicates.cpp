@@ -7,7 +7,7 @@
 #include <atomic>
 #include <bit>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -145,4 +145,4 @@ void dropDuplicates(const Scene &scene, std::vector<BuildTriangle> &items) {
     items.resize(kept);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Removes all but the first of each set of identical triangles from `items`, which begins with the triangles of the
 /// scene's meshes in order; other items may follow, and stay.
@@ -16,4 +16,4 @@ namespace hyalite {
 /// by shadow rays and add their light again.)
 void dropDuplicates(const Scene &scene, std::vector<BuildTriangle> &items);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -64,4 +64,4 @@ JoinedItems joinTriangles(std::span<const TriangleMesh> meshes, std::vector<Buil
     return isJoined;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A flag for each triangle, by its index in the input: it is in one item with the next of its mesh. Empty: none is.
 using JoinedItems = std::vector<bool>;
@@ -25,4 +25,4 @@ using JoinedItems = std::vector<bool>;
 [[nodiscard]] JoinedItems joinTriangles(std::span<const TriangleMesh> meshes,
                                         std::vector<BuildTriangle> &items);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -36,4 +36,4 @@ std::size_t splitAtMedian(std::span<BuildTriangle> range, const Box &box) {
     return range.size() / 2;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

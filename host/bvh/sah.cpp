@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -203,4 +203,4 @@ std::size_t splitBySah(std::span<BuildTriangle> range, const Bounds &bounds, std
     return static_cast<std::size_t>(right - range.begin());
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

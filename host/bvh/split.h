@@ -3,7 +3,7 @@
 
 #include "host/bvh/wide_box.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 // Each function reorders `range` (at least two triangles) and returns the size of the left child: in [1, size - 1], or
 // 0 for no split. No split makes a leaf; a range larger than `leafSize` gets 0 only if centroids do not separate it.
@@ -25,4 +25,4 @@ namespace hyalite {
 inline constexpr double nodeCost = 1.0;
 inline constexpr double triangleCost = 1.0;
 
-} // namespace hyalite
+} // namespace hyalite::core

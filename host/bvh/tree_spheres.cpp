@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::vector<std::uint32_t> spheresInTree(const Scene &scene) {
     return bySize;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

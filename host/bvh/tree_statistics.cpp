@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace hyalite {
+namespace hyalite::core {
 
 BvhStatistics measureBvh(const Bvh &bvh) {
     BvhStatistics statistics;
@@ -82,4 +82,4 @@ std::string findBvhFault(const Bvh &bvh, const std::vector<BuildTriangle> &trian
     return {};
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

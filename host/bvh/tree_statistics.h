@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct BvhStatistics {
     std::size_t triangleCount = 0;
@@ -28,4 +28,4 @@ struct BvhStatistics {
 [[nodiscard]] std::string findBvhFault(const Bvh &bvh, const std::vector<BuildTriangle> &triangles,
                                        std::size_t droppedCount = 0);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <span>
 #include <type_traits>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Four floats; GCC's and Clang's arithmetic, comparison and ?: on them go lane by lane.
 using Lanes = float __attribute__((vector_size(16)));
@@ -73,4 +73,4 @@ struct Bounds {
     }
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

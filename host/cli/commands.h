@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// State that commands share with main().
 struct CommandContext {
@@ -28,4 +28,4 @@ void addProfileCommand(CLI::App &app, CommandContext &context);
 void addToneMapCommand(CLI::App &app, CommandContext &context);
 void addVerifyCommand(CLI::App &app, CommandContext &context);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 
 #include <memory>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -75,4 +75,4 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -64,4 +64,4 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
     return result.isPassed() ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

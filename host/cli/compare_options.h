@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct CompareOptions {
     SceneOptions scene;
@@ -32,4 +32,4 @@ void printRenderers(const PreparedScene &scene, const ComparisonRun &run);
 /// Two renders with different seeds, as estimates of one picture.
 [[nodiscard]] ExitCode runStatisticalCompare(const CompareOptions &options, const std::string &commandLine);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -16,7 +16,7 @@
 #include <optional>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -82,7 +82,7 @@ class CompareFiles {
     void write(const nlohmann::ordered_json &origin, const Compared &compared, const Verdict &verdict) {
         if (heatMap_) {
             writePng(*heatMap_, compared.imageA.width(), compared.imageA.height(),
-                     hyalite::heatMap(compared.comparison.flipMap), attributesOf(origin));
+                     hyalite::core::heatMap(compared.comparison.flipMap), attributesOf(origin));
             heatMap_->commit();
         }
         if (!report_)
@@ -188,4 +188,4 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     return verdict.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

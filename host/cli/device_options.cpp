@@ -3,7 +3,7 @@
 #include "host/cli/options.h"
 #include "host/scene/limits.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -27,4 +27,4 @@ void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
         ->default_str("100");
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Adds --threads, for openBackend. `threadCount` must outlive the command.
 void addThreadsOption(CLI::App &command, int &threadCount);
@@ -13,4 +13,4 @@ void addThreadsOption(CLI::App &command, int &threadCount);
 /// Adds --kernel and --max-dispatch-ms, for openBackend. `options` must outlive the command.
 void addDeviceOptions(CLI::App &command, DeviceOptions &options);
 
-} // namespace hyalite
+} // namespace hyalite::core

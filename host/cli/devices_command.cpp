@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -187,4 +187,4 @@ void addDevicesCommand(CLI::App &app, CommandContext &) {
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

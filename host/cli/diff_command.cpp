@@ -5,7 +5,7 @@
 
 #include <memory>
 
-namespace hyalite {
+namespace hyalite::core {
 
 void addDiffCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("diff", "compare two image files, with gates on the difference");
@@ -48,4 +48,4 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

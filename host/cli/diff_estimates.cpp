@@ -9,7 +9,7 @@
 
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 void requireSameSize(const Image &a, const std::string &pathA, const Image &b, const std::string &pathB) {
     if (a.width() != b.width() || a.height() != b.height())
@@ -41,4 +41,4 @@ ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &comma
     return result.isPassed() ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct DiffOptions {
     std::string reference;
@@ -35,4 +35,4 @@ void requireSameSize(const Image &a, const std::string &pathA, const Image &b, c
 /// Compares two renders as estimates of one picture.
 [[nodiscard]] ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &commandLine);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -212,4 +212,4 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
     return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

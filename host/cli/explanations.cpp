@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers) 
     return unexplained;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

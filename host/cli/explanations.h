@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// From a pixel of the crop to that of the whole image.
 [[nodiscard]] glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel);
@@ -23,4 +23,4 @@ void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &d
 /// Explains outliers with the double twin. Returns the number of those that no decision near its boundary explains.
 [[nodiscard]] std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -107,4 +107,4 @@ Failure describeFailure(const std::exception_ptr &failure, const std::string &co
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <exception>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Exit codes of every command.
 enum class ExitCode : int {
@@ -35,4 +35,4 @@ struct Failure {
 /// `commandLine` is for bug reports.
 [[nodiscard]] Failure describeFailure(const std::exception_ptr &failure, const std::string &commandLine);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 inline constexpr std::string_view firstScene = R"({
   "description": "A floor, three objects, a lamp and a sky. Distances are in metres, +y is up. Every object of this file may have a description, which is passed over. All keys: assets/README.md of Hyalite.",
@@ -63,4 +63,4 @@ inline constexpr std::string_view firstScene = R"({
 }
 )";
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::string HelpFormatter::make_help(const CLI::App *app, std::string name, CLI:
     return page;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

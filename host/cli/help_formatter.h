@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Without the counts, types and tables of values that CLI11 shows.
 class HelpFormatter : public CLI::FormatterBase {
@@ -14,4 +14,4 @@ class HelpFormatter : public CLI::FormatterBase {
                                         CLI::AppFormatMode mode) const override;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -18,7 +18,7 @@
 #include <chrono>
 #include <memory>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -170,4 +170,4 @@ void addInspectCommand(CLI::App &app, CommandContext &context) {
     command->callback([options, &context] { context.exitCode = runInspect(*options); });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

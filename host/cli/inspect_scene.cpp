@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -221,4 +221,4 @@ void printOutline(const GltfOutline &outline) {
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

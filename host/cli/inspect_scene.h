@@ -3,7 +3,7 @@
 
 #include "host/engine/prepare.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// On standard output. Of lists at most 32 rows.
 void printScene(const PreparedScene &prepared);
@@ -11,4 +11,4 @@ void printScene(const PreparedScene &prepared);
 /// The cameras and nodes that a glTF file has.
 void printOutline(const GltfOutline &outline);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 void addLayersOption(CLI::App &command, std::vector<Integrator> &views) {
     std::vector<std::string_view> words;
@@ -35,4 +35,4 @@ void addLayersOption(CLI::App &command, std::vector<Integrator> &views) {
         ->type_name(fmt::format("{},...", fmt::join(words, "|")));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,9 +7,9 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Adds --layers, with views by their names. `views` must outlive the command; it receives each view once.
 void addLayersOption(CLI::App &command, std::vector<Integrator> &views);
 
-} // namespace hyalite
+} // namespace hyalite::core

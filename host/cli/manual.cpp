@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -108,4 +108,4 @@ complete -o default -F _hyalite hyalite
                        HYALITE_VERSION, values, fmt::join(commands, " "), options);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

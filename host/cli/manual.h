@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A page for section 1 of man(1), as roff with the macros of man(7).
 [[nodiscard]] std::string manualPage(const CLI::App &app);
@@ -13,4 +13,4 @@ namespace hyalite {
 /// A script for bash that completes commands, options, and the values of options with a few words.
 [[nodiscard]] std::string bashCompletion(const CLI::App &app);
 
-} // namespace hyalite
+} // namespace hyalite::core

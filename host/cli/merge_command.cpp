@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -250,4 +250,4 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
     command->callback([options, &context] { context.exitCode = runMerge(*options, context.commandLine); });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

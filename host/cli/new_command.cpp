@@ -17,7 +17,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -71,4 +71,4 @@ void addNewCommand(CLI::App &app, CommandContext & /*context*/) {
     command->callback([path] { runNew(*path); });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

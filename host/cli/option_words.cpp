@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::string positionalName(const CLI::Option &option) {
     std::string name = option.get_name(true);
@@ -35,4 +35,4 @@ std::vector<const CLI::Option *> positionalsOf(const CLI::App &app) {
     return app.get_options([](const CLI::Option *option) { return option->get_positional(); });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

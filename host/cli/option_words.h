@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// "SCENE"
 [[nodiscard]] std::string positionalName(const CLI::Option &option);
@@ -18,4 +18,4 @@ namespace hyalite {
 [[nodiscard]] std::vector<const CLI::Option *> shownOptions(const CLI::App &app);
 [[nodiscard]] std::vector<const CLI::Option *> positionalsOf(const CLI::App &app);
 
-} // namespace hyalite
+} // namespace hyalite::core

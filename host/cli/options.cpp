@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <system_error>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -146,4 +146,4 @@ void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vect
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

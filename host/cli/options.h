@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Throws Error{Usage}.
 [[noreturn]] void refuseValue(const std::string &option, std::string_view found, std::string_view allowed);
@@ -151,4 +151,4 @@ struct NamedFile {
 /// Throws Error{Usage} if two outputs are the same file, or if an output would replace an input.
 void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace hyalite {
+namespace hyalite::core {
 
 bool Tolerance::allows(float a, float b) const {
     if (ulpDistance(a, b) <= ulps)
@@ -69,4 +69,4 @@ glm::ivec2 worstPixel(const Image &a, const Image &b, const PixelMetrics &metric
     return differing.empty() ? glm::ivec2(0) : differing.front();
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Tolerance between two channels: in ulps, or as a difference of linear radiance.
 struct Tolerance {
@@ -35,4 +35,4 @@ using Pixels = std::vector<glm::ivec2>;
 /// The pixel at which a difference is explained: the one with the largest, or the first with any.
 [[nodiscard]] glm::ivec2 worstPixel(const Image &a, const Image &b, const PixelMetrics &metrics);
 
-} // namespace hyalite
+} // namespace hyalite::core

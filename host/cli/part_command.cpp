@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::string commandFor(const PartOrigin &origin, const Part &own, const Part &pa
     return cleanText(shellLine(pointers));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,10 +5,10 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The command that renders `part` instead of the origin's `own`, into a file that is named alike; quoted for a shell,
 /// and clean, as who reads it may run it.
 [[nodiscard]] std::string commandFor(const PartOrigin &origin, const Part &own, const Part &part);
 
-} // namespace hyalite
+} // namespace hyalite::core

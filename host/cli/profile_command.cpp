@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -195,4 +195,4 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     command->callback([options, &context] { context.exitCode = runProfile(*options, context.commandLine); });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -99,4 +99,4 @@ void ProfileFiles::writeFigures(const Measurement &measurement) {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The requested paths; empty: not requested.
 struct ProfilePaths {
@@ -52,4 +52,4 @@ class ProfileFiles {
     std::optional<AtomicFile> heatMap_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -96,4 +96,4 @@ void ProgressLine::update(double share) {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

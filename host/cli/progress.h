@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Estimate of the remaining time, by the speed during the second half of the time so far: parts of an image differ in
 /// cost, and recent ones predict the next ones best.
@@ -66,4 +66,4 @@ class ProgressLine {
     std::jthread watch_; ///< until it has begun
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -298,4 +298,4 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -155,4 +155,4 @@ void addSequenceOptions(CLI::App &command, SequenceOptions &options) {
         ->group(group);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

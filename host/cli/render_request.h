@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Adds the arguments of `render`. `request` and `isQuiet` must outlive `command`.
 void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet);
@@ -19,4 +19,4 @@ void addSequenceOptions(CLI::App &command, SequenceOptions &options);
 /// The request of a whole command line, the program first. Throws Error{BadInput} if it is none of `render`.
 [[nodiscard]] RenderRequest readRenderRequest(const std::vector<std::string> &words);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -145,4 +145,4 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->group(std::string(tracingGroup));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,9 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Adds the SCENE argument and the options. `options` must outlive `command`.
 void addSceneOptions(CLI::App &command, SceneOptions &options);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 CLI::Option *addSignificanceOption(CLI::App &command, WelchOptions &options) {
     return addNumber(command, "--significance", options.significance, Interval{0.0, 1.0, false, false},
@@ -66,4 +66,4 @@ nlohmann::ordered_json welchToJson(const WelchResult &result, const WelchOptions
     return json;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Adds --significance. `options` must outlive the command.
 CLI::Option *addSignificanceOption(CLI::App &command, WelchOptions &options);
@@ -24,4 +24,4 @@ CLI::Option *addSignificanceOption(CLI::App &command, WelchOptions &options);
 /// JSON for reports.
 [[nodiscard]] nlohmann::ordered_json welchToJson(const WelchResult &result, const WelchOptions &options);
 
-} // namespace hyalite
+} // namespace hyalite::core

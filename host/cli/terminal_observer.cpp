@@ -3,7 +3,7 @@
 #include "host/base/message.h"
 #include "host/process/process.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 void TerminalObserver::begin(const std::string &task, bool mayCompile) {
     line_.emplace(task, isQuiet_);
@@ -30,4 +30,4 @@ std::optional<Stop> TerminalObserver::wantsStop() {
 
 void TerminalObserver::beforeDriver(const gpu::ProcessorUse &use) { prepareDriver(use); }
 
-} // namespace hyalite
+} // namespace hyalite::core

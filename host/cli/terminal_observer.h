@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 class TerminalObserver : public Observer {
   public:
@@ -39,4 +39,4 @@ class TerminalObserver : public Observer {
     std::optional<CaughtSignals> signals_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -57,4 +57,4 @@ void addToneMapCommand(CLI::App &app, CommandContext &context) {
     command->callback([options, &context] { context.exitCode = runToneMap(*options, context.commandLine); });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

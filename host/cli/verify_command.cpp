@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -231,4 +231,4 @@ void addVerifyCommand(CLI::App &app, CommandContext &context) {
     command->callback([options, &context] { context.exitCode = runVerify(*options, context.commandLine); });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -120,4 +120,4 @@ nlohmann::ordered_json verificationToJson(const ShippedFilms &shipped, std::span
     return json;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// JUnit XML, as CI systems read it: a test suite a device, a test case a film and kernel.
 [[nodiscard]] std::string verificationToJunit(std::span<const DeviceVerdict> devices);
@@ -23,4 +23,4 @@ namespace hyalite {
 /// "lights, path".
 [[nodiscard]] std::string nameOf(const ShippedFilm &film);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -67,4 +67,4 @@ BackendResult unlessFailed(BackendResult result) {
     return result;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct BackendResult {
     Film film;
@@ -82,4 +82,4 @@ struct RenderTask {
 /// Throws Error{LimitExceeded} if memory cannot hold this number of films of the crop and the images made of them.
 void requireFilmMemory(const Crop &crop, unsigned filmCount);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::unique_ptr<Backend> makeCpuBackend(reference::Precision precision, int thre
     return std::make_unique<CpuBackend>(precision, threadCount);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

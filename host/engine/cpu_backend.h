@@ -6,9 +6,9 @@
 
 #include <memory>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// `threadCount` 0: all threads.
 [[nodiscard]] std::unique_ptr<Backend> makeCpuBackend(reference::Precision precision, int threadCount);
 
-} // namespace hyalite
+} // namespace hyalite::core

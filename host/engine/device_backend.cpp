@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::unique_ptr<Backend> makeDeviceBackend(const gpu::DeviceInfo &device, const 
     return std::make_unique<DeviceBackend>(device, config, observer);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

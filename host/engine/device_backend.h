@@ -6,11 +6,11 @@
 
 #include <memory>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Opens the device. The observer gets notes on what is kept of it. Throws as gpu::Renderer does.
 [[nodiscard]] std::unique_ptr<Backend> makeDeviceBackend(const gpu::DeviceInfo &device,
                                                          const gpu::RenderConfig &config,
                                                          Observer &observer = nobody());
 
-} // namespace hyalite
+} // namespace hyalite::core

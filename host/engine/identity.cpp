@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
                           const std::vector<Integrator> *layers) {
@@ -40,4 +40,4 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
     return identity;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A request to end a render, and how the render then counts.
 struct Stop {
@@ -65,4 +65,4 @@ class ObservedTask {
     Observer &observer_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

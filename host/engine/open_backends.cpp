@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -182,4 +182,4 @@ std::future<OpenedRenderers> beginOpeningRenderers(const RendererNames &names, O
                       [=, &observer] { return openAll(names, processors.threadCount, config, observer); });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Whether openBackend opens the reference renderer by this name.
 [[nodiscard]] bool isReference(const std::string &name);
@@ -59,4 +59,4 @@ struct OpenedRenderers {
                                                                  const gpu::ProcessorUse &processors,
                                                                  const gpu::RenderConfig &config = {});
 
-} // namespace hyalite
+} // namespace hyalite::core

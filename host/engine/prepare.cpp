@@ -27,7 +27,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -339,4 +339,4 @@ Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLi
     return origin;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

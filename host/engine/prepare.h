@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Overrides: the command line beats the scene file, which beats defaults. Only given values are set.
 struct SceneOptions {
@@ -77,4 +77,4 @@ struct PreparedScene {
 /// Provenance for reports.
 [[nodiscard]] Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::unique_ptr<Backend> shareBackends(std::vector<std::unique_ptr<Backend>> mem
     return std::make_unique<SharedBackend>(std::move(members));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

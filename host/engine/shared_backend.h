@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Renders each picture by all members at once. Each takes tiles from one queue, as large as it renders in two seconds
 /// at most, and smaller ones towards the end, so that all end together. The bits are those of any member.
@@ -19,4 +19,4 @@ namespace hyalite {
 /// At least one member; all with the same precision(), which is not empty.
 [[nodiscard]] std::unique_ptr<Backend> shareBackends(std::vector<std::unique_ptr<Backend>> members);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <thread>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -274,4 +274,4 @@ BackendResult renderShared(std::vector<Member> &members, const PackedScene &scen
     return SharedRender(members, scene, settings, std::move(begun), hooks).render();
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

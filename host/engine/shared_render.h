@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// One of several renderers.
 struct Member {
@@ -24,4 +24,4 @@ struct Member {
                                          const RenderSettings &settings, Film begun,
                                          const RenderHooks &hooks);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <bit>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -118,4 +118,4 @@ bool SpotCheck::isWhole(const Film &film) const {
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

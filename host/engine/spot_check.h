@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Tiles of 8x8 pixels in the middle of the crop, where most pictures have their subject, and around it: up to 4, fewer
 /// in small crops, cut at the edges.
@@ -49,4 +49,4 @@ class SpotCheck {
     std::vector<Film> rightFilms_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::uint64_t tilePixels(const TileWish &wish) {
     return static_cast<std::uint64_t>(std::max(wanted, minPixels));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The unfinished pixels of a film as rectangles, which are cut as they are given out. For one thread at a time.
 class TileQueue {
@@ -49,4 +49,4 @@ struct TileWish {
 /// when the program is killed between two checkpoints, and shorter ones cost more than they gain.
 [[nodiscard]] std::uint64_t tilePixels(const TileWish &wish);
 
-} // namespace hyalite
+} // namespace hyalite::core

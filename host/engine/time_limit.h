@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Starts when it is made.
 class TimeLimit {
@@ -34,4 +34,4 @@ class TimeLimit {
     Clock::time_point begin_ = Clock::now();
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <optional>
 #include <system_error>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -153,4 +153,4 @@ gpu::BitGuarantee guaranteeOf(const gpu::BitGuarantee &byStartupCheck, const Tun
             fmt::format("{}, nor did `hyalite verify` on {}", byStartupCheck.reason, tuning.verifiedDate)};
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

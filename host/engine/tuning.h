@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct Tuning {
     gpu::KernelChoices kernels{}; ///< by Workload
@@ -42,4 +42,4 @@ void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning, Observer &
 /// transform large kernels otherwise than the check's.
 [[nodiscard]] gpu::BitGuarantee guaranteeOf(const gpu::BitGuarantee &byStartupCheck, const Tuning &tuning);
 
-} // namespace hyalite
+} // namespace hyalite::core

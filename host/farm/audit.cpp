@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -78,4 +78,4 @@ AuditResult audit(const Merger &merged, Backend &backend, const PreparedScene &s
     return result;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

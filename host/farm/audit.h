@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct AuditFinding {
     std::uint32_t part;
@@ -32,4 +32,4 @@ struct AuditResult {
 [[nodiscard]] AuditResult audit(const Merger &merged, Backend &backend, const PreparedScene &scene,
                                 double share, std::uint64_t seed, Observer &observer);
 
-} // namespace hyalite
+} // namespace hyalite::core

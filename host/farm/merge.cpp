@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -177,4 +177,4 @@ std::map<std::string, std::size_t> Merger::makers() const {
     return counts;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

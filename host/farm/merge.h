@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Takes parts one by one; only one file is in memory at a time.
 class Merger {
@@ -72,4 +72,4 @@ class Merger {
     std::map<std::uint32_t, Taken> parts_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -16,7 +16,7 @@
 
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -101,4 +101,4 @@ PartOrigin readPartOrigin(std::string_view text) {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

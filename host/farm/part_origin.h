@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct PartOrigin {
     std::string host;               ///< name of the machine
@@ -36,4 +36,4 @@ struct PartOrigin {
 /// The opposite of toText. Throws Error{BadInput} for other text.
 [[nodiscard]] PartOrigin readPartOrigin(std::string_view text);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -15,7 +15,7 @@
 #include <thread>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -273,4 +273,4 @@ void reportFailure(Ranks &ranks, const std::string &why) {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

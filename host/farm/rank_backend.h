@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// For rank 0: lets the other ranks go when it is destroyed, however rank 0 ends.
 class RankPool {
@@ -35,4 +35,4 @@ void serveTiles(Ranks &ranks, const PreparedScene &scene, Backend &backend);
 /// In place of serveTiles(): tells rank 0 why there is no renderer here, and waits to be let go.
 void reportFailure(Ranks &ranks, const std::string &why);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <thread>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::unique_ptr<Ranks> joinRanks() {
 #endif
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

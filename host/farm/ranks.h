@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Messages between ranks. Those from one rank to another arrive in their order. May be used by several threads.
 class Ranks {
@@ -25,4 +25,4 @@ class Ranks {
 /// where it was started by mpirun, and was built without MPI.
 [[nodiscard]] std::unique_ptr<Ranks> joinRanks();
 
-} // namespace hyalite
+} // namespace hyalite::core

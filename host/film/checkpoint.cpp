@@ -14,7 +14,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -352,4 +352,4 @@ std::optional<ResumedCheckpoint> resumeCheckpoint(const std::filesystem::path &p
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

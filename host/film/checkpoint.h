@@ -31,7 +31,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Of checkpoints and parts. Files of another version are refused by name.
 inline constexpr std::uint32_t checkpointVersion = 6;
@@ -128,4 +128,4 @@ struct ResumedCheckpoint {
                                                                 const RenderIdentity &identity,
                                                                 const CheckpointSubject &subject);
 
-} // namespace hyalite
+} // namespace hyalite::core

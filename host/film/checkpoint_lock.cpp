@@ -18,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -119,4 +119,4 @@ CheckpointLock::~CheckpointLock() {
     close(descriptor_);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Held from the beginning of a render to its end. The lock is one of the system (flock) on the file FILE.lock: it ends
 /// with the process, however that ends, and a lock file that is left over blocks nobody. What it says tells it from
@@ -26,4 +26,4 @@ class CheckpointLock {
 /// The lock file of a checkpoint: FILE.lock.
 [[nodiscard]] std::filesystem::path lockOfCheckpoint(const std::filesystem::path &checkpoint);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::span<const layout::FilmPixel> rowOf(const Film &film, int y) {
     const auto width = static_cast<std::size_t>(film.crop.width());
@@ -42,4 +42,4 @@ std::size_t differingPixelCount(const Film &a, const Film &b) {
     return count;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The sum of the samples' radiance, with the rest that float32 leaves out.
 [[nodiscard]] inline glm::dvec3 sumOf(const layout::FilmPixel &pixel) {
@@ -75,4 +75,4 @@ struct Film {
 /// Number of pixels that differ in any bit between two films of one crop.
 [[nodiscard]] std::size_t differingPixelCount(const Film &a, const Film &b);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 #include "host/image/png.h"
 #include "host/image/tone_map.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::vector<float> testsPerSample(const Film &cost) {
     const Image means = cost.toImage();
@@ -52,4 +52,4 @@ void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture p
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Average number of boxes and triangles that a sample of each pixel tests, from a film of the cost.
 [[nodiscard]] std::vector<float> testsPerSample(const Film &cost);
@@ -24,4 +24,4 @@ namespace hyalite {
 void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
                const RenderSettings &settings, ToneCurve tone = ToneCurve::Gamma);
 
-} // namespace hyalite
+} // namespace hyalite::core

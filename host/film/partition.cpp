@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -165,4 +165,4 @@ Film filmOfSquares(const Crop &crop, std::span<const Crop> squares, std::uint32_
     return film;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Part `index` of `count`, counted from 1.
 struct Part {
@@ -63,4 +63,4 @@ void setPixelsIn(Film &film, std::span<const Crop> squares, std::span<const layo
 /// A film in which pixels outside of the squares have `sampleCount` samples already: a render leaves them alone.
 [[nodiscard]] Film filmOfSquares(const Crop &crop, std::span<const Crop> squares, std::uint32_t sampleCount);
 
-} // namespace hyalite
+} // namespace hyalite::core

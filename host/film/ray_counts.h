@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct RayCounts {
     std::uint64_t primary = 0;
@@ -37,4 +37,4 @@ inline constexpr std::array<RayKind, 5> rayKinds{{{"primary", &RayCounts::primar
                                                   {"refraction", &RayCounts::refraction},
                                                   {"bounce", &RayCounts::bounce}}};
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <functional>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Takes copies of a film during its render. Every pixel of a copy has its first `sampleCount` samples in their order,
 /// so any renderer can continue from it to the same bits.
@@ -36,4 +36,4 @@ struct RenderHooks {
     SnapshotTaker *snapshots = nullptr; ///< takes copies of the film
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct RenderTiming {
     double uploadSeconds = 0.0; ///< scene data to the device
@@ -23,4 +23,4 @@ struct RendererShare {
     std::string failure;  ///< why it was left out, or empty
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The current time in nanoseconds of the host's monotonic clock, since an arbitrary epoch.
 [[nodiscard]] inline std::int64_t hostNanos() {
@@ -81,4 +81,4 @@ struct Timeline {
     std::string clock; ///< description of the clock that timed the dispatches
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 #include "host/film/film.h"
 #include "host/scene/integrators.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct ViewFilm {
     Integrator view;
@@ -16,4 +16,4 @@ struct ViewFilm {
     return rowOf(view).isOfCentres ? 1 : samplesPerPixel;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -135,4 +135,4 @@ WelchResult welchTest(const Estimate &a, const Estimate &b, const WelchOptions &
     return result;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

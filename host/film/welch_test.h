@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A picture whose pixels are means of samples. All images have the same size.
 struct Estimate {
@@ -56,4 +56,4 @@ struct WelchResult {
 /// (Z. Sidak, "Rectangular Confidence Regions for the Means of Multivariate Normal Distributions", 1967).
 [[nodiscard]] double sidakThreshold(double significance, std::uint64_t testCount);
 
-} // namespace hyalite
+} // namespace hyalite::core

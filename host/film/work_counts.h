@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Work of a traversal with a stack, nearer subtree first, or by skip lists, whose nodes have one box each. For the
 /// same tree the counts are the same on every device and, with a stack, on the CPU.
@@ -54,4 +54,4 @@ inline constexpr std::array<WorkKind, 4> workKinds{{{"nodesVisited", &WorkCounts
                                                     {"trianglesTested", &WorkCounts::trianglesTested},
                                                     {"deepestStack", &WorkCounts::deepestStack}}};
 
-} // namespace hyalite
+} // namespace hyalite::core

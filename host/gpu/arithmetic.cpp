@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <vulkan/vulkan.h>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -65,4 +65,4 @@ ArithmeticChoice chooseArithmetic(const DeviceInfo &device, const StartupCheck &
     return {true, "the driver is known to round correctly, and passes the start-up check"};
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

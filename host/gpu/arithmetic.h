@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 enum class Arithmetic {
     Automatic, ///< the device's own where the list and the check allow it
@@ -52,4 +52,4 @@ struct BitGuarantee {
 /// The float control that equal bits need and the device lacks, or empty.
 [[nodiscard]] std::string explainUnpromisedBits(const DeviceInfo &device);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 enum class BufferUse {
     Uniform,  ///< small constants
@@ -28,4 +28,4 @@ struct BufferPlan {
 /// Throws Error{LimitExceeded} if the device does not allow a buffer of this size.
 void requireBuffer(const BufferPlan &plan, const DeviceInfo &device);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

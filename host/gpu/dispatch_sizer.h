@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Costs of samples and of work, by the dispatches so far; 0: unknown.
 struct DispatchCosts {
@@ -105,4 +105,4 @@ class DispatchSizer {
     double workSeconds_;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<layout::HardInput> makeHardInputs(std::size_t count) {
     return inputs;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

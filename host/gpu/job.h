@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 struct Job {
     const PackedScene &scene;
@@ -21,4 +21,4 @@ struct Job {
     std::span<const layout::FilmPixel> film{};
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

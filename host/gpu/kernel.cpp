@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -134,4 +134,4 @@ RunTimes Kernel::run(const layout::DispatchConstants &constants, std::uint32_t w
     return times;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -11,7 +11,7 @@
 #include <memory>
 #include <span>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Values of all specialization constants of a renderer's kernel, by their ids in layout.h; bools are 0 or 1.
 using SpecializationConstants = std::array<std::uint32_t, layout::constantCount>;
@@ -48,4 +48,4 @@ class Kernel {
     VkDescriptorSet descriptorSet_ = VK_NULL_HANDLE; ///< freed with its pool
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -46,4 +46,4 @@ bool areTexelsAllowed(const PackedScene &scene, const DeviceInfo &device) {
     });
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

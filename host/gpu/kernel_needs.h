@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// The limit or feature that the device lacks for kernels with this traversal, which is not Automatic; empty if none.
 [[nodiscard]] std::string lackFor(Traversal traversal, const DeviceInfo &device);
@@ -13,4 +13,4 @@ namespace hyalite::gpu {
 /// Whether the texel buffers of a scene with a skip list fit the device.
 [[nodiscard]] bool areTexelsAllowed(const PackedScene &scene, const DeviceInfo &device);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

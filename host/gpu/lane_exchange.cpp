@@ -9,7 +9,7 @@
 #include <array>
 #include <cstdint>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -42,4 +42,4 @@ bool areBroadcastsFaster(Device &device) {
     return secondsBy(true) < secondsBy(false);
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

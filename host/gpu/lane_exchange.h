@@ -1,7 +1,7 @@
 // Lane exchange: how the lanes of a subgroup pass values to each other fastest, which no driver says of itself.
 #pragma once
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 class Device;
 struct DeviceInfo;
@@ -16,4 +16,4 @@ struct DeviceInfo;
 /// (tests/bench/README.md). Throws as Kernel does.
 [[nodiscard]] bool areBroadcastsFaster(Device &device);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

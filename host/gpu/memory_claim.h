@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Adds the bytes of an allocation to a total during its lifetime. The total must outlive it.
 class MemoryClaim {
@@ -31,4 +31,4 @@ class MemoryClaim {
     std::uint64_t sizeBytes_ = 0;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -227,4 +227,4 @@ MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStag
     return memory;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

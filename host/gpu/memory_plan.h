@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// A scene on a device.
 struct ScenePlan {
@@ -65,4 +65,4 @@ struct MemoryPlan {
 MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged, const DeviceInfo &device,
                          std::uint64_t residentBytes = 0);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -30,4 +30,4 @@ std::shared_ptr<Pipeline> PipelineCache::get(Device &device, const std::string &
     return kept_.front().pipeline;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

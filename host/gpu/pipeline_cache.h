@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Holds the pipelines that were used last. Not for two threads at once.
 class PipelineCache {
@@ -36,4 +36,4 @@ class PipelineCache {
     std::list<Kept> kept_; ///< the last used first
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

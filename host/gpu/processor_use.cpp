@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 bool hasWideVectors() {
     // The extensions that compilers assume together.
@@ -30,4 +30,4 @@ void requireVectorWidth() {
                                                   width, excerpt(given)));
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -3,7 +3,7 @@
 
 #include "host/scene/settings.h"
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// The facts that decide it. host/process/lavapipe.h makes settings of them before a driver is loaded.
 struct ProcessorUse {
@@ -21,4 +21,4 @@ struct ProcessorUse {
 /// 128.
 void requireVectorWidth();
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

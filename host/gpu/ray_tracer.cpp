@@ -11,7 +11,7 @@
 #include <bit>
 #include <cassert>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::vector<layout::HitRecord> RayTracer::hits() const {
     return hits;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// trace_rays.comp, compiled for one traversal.
 struct RayKernel {
@@ -64,4 +64,4 @@ class RayTracer {
     std::unique_ptr<State> state_;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

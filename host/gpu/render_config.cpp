@@ -11,7 +11,7 @@
 #include <bit>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 Workload workloadOf(const PackedScene &scene, Integrator integrator) {
     if (rowOf(integrator).aimsAtEmitters &&
@@ -82,4 +82,4 @@ std::string_view kernelName(const RenderConfig &config) {
     return kernelName(KernelChoice{config.traversal, config.slotsPerInvocation});
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Traversals of the tree. Stack: portable, over storage buffers. SkipList: over texel buffers, which lavapipe reads
 /// several times faster.
@@ -83,4 +83,4 @@ inline constexpr std::span namedKernels = std::span(kernelNames).subspan<1>();
 /// The word for the kernel of a complete `config`.
 [[nodiscard]] std::string_view kernelName(const RenderConfig &config);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

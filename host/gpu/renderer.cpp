@@ -21,7 +21,7 @@
 #include <string>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -387,4 +387,4 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     return tiles.readTrace();
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

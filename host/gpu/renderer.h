@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 struct Result {
     Film film;
@@ -80,4 +80,4 @@ class Renderer {
     std::unique_ptr<State> state_;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

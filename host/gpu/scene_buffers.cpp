@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -50,4 +50,4 @@ void SceneBuffers::setFrame(const layout::FrameRecord &frame) {
     buffers[layout::bindingFrame].upload(std::as_bytes(std::span(&record, 1)));
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

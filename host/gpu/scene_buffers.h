@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 struct SceneBuffers {
     /// Uploads the scene, with the tree as node pairs in storage buffers or as skip lists in texel buffers; `plan` was
@@ -24,4 +24,4 @@ struct SceneBuffers {
     SkipList lists_; ///< without their nodes and instances, which are uploaded
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

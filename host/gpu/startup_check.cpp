@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -84,4 +84,4 @@ StartupCheck checkDevice(Device &device) {
             countConsecutiveLanes(results, groupSize)};
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 class Device;
 
@@ -37,4 +37,4 @@ struct StartupCheck {
 /// Runs the check.
 [[nodiscard]] StartupCheck checkDevice(Device &device);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

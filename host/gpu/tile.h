@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// A rectangle of pixels; the film may end inside. Sides are multiples of 8, because 64 slots work on a block of 8x8
 /// pixels.
@@ -31,4 +31,4 @@ struct Tile {
     bool operator==(const Tile &) const = default;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

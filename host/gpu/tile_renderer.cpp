@@ -13,7 +13,7 @@
 #include <tuple>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -389,4 +389,4 @@ DispatchRecord TileRenderer::describe(const Program &program, const Step &step, 
     return record;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

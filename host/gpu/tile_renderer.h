@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Results of all tiles of a job.
 struct TileTotals {
@@ -155,4 +155,4 @@ class TileRenderer {
     std::optional<Program> resumable_;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

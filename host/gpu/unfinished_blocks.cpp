@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -35,4 +35,4 @@ UnfinishedBlocks::Count UnfinishedBlocks::in(const Tile &tile) const {
             std::uint64_t{x1 - x0} * (y1 - y0)};
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Counts blocks of 8x8 pixels, by a table of sums (F. Crow, "Summed-Area Tables for Texture Mapping", 1984).
 class UnfinishedBlocks {
@@ -36,4 +36,4 @@ class UnfinishedBlocks {
     std::vector<std::uint64_t> sums_; ///< of unfinished blocks above and to the left
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

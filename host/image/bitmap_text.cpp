@@ -14,7 +14,7 @@
 #include <stb/stb_easy_font.h>
 #pragma GCC diagnostic pop
 
-namespace hyalite {
+namespace hyalite::core {
 
 Drawing::Drawing(int drawingWidth, int drawingHeight, const std::array<std::uint8_t, 3> &colour)
     : width(drawingWidth), height(drawingHeight),
@@ -55,4 +55,4 @@ void drawText(Drawing &drawing, int x, int y, int scale, const std::string &text
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// 8-bit R, G, B, row by row from the top left, as writePng() takes it.
 struct Drawing {
@@ -30,4 +30,4 @@ inline constexpr int textHeight = 9; ///< pixels of a line at scale 1, with desc
 void drawText(Drawing &drawing, int x, int y, int scale, const std::string &text,
               const std::array<std::uint8_t, 3> &colour);
 
-} // namespace hyalite
+} // namespace hyalite::core

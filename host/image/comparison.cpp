@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -46,4 +46,4 @@ ImageComparison compareImages(const Image &reference, const Image &test, Encodin
     return comparison;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

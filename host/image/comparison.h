@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct ImageComparison {
     Encoding encoding = Encoding::Display; ///< of the compared numbers
@@ -26,4 +26,4 @@ struct ImageComparison {
 [[nodiscard]] ImageComparison compareImages(const Image &reference, const Image &test, Encoding encoding,
                                             double outlierThreshold = 0.0, const Mask &mask = {});
 
-} // namespace hyalite
+} // namespace hyalite::core

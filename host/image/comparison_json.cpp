@@ -1,6 +1,6 @@
 #include "host/image/comparison_json.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -60,4 +60,4 @@ nlohmann::ordered_json comparisonToJson(const ImageComparison &comparison, const
     return json;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

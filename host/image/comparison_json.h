@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// All metrics, and the values of the compared images at the worst pixel. Values that are not available, or that JSON
 /// cannot express (an infinite PSNR), become null.
 [[nodiscard]] nlohmann::ordered_json comparisonToJson(const ImageComparison &comparison,
                                                       const Image &reference, const Image &test);
 
-} // namespace hyalite
+} // namespace hyalite::core

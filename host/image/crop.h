@@ -1,7 +1,7 @@
 // Crop: a part of an image.
 #pragma once
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A rectangle of pixels of the whole image, half open: x0 <= x < x1, y0 <= y < y1.
 struct Crop {
@@ -15,4 +15,4 @@ struct Crop {
     [[nodiscard]] bool operator==(const Crop &) const = default;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

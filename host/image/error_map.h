@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Errors in [0, 1], row by row from the top left.
 struct ErrorMap {
@@ -12,4 +12,4 @@ struct ErrorMap {
     std::vector<float> errors;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

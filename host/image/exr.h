@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Writes scan lines of float32 with lossless compression: R, G and B, linear, with the primaries of Rec. 709; each
 /// layer as NAME.CHANNEL, or as NAME if it has one value per pixel; and the attributes as strings. The display window
@@ -36,4 +36,4 @@ enum class ExrWindow {
 /// Whether the file has that layer. Throws as readExr() does if the header cannot be read.
 [[nodiscard]] bool hasExrLayer(const InputFile &file, const std::string &layer);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -406,4 +406,4 @@ bool hasExrLayer(const InputFile &file, const std::string &layer) {
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

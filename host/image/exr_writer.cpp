@@ -18,7 +18,7 @@
 #include <new>
 #include <thread>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -152,4 +152,4 @@ void writeExr(AtomicFile &file, const Picture &picture) {
     output.requireSuccess();
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -89,4 +89,4 @@ Drawing falseColours(int width, int height, std::span<const float> values, const
     return drawing;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

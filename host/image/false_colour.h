@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The end of a scale from 0: a round number, not below 99 % of the values, so that a few pixels do not darken all
 /// others. Values are finite and not negative.
@@ -18,4 +18,4 @@ namespace hyalite {
 [[nodiscard]] Drawing falseColours(int width, int height, std::span<const float> values,
                                    const std::string &quantity);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -156,4 +156,4 @@ FlipSummary summarizeFlip(const ErrorMap &map, const Mask &mask) {
     return summary;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -13,7 +13,7 @@
 #include "host/image/image.h"
 #include "host/image/mask.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A 0.7 m wide screen of 3840 pixels, looked at from 0.7 m (HPG 2020): 3840 pi / 180.
 inline constexpr double flipPixelsPerDegree = 67.0206432765823;
@@ -49,4 +49,4 @@ struct FlipSummary {
 /// At least one pixel is compared.
 [[nodiscard]] FlipSummary summarizeFlip(const ErrorMap &map, const Mask &mask = {});
 
-} // namespace hyalite
+} // namespace hyalite::core

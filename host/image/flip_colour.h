@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// 0 for NaN.
 inline float clampToUnit(float value) { return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; }
@@ -72,4 +72,4 @@ inline float hyabDistance(const glm::vec3 &a, const glm::vec3 &b) {
     return std::abs(difference.x) + std::sqrt(difference.y * difference.y + difference.z * difference.z);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -100,4 +100,4 @@ FlipKernels makeFlipKernels(double pixelsPerDegree) {
     return kernels;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

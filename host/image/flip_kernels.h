@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Weights for the pixels -radius ... +radius.
 using Kernel = std::vector<float>;
@@ -29,4 +29,4 @@ struct FlipKernels {
 /// `pixelsPerDegree` is positive.
 [[nodiscard]] FlipKernels makeFlipKernels(double pixelsPerDegree);
 
-} // namespace hyalite
+} // namespace hyalite::core

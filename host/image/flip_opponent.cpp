@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -159,4 +159,4 @@ ErrorMap flipOfOpponents(const OpponentPlanes &reference, const OpponentPlanes &
     return map;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

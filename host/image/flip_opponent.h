@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// An image in opponent colours, a plane a channel. Rows are padded to a whole number of blocks.
 struct OpponentPlanes {
@@ -42,4 +42,4 @@ struct OpponentPlanes {
 [[nodiscard]] ErrorMap flipOfOpponents(const OpponentPlanes &reference, const OpponentPlanes &test,
                                        const FlipKernels &kernels);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -293,4 +293,4 @@ void writeHdr(AtomicFile &file, const Image &image) {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -20,7 +20,7 @@
 #include <cstddef>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Values are rounded to the nearest ones of the format. Negative values and NaN become 0; values beyond the format,
 /// 2^127 and infinity, become its largest. Throws Error{OutputNotWritten}.
@@ -35,4 +35,4 @@ void writeHdr(AtomicFile &file, const Image &image);
 /// for files that would take more memory than readingBytesMax.
 [[nodiscard]] Image readHdr(const InputFile &file);
 
-} // namespace hyalite
+} // namespace hyalite::core

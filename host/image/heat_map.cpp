@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::vector<std::uint8_t> heatMap(const ErrorMap &map) {
     return bytes;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The colour of an error in [0, 1] as display-encoded R, G, B: the map "magma" of N. Smith and S. van der Walt (CC0),
 /// in which FLIP's authors show errors. Errors outside are clamped; NaN is shown as 1, so that it stands out.
@@ -17,4 +17,4 @@ namespace hyalite {
 /// Three bytes a pixel, as writePng() takes them.
 [[nodiscard]] std::vector<std::uint8_t> heatMap(const ErrorMap &map);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Linear radiance, row by row from the top left.
 class Image {
@@ -38,4 +38,4 @@ class Image {
     std::vector<glm::vec3> pixels_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

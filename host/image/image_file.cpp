@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -119,4 +119,4 @@ bool isImageWith(const std::filesystem::path &path, const std::string &text, int
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

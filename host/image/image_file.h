@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 enum class ImageFormat {
     Png, ///< 8-bit RGB, tone-mapped, for viewing
@@ -61,4 +61,4 @@ void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, do
 [[nodiscard]] bool isImageWith(const std::filesystem::path &path, const std::string &text, int width,
                                int height);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 void requireImageSize(const InputFile &file, std::int64_t width, std::int64_t height) {
     if (width < 1 || height < 1 || width > imageSideMax || height > imageSideMax ||
@@ -23,4 +23,4 @@ void requireReadingMemory(const InputFile &file, std::uint64_t width, std::uint6
                                 file.sizeBytes(), allowedBytes / mebibyte));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

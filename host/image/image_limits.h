@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Larger images are refused before memory is allocated.
 inline constexpr int imageSideMax = 32768;
@@ -24,4 +24,4 @@ void requireImageSize(const InputFile &file, std::int64_t width, std::int64_t he
 void requireReadingMemory(const InputFile &file, std::uint64_t width, std::uint64_t height,
                           std::uint64_t neededBytes);
 
-} // namespace hyalite
+} // namespace hyalite::core

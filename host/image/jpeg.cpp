@@ -14,7 +14,7 @@
 
 #include <jerror.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -138,4 +138,4 @@ Texture readJpeg(const InputFile &file) {
     return texture;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

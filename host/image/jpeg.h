@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Whether the first bytes of a file are those of a JPEG.
 [[nodiscard]] bool isJpeg(std::span<const std::byte> head);
@@ -17,4 +17,4 @@ namespace hyalite {
 /// for more than 64 scans; Error{LimitExceeded} for files that would take more memory than readingBytesMax.
 [[nodiscard]] Texture readJpeg(const InputFile &file);
 
-} // namespace hyalite
+} // namespace hyalite::core

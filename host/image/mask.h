@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Non-zero for each pixel that is compared, row by row from the top left. Empty: every pixel is.
 using Mask = std::vector<std::uint8_t>;
@@ -24,4 +24,4 @@ using Mask = std::vector<std::uint8_t>;
     return mask;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -84,4 +84,4 @@ PixelMetrics comparePixels(const Image &a, const Image &b, double outlierThresho
     return metrics;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The differences b - a over the compared pixels. Two channels with the same bits differ by 0, even if both are NaN.
 /// Otherwise, if either is NaN or infinite, the difference is infinite.
@@ -45,4 +45,4 @@ struct PixelMetrics {
 /// +NaN.
 [[nodiscard]] std::uint32_t ulpDistance(float a, float b);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -147,4 +147,4 @@ Image readPfm(const InputFile &file) {
     return image;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

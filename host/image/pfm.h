@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Whether the first bytes of a file are those of a PFM.
 [[nodiscard]] bool isPfm(std::span<const std::byte> head);
@@ -28,4 +28,4 @@ void writePfm(AtomicFile &file, const Image &image);
 /// Throws Error{BadInput}.
 [[nodiscard]] Image readPfm(const InputFile &file);
 
-} // namespace hyalite
+} // namespace hyalite::core

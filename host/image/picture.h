@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A layer: values of each pixel beside its colour, such as its variance. Rows are requested one by one, so that a
 /// layer need not be in memory as a whole.
@@ -34,4 +34,4 @@ struct Picture {
     std::vector<Attribute> attributes; ///< the origin of the picture
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

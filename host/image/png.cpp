@@ -32,7 +32,7 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -257,4 +257,4 @@ Image readPng(const InputFile &file) {
                                : decodePng<std::uint8_t>(decoder, 255.0f);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

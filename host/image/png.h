@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Whether the first bytes of a file are those of a PNG.
 [[nodiscard]] bool isPng(std::span<const std::byte> head);
@@ -43,4 +43,4 @@ void writePng(AtomicFile &file, int width, int height, std::span<const std::uint
 /// palette or of one colour, if it has one. Throws as readPng().
 [[nodiscard]] Texture readPngTexture(const InputFile &file);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -47,4 +47,4 @@ void insertTexts(std::vector<std::byte> &png, std::span<const Attribute> attribu
     png.insert(png.begin() + headerEnd, chunks.begin(), chunks.end());
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

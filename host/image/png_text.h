@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Appends a chunk with its length and its checksum. `type` has four letters.
 void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<const std::byte> data);
@@ -18,4 +18,4 @@ void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<
 /// "Software".
 void insertTexts(std::vector<std::byte> &png, std::span<const Attribute> attributes);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -120,4 +120,4 @@ std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask)
     return sum / static_cast<double>(windowCount);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

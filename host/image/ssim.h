@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The side of the window that SSIM looks at.
 inline constexpr int ssimWindowSide = 11;
@@ -23,4 +23,4 @@ inline constexpr int ssimWindowSide = 11;
 /// counts, as in an image with a side below 11, or if an image holds NaN or infinity.
 [[nodiscard]] std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask = {});
 
-} // namespace hyalite
+} // namespace hyalite::core

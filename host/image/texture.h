@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Rows from the top. The use decides the meaning of levels: colours are sRGB, other values are level / 255.
 struct Texture {
@@ -30,4 +30,4 @@ struct Texture {
     return texture.pixelCount() * (texture.isFloat() ? 16 : 4);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

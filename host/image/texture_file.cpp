@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -48,4 +48,4 @@ Texture readTexture(const InputFile &file) {
         file, "it is no PNG, JPEG, WebP or Radiance (HDR) file, which textures are read from"));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Whether the file's first bytes are those of a format that readTexture() reads. Throws as InputFile does.
 [[nodiscard]] bool isTextureFile(const std::filesystem::path &path);
@@ -17,4 +17,4 @@ namespace hyalite {
 [[nodiscard]] Texture readTexture(const std::filesystem::path &path);
 [[nodiscard]] Texture readTexture(const InputFile &file);
 
-} // namespace hyalite
+} // namespace hyalite::core

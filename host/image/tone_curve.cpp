@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -79,4 +79,4 @@ glm::dvec3 displayed(const glm::dvec3 &radiance, ToneCurve curve) {
     return c;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

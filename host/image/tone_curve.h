@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The transfer function of IEC 61966-2-1, from linear light in [0, 1] to the display encoding.
 [[nodiscard]] double srgbEncoded(double linear);
@@ -25,4 +25,4 @@ namespace hyalite {
 /// base look, with the contrast as a polynomial of degree six over log2 in [-12.47393, 4.026069].
 [[nodiscard]] glm::dvec3 displayed(const glm::dvec3 &radiance, ToneCurve curve);
 
-} // namespace hyalite
+} // namespace hyalite::core

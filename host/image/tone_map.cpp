@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops, Tone
     return bytes;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

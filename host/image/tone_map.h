@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Tone curves.
 enum class ToneCurve {
@@ -39,4 +39,4 @@ inline constexpr std::array<std::pair<std::string_view, ToneCurve>, 4> toneCurve
 [[nodiscard]] std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops,
                                                 ToneCurve curve = ToneCurve::Gamma);
 
-} // namespace hyalite
+} // namespace hyalite::core

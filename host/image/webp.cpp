@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -55,4 +55,4 @@ Texture readWebp(const InputFile &file) {
     return texture;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Whether the first bytes of a file are those of a WebP.
 [[nodiscard]] bool isWebp(std::span<const std::byte> head);
@@ -17,4 +17,4 @@ namespace hyalite {
 /// would take more memory than readingBytesMax.
 [[nodiscard]] Texture readWebp(const InputFile &file);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <set>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// Of shipped scenes. Where a folder has both for one name, the first wins.
@@ -81,4 +81,4 @@ bool hasExtension(const std::filesystem::path &file, std::string_view extension)
     return lowerCase(file.extension().string()) == extension;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

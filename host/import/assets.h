@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Asset folders in search order: $HYALITE_ASSETS if set, then ../share/hyalite relative to the program's folder. They
 /// need not exist.
@@ -23,4 +23,4 @@ namespace hyalite {
 /// Whether the file name ends in `extension` (".obj", in lower case), ignoring case.
 [[nodiscard]] bool hasExtension(const std::filesystem::path &file, std::string_view extension);
 
-} // namespace hyalite
+} // namespace hyalite::core

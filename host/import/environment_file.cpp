@@ -15,7 +15,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -104,4 +104,4 @@ EnvironmentImage readEnvironmentImage(const std::filesystem::path &file) {
     return environment;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct EnvironmentImage {
     Image radiance; ///< finite, >= 0
@@ -20,4 +20,4 @@ struct EnvironmentImage {
 /// readImage and readTexture do.
 [[nodiscard]] EnvironmentImage readEnvironmentImage(const std::filesystem::path &file);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr std::size_t maxShownPathBytes = 1000;
@@ -78,4 +78,4 @@ std::filesystem::path FileAccess::resolve(const JsonNode &node, const std::strin
     return file;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 class FileAccess {
   public:
@@ -34,4 +34,4 @@ class FileAccess {
     std::vector<std::filesystem::path> reachable_; ///< canonical
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 std::string_view trimmed(std::string_view name) {
@@ -103,4 +103,4 @@ std::optional<std::filesystem::path> FileFinder::find(const std::filesystem::pat
     return file;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

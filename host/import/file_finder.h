@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The folder of a file, canonical.
 [[nodiscard]] std::filesystem::path folderOf(const std::filesystem::path &file);
@@ -48,4 +48,4 @@ class FileFinder {
     std::string firstRenamed_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

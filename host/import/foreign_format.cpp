@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using namespace std::string_view_literals;
@@ -128,4 +128,4 @@ void refuseForeignFormat(const std::filesystem::path &file) {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

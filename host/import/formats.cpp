@@ -16,7 +16,7 @@
 #include <array>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 std::string_view textOf(std::span<const char> bytes) {
@@ -94,4 +94,4 @@ std::string listOfExtensions() {
     return list;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct Format {
     std::string_view extension; ///< ".obj", in lower case
@@ -31,4 +31,4 @@ struct Format {
 /// ".json, .obj or .glb", for messages.
 [[nodiscard]] std::string listOfExtensions();
 
-} // namespace hyalite
+} // namespace hyalite::core

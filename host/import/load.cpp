@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// Throws Error{BadInput} if there is no such file. The message suggests the shipped scene of that name, if there is
@@ -95,4 +95,4 @@ LoadedScene loadScene(const std::string &argument, const LoadOptions &options) {
     return loaded;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

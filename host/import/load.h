@@ -5,11 +5,11 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Loads a scene file of any format, a bare mesh (framed and lit) or a shipped scene by its name, and validates it. A
 /// scene file may name files in its own folder, in the assets and in `options.allowedPaths`. Shipped scenes are looked
 /// for as assets.h says. Throws Error{BadInput}, and Error{Usage} for choices that the file does not offer.
 [[nodiscard]] LoadedScene loadScene(const std::string &argument, const LoadOptions &options = {});
 
-} // namespace hyalite
+} // namespace hyalite::core

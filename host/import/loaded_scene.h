@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The facts about a scene that are known before its large files are read.
 struct SceneOutline {
@@ -68,4 +68,4 @@ struct LoadedScene {
     bool isAutoLit = false; ///< no lights in the file: where the camera is overridden, call frameLights
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 class Losses {
   public:
@@ -40,4 +40,4 @@ class Losses {
     std::vector<Row> rows_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

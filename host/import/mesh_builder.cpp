@@ -15,7 +15,7 @@
 #include <numbers>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -397,4 +397,4 @@ void leaveOutUselessTextures(ObjMesh &loaded) {
                         loaded.mesh.name, count));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

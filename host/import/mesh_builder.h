@@ -15,7 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Removes textures that the mesh cannot use, as it has no texture coordinates, with a warning.
 void leaveOutUselessTextures(ObjMesh &loaded);
@@ -139,4 +139,4 @@ class MeshBuilder {
     ObjMesh result_;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

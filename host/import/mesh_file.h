@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 class FileAccess;
 class TextureLibrary;
@@ -76,4 +76,4 @@ struct MeshFile {
     MeshReport report{};
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

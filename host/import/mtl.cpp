@@ -26,7 +26,7 @@
 #include <unordered_set>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -502,4 +502,4 @@ std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures tex
     return MtlReader(file, textures).read();
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Textures of material libraries: where to look for them, and where to put them.
 struct MtlTextures {
@@ -42,4 +42,4 @@ struct MtlTextures {
 /// Error{LimitExceeded} as TextureLibrary does.
 [[nodiscard]] std::vector<Material> loadMtl(const std::filesystem::path &file, MtlTextures textures);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -64,4 +64,4 @@ Material materialOf(const MtlStatements &mtl) {
     return material;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The values of the statements of one material; empty: left out.
 struct MtlStatements {
@@ -38,4 +38,4 @@ struct MtlStatements {
 /// has no look of its own: no colour, no texture, and nothing of the physical statements.
 [[nodiscard]] Material materialOf(const MtlStatements &mtl);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr int width = 512;
@@ -69,4 +69,4 @@ Image neutralEnvironment() {
     return image;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Its name among files of environments; "./neutral" is a file of that name.
 inline constexpr std::string_view neutralEnvironmentName = "neutral";
@@ -16,4 +16,4 @@ inline constexpr std::string_view neutralEnvironmentName = "neutral";
 /// surface that faces nothing in particular has about that radiance, and one that faces up a third more.
 [[nodiscard]] Image neutralEnvironment();
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -33,7 +33,7 @@
 #include <system_error>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -350,4 +350,4 @@ MeshFile readObjMeshes(const std::filesystem::path &file, const MeshOptions &opt
     return meshFileOf(loadObj(file, options.transform, options.onReading, options.textures));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

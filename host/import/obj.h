@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct ObjMesh {
     TriangleMesh mesh; ///< in world space, relative to its origin (origin.h); materialIndex is left 0
@@ -39,4 +39,4 @@ struct ObjMesh {
 /// The same as one mesh of a file.
 [[nodiscard]] MeshFile readObjMeshes(const std::filesystem::path &file, const MeshOptions &options);
 
-} // namespace hyalite
+} // namespace hyalite::core

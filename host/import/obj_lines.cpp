@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::optional<std::span<char>> ObjLines::next() {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Throws Error{BadInput} "file:line: message".
 [[noreturn]] void failAtLine(const std::string &file, std::size_t line, std::string_view message);
@@ -81,4 +81,4 @@ class ObjLines {
     std::size_t nextLine_ = 1;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -12,7 +12,7 @@
 #include <limits>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -322,4 +322,4 @@ CheckedStatement checkStatement(std::span<char> statement, const ObjLines &lines
     return {{begin, behind + 1}, colour};
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

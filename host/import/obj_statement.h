@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Corners of one face: bounds the time for a hostile polygon, which grows with their square, to seconds.
 inline constexpr std::size_t maxFaceCorners = 65'536;
@@ -45,4 +45,4 @@ struct CheckedStatement {
 [[nodiscard]] CheckedStatement checkStatement(std::span<char> statement, const ObjLines &lines,
                                               MeshBuilder &builder);
 
-} // namespace hyalite
+} // namespace hyalite::core

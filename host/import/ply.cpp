@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// Uses of a vertex's values. Each set is wanted as a whole.
@@ -521,4 +521,4 @@ MeshFile readPlyMeshes(const std::filesystem::path &file, const MeshOptions &opt
     return meshFileOf(loadPly(file, options.transform, options.onReading, options.textures));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

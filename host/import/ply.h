@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Loads the faces of a PLY file as one mesh. Elements, properties and their types may come in any order; what is not
 /// named here is passed over:
@@ -35,4 +35,4 @@ namespace hyalite {
 /// The same as one mesh of a file.
 [[nodiscard]] MeshFile readPlyMeshes(const std::filesystem::path &file, const MeshOptions &options);
 
-} // namespace hyalite
+} // namespace hyalite::core

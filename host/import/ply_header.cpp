@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr std::pair<std::string_view, PlyType> typeNames[] = {
@@ -173,4 +173,4 @@ PlyHeader readPlyHeader(std::span<const char> file, const std::string &fileName)
     reader.fail("the header has no end_header: the file is cut short");
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

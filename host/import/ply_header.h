@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 enum class PlyType : std::uint8_t { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 
@@ -47,4 +47,4 @@ struct PlyHeader {
 /// Error{BadInput} "FILE:LINE: ..." for what is wrong.
 [[nodiscard]] PlyHeader readPlyHeader(std::span<const char> file, const std::string &fileName);
 
-} // namespace hyalite
+} // namespace hyalite::core

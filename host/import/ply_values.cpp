@@ -12,7 +12,7 @@
 #include <limits>
 #include <system_error>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 bool isBlankOfPly(char c) { return c == ' ' || c == '\t'; }
@@ -117,4 +117,4 @@ double PlyByteValues::next(PlyType type) {
     return 0.0; // unreachable: the switch is complete
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

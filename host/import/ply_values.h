@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The file ends before its values do.
 class PlyCutShort : public Error {
@@ -109,4 +109,4 @@ class PlyByteValues {
     const char *row_ = begin_;            ///< where it begins
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

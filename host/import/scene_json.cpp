@@ -20,7 +20,7 @@
 #include <utility>
 #include <variant>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using namespace std::string_view_literals;
@@ -392,4 +392,4 @@ std::vector<std::string_view> textures(const MaterialRow &row) {
 }
 
 } // namespace scene_keys
-} // namespace hyalite
+} // namespace hyalite::core

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Reads a scene file and the meshes that it names. Values are in range and names are defined; what concerns
 /// several values at once (is up parallel to the view?) is left to validateScene. Files outside of the scene's
@@ -62,4 +62,4 @@ inline constexpr auto settings = [] {
 [[nodiscard]] std::vector<std::string_view> textures(const MaterialRow &row);
 
 } // namespace scene_keys
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <iterator>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// The index of the material that the text names.
@@ -252,4 +252,4 @@ void readObjects(const JsonObject &top, const FileAccess &access, TextureLibrary
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

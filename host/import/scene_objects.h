@@ -6,7 +6,7 @@
 #include "host/import/scene_json.h"
 #include "host/import/texture_library.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Reads the spheres, shapes and meshes of the scene file whose materials `loaded` has, in this order, and the files of
 /// the meshes. `onReading` gets the share of the meshes that is read. Faults of single objects are
@@ -14,4 +14,4 @@ namespace hyalite {
 void readObjects(const JsonObject &top, const FileAccess &access, TextureLibrary &textures,
                  const OnReading &onReading, JsonFaults &faults, LoadedScene &loaded);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr std::size_t headBytes = 84; ///< 80 of text, and the number of triangles
@@ -353,4 +353,4 @@ MeshFile readStlMeshes(const std::filesystem::path &file, const MeshOptions &opt
     return meshFileOf(loadStl(file, options.transform, options.onReading));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

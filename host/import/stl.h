@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Whether a file without a name is one: text that begins with "solid", or as long as the number of triangles says that
 /// a binary file announces.
@@ -30,4 +30,4 @@ namespace hyalite {
 /// The same as one mesh of a file.
 [[nodiscard]] MeshFile readStlMeshes(const std::filesystem::path &file, const MeshOptions &options);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -14,7 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 enum class Orientation : std::uint8_t { Same, Mirrored, Unknown };
@@ -223,4 +223,4 @@ class TangentBuilder {
 
 Tangents mikkTangents(const TangentInput &input) { return TangentBuilder(input).build(); }
 
-} // namespace hyalite
+} // namespace hyalite::core

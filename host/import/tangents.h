@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The triangles that want tangents: values at their corners, by index.
 struct TangentInput {
@@ -34,4 +34,4 @@ struct Tangents {
 /// angles.
 [[nodiscard]] Tangents mikkTangents(const TangentInput &input);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::uint32_t TextureLibrary::load(const std::filesystem::path &file) {
     std::error_code error; // a path without a canonical form is its own key
@@ -83,4 +83,4 @@ TextureLook lookAt(const Texture &texture) {
     return look;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

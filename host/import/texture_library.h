@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Properties of the pixels of a texture of 8-bit levels. All false for one of floats.
 struct TextureLook {
@@ -51,4 +51,4 @@ class TextureLibrary {
     std::size_t sizeBytes_ = 0; ///< of all textures, on the device
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <array>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -111,4 +111,4 @@ Placement toPlacement(const glm::dmat4x3 &transform) {
     return placement;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 
 #include <glm/mat4x3.hpp>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Reads an affine map from object space to world space. The value is an array: of 12 numbers, the rows of a matrix of
 /// three rows and four columns, or 16 of which the last four are 0, 0, 0, 1; or of steps, applied in their order, each
@@ -24,4 +24,4 @@ namespace hyalite {
 /// The map in single precision.
 [[nodiscard]] Placement toPlacement(const glm::dmat4x3 &transform);
 
-} // namespace hyalite
+} // namespace hyalite::core

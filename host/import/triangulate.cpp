@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -258,4 +258,4 @@ std::span<const glm::uvec3> Triangulator::triangulate(std::span<const glm::vec3>
     return triangles_;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

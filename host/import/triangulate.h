@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Triangulates polygons one after the other, and keeps its working memory (about 75 bytes a corner).
 ///
@@ -69,4 +69,4 @@ class Triangulator {
     std::size_t remaining_ = 0;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::vector<char> readWholeFile(const std::filesystem::path &file) {
     constexpr std::uint64_t maxFileBytes = 0xFFFF'FFFF;
@@ -20,4 +20,4 @@ std::vector<char> readWholeFile(const std::filesystem::path &file) {
     return bytes;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

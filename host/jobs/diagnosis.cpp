@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -144,4 +144,4 @@ std::optional<std::string> diagnoseExposure(const Film &film, double exposureSto
                        exposureStops + std::log2(wanted / *middle));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

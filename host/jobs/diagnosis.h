@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// More than 1 % of the pixels are not finite, or all are black, or nothing is in view. For a black picture a few
 /// primary rays and shadow rays of the reference renderer find the most likely reason. Empty where all is well.
@@ -19,4 +19,4 @@ namespace hyalite {
 /// shows it.
 [[nodiscard]] std::optional<std::string> diagnoseExposure(const Film &film, double exposureStops);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace hyalite {
+namespace hyalite::core {
 
 void writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture) {
     const Image image = picture.film.toImage();
@@ -19,4 +19,4 @@ void writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &p
     writeFilm(file, format, picture.film, all, picture.settings, picture.tone);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

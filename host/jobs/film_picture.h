@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A film, and what its file has beside its pixels. All that it refers to must outlive it.
 struct FilmPicture {
@@ -22,4 +22,4 @@ struct FilmPicture {
 /// Writes it with its views and the layers of the film; the caller commits the file. Throws as writeImage() does.
 void writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films) {
     return layers;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Renders the views, whose rows have layer channels, of `scene`. Depths become planar, along the view direction, and
 /// 1e10 where nothing is met, as compositors have them; in a panorama they stay distances. Pixels outside of the
@@ -23,4 +23,4 @@ namespace hyalite {
 /// `films` must outlive the layers.
 [[nodiscard]] std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films);
 
-} // namespace hyalite
+} // namespace hyalite::core

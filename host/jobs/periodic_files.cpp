@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 PeriodicFiles::PeriodicFiles(const Crop &crop, std::vector<PeriodicFile> files, Observer &observer)
     : crop_(crop), observer_(observer) {
@@ -83,4 +83,4 @@ void PeriodicFiles::run() {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A file that is written at intervals.
 struct PeriodicFile {
@@ -65,4 +65,4 @@ class PeriodicFiles : public SnapshotTaker {
     std::thread thread_; ///< last: it uses the others
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

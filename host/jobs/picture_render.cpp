@@ -18,7 +18,7 @@
 #include <system_error>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -340,4 +340,4 @@ FinishedPicture finishPicture(PictureFiles &files, PictureBeginning &&begun, Ren
     return PictureRender(files, begun, session).finish();
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

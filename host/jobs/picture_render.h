@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The outputs of a picture, opened before the work begins, so that one that cannot be written is known at once.
 struct PictureFiles {
@@ -64,4 +64,4 @@ struct FinishedPicture {
 [[nodiscard]] FinishedPicture finishPicture(PictureFiles &files, PictureBeginning &&begun,
                                             RenderSession &session);
 
-} // namespace hyalite
+} // namespace hyalite::core

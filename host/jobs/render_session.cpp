@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 void RenderSession::prepare(const RenderRequest &request) {
     const auto beginOpening = [&](const SceneOutline &outline) {
@@ -34,4 +34,4 @@ void RenderSession::open() {
     opened_.backend = shareBackends(std::move(members));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A request: what to render, on which device, into which files. The path of a file that is not wanted is empty.
 struct RenderRequest {
@@ -71,4 +71,4 @@ class RenderSession {
     bool isFirstPicture_ = false;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -15,7 +15,7 @@
 #include <set>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -151,4 +151,4 @@ void Sequence::moveTo(int frame, RenderSession &session) {
     packCamera(scene.loaded.scene, scene.packed);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

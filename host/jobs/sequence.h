@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Both included.
 struct FrameRange {
@@ -58,4 +58,4 @@ class Sequence {
     std::optional<Camera> framing_; ///< of a moving scene without a camera: that of the first frame
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

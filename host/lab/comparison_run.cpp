@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 ComparisonRun openComparison(const ComparisonRequest &request, const PreparedScene &scene,
                              Observer &observer) {
@@ -37,4 +37,4 @@ nlohmann::ordered_json comparisonRunToJson(const ComparisonRun &run, const Prepa
     return json;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct ComparisonRequest {
     std::string device = "auto";
@@ -33,4 +33,4 @@ findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene,
 [[nodiscard]] nlohmann::ordered_json comparisonRunToJson(const ComparisonRun &run, const PreparedScene &scene,
                                                          const std::string &commandLine);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <span>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -171,7 +171,8 @@ class MeasurementRun {
     }
 
     BackendResult render(Backend &backend, const RenderSettings &settings, const RenderTask &task) const {
-        return unlessFailed(hyalite::render(backend, scene_.packed, settings, scene_.crop, observer_, task));
+        return unlessFailed(
+            hyalite::core::render(backend, scene_.packed, settings, scene_.crop, observer_, task));
     }
 
     double finishedShare(const Film &film) const {
@@ -222,4 +223,4 @@ Measurement measure(const MeasurementSubject &subject, const MeasurementRequest 
     return MeasurementRun(subject, request, wantsHeatMap, observer).measure();
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A request for a measurement.
 struct MeasurementRequest {
@@ -54,4 +54,4 @@ struct Measurement {
 [[nodiscard]] Measurement measure(const MeasurementSubject &subject, const MeasurementRequest &request,
                                   bool wantsHeatMap, Observer &observer);
 
-} // namespace hyalite
+} // namespace hyalite::core

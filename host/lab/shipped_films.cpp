@@ -16,7 +16,7 @@
 #include <span>
 #include <system_error>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::uint64_t filmHash(const Film &film) {
     return hashBytes(std::as_bytes(std::span(words)));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

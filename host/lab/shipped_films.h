@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A scene of the folder verify/, rendered with its own settings but the integrator.
 struct ShippedFilm {
@@ -39,4 +39,4 @@ struct ShippedFilms {
 /// sample counts, as little-endian words.
 [[nodiscard]] std::uint64_t filmHash(const Film &film);
 
-} // namespace hyalite
+} // namespace hyalite::core

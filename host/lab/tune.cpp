@@ -15,7 +15,7 @@
 #include <optional>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -108,4 +108,4 @@ std::vector<KernelRates> measureKernels(const std::string &deviceName, Observer 
     return all;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Measured rates of the kernels for one kind of scene.
 struct KernelRates {
@@ -32,4 +32,4 @@ using RunApart = std::function<nlohmann::json(const std::function<nlohmann::json
 [[nodiscard]] std::vector<KernelRates> measureKernels(const std::string &deviceName, Observer &observer,
                                                       const RunApart &runApart);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -211,4 +211,4 @@ DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shippe
     return verdict;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

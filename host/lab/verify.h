@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Where a film first differs from that of the CPU twin.
 struct FilmDifference {
@@ -60,4 +60,4 @@ struct DeviceVerdict {
                                          Observer &observer, const std::vector<std::string> &wanted = {},
                                          const std::function<void(const FilmVerdict &, double)> &onFilm = {});
 
-} // namespace hyalite
+} // namespace hyalite::core

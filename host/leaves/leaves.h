@@ -19,7 +19,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace hyalite::leaves {
+namespace hyalite::core::leaves {
 
 using glm::max;
 using glm::min;
@@ -83,4 +83,4 @@ template <class Real> struct SceneView;
 
 #include "leaf_functions.h"
 
-} // namespace hyalite::leaves
+} // namespace hyalite::core::leaves

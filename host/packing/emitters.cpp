@@ -15,7 +15,7 @@
 #include <span>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -300,4 +300,4 @@ void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, Pack
         packed.materials[i].emitterPdf = total > 0.0 ? static_cast<float>(exitances[i] / total) : 0.0f;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 
 #include "host/packing/packed_scene.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The emitter kind of a light: layout::emitter...
 [[nodiscard]] std::uint32_t emitterKindOf(const layout::LightRecord &light);
@@ -14,4 +14,4 @@ namespace hyalite {
 /// resulting pdfs of the materials. The triangles must be packed.
 void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, PackedScene &packed);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -89,4 +89,4 @@ bool packEnvironment(const Scene &scene, PackedScene &packed) {
     return total > 0.0 && scene.environment.scale > 0.0f;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -2,7 +2,7 @@
 
 #include "host/bvh/common_edge.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::uint32_t pairingOf(const layout::TriangleRecord &first, const layout::TriangleRecord &second) {
     // They may differ.
@@ -16,4 +16,4 @@ std::uint32_t pairingOf(const layout::TriangleRecord &first, const layout::Trian
     return edge->ofFirst << layout::leafFirstCorner | (edge->ofSecond + 1) << layout::leafSecondCorner;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The bits of a leaf's link that say where the common edge of its two triangles is; 0: they are no pair. A pair has
 /// ids that follow each other, a material and flags in common except for triangleEndsLeaf and emitters, and an edge
@@ -13,4 +13,4 @@ namespace hyalite {
 [[nodiscard]] std::uint32_t pairingOf(const layout::TriangleRecord &first,
                                       const layout::TriangleRecord &second);
 
-} // namespace hyalite
+} // namespace hyalite::core

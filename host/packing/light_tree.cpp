@@ -13,7 +13,7 @@
 #include <limits>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -253,4 +253,4 @@ LightTree buildLightTree(std::span<const TreeLight> lights) {
     return tree;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

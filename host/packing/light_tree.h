@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// An emitter as the tree sees it.
 struct TreeLight {
@@ -35,4 +35,4 @@ struct LightTree {
 /// an approximation.
 [[nodiscard]] LightTree buildLightTree(std::span<const TreeLight> lights);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::vector<layout::TrianglePair> pairTriangles(std::span<const layout::Triangle
     return pairs;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

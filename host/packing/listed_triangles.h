@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Each of `triangles`, which are at most layout::maxListedTriangles, is in one pair, by itself if no other shares an
 /// edge with it. Vertices are shared if all their bits are equal.
 [[nodiscard]] std::vector<layout::TrianglePair>
 pairTriangles(std::span<const layout::TriangleRecord> triangles);
 
-} // namespace hyalite
+} // namespace hyalite::core

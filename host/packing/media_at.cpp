@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -81,4 +81,4 @@ MediaAt mediaAt(const Scene &scene, std::span<const std::uint32_t> packedMateria
     return media;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

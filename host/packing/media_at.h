@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct MediaAt {
     std::uint32_t around = 0;
@@ -25,4 +25,4 @@ struct MediaAt {
 [[nodiscard]] MediaAt mediaAt(const Scene &scene, std::span<const std::uint32_t> packedMaterial,
                               const glm::dvec3 &point, const glm::dvec3 &spread);
 
-} // namespace hyalite
+} // namespace hyalite::core

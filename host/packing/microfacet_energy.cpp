@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -257,4 +257,4 @@ double averageConductorReflectance(double index, double extinction) {
     return 2.0 * sum / steps;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <bitset>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The first layout::energyTexelCount lookup rows of a scene with rough surfaces; shaders/bsdf/energy.glsl reads them.
 /// Computed with + - * / and square roots only, so that they are the same on every machine. Takes some hundredths of a
@@ -34,4 +34,4 @@ struct GlassNodes {
 /// index `index` + i `extinction`.
 [[nodiscard]] double averageConductorReflectance(double index, double extinction);
 
-} // namespace hyalite
+} // namespace hyalite::core

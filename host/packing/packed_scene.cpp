@@ -28,7 +28,7 @@
 #include <numeric>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -420,4 +420,4 @@ void packCamera(const Scene &scene, PackedScene &packed) {
     setEye(scene, packedMaterials(materialOrder(scene.materials)), packed);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

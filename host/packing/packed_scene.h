@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The bytes of an array of records.
 struct SceneArray {
@@ -122,4 +122,4 @@ struct PackOptions {
 /// Moves the camera of a packed scene: `scene` is what it was packed from, except for its camera.
 void packCamera(const Scene &scene, PackedScene &packed);
 
-} // namespace hyalite
+} // namespace hyalite::core

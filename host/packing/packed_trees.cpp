@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -268,4 +268,4 @@ void packTrees(const Scene &scene, const Bvh &bvh, std::span<const std::uint32_t
     packed.treeDepth = bvh.depth + (packed.instances.empty() ? 0 : 1 + deepest);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

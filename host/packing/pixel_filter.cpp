@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -45,4 +45,4 @@ void packFilter(PackedScene &packed) {
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

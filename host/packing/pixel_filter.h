@@ -3,7 +3,7 @@
 
 #include "host/packing/packed_scene.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Radius of the filter, in pixels.
 inline constexpr double filterRadius = 1.5;
@@ -16,4 +16,4 @@ inline constexpr double filterRadius = 1.5;
 /// Appends the quantiles of the Blackman-Harris filter to packed.lookups, and their position to packed.frame.
 void packFilter(PackedScene &packed);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::vector<layout::LookupRow> makeSheenTexels() {
     return texels;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

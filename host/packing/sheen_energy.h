@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The directional albedo of white sheen (shaders/bsdf/sheen.glsl) by the cosine of the viewer and the roughness, whose
 /// nodes are evenly spaced in the square root of the cosine and in the roughness: layout::sheenTexelCount rows.
@@ -13,4 +13,4 @@ namespace hyalite {
 /// second.
 [[nodiscard]] std::vector<layout::LookupRow> makeSheenTexels();
 
-} // namespace hyalite
+} // namespace hyalite::core

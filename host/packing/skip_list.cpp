@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -258,4 +258,4 @@ std::uint64_t skipListWorkBytes(std::size_t pairCount) {
     return pairCount * (sizeof(PairPlan) + listCount * sizeof(std::uint32_t));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The grid of a tree's box planes: plane q, in [-32768, 32767], is at middle + scale * q.
 struct SkipGrid {
@@ -46,4 +46,4 @@ struct SkipList {
 /// Size of the temporary memory for making them, in bytes.
 [[nodiscard]] std::uint64_t skipListWorkBytes(std::size_t pairCount);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::uint32_t anyHitOf(const Material &material, bool hasTransparentColours) {
            (material.isCulled ? layout::anyHitCulled : 0u);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The one channel of the image in `slot` that is read, as in TextureRecord::format: 0 for all, or for the red one.
 [[nodiscard]] std::uint32_t channelOf(const Texture &texture, const TextureUse &use, std::uint32_t slot);
@@ -23,4 +23,4 @@ namespace hyalite {
 /// mesh.
 [[nodiscard]] std::uint32_t anyHitOf(const Material &material, bool hasTransparentColours);
 
-} // namespace hyalite
+} // namespace hyalite::core

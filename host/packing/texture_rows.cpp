@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -376,4 +376,4 @@ glm::dvec3 meanEmissionFactor(const PackedScene &packed, const layout::MaterialR
     return sum / static_cast<double>(count);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

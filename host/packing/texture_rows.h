@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Fills packed.textures, and sets the texture positions of the packed materials. `order` has the input index of each
 /// packed material. The triangles must be packed. Does nothing unless packed.texturing or anisotropic materials
@@ -19,4 +19,4 @@ void packTextures(const Scene &scene, std::span<const std::uint32_t> order, std:
 [[nodiscard]] glm::dvec3 meanEmissionFactor(const PackedScene &packed,
                                             const layout::MaterialRecord &material);
 
-} // namespace hyalite
+} // namespace hyalite::core

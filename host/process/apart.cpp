@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -79,4 +79,4 @@ nlohmann::json inOwnProcess(const std::function<Json()> &work) {
     return said.at("result");
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,10 +5,10 @@
 
 #include <functional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Runs `work` in a process of its own and returns its result, of at most 64 KiB as text. Throws the Error that it
 /// throws, and Error{DeviceLost} if a signal ended it. The calling process has no other thread.
 [[nodiscard]] nlohmann::json inOwnProcess(const std::function<nlohmann::json()> &work);
 
-} // namespace hyalite
+} // namespace hyalite::core

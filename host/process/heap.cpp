@@ -10,7 +10,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 void useOneHeap() {
 #ifdef M_ARENA_MAX
@@ -43,4 +43,4 @@ void reserveHeap() {
 #endif
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -1,7 +1,7 @@
 // The heap: how glibc's malloc is told to keep what drivers free.
 #pragma once
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Makes all threads use one heap. glibc has several, and each keeps its freed memory: a process with many renders,
 /// whose driver starts threads each time, would grow by 17 KB a render, to twice the memory that it needs.
@@ -17,4 +17,4 @@ void keepFreedMemory();
 /// others do nothing.
 void reserveHeap();
 
-} // namespace hyalite
+} // namespace hyalite::core

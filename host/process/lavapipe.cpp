@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -53,4 +53,4 @@ void configureLavapipe(const gpu::ProcessorUse &use) {
     keepWidthsApart();
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

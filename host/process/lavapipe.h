@@ -3,7 +3,7 @@
 
 #include "host/gpu/processor_use.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Sets a flag of GALLIVM_PERF by the vector width in the environment. Mesa 25 keeps compiled functions that read
 /// textures in its disk cache without their width, and a kernel of 512 bits that calls those of 256 misses half of its
@@ -19,4 +19,4 @@ void keepWidthsApart();
 /// Do not call this while other threads read the environment.
 void configureLavapipe(const gpu::ProcessorUse &use);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 #include "host/process/heap.h"
 #include "host/process/lavapipe.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 void prepareProcess() {
     useOneHeap();
@@ -15,4 +15,4 @@ void prepareDriver(const gpu::ProcessorUse &use) {
     configureLavapipe(use);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

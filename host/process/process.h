@@ -3,7 +3,7 @@
 
 #include "host/gpu/processor_use.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The allocator's settings. Call it first in main, before there are other threads.
 void prepareProcess();
@@ -12,4 +12,4 @@ void prepareProcess();
 /// Sets environment variables: no other thread may read the environment meanwhile.
 void prepareDriver(const gpu::ProcessorUse &use);
 
-} // namespace hyalite
+} // namespace hyalite::core

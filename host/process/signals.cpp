@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -98,4 +98,4 @@ ErrorKind errorKindOf(int signal) {
                               : ErrorKind::Terminated;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

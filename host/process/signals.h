@@ -3,7 +3,7 @@
 
 #include "host/base/error.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// During its lifetime SIGPIPE is ignored. SIGINT, SIGTERM and SIGHUP end the program at once, by their default action,
 /// until there are results to keep: from then on the first one is only recorded, and a second one ends the program. One
@@ -33,4 +33,4 @@ class CaughtSignals {
 /// The kind of error of a render that the signal ended.
 [[nodiscard]] ErrorKind errorKindOf(int signal);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,11 +4,11 @@
 #include "host/engine/observer.h"
 #include "host/process/process.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 class SilentObserver : public Observer {
   public:
     void beforeDriver(const gpu::ProcessorUse &use) override { prepareDriver(use); }
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

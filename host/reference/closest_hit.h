@@ -10,7 +10,7 @@
 #include <array>
 #include <cassert>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 /// Random-number key of an alpha test: pixel, sample and ray.
 struct AlphaTestKeys {
@@ -266,4 +266,4 @@ template <class Real, class Counter>
     return isBlocked;
 }
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

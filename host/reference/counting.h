@@ -5,7 +5,7 @@
 #include "host/film/work_counts.h"
 #include "shaders/layout/layout.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 struct NoCounter {
     void visitNode(const layout::NodePair &) {}
@@ -34,4 +34,4 @@ struct WorkCounter {
     }
 };
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

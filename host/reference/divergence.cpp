@@ -7,7 +7,7 @@
 #include <bit>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::optional<Divergence> findDiscreteDivergence(const std::vector<TraceEvent> &
     return findFirst(a, b, firstTriangleId, glm::dvec3(0.0), isSameDecision);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

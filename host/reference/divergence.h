@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The first step of a path at which two traces differ in any bit.
 struct Divergence {
@@ -33,4 +33,4 @@ struct Divergence {
                                                                const std::vector<layout::TraceEvent> &b,
                                                                std::uint32_t firstTriangleId);
 
-} // namespace hyalite
+} // namespace hyalite::core

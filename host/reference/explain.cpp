@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 namespace {
 
@@ -87,4 +87,4 @@ Explanation explainOutlier(const PackedScene &scene, const RenderSettings &setti
     return explanation;
 }
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 enum class Cause {
     Edge,           ///< another primitive was hit
@@ -32,4 +32,4 @@ struct Explanation {
 [[nodiscard]] Explanation explainOutlier(const PackedScene &scene, const RenderSettings &settings,
                                          const glm::uvec2 &pixel);
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -3,7 +3,7 @@
 
 #include "host/reference/closest_hit.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 /// Counts of glass as in shaders/bsdf/media.glsl. `onRay` is told of each ray on the way.
 template <class Real, class Counter, class OnRay>
@@ -35,4 +35,4 @@ template <class Real, class Counter, class OnRay>
     }
 }
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 /// Traces camera samples through the scene. Each thread has its own instance, because it keeps counts.
 template <class Real, class Counter = NoCounter> class PathIntegrator {
@@ -355,4 +355,4 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     std::vector<layout::TraceEvent> *events_ = nullptr;
 };
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 namespace {
 
@@ -228,4 +228,4 @@ std::vector<layout::TraceEvent> trace(const PackedScene &scene, const RenderSett
     return traceAs<float>(scene, settings, pixel, sampleIndex, shift);
 }
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -8,7 +8,7 @@
 #include "host/film/work_counts.h"
 #include "host/packing/packed_scene.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 enum class Precision { Float32, Float64 };
 
@@ -38,4 +38,4 @@ struct Result {
                                                     Precision precision,
                                                     const glm::dvec2 &shift = glm::dvec2(0.0));
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

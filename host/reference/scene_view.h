@@ -8,7 +8,7 @@
 #include <bit>
 #include <vector>
 
-namespace hyalite::leaves {
+namespace hyalite::core::leaves {
 
 /// The scene as leaf functions read it: what kernels have as specialization constants, uniforms and buffers, by the
 /// same names. The packed scene outlives it.
@@ -63,8 +63,8 @@ template <class Real> struct SceneView {
     std::vector<SphereShape<Real>> sphereShapes; ///< of spheres outside the tree, for the loops over them
 };
 
-} // namespace hyalite::leaves
+} // namespace hyalite::core::leaves
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 using namespace leaves;
 }

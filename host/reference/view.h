@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 /// Traces camera samples to their first hits. Each thread has its own instance, because it keeps counts.
 template <class Real, class Counter = NoCounter> class ViewIntegrator {
@@ -104,4 +104,4 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
     std::uint32_t sampleIndex_ = 0;
 };
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 
 /// Traces camera samples through the scene. Each thread has its own instance, because it keeps waiting rays and counts.
 template <class Real, class Counter = NoCounter> class WhittedIntegrator {
@@ -235,4 +235,4 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     std::uint32_t depth_ = 0;
 };
 
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -15,7 +15,7 @@
 #include <concepts>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -201,4 +201,4 @@ std::string comparisonTable(const BaselineComparison &comparison, double maxRegr
                               comparison.isPassed ? "no regression" : "REGRESSION", maxRegression * 100.0);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The parts of a profile that are compared.
 struct ProfileFigures {
@@ -86,4 +86,4 @@ void requireSameJob(const ProfileFigures &baseline, const Profile &profile);
 [[nodiscard]] std::string comparisonTable(const BaselineComparison &comparison, double maxRegression,
                                           Gate gate);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::string millisText(double millis) {
     return fmt::format("{:.{}f}", millis, millis < 10.0 ? 3 : millis < 1000.0 ? 1 : 0);
@@ -10,4 +10,4 @@ std::string millisText(double millis) {
 
 std::string shareText(double share) { return fmt::format("{:.1f} %", share * 100.0); }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Four digits at least, whatever the size: "0.012", "12.3", "1234".
 [[nodiscard]] std::string millisText(double millis);
@@ -11,4 +11,4 @@ namespace hyalite {
 /// A share in [0, 1] in per cent: "12.3 %".
 [[nodiscard]] std::string shareText(double share);
 
-} // namespace hyalite
+} // namespace hyalite::core

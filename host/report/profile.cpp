@@ -4,7 +4,7 @@
 #include <functional>
 #include <numeric>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -161,4 +161,4 @@ StageSummary summariseFrame(const Profile &profile) {
     return frame;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// One render of the image.
 struct Frame {
@@ -89,4 +89,4 @@ struct KernelSummary {
 /// Maximum size of all device buffers at the end of any stage; 0 for the reference renderer.
 [[nodiscard]] std::uint64_t maxDeviceBytes(const Profile &profile);
 
-} // namespace hyalite
+} // namespace hyalite::core

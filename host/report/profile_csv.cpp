@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::string profileCsv(const Profile &profile) {
     return text;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

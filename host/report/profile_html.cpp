@@ -4,7 +4,7 @@
 #include "host/report/profile_json.h"
 #include "host/report/profile_page.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::string base64(std::span<const std::byte> bytes) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -35,4 +35,4 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
     return html.append(profilePage.substr(begin));
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

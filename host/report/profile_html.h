@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
@@ -17,4 +17,4 @@ namespace hyalite {
 [[nodiscard]] std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
                                       std::span<const std::byte> heatMapPng = {});
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -2,7 +2,7 @@
 
 #include "host/report/render_report.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -82,4 +82,4 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
     return json;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The "profileVersion" of a profile. Older ones are no baselines: 1, which said no version, was compared by
 /// the name of its scene's file.
@@ -14,4 +14,4 @@ inline constexpr int profileVersion = 2;
 /// All times are in milliseconds.
 [[nodiscard]] nlohmann::ordered_json profileToJson(const Profile &profile);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::string profileTable(const Profile &profile) {
     return text;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

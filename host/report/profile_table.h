@@ -5,9 +5,9 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Stages, kernels and rays, at most 110 columns wide, with a line feed at the end.
 [[nodiscard]] std::string profileTable(const Profile &profile);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -73,4 +73,4 @@ bool hasKnownAttributes(const nlohmann::ordered_json &provenance) {
     });
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The renderer.
 struct RendererIdentity {
@@ -50,4 +50,4 @@ struct Provenance {
 /// their own, such as "tiles" in OpenEXR.
 [[nodiscard]] bool hasKnownAttributes(const nlohmann::ordered_json &provenance);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 
 #include "host/base/json_text.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 nlohmann::ordered_json raysToJson(const RayCounts &rays) {
     nlohmann::ordered_json json;
@@ -69,4 +69,4 @@ std::string formatReport(const RenderReport &report) {
     return jsonText(json);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

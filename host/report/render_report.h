@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The finished part of an image, or of a part of one.
 struct FinishedWork {
@@ -58,4 +58,4 @@ struct RenderReport {
 
 [[nodiscard]] std::string formatReport(const RenderReport &report);
 
-} // namespace hyalite
+} // namespace hyalite::core

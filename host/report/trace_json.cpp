@@ -9,7 +9,7 @@
 #include <iterator>
 #include <tuple>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -151,4 +151,4 @@ OrderedJson profileToTrace(const Profile &profile) {
     return {{"traceEvents", events.take()}, {"displayTimeUnit", "ms"}, {"otherData", origin}};
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -13,8 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hyalite {
+namespace hyalite::core {
 
 [[nodiscard]] nlohmann::ordered_json profileToTrace(const Profile &profile);
 
-} // namespace hyalite
+} // namespace hyalite::core

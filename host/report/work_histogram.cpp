@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 
 std::vector<WorkBin> binWork(std::span<const float> testsPerSample) {
     std::vector<WorkBin> bins;
@@ -19,4 +19,4 @@ std::vector<WorkBin> binWork(std::span<const float> testsPerSample) {
     return bins;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Pixels whose samples take [begin, end) tests, on average.
 struct WorkBin {
@@ -18,4 +18,4 @@ struct WorkBin {
 /// negative.
 [[nodiscard]] std::vector<WorkBin> binWork(std::span<const float> testsPerSample);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -168,4 +168,4 @@ glm::dvec3 pivotOf(const Camera &camera, const glm::dvec3 &centre) {
     return distance > 0.0 ? camera.position + distance * direction : centre;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

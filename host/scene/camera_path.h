@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The part of a camera that moves; its projection and the size of the image stay.
 struct CameraPose {
@@ -52,4 +52,4 @@ enum class KeyInterpolation { Smooth, Linear };
 /// turns around.
 [[nodiscard]] glm::dvec3 pivotOf(const Camera &camera, const glm::dvec3 &centre);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -441,4 +441,4 @@ void partContacts(Scene &scene) {
         move(scene.meshes[mesh], search.items()[mesh].solids, shifts);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

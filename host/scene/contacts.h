@@ -3,7 +3,7 @@
 
 #include "host/scene/scene.h"
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Moves glass off the surfaces that it coincides with or nearly touches, so that it reaches into them, or stays behind
 /// them: by 64 units of rounding (2^-24) of the largest coordinate there, where less than 32 are between them.
@@ -18,4 +18,4 @@ namespace hyalite {
 /// Instances that have to move become meshes. The scene is valid, and its instances are arranged.
 void partContacts(Scene &scene);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -16,7 +16,7 @@
 #include <numbers>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr double frameFovDegrees = 40.0;
@@ -184,4 +184,4 @@ Scene frameMesh(TriangleMesh mesh) {
     return scene;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The box of all corners of all triangles. Throws Error{BadInput} where a mesh names none, or where the box is
 /// too small or too large to be framed (limits.h: framedExtent).
@@ -58,4 +58,4 @@ inline constexpr Bounds noBounds{glm::dvec3(std::numeric_limits<double>::infinit
 /// scene.
 [[nodiscard]] Scene frameMesh(TriangleMesh mesh);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <optional>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -224,4 +224,4 @@ void flattenInstances(Scene &scene, const std::function<bool(std::size_t)> &beco
     keepUsedPrototypes(scene);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Input indices of triangles: they count up over meshes and instances in the order of the input, as if each instance
 /// were a mesh.
@@ -62,4 +62,4 @@ void arrangeInstances(Scene &scene, Flattening flattening);
 /// The same for the instances, by their indices, that `becomesMesh` names.
 void flattenInstances(Scene &scene, const std::function<bool(std::size_t)> &becomesMesh);
 
-} // namespace hyalite
+} // namespace hyalite::core

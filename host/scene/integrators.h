@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 
 enum class Integrator { Whitted, Path, AmbientOcclusion, Normal, Depth, Albedo, Id, Uv, Cost };
 
@@ -104,4 +104,4 @@ template <bool IntegratorRow::*member> [[nodiscard]] constexpr auto integratorsT
     return found;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

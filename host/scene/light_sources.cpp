@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 bool hasEmitters(const Scene &scene) {
@@ -63,4 +63,4 @@ std::optional<std::string> diagnoseLight(const Scene &scene, Integrator integrat
     return std::nullopt;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 struct LightSources {
     bool hasLights = false;   ///< without size, with power
@@ -29,4 +29,4 @@ struct LightSources {
 /// all is well, and for integrators that show something else than light.
 [[nodiscard]] std::optional<std::string> diagnoseLight(const Scene &scene, Integrator integrator);
 
-} // namespace hyalite
+} // namespace hyalite::core

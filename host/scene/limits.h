@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-namespace hyalite::limits {
+namespace hyalite::core::limits {
 
 inline constexpr Interval coordinate{-1e15, 1e15};
 inline constexpr Interval directionLength{1e-100, 1e16}; ///< its square neither underflows nor overflows
@@ -61,4 +61,4 @@ inline constexpr std::size_t instanceCount = (std::size_t{1} << 30) - 128;
 /// Spheres, and triangles of meshes and instances, all together: each has an id.
 inline constexpr std::size_t primitiveCount = layout::noPrimitive - layout::minFirstTriangleId;
 
-} // namespace hyalite::limits
+} // namespace hyalite::core::limits

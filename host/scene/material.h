@@ -24,7 +24,7 @@
 #include <utility>
 #include <variant>
 
-namespace hyalite {
+namespace hyalite::core {
 
 enum class MaterialKind : std::uint32_t {
     Diffuse = layout::materialDiffuse,
@@ -368,4 +368,4 @@ inline constexpr auto materialTable = std::to_array<MaterialRow>({
     return *std::ranges::find(materialTable, kind, &MaterialRow::kind);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A complex refractive index n + i k, at 650, 550 and 450 nm for red, green and blue.
 struct Metal {
@@ -32,4 +32,4 @@ inline constexpr std::array<std::pair<std::string_view, Metal>, 4> metalNames{{
     return (below * below + squaredExtinction) / (above * above + squaredExtinction);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

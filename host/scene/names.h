@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 template <class Value> using Name = std::pair<std::string_view, Value>;
 
@@ -65,4 +65,4 @@ template <class Value, std::size_t count>
     return nameIn(lightChoiceNames, choice);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

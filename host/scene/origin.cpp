@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -156,4 +156,4 @@ void moveNear(Scene &scene, CameraPath &path, const std::optional<glm::dvec3> &k
     }
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -16,7 +16,7 @@
 
 #include <optional>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Extents from zero, each the largest of a coordinate, beyond which the nearest point of a far box is.
 inline constexpr double farExtents = 1024.0;
@@ -60,4 +60,4 @@ template <class Read> [[nodiscard]] auto readNear(const Read &read) {
 /// the camera and its path. `known` is the origin of a scene that moves by time; empty: that of what is there.
 void moveNear(Scene &scene, CameraPath &path, const std::optional<glm::dvec3> &known = {});
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 enum class CameraKind { Perspective, Orthographic, Panorama };
 
@@ -156,4 +156,4 @@ struct Scene {
     return count;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

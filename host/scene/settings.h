@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace hyalite {
+namespace hyalite::core {
 
 enum class TreeKind { None, Midpoint, Sah };
 enum class SamplerKind : std::uint32_t { Centre = 0, Sobol = 1 };
@@ -44,4 +44,4 @@ struct RenderSettings {
     return settings.isWorkShown || settings.integrator == Integrator::Cost;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -70,4 +70,4 @@ RenderSettings settingsFromJson(const nlohmann::json &json) {
     return settings;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

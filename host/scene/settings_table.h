@@ -21,7 +21,7 @@
 #include <variant>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// A number in a range; `Number` decides whether it is a whole one.
 template <class Number> struct NumberSetting {
@@ -137,4 +137,4 @@ struct SettingChange {
 };
 using SettingChanges = std::vector<SettingChange>;
 
-} // namespace hyalite
+} // namespace hyalite::core

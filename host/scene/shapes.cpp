@@ -13,7 +13,7 @@
 #include <numbers>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -152,4 +152,4 @@ TriangleMesh transformed(TriangleMesh mesh, const glm::dmat4x3 &map) {
     return mesh;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

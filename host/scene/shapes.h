@@ -5,7 +5,7 @@
 
 #include <glm/mat4x3.hpp>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Quad and Disk lie in the plane z = 0 and face +z. Cylinder stands along z.
 enum class ShapeKind { Quad, Box, Disk, Cylinder };
@@ -19,4 +19,4 @@ enum class ShapeKind { Quad, Box, Disk, Cylinder };
 /// transpose; where the map mirrors, faces are turned, so that outside stays outside.
 [[nodiscard]] TriangleMesh transformed(TriangleMesh mesh, const glm::dmat4x3 &map);
 
-} // namespace hyalite
+} // namespace hyalite::core

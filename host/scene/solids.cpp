@@ -6,7 +6,7 @@
 #include <bit>
 #include <unordered_map>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -82,4 +82,4 @@ Solids solidsOf(const TriangleMesh &mesh, const std::vector<Material> &materials
     return solids;
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

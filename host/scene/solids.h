@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 inline constexpr std::uint32_t noSolid = std::numeric_limits<std::uint32_t>::max();
 
@@ -20,4 +20,4 @@ struct Solids {
 /// position, as many files give each triangle, or each side of a crease, corners of its own.
 [[nodiscard]] Solids solidsOf(const TriangleMesh &mesh, const std::vector<Material> &materials);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// An object of the scene under check. Its description is put together only when a message needs it.
@@ -380,4 +380,4 @@ void validateCameraPath(const CameraPath &path, const Camera &camera, const std:
         checkCamera(posed(camera, path[frame]), {sourceName, "camera of frame", frame});
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

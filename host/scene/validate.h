@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Checks the scene against limits.h: every number finite and in range, every index within its array, the view
 /// direction not parallel to up. Throws Error{BadInput} "SOURCE: sphere 3: radius: found -1; allowed: ...".
@@ -19,4 +19,4 @@ void validateSettings(const RenderSettings &settings, const Scene &scene, const 
 /// Throws Error{BadInput} for the first pose in which the camera is not valid, and names its frame.
 void validateCameraPath(const CameraPath &path, const Camera &camera, const std::string &sourceName);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #ifdef __cplusplus
 #include "shaders/layout/layout.h"
 
-namespace hyalite::layout {
+namespace hyalite::core::layout {
 #endif
 
 const uint bindingFrame = 0u;
@@ -52,6 +52,6 @@ const uint bindingTrace = sceneBufferCount + 5u;
 const uint bindingCount = sceneBufferCount + 6u;
 
 #ifdef __cplusplus
-} // namespace hyalite::layout
+} // namespace hyalite::core::layout
 #endif
 #endif

@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include "shaders/layout/layout.h"
 
-namespace hyalite::layout {
+namespace hyalite::core::layout {
 #endif
 
 struct HardInput {
@@ -44,6 +44,6 @@ const uint areZerosEqual = 16u; // 0 and -0
 const uint isZeroNotLess = 32u; // -0 than 0
 
 #ifdef __cplusplus
-} // namespace hyalite::layout
+} // namespace hyalite::core::layout
 #endif
 #endif

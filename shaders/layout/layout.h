@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hyalite::layout {
+namespace hyalite::core::layout {
 using glm::vec3;
 using uint = std::uint32_t;
 #define HYALITE_INLINE inline
@@ -782,7 +782,7 @@ static_assert(sizeof(DispatchProgress) == 64);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
 static_assert(sizeof(PathRecord) == 240 && offsetof(PathRecord, rayTarget) == 208);
 static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
-} // namespace hyalite::layout
+} // namespace hyalite::core::layout
 #endif
 #undef HYALITE_INLINE
 #endif

@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include "shaders/layout/buffers.h"
 
-namespace hyalite::layout {
+namespace hyalite::core::layout {
 #endif
 
 struct RayRecord {
@@ -35,6 +35,6 @@ const uint rayConstantCount = constantCount + 1u;
 #ifdef __cplusplus
 static_assert(sizeof(RayRecord) == 32 && offsetof(RayRecord, direction) == 16);
 static_assert(sizeof(HitRecord) == 16);
-} // namespace hyalite::layout
+} // namespace hyalite::core::layout
 #endif
 #endif

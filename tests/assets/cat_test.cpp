@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::cat {
+namespace hyalite::core::cat {
 namespace {
 
 constexpr std::size_t coarseCount = 4000;
@@ -267,4 +267,4 @@ TEST(Cat, ObjTextHasFixedDecimalsAndNoNegativeZero) {
 }
 
 } // namespace
-} // namespace hyalite::cat
+} // namespace hyalite::core::cat

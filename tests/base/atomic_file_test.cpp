@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -279,4 +279,4 @@ TEST_P(AtomicFileTest, ANameThatIsTooLongIsRefusedAtOnce) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

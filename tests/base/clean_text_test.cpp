@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using namespace std::string_literals;
@@ -52,4 +52,4 @@ TEST(Excerpt, IsCutBetweenCharacters) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

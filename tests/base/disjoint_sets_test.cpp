@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(DisjointSets, AreOneWhereAChainJoinsThem) {
@@ -17,4 +17,4 @@ TEST(DisjointSets, AreOneWhereAChainJoinsThem) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

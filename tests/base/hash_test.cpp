@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(HashBytes, IsXxh64) {
@@ -38,4 +38,4 @@ TEST(HashBytes, IsXxh64) {
 TEST(HashText, HasSixteenDigits) { EXPECT_EQ(hashText(0xabc), "0000000000000abc"); }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

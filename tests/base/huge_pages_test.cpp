@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr std::size_t mebibyte = std::size_t{1} << 20;
@@ -89,4 +89,4 @@ TEST(HugePages, LeaveFailuresAsTheyAre) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(JsonText, IsUtf8WhateverFileNamesAre) {
@@ -11,4 +11,4 @@ TEST(JsonText, IsUtf8WhateverFileNamesAre) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(PortableMath, IsThatOfTheLibrary) {
@@ -22,4 +22,4 @@ TEST(PortableMath, IsThatOfTheLibrary) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(Quantities, DurationsHaveTwoUnitsAtMost) {
@@ -37,4 +37,4 @@ TEST(Quantities, OneIsSingular) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// The words that sh makes of a line, each with a line feed behind it.
@@ -41,4 +41,4 @@ TEST(ShellLine, IsTheSameWordsAgain) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(Statistics, QuantilesLieBetweenTheirNeighbours) {
@@ -45,4 +45,4 @@ TEST(Statistics, SpreadIsHalfTheQuartilesDistance) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

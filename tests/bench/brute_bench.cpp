@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -47,4 +47,4 @@ void registerBruteForce(Context &context) {
                  [&context](benchmark::State &state) { measureTree(state, context); });
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -15,7 +15,7 @@
 
 #include <array>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -123,4 +123,4 @@ void registerReading() {
     }
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -258,4 +258,4 @@ void EmbreeRays::traceByEights(std::span<layout::HitRecord> hits) const {
     });
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

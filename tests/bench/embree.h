@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 /// "3.13.5"
 [[nodiscard]] const char *embreeVersion();
@@ -72,4 +72,4 @@ class EmbreeRays {
     std::unique_ptr<State> state_;
 };
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

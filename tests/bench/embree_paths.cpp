@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -224,4 +224,4 @@ Image EmbreePaths::render(int samplesPerPixel, std::uint32_t seed, PathSamples s
     return image;
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

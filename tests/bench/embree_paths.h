@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 /// Where a path's random numbers come from. Independent: a generator for each thread. Stratified: the renderers' own.
 enum class PathSamples { Independent, Stratified };
@@ -44,4 +44,4 @@ class EmbreePaths {
     EmbreeScene embree_;
 };
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

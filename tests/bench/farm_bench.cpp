@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -69,4 +69,4 @@ void registerFarm(Context &context) {
                      });
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

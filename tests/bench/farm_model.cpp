@@ -31,7 +31,7 @@
 
 #include <time.h>
 
-namespace hyalite {
+namespace hyalite::core {
 
 namespace {
 
@@ -243,10 +243,10 @@ void run(const Options &options) {
 
 } // namespace
 
-} // namespace hyalite
+} // namespace hyalite::core
 
 int main(int argumentCount, char **arguments) {
-    hyalite::Options options;
+    hyalite::core::Options options;
     CLI::App app("how long a picture takes on many nodes: computed");
     app.add_option("--scene", options.scene);
     app.add_option("--spp", options.samplesPerPixel);
@@ -258,7 +258,7 @@ int main(int argumentCount, char **arguments) {
     app.add_option("--network", options.networkBytesPerSecond, "bytes a second at rank 0");
     CLI11_PARSE(app, argumentCount, arguments);
     try {
-        hyalite::run(options);
+        hyalite::core::run(options);
         return 0;
     } catch (const std::exception &error) {
         fmt::print(stderr, "farm_model: {}\n", error.what());

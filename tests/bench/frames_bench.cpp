@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -102,4 +102,4 @@ void registerStartUp(Context &context) {
     }
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

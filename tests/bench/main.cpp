@@ -38,7 +38,7 @@ std::optional<std::string> takeOption(std::string_view option, int &argumentCoun
 } // namespace
 
 int main(int argumentCount, char **arguments) {
-    using namespace hyalite;
+    using namespace hyalite::core;
     try {
         const std::string deviceName = takeOption("--device=", argumentCount, arguments).value_or("auto");
         std::vector<std::string> manifests;

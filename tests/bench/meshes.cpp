@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -70,4 +70,4 @@ TriangleMesh noisySphere(int around, int down) {
     return mesh;
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

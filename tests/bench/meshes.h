@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 /// "cat_4k" and so on, from small to large.
 [[nodiscard]] const std::vector<std::string> &meshNames();
@@ -22,4 +22,4 @@ namespace hyalite::bench {
 /// of 2 * around * (down - 1) triangles.
 [[nodiscard]] TriangleMesh noisySphere(int around, int down);
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

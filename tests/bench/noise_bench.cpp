@@ -19,7 +19,7 @@
 #include <memory>
 #include <optional>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -151,4 +151,4 @@ void registerNoise(Context &context) {
                  [=](benchmark::State &state) { measure(state, onCpu(makeBox()), makeRival()); });
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 [[nodiscard]] inline unsigned threadCount() { return std::max(1u, std::thread::hardware_concurrency()); }
 
@@ -25,4 +25,4 @@ template <class Body> void inChunks(std::size_t count, std::size_t chunk, const 
     work();
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

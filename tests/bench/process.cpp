@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -74,4 +74,4 @@ double runHyalite(const std::vector<std::string> &arguments, const std::vector<s
     return areProcessorSecondsCounted() ? secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime) : seconds;
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 /// A folder that is gone, with all that is in it, when this object is.
 class TemporaryFolder {
@@ -27,4 +27,4 @@ class TemporaryFolder {
 /// the processor (race.h). Throws std::runtime_error where it fails.
 double runHyalite(const std::vector<std::string> &arguments, const std::vector<std::string> &variables = {});
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

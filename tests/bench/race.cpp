@@ -4,7 +4,7 @@
 #include <ctime>
 #include <exception>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -65,4 +65,4 @@ void addBenchmark(const std::string &name, int iterations,
         ->Unit(benchmark::kMillisecond);
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

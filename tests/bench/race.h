@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 /// Runs once what is timed, and returns the seconds that count.
 using Runner = std::function<double()>;
@@ -39,4 +39,4 @@ void race(benchmark::State &state, const Runner &contestant, std::span<const Riv
 void addBenchmark(const std::string &name, int iterations,
                   const std::function<void(benchmark::State &)> &measure);
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

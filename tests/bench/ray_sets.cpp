@@ -8,7 +8,7 @@
 #include <cstring>
 #include <numbers>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -164,4 +164,4 @@ std::size_t countDisagreements(gpu::RayGoal goal, std::span<const layout::HitRec
     return count;
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 enum class RayKind {
     Primary, ///< through all pixels' centres of the image; 8 neighbours in the array cover 4x2 pixels, 64 cover 8x8
@@ -40,4 +40,4 @@ void traceByReference(const PackedScene &scene, gpu::RayGoal goal, std::span<con
 [[nodiscard]] std::size_t countDisagreements(gpu::RayGoal goal, std::span<const layout::HitRecord> ours,
                                              std::span<const layout::HitRecord> theirs);
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -11,7 +11,7 @@
 
 #include <array>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -162,4 +162,4 @@ void registerRays(Context &context) {
     }
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -52,4 +52,4 @@ bool haveEqualPictures(Rendering &rendering, Rendering &reference, benchmark::St
     return areEqual;
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

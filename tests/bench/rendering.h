@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 struct Frame {
     std::string name;
@@ -52,4 +52,4 @@ class Rendering {
 /// Runs both. Where their pictures differ, `state` fails.
 [[nodiscard]] bool haveEqualPictures(Rendering &rendering, Rendering &reference, benchmark::State &state);
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <random>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -150,4 +150,4 @@ void registerSizes(Context &context) {
                 [=, &context](benchmark::State &state) { measureSize(state, context, kind, count); });
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

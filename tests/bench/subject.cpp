@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 // By its index: names of devices may be alike.
 Context::Context(gpu::DeviceInfo device)
@@ -52,4 +52,4 @@ const EmbreeScene &Subject::embree() {
     return *embree_;
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

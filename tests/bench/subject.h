@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 class Subject {
   public:
@@ -57,4 +57,4 @@ class Context {
     std::unique_ptr<Subject> subject_;
 };
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

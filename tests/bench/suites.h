@@ -1,7 +1,7 @@
 // The benchmarks, by what they measure. A name, TABLE/ROW/COLUMN, is the place of its figures (table.h).
 #pragma once
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 class Context;
 
@@ -18,4 +18,4 @@ void registerBuilding(Context &context);   ///< trees, beside Embree's
 void registerReading();                    ///< OBJ files, beside tinyobjloader
 void registerBruteForce(Context &context); ///< the tree against no tree
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

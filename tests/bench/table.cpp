@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::string TableReporter::format(const Table &table) {
     return text + "\n";
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

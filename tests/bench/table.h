@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 /// Shows benchmarks on the console as they finish, and gathers them into tables. A benchmark is called
 /// TABLE/ROW/COLUMN. Its counters make the cell: "ns/ray" alone, or "Mray/s" or else "seconds", "seconds in all", and
@@ -41,4 +41,4 @@ class TableReporter : public benchmark::ConsoleReporter {
     double largestEmbreeDifference_ = 0.0;
 };
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 namespace {
 
@@ -40,4 +40,4 @@ Target targetOf(const std::filesystem::path &manifest) {
     return target;
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 struct Target {
     std::string name;                       ///< of the column
@@ -22,4 +22,4 @@ inline const Target cpuReference{"CPU reference", "cpu"};
 /// Error{BadInput}, and std::runtime_error where the driver does not work.
 [[nodiscard]] Target targetOf(const std::filesystem::path &manifest);
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

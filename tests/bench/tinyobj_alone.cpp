@@ -7,7 +7,7 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 std::size_t countTrianglesByTinyObj(const std::filesystem::path &file) {
     tinyobj::attrib_t attributes;
@@ -23,4 +23,4 @@ std::size_t countTrianglesByTinyObj(const std::filesystem::path &file) {
     return count;
 }
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <filesystem>
 
-namespace hyalite::bench {
+namespace hyalite::core::bench {
 
 /// Reads an OBJ file by tinyobj::LoadObj, polygons cut into triangles. Throws Error{BadInput}.
 [[nodiscard]] std::size_t countTrianglesByTinyObj(const std::filesystem::path &file);
 
-} // namespace hyalite::bench
+} // namespace hyalite::core::bench

@@ -12,7 +12,7 @@
 #include <functional>
 #include <numeric>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::Random;
@@ -368,4 +368,4 @@ TEST(BvhStatistics, SahIsNotWorseThanMidpointOnTypicalMeshes) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

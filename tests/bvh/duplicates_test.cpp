@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <set>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::Random;
@@ -198,4 +198,4 @@ TEST(Duplicates, OfCutOutMaterialsShowOtherPartsOfTheImage) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// A strip of `count` quads, of two triangles each.
@@ -117,4 +117,4 @@ TEST(JoinedTriangles, HaveALeafOfTheirOwnInSoundTreesForAnyNumberOfThreads) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

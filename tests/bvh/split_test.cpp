@@ -7,7 +7,7 @@
 #include <array>
 #include <set>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::Random;
@@ -197,4 +197,4 @@ TEST(Split, SahMakesALeafOnlyWhereItIsCheaperAndAllowed) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

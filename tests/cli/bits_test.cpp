@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 struct Case {
@@ -62,4 +62,4 @@ INSTANTIATE_TEST_SUITE_P(OnTheCpu, Bits, ::testing::ValuesIn(readCases()));
 TEST(BitsCases, AreThere) { EXPECT_GE(readCases().size(), 93u); }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

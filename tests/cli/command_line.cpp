@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 namespace fs = std::filesystem;
 
@@ -166,4 +166,4 @@ int litPixelCount(const Image &image) {
     return count;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

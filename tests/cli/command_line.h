@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Too short for any work, and so the render ends with the least that it can do.
 inline const std::string atOnce = " --time-limit 1e-6";
@@ -67,4 +67,4 @@ class CommandLine : public ::testing::Test {
 /// How many pixels are not black.
 [[nodiscard]] int litPixelCount(const Image &image);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 const std::string smallDark = " -o a.pfm --width 16 --height 16 --spp 1 --device cpu";
@@ -116,4 +116,4 @@ TEST_F(DarkPictures, PixelsThatAreNotFiniteAreCounted) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

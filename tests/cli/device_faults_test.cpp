@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 const std::string smallFaulty = " --width 8 --height 8 --spp 1";
@@ -204,4 +204,4 @@ TEST_F(DeviceFaults, AFailingDispatchIsNamed) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 /// With so much time for each, tiles double: of 32x32, 32x32, 64x32, 64x64 and 128x64 pixels.
@@ -155,4 +155,4 @@ TEST_F(DeviceRecovery, BothRendersOfAComparisonSurvive) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -6,7 +6,7 @@
 #include <regex>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using DevicesCommand = CommandLine;
@@ -78,4 +78,4 @@ TEST_F(DevicesCommand, WhatIsNotExpectedIsAUsageError) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -153,4 +153,4 @@ TEST_F(DiffTest, OutputsAreCheckedBeforeTheWork) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 
 #include <sys/wait.h>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 const std::string small = "render spheres -o a.png --width 16 --height 12 --spp 1";
@@ -110,4 +110,4 @@ TEST_F(EnvironmentFaults, NamesWithControlCharactersStayOnTheirLine) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

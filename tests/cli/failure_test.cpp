@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 const std::string commandLine = "hyalite render 'my scene.json' -o a.png";
@@ -76,4 +76,4 @@ TEST(Failure, RemediesAndOverridesAreNamedByTheirOptions) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <array>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using Place = std::array<double, 3>;
@@ -87,4 +87,4 @@ TEST_F(FarCommand, PartsAndTurntablesAreThoseOfTheNearScene) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

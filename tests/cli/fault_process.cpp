@@ -11,7 +11,7 @@
 #include <dlfcn.h>
 #include <stdlib.h>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 // Mesa's layer that sorts devices makes calls of its own: it stays out.
 const std::map<std::string, std::string> layerEnvironment{{"VK_ADD_LAYER_PATH", HYALITE_FAULT_LAYER_FOLDER},
@@ -107,7 +107,7 @@ int exitCodeOf(const std::string &result) {
     return result == "VK_ERROR_INITIALIZATION_FAILED" ? 4 : 5;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing
 
 // Before there is an instance no layer is asked: these stand in for the loader's own.
 
@@ -115,22 +115,23 @@ VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceLayerProperties(std::uint32_t 
                                                                   VkLayerProperties *layers) {
     const VkResult fault = hyaliteNextFault("vkEnumerateInstanceLayerProperties");
     return fault != VK_SUCCESS ? fault
-                               : hyalite::testing::loadersOwn<PFN_vkEnumerateInstanceLayerProperties>(
+                               : hyalite::core::testing::loadersOwn<PFN_vkEnumerateInstanceLayerProperties>(
                                      "vkEnumerateInstanceLayerProperties")(count, layers);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceExtensionProperties(const char *layer, std::uint32_t *count,
                                                                       VkExtensionProperties *extensions) {
     const VkResult fault = hyaliteNextFault("vkEnumerateInstanceExtensionProperties");
-    return fault != VK_SUCCESS ? fault
-                               : hyalite::testing::loadersOwn<PFN_vkEnumerateInstanceExtensionProperties>(
-                                     "vkEnumerateInstanceExtensionProperties")(layer, count, extensions);
+    return fault != VK_SUCCESS
+               ? fault
+               : hyalite::core::testing::loadersOwn<PFN_vkEnumerateInstanceExtensionProperties>(
+                     "vkEnumerateInstanceExtensionProperties")(layer, count, extensions);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceVersion(std::uint32_t *version) {
     const VkResult fault = hyaliteNextFault("vkEnumerateInstanceVersion");
     return fault != VK_SUCCESS ? fault
-                               : hyalite::testing::loadersOwn<PFN_vkEnumerateInstanceVersion>(
+                               : hyalite::core::testing::loadersOwn<PFN_vkEnumerateInstanceVersion>(
                                      "vkEnumerateInstanceVersion")(version);
 }
 
@@ -139,5 +140,6 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instan
         return hyaliteIsFaked("loader-1.0")
                    ? nullptr
                    : reinterpret_cast<PFN_vkVoidFunction>(vkEnumerateInstanceVersion);
-    return hyalite::testing::loadersOwn<PFN_vkGetInstanceProcAddr>("vkGetInstanceProcAddr")(instance, name);
+    return hyalite::core::testing::loadersOwn<PFN_vkGetInstanceProcAddr>("vkGetInstanceProcAddr")(instance,
+                                                                                                  name);
 }

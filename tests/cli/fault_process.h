@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Environment of a program that runs under the layer: where it is, and that it is wanted.
 extern const std::map<std::string, std::string> layerEnvironment;
@@ -40,4 +40,4 @@ class FaultyDevice : public CommandLine {
 /// "OUT_OF_HOST_MEMORY" is exit code 5, and so on.
 [[nodiscard]] int exitCodeOf(const std::string &result);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

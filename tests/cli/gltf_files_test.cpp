@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class GltfFiles : public CommandLine {
@@ -222,4 +222,4 @@ TEST_F(GltfFiles, OtherFormatsAreKnownByNameAndByContent) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -300,4 +300,4 @@ TEST_F(HostileFiles, FlatPicturesOfUsualSizesAreNoBombs) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -6,7 +6,7 @@
 #include <regex>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class InspectCommand : public CommandLine {
@@ -203,4 +203,4 @@ TEST_F(InspectCommand, WhatCannotBeReadIsBadInput) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -1,7 +1,7 @@
 // Devices that can do less than the one of the machine, by the layer in tests/faults: the same image, or a refusal.
 #include "tests/cli/fault_process.h"
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class LesserDevices : public FaultyDevice {
@@ -140,4 +140,4 @@ TEST_F(LesserDevices, WithoutFloatControlsPassTheStartUpCheck) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

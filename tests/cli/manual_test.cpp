@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class Manual : public CommandLine {
@@ -72,4 +72,4 @@ TEST_F(Manual, BashCompletesCommandsOptionsAndWords) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -13,7 +13,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class ManyRenders : public FaultyDevice {
@@ -79,4 +79,4 @@ TEST_F(ManyRenders, GrowNoMemory) {
 #endif
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

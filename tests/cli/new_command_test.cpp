@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using NewScene = CommandLine;
@@ -54,4 +54,4 @@ TEST_F(NewScene, IsNamedAsScenesAre) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -14,7 +14,7 @@
 #include <map>
 #include <span>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 const std::string smallPicture = " --width 80 --height 56 --spp 3";
@@ -284,4 +284,4 @@ TEST_F(Parts, RefuseWhatIsNotForThem) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

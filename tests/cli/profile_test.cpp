@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class ProfileCommand : public CommandLine {
@@ -289,4 +289,4 @@ TEST_F(ProfileCommand, RefusesWhatMakesNoSense) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

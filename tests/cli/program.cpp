@@ -21,7 +21,7 @@
 
 extern char **environ;
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 namespace {
 
@@ -292,4 +292,4 @@ Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings
     return outcome;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

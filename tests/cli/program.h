@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Where a stream of the program leads.
 enum class Stream {
@@ -54,4 +54,4 @@ std::ostream &operator<<(std::ostream &stream, const Outcome &outcome);
 /// std::runtime_error where no program can be started.
 [[nodiscard]] Outcome runProgram(const std::vector<std::string> &arguments, const Surroundings &surroundings);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(TimeLeft, OfASteadyTaskIsExact) {
@@ -64,4 +64,4 @@ TEST(TimeLeft, IsUnknownWhenWorkStandsStill) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

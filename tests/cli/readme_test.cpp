@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 const std::filesystem::path source = HYALITE_SOURCE_DIR;
@@ -260,4 +260,4 @@ TEST_F(Readme, GivesTheScriptAWordOfItsOwnOrACommand) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using RenderDevice = CommandLine;
@@ -243,4 +243,4 @@ TEST_F(RenderDevice, TheLengthOfDispatchesHasLimits) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class RenderOptions : public CommandLine {
@@ -396,4 +396,4 @@ TEST_F(RenderOptions, AnEnvironmentLightsABareMeshInPlaceOfLights) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -9,7 +9,7 @@
 
 #include <sys/stat.h>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ TEST_F(RenderPartial, IntervalsArePositive) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using RenderRefusals = CommandLine;
@@ -137,4 +137,4 @@ TEST_F(RenderRefusals, AnOptionWithoutItsValueIsAUsageError) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -7,7 +7,7 @@
 #include <regex>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class RenderReport : public CommandLine {
@@ -284,4 +284,4 @@ TEST_F(RenderReport, ProgressOnATerminalIsOneLineWithTheTimeLeft) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -11,7 +11,7 @@
 #include <csignal>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 class RenderStop : public CommandLine {
@@ -184,4 +184,4 @@ TEST_F(RenderStop, TimeLimitsArePositive) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

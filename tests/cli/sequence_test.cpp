@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using SequenceFrames = CommandLine;
@@ -198,4 +198,4 @@ TEST_F(SequenceFrames, HaveNamesAndReasons) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using StandardStreams = CommandLine;
@@ -140,4 +140,4 @@ TEST_F(StandardStreams, WhatTheyCannotDoIsRefused) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

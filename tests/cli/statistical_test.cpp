@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using Statistical = CommandLine;
@@ -73,4 +73,4 @@ TEST_F(Statistical, WhatCannotBeTestedIsRefused) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

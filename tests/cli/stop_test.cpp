@@ -11,7 +11,7 @@
 
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 void waitForTheEcho() {
@@ -120,4 +120,4 @@ TEST(StopDeathTest, AMessageThatNobodyReadsLosesNothing) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

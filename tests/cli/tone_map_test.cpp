@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using ToneMapping = CommandLine;
@@ -62,4 +62,4 @@ TEST_F(ToneMapping, WhatCannotBeMappedIsRefused) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,4 +124,4 @@ TEST_F(Tuning, RefusesWhatMakesNoSense) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using Usage = CommandLine;
@@ -136,4 +136,4 @@ TEST_F(Usage, ErrorsSayWhoSpeaks) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using Warnings = CommandLine;
@@ -80,4 +80,4 @@ TEST_F(Warnings, SpeakOfMeshesOfGlass) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 std::vector<std::string> splitWords(std::string_view line) {
     std::vector<std::string> words;
@@ -47,4 +47,4 @@ std::vector<std::string> splitWords(std::string_view line) {
     return words;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

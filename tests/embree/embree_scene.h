@@ -16,7 +16,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 class EmbreeScene {
   public:
@@ -102,4 +102,4 @@ class EmbreeScene {
     RTCScene scene_ = nullptr;
 };
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

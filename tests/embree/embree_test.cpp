@@ -18,7 +18,7 @@
 #include <atomic>
 #include <cstdio>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using glm::dvec3;
@@ -460,4 +460,4 @@ TEST(Embree, AgreesOnLongThinTriangles) {
 TEST(Embree, AgreesOnNeedles) { expectAgreement(Subject("needles", testing::needles(20000), TreeKind::Sah)); }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 using Real = long double;
 using Vector = glm::vec<3, Real>;
@@ -122,4 +122,4 @@ inline ExactIntersection intersectExactly(const Corners &corners, const glm::vec
     return intersection;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

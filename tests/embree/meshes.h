@@ -11,7 +11,7 @@
 #include <random>
 #include <utility>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Closed; 2 * around * across triangles; the radii are 1 and 0.375.
 inline TriangleMesh torus(int around, int across, const glm::dvec3 &centre) {
@@ -107,4 +107,4 @@ inline TriangleMesh needles(int count) {
     return mesh;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 PreparedScene prepare(const std::string &name, int side, int samplesPerPixel, Observer &observer = nobody()) {
@@ -131,4 +131,4 @@ TEST(Engine, StopsFromAnotherThreadWithWhatIsFinished) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

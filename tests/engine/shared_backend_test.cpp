@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// How a member fails.
@@ -270,4 +270,4 @@ TEST_F(SharedBackends, TellProgressThatNeverFalls) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

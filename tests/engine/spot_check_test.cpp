@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(SpotCheck, StaysInsideTheCrop) {
@@ -33,4 +33,4 @@ TEST(SpotCheck, LooksAtFourPlacesOfALargePicture) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 std::uint64_t areaOf(const Crop &crop) {
@@ -97,4 +97,4 @@ TEST(TilePixels, AreAShareOfTheRestWithinBounds) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// What all ranks of a test share.
@@ -143,4 +143,4 @@ TEST_F(RankBackends, AreLetGoBeforeAnythingIsRendered) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

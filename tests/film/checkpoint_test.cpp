@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -285,4 +285,4 @@ TEST_F(CheckpointTest, ALinkKeepsBothGenerationsBesideTheFileItself) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 layout::FilmPixel pixelOf(std::initializer_list<float> samples) {
@@ -94,4 +94,4 @@ TEST(Film, ThereIsNoVarianceOfSingleSamples) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

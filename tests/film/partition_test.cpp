@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// How often each pixel of the crop is in a part.
@@ -87,4 +87,4 @@ TEST(Partition, PixelsComeBackToTheirPlaces) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

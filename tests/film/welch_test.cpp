@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using Draw = std::function<float(std::mt19937 &)>;
@@ -157,4 +157,4 @@ TEST(ZTest, NotANumberOnOneSideFails) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 namespace {
 
 constexpr std::size_t magicBytes = 19;
@@ -67,4 +67,4 @@ void readAlsoRepaired(std::string_view content, void (*read)(const TemporaryFold
     read(folder, repaired(content));
 }
 
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz

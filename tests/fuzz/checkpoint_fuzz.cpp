@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 namespace {
 
 // Of the seeds in corpus/checkpoint.
@@ -36,10 +36,10 @@ void read(const TemporaryFolder &folder, std::string_view content) {
 }
 
 } // namespace
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
-    using namespace hyalite::fuzz;
+    using namespace hyalite::core::fuzz;
     readAlsoRepaired(textOf(data, sizeBytes), read);
     return 0;
 }

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 namespace {
 
 void readOne(const std::filesystem::path &path, const std::string &layer, std::size_t sizeBytes) {
@@ -30,9 +30,9 @@ void run(std::string_view content) {
 }
 
 } // namespace
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
-    hyalite::fuzz::run(hyalite::fuzz::textOf(data, sizeBytes));
+    hyalite::core::fuzz::run(hyalite::core::fuzz::textOf(data, sizeBytes));
     return 0;
 }

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 
 void require(bool holds, std::string_view message) {
     if (holds)
@@ -55,4 +55,4 @@ std::filesystem::path TemporaryFolder::write(const std::string &name, std::strin
     return path_ / name;
 }
 
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz

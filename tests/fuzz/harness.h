@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 
 /// Ends the process with `message` unless `holds`: the input is a find.
 void require(bool holds, std::string_view message);
@@ -43,4 +43,4 @@ class TemporaryFolder {
     return {reinterpret_cast<const char *>(data), sizeBytes};
 }
 
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 namespace {
 
 std::optional<Image> readBounded(const std::filesystem::path &path, std::size_t sizeBytes) {
@@ -43,9 +43,9 @@ void run(std::string_view content) {
 }
 
 } // namespace
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
-    hyalite::fuzz::run(hyalite::fuzz::textOf(data, sizeBytes));
+    hyalite::core::fuzz::run(hyalite::core::fuzz::textOf(data, sizeBytes));
     return 0;
 }

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 
 namespace {
 
@@ -41,4 +41,4 @@ HeapPeak::~HeapPeak() { isMeasuring = false; }
 
 std::size_t HeapPeak::bytes() const { return static_cast<std::size_t>(peakBytes); }
 
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz

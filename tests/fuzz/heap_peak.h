@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 
 /// Starts a measurement: the most bytes that are allocated at once from now on, beyond what is allocated now. Only
 /// one at a time, and while no other thread runs.
@@ -17,4 +17,4 @@ class HeapPeak {
     [[nodiscard]] std::size_t bytes() const;
 };
 
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz

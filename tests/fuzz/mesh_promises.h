@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <string>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 
 /// The reader promises 64 MiB + 64 times the file's size. So that a small file can break the promise at all, less is
 /// allowed here: what is taken for any file is far below.
@@ -51,4 +51,4 @@ inline void requireSound(const TriangleMesh &mesh) {
     }
 }
 
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 namespace {
 
 bool isFraction(const glm::vec3 &colour) {
@@ -51,9 +51,9 @@ void run(std::string_view text) {
 }
 
 } // namespace
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
-    hyalite::fuzz::run(hyalite::fuzz::textOf(data, sizeBytes));
+    hyalite::core::fuzz::run(hyalite::core::fuzz::textOf(data, sizeBytes));
     return 0;
 }

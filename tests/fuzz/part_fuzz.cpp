@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 namespace {
 
 // A picture takes memory, and may, where its parts are small.
@@ -52,10 +52,10 @@ void read(const TemporaryFolder &folder, std::string_view content) {
 }
 
 } // namespace
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
-    using namespace hyalite::fuzz;
+    using namespace hyalite::core::fuzz;
     readAlsoRepaired(textOf(data, sizeBytes), read);
     return 0;
 }

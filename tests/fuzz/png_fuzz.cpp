@@ -10,7 +10,7 @@
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t *data, std::size_t sizeBytes, std::size_t maxBytes);
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 namespace {
 
 /// CRC-32 of ISO 3309, bit by bit.
@@ -59,10 +59,10 @@ void run(std::string_view content) {
 }
 
 } // namespace
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
-    hyalite::fuzz::run(hyalite::fuzz::textOf(data, sizeBytes));
+    hyalite::core::fuzz::run(hyalite::core::fuzz::textOf(data, sizeBytes));
     return 0;
 }
 
@@ -70,6 +70,6 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t s
                                                std::size_t maxBytes, unsigned int seed) {
     const std::size_t mutatedBytes = LLVMFuzzerMutate(data, sizeBytes, maxBytes);
     if (seed % 16 != 0)
-        hyalite::fuzz::repairChecksums({data, mutatedBytes});
+        hyalite::core::fuzz::repairChecksums({data, mutatedBytes});
     return mutatedBytes;
 }

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace hyalite::fuzz {
+namespace hyalite::core::fuzz {
 namespace {
 
 void run(std::string_view text) {
@@ -16,9 +16,9 @@ void run(std::string_view text) {
 }
 
 } // namespace
-} // namespace hyalite::fuzz
+} // namespace hyalite::core::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t sizeBytes) {
-    hyalite::fuzz::run(hyalite::fuzz::textOf(data, sizeBytes));
+    hyalite::core::fuzz::run(hyalite::core::fuzz::textOf(data, sizeBytes));
     return 0;
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 namespace {
 
 constexpr std::uint64_t fullTile = 256 * 256;
@@ -127,4 +127,4 @@ TEST(DispatchSizer, AlwaysGivesWorkAndASample) {
 }
 
 } // namespace
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

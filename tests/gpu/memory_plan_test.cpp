@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 namespace {
 
 DeviceInfo device() {
@@ -201,4 +201,4 @@ TEST(MemoryPlan, ADeviceOfSoftwareTakesTheHostsMemory) {
 }
 
 } // namespace
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 namespace {
 
 constexpr std::uint64_t allBits = std::numeric_limits<std::uint64_t>::max();
@@ -71,4 +71,4 @@ TEST(MemoryClaim, CountsWhileItLives) {
 }
 
 } // namespace
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

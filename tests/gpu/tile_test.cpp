@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 namespace {
 
 TEST(Tile, IsHalvedAcrossItsLongerSideIntoWholeBlocks) {
@@ -36,4 +36,4 @@ TEST(Tile, HalvesOfHalvesCoverAllBlocksOnce) {
 }
 
 } // namespace
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 namespace {
 
 TEST(UnfinishedBlocks, AreCountedInAnyTile) {
@@ -46,4 +46,4 @@ TEST(UnfinishedBlocks, AreAllOfAFilmThatIsNotBegun) {
 }
 
 } // namespace
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,4 +47,4 @@ TEST(FolderTables, NameEachFile) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 const std::filesystem::path source = HYALITE_SOURCE_DIR;
@@ -68,4 +68,4 @@ TEST(Includes, TheProgramKnowsNothingOfTests) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

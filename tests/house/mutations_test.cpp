@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 std::string trimmed(const std::string &text) {
@@ -45,4 +45,4 @@ TEST(Mutations, CanBePlanted) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

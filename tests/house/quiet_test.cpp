@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ TEST(BelowCommands, NothingChangesEnvironmentOrAllocator) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 [[nodiscard]] inline std::string textOf(const std::filesystem::path &file) {
     std::ifstream stream(file);
@@ -15,4 +15,4 @@ namespace hyalite::testing {
     return text.str();
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

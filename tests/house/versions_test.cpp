@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 TEST(Versions, InTheGuideAreThoseOfFiles) {
@@ -32,4 +32,4 @@ TEST(Versions, InTheGuideAreThoseOfFiles) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

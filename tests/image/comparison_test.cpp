@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(Comparison, HoldsWhatTheMetricsSay) {
@@ -76,4 +76,4 @@ TEST(Comparison, JsonHasNullForWhatIsNotAvailable) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

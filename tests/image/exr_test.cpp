@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using Exr = testing::PictureFiles;
@@ -367,4 +367,4 @@ TEST_F(Exr, AFullDiskIsReportedByTheWriter) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
@@ -90,4 +90,4 @@ TEST(DrawText, StaysInItsBoxAndScales) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -217,4 +217,4 @@ TEST(Flip, TheSummaryPoolsTheComparedPixels) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

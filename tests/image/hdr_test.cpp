@@ -16,7 +16,7 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using Hdr = testing::PictureFiles;
@@ -195,4 +195,4 @@ TEST_F(Hdr, BytesAreThoseOfTheFormat) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(HeatMap, IsNearTheOriginalTable) {
@@ -46,4 +46,4 @@ TEST(HeatMap, HasThreeBytesAPixel) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

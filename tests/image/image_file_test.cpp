@@ -20,7 +20,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -437,4 +437,4 @@ TEST_F(ImageFileTest, AFailingOutputIsReportedByTheWriter) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

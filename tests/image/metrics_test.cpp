@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -116,4 +116,4 @@ TEST(Metrics, AgreeWithScikitImage) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// The definition, window by window, with two-dimensional weights and central moments.
@@ -116,4 +116,4 @@ TEST(Ssim, PixelsOutsideTheMaskDoNotCount) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -15,7 +15,7 @@
 
 #include <jpeglib.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// A JPEG of the best quality, whose channels `at` gives; `tune` may change how it is written.
@@ -230,4 +230,4 @@ TEST_F(TextureFile, ALibraryReadsEachFileOnce) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

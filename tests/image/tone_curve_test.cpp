@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr ToneCurve allCurves[] = {ToneCurve::Gamma, ToneCurve::Srgb, ToneCurve::Aces, ToneCurve::Agx};
@@ -130,4 +130,4 @@ TEST(ToneCurve, FilmicCurvesTakeBrightColoursToWhite) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -110,4 +110,4 @@ TEST(ToneMap, RowsAreInOrderFromTheTopLeft) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

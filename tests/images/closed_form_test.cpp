@@ -17,7 +17,7 @@
 #include <random>
 #include <set>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using glm::dvec2;
@@ -720,4 +720,4 @@ TEST(Silhouette, OfABoxIsThreeSlabs) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

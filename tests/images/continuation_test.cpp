@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -145,4 +145,4 @@ TEST_F(Continuations, OfTheOracleAreTakenBetweenPixels) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

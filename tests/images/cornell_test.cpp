@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::Estimate;
@@ -54,4 +54,4 @@ TEST(CornellBox, HasItForEachNumberOfSegments) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

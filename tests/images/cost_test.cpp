@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TestScene costOf(const std::string &name, int samplesPerPixel) {
@@ -88,4 +88,4 @@ TEST(Cost, IsNotThatOfASkipList) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// The first divergence of any sample of the first pixel that differs.
@@ -99,4 +99,4 @@ TEST(Trace, OfBothTwinsIsEqual) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 
 #include <array>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -213,4 +213,4 @@ TEST(GltfTwins, DoNotDependOnTheTree) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

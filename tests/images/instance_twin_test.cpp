@@ -9,7 +9,7 @@
 
 #include <array>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -177,4 +177,4 @@ TEST(InstanceTwins, AgreeOnTheWorkOfAStack) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -78,4 +78,4 @@ TEST(LightTreeTwins, AgreeForManyLightsByWhitted) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

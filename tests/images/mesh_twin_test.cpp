@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -183,4 +183,4 @@ TEST(UglyMeshTwins, AgreeAtTheEndsOfTheRangeOfCoordinates) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
@@ -82,4 +82,4 @@ TEST(OptimisedKernel, OfTheSkipListComputesTheSameBits) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <array>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -93,4 +93,4 @@ INSTANTIATE_TEST_SUITE_P(Of, PathRegeneration, ::testing::Range<std::size_t>(0, 
                          [](const auto &row) { return std::string(scenes.at(row.param)); });
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

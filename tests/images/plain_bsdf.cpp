@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 namespace {
 
@@ -286,4 +286,4 @@ std::optional<Vec> Bsdf::sample(const Vec &view, Generator &generator) const {
     return light.z < 0.0 ? std::optional(light) : std::nullopt;
 }
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

@@ -17,7 +17,7 @@
 
 #include <optional>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 /// All directions are unit vectors that lead away from the point, in the frame whose z is the normal on the side of the
 /// viewer: view.z > 0.
@@ -76,4 +76,4 @@ class Bsdf {
     double thinChance_ = 0.0;
 };
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -351,4 +351,4 @@ TEST(PlainPathTracer, IsAFurnace) {
 }
 
 } // namespace
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 namespace {
 
@@ -66,4 +66,4 @@ Vec2 randomOffset(FilterKind filter, Generator &generator) {
     return {draw(), draw()};
 }
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

@@ -4,7 +4,7 @@
 #include "host/scene/settings.h"
 #include "tests/images/plain_geometry.h"
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 struct Ray {
     Vec origin;
@@ -17,4 +17,4 @@ struct Ray {
 /// An offset from the middle of a pixel, in pixels, distributed as the filter is high.
 [[nodiscard]] Vec2 randomOffset(FilterKind filter, Generator &generator);
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 struct View {
@@ -125,4 +125,4 @@ TEST(PlainFilter, SpreadsTheSame) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 namespace {
 
@@ -79,4 +79,4 @@ void expectPlainRadiance(const TestScene &scene, const Comparison &comparison) {
     expectEqualMeans("cpu", renderOnCpu(scene).film, scene, comparison, plain);
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

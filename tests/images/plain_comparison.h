@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Columns [x0, x1) and rows [y0, y1).
 struct Region {
@@ -43,4 +43,4 @@ void expectPlainRadiance(const char *renderer, const Film &film, const TestScene
 /// tested.
 void expectPlainRadiance(const TestScene &scene, const Comparison &comparison);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 namespace {
 
@@ -168,4 +168,4 @@ Vec Frame::toLocal(const Vec &v) const { return {glm::dot(v, x_), glm::dot(v, y_
 
 Vec Frame::toWorld(const Vec &v) const { return v.x * x_ + v.y * y_ + v.z * z_; }
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 using Vec = glm::dvec3;
 using Vec2 = glm::dvec2;
@@ -85,4 +85,4 @@ class Frame {
     Vec z_;
 };
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

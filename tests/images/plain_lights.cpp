@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 namespace {
 
@@ -79,4 +79,4 @@ Emitters::Choice Emitters::choose(Generator &generator) const {
     return {shape, shape->randomPoint(generator)};
 }
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 /// What a light without size sends to a point.
 struct Arrival {
@@ -38,4 +38,4 @@ class Emitters {
     std::vector<double> ends_;
 };
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

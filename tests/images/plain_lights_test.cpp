@@ -9,7 +9,7 @@
 #include <string>
 #include <tuple>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::Comparison;
@@ -166,4 +166,4 @@ TEST(PlainLights, PassRoughGlassFromInside) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::Comparison;
@@ -176,4 +176,4 @@ TEST(PlainFurnaces, AreAsBright) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

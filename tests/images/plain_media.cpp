@@ -3,7 +3,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 Media::Media(const Scene &scene) : scene_(&scene), counts_(scene.materials.size(), 0) {
     for (const Sphere &sphere : scene.spheres)
@@ -41,4 +41,4 @@ Crossing crossing(const Media &around, std::uint32_t materialIndex, bool isEnter
     return result;
 }
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 /// How many surfaces of each material of glass a path has entered and not left.
 class Media {
@@ -47,4 +47,4 @@ struct Crossing {
 /// Leaving glass that was not entered changes nothing.
 [[nodiscard]] Crossing crossing(const Media &around, std::uint32_t materialIndex, bool isEntering);
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

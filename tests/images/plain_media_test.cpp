@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::addBall;
@@ -168,4 +168,4 @@ TEST(PlainLongPaths, AreTheSame) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <utility>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 namespace {
 
@@ -294,4 +294,4 @@ double sheenEnergy(double cosine, double roughness) {
     return glm::mix(table[cell], table[cell + 1], place - static_cast<double>(cell));
 }
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

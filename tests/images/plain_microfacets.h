@@ -4,7 +4,7 @@
 
 #include "tests/images/plain_geometry.h"
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 /// Fresnel's equations for unpolarised light between two dielectrics; `indexRatio` is the refractive index on the side
 /// of the light divided by the one beyond. Born and Wolf, "Principles of Optics", section 1.5.2.
@@ -70,4 +70,4 @@ struct Energy {
 /// The quadrature itself.
 [[nodiscard]] double integrateGlassEnergy(double cosine, double alpha, double indexRatio, int steps);
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

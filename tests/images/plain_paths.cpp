@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 namespace {
 
@@ -276,4 +276,4 @@ Estimate estimatePlainly(const TestScene &scene, int x0, int x1, int y0, int y1,
     return estimate;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 struct Estimate {
     glm::dvec3 mean{0.0};
@@ -32,4 +32,4 @@ enum class Search {
 [[nodiscard]] Estimate estimatePlainly(const TestScene &scene, int x0, int x1, int y0, int y1, int pathCount,
                                        std::uint64_t seed, Search search = Search::ByAiming);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

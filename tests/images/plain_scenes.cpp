@@ -1,7 +1,7 @@
 #include "tests/images/plain_scenes.h"
 #include "tests/fixtures/test_scene.h"
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 TestScene emptyScene(int maxDepth, int samplesPerPixel) {
     TestScene scene;
@@ -85,4 +85,4 @@ void wear(Scene &scene, Material &material, std::uint32_t slot, const Texture &t
     scene.textures.push_back(texture);
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

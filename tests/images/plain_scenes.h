@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// For the path integrator, with nothing in it, seen along -z from (0, 0, 4): a 16 x 16 image.
 [[nodiscard]] TestScene emptyScene(int maxDepth, int samplesPerPixel = 512);
@@ -37,4 +37,4 @@ TriangleMesh &addQuad(Scene &scene, const glm::vec3 &corner, const glm::vec3 &u,
 void wear(Scene &scene, Material &material, std::uint32_t slot, const Texture &texture,
           glm::vec2 scale = glm::vec2(1.0f), glm::vec2 offset = glm::vec2(0.0f));
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

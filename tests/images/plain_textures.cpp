@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 namespace {
 
@@ -126,4 +126,4 @@ void Substances::bendNormal(std::uint32_t materialIndex, const Vec &direction, S
     point.normal = side * visibleNormal(-direction, side * mapped, side * point.geometricNormal);
 }
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

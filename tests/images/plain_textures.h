@@ -3,7 +3,7 @@
 
 #include "tests/images/plain_geometry.h"
 
-namespace hyalite::testing::plain {
+namespace hyalite::core::testing::plain {
 
 /// A material at one point.
 struct Substance {
@@ -36,4 +36,4 @@ class Substances {
     std::vector<Vec> averageReflectances_; ///< of each material
 };
 
-} // namespace hyalite::testing::plain
+} // namespace hyalite::core::testing::plain

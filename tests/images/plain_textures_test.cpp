@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::Comparison;
@@ -206,4 +206,4 @@ TEST(PlainTextures, BlendTheSame) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::size_t differingPixels(const Film &a, const Film &b) {
     return count;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

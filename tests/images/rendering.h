@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// A shipped scene by its name, at another size and sample count.
 [[nodiscard]] TestScene shippedScene(const std::string &name, int width, int height, int samplesPerPixel);
@@ -49,4 +49,4 @@ namespace hyalite::testing {
 /// How many film pixels differ in any bit of their sums or in their counts.
 [[nodiscard]] std::size_t differingPixels(const Film &a, const Film &b);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

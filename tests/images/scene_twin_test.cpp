@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -508,4 +508,4 @@ TEST(Crop, IsThatPartOfTheWholeImage) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

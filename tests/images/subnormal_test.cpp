@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 void expectNoChange(const TestScene &scene, const std::string &name) {
@@ -37,4 +37,4 @@ TEST(Subnormals, ChangeNoBitOfFaintLight) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

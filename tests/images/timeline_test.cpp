@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 struct Recorded {
@@ -149,4 +149,4 @@ TEST(Timeline, StagesFollowEachOtherAndFillTheFrame) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::texturedQuad;
@@ -287,4 +287,4 @@ TEST(SecondCoordinates, AreThoseOfTexturesThatAskForThem) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

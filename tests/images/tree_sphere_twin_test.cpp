@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -99,4 +99,4 @@ TEST(TreeSphereTwins, AgreeWithFewSpheresByTheOtherWay) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::differingPixels;
@@ -63,4 +63,4 @@ TEST_F(WarmRenderer, UploadsASceneOnce) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

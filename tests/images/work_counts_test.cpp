@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 WorkCounts countOnCpu(const TestScene &scene) {
@@ -93,4 +93,4 @@ TEST(WorkCounts, ChangeNoPixel) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

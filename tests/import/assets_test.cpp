@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 const std::filesystem::path sourceDir = HYALITE_SOURCE_DIR;
@@ -252,4 +252,4 @@ TEST_F(Assets, TheCatStandsInTheRoomOfTheSpheres) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

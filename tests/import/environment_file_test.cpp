@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -93,4 +93,4 @@ TEST_F(EnvironmentFile, GivesInfiniteNumbersTheLargestFiniteOne) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using nlohmann::json;
@@ -261,4 +261,4 @@ TEST_F(Far, AnimationsDoNotMoveTheOrigin) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class GltfCompression : public GltfFolder {};
@@ -138,4 +138,4 @@ TEST_F(GltfCompression, MeshoptViewsThatAreDamagedAreRefused) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class GltfMalformed : public GltfFolder {
@@ -174,4 +174,4 @@ TEST_F(GltfMalformed, SmallFilesThatTakeMuchMemoryAreRefused) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

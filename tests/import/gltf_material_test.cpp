@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class GltfMaterial : public GltfFolder {
@@ -268,4 +268,4 @@ TEST_F(GltfMaterial, BadImagesAreLeftOutWithAWarning) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class GltfMesh : public GltfFolder {};
@@ -226,4 +226,4 @@ TEST_F(GltfMesh, OfTheChosenSceneAlone) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

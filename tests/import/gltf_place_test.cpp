@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class GltfPlace : public GltfFolder {
@@ -88,4 +88,4 @@ TEST_F(GltfPlace, FindsItsBuffersBesideItself) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class GltfTolerance : public GltfFolder {
@@ -222,4 +222,4 @@ TEST_F(GltfTolerance, AShapeThatNoImageHasIsPassedOver) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

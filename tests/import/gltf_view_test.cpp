@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class GltfView : public GltfFolder {};
@@ -254,4 +254,4 @@ TEST_F(GltfView, SkinsMoveVerticesWithTheirJoints) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 struct Key {
@@ -169,4 +169,4 @@ TEST_F(LossesOfFormats, OfGltfAreTold) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

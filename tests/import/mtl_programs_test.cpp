@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 struct Look {
@@ -125,4 +125,4 @@ TEST(MtlOfPrograms, AreThoseOfTheDocument) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 
 #include <chrono>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class Mtl : public SceneFolder {
@@ -458,4 +458,4 @@ TEST_F(Mtl, LibrariesThatAreNotThereOrOutOfReachAreTold) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 // A file name that no other test process uses; the file goes with the object.
@@ -611,4 +611,4 @@ TEST(Obj, TheMeshIsNamedAfterItsFile) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

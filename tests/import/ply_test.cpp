@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// The bytes of a value in either order.
@@ -414,4 +414,4 @@ TEST_F(Ply, ScenesPlaceIt) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

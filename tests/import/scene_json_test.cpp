@@ -9,7 +9,7 @@
 #include <ostream>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using nlohmann::json;
@@ -545,4 +545,4 @@ TEST_F(SceneJson, HasNoComments) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using nlohmann::json;
@@ -273,4 +273,4 @@ TEST_F(SceneSchema, TheDefaultsOfTheSchemaAreThoseOfTheScene) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using Triangle = std::array<std::array<float, 3>, 3>;
@@ -190,4 +190,4 @@ TEST_F(Stl, MayBeBareOrPlacedByAScene) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

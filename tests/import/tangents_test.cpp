@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 struct Surface {
@@ -128,4 +128,4 @@ TEST(Tangents, DoNotTakeSquareTimeWhereManyTrianglesShareAnEdge) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 const std::string fileName = "scene.json";
@@ -83,4 +83,4 @@ INSTANTIATE_TEST_SUITE_P(
                       WrongTransform{R"([{"translate": [0, 1e16, 0]}])", "/here/0/translate/1", "1e+15"}));
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using Polygon = std::vector<glm::vec3>;
@@ -244,4 +244,4 @@ TEST(Triangulate, GivesTheSameAnswerWhateverItDidBefore) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

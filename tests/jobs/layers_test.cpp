@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 ViewFilm filmOf(Integrator view, const glm::vec3 &sum, std::uint32_t sampleCount) {
@@ -41,4 +41,4 @@ TEST(Layers, NormalsAreSigned) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The kernels of the tests alone, in the order of tests/CMakeLists.txt.
 [[nodiscard]] std::span<const EmbeddedKernel> testKernels();
@@ -30,4 +30,4 @@ namespace testing {
 }
 
 } // namespace testing
-} // namespace hyalite
+} // namespace hyalite::core

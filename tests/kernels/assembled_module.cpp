@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <map>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::string storesOf(const Words &words) {
     return stores;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 using Words = std::vector<std::uint32_t>;
 
@@ -24,4 +24,4 @@ using Words = std::vector<std::uint32_t>;
 /// that operand.
 [[nodiscard]] std::string storesOf(const Words &words);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

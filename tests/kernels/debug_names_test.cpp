@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(DebugNames, StandInMessagesOfTheValidationLayer) {
@@ -28,4 +28,4 @@ TEST(DebugNames, StandInMessagesOfTheValidationLayer) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
@@ -149,4 +149,4 @@ INSTANTIATE_TEST_SUITE_P(
                       OperationCase{"instruction 13 of GLSL.std.450", "OpExtInst %float %glsl Sin %s"}));
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using gpu::Arithmetic;
@@ -249,4 +249,4 @@ TEST(HardInputs, LieNearTheMiddle) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 std::uint32_t Draw::word() {
     const std::uint32_t bits = next();
@@ -60,4 +60,4 @@ glm::vec3 Draw::towards(const glm::vec3 &origin, const glm::vec3 &target) {
     return v == glm::vec3(0.0f) ? direction() : reference::unitVector(v);
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <random>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 class Draw {
   public:
@@ -36,4 +36,4 @@ class Draw {
     std::mt19937 generator_{seed}; // the same numbers on every machine, unlike the distributions
 };
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

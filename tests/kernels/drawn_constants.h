@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// What the host may set a constant to, with values that are rare among them.
 [[nodiscard]] inline std::vector<std::uint32_t> valuesOf(std::uint32_t id) {
@@ -47,4 +47,4 @@ namespace hyalite::testing {
     return constants;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

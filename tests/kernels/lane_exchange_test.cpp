@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 constexpr std::size_t invocations = 64;
@@ -63,4 +63,4 @@ TEST(LaneExchange, ByBroadcastsIsTheSame) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using layout::uint;
@@ -129,4 +129,4 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

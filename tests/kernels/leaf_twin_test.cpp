@@ -12,7 +12,7 @@
 #include <ostream>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using glm::uvec2;
@@ -910,4 +910,4 @@ INSTANTIATE_TEST_SUITE_P(All, LeafTwins, ::testing::ValuesIn(leafTwins),
                          [](const auto &instance) { return std::string(instance.param.name); });
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

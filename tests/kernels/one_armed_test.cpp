@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 /// Selections whose branch goes to two blocks other than the merge block.
@@ -188,4 +188,4 @@ TEST(OneArmed, DoesTheSameInEachCase) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

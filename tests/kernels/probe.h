@@ -5,7 +5,7 @@
 #ifdef __cplusplus
 #include "shaders/layout/buffers.h"
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 using layout::bindingCount;
 using layout::constantCount;
 using layout::uint;
@@ -79,6 +79,6 @@ const uint constantOutputWords = constantCount + 2u;
 const uint probeConstantCount = constantCount + 3u;
 
 #ifdef __cplusplus
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing
 #endif
 #endif

@@ -10,7 +10,7 @@
 #include <array>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 namespace {
 
@@ -131,4 +131,4 @@ void expectTwin(std::uint32_t function, const TwinCall &call, const ProbeScene &
     }
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// lavapipe, opened once, with vectors as wide as the processor's.
 [[nodiscard]] gpu::Device &probeDevice();
@@ -56,4 +56,4 @@ using TwinCall = std::function<void(Draw &draw, Words &input, Words &expected)>;
 /// where renders may use them, with the device's own.
 void expectTwin(std::uint32_t function, const TwinCall &call, const ProbeScene &scene = {});
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -13,7 +13,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 /// The module with the ids that SPIRV-Tools gives it, in the order of their first mention.
@@ -68,4 +68,4 @@ TEST(Renumber, RefusesWhatItDoesNotKnow) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

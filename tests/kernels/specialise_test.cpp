@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 // ---- Our kernels
@@ -394,4 +394,4 @@ TEST(Specialise, DropsNamesAndDecorationsOfWhatIsGone) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -1,6 +1,6 @@
 #include "tests/kernels/spirv_module.h"
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 namespace {
 
@@ -39,4 +39,4 @@ SpirvModule::SpirvModule(std::span<const std::uint32_t> words) {
     }
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

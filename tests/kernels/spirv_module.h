@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 struct Instruction {
     spv::Op opcode;
@@ -27,4 +27,4 @@ struct SpirvModule {
     std::set<std::uint32_t> uncontracted; ///< results decorated NoContraction
 };
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 /// Whether the kernel's functions are as they were written: others are optimised, and all of it is in `main`.
@@ -165,4 +165,4 @@ TEST(FloatControls, LeaveTheRestAsItIs) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using gpu::Arithmetic;
@@ -119,4 +119,4 @@ TEST(StartupCheck, FindsConsecutiveLanes) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -16,7 +16,7 @@
 #include <set>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 /// What a result depends on.
@@ -179,4 +179,4 @@ TEST(UniformBranches, AreFoundWhereTheyAre) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// The words of one input or output, in the order in which the probe kernel takes or gives them.
 class Words {
@@ -44,4 +44,4 @@ class Words {
     return expected.bits == bits || (expected.isFloat && isNan(expected.bits) && isNan(bits));
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

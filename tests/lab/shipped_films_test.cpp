@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 class Shipped : public ::testing::Test {
@@ -144,4 +144,4 @@ TEST(FilmHash, IsOfAllThatAFilmHolds) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

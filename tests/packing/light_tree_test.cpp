@@ -7,11 +7,11 @@
 
 #include <cmath>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
 
 /// Lights of every kind around the origin, and a sky.
 Scene manyLights(std::uint64_t seed, int count) {
@@ -34,7 +34,8 @@ Scene manyLights(std::uint64_t seed, int count) {
         scene.lights.push_back(light);
     }
     scene.lights.push_back({{}, glm::dvec3(1.0), LightKind::Directional});
-    TriangleMesh soup = hyalite::testing::triangleSoup(random, static_cast<std::size_t>(count), 8.0, 0.5);
+    TriangleMesh soup =
+        hyalite::core::testing::triangleSoup(random, static_cast<std::size_t>(count), 8.0, 0.5);
     for (std::size_t i = 0; i < soup.triangles.size(); ++i)
         soup.triangleMaterials.push_back(lamp());
     scene.meshes.push_back(soup);
@@ -172,4 +173,4 @@ TEST(LightTree, PassesOverNothingThatLights) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

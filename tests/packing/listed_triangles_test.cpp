@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 layout::TriangleRecord triangle(glm::vec3 v0, glm::vec3 v1, glm::vec3 v2) {
@@ -88,4 +88,4 @@ TEST(ListedTriangles, MayBeAsManyAsBitsOfAWord) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

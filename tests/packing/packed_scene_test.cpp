@@ -7,7 +7,7 @@
 #include <optional>
 #include <tuple>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::packed;
@@ -288,9 +288,9 @@ TEST(Emitters, AreChosenByPowerInTheOrderOfTheInput) {
     scene.spheres.push_back({{0, 0, 0}, 1.0, 0, false}); // dark
     scene.spheres.push_back({{0, 0, 0}, 1.0, 1, false}); // pi * 2 * 4 pi
     scene.meshes.emplace_back();
-    hyalite::testing::addTriangle(scene.meshes[0], {0, 0, 0}, {4, 0, 0},
-                                  {0, 2, 0}); // pi * 1 * 4 on each side
-    hyalite::testing::addTriangle(scene.meshes[0], {0, 0, 0}, {1, 0, 0}, {2, 0, 0}); // without area
+    hyalite::core::testing::addTriangle(scene.meshes[0], {0, 0, 0}, {4, 0, 0},
+                                        {0, 2, 0}); // pi * 1 * 4 on each side
+    hyalite::core::testing::addTriangle(scene.meshes[0], {0, 0, 0}, {1, 0, 0}, {2, 0, 0}); // without area
     scene.meshes[0].materialIndex = 2;
     const PackedScene result = packed(scene, TreeKind::Sah, 1);
     const double total =
@@ -417,4 +417,4 @@ TEST(Camera, TopLeftIsUpAndLeft) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// The window as it is tabled, not integrated; `x` in pixels from its middle.
@@ -96,4 +96,4 @@ TEST(PixelFilter, SamplesAreAsDenseAsTheFilterIsHigh) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// `count` small triangles in a cube of the given size around `centre`.
@@ -228,4 +228,4 @@ TEST(SkipList, HasNoPairsWhereFewTrianglesShareAnEdge) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

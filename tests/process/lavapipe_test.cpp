@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr const char *width = "LP_NATIVE_VECTOR_WIDTH";
@@ -58,4 +58,4 @@ TEST(Lavapipe, KeepsCompiledFunctionsOfWidthsApart) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -8,7 +8,7 @@
 
 #include <utility>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 /// A square that the camera sees from the front; the sun and the background light both of its sides.
@@ -378,4 +378,4 @@ std::vector<FlagScene> flagScenes() {
     return rows.take();
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 struct FlagScene {
     std::string flag; ///< its constant in shaders/layout/layout.h; of a texture slot that of the slot
@@ -29,4 +29,4 @@ inline void PrintTo(const FlagScene &row, std::ostream *stream) { *stream << row
 
 [[nodiscard]] std::vector<FlagScene> flagScenes();
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -17,7 +17,7 @@
 #include <regex>
 #include <set>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 std::size_t differingPixels(const Film &a, const Film &b) {
@@ -119,4 +119,4 @@ TEST(Flags, HaveAScene) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

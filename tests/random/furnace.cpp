@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 double maxFurnaceRadiance(const PackedScene &packed) {
     const bool mayBeInGlass =
@@ -45,4 +45,4 @@ bool gains(const PackedScene &packed, const RenderSettings &settings, const glm:
     return isAbove;
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

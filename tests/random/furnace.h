@@ -6,7 +6,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Probability, at most, that gains() is true of a pixel whose mean is not above its bound.
 inline constexpr double furnaceErrorRate = 1e-8;
@@ -24,4 +24,4 @@ inline constexpr double furnaceAllowance = 0.003;
 /// betting", J. R. Stat. Soc. B 86, 2024, section 3.)
 [[nodiscard]] bool gains(const PackedScene &packed, const RenderSettings &settings, const glm::ivec2 &pixel);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <string>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Two streams: one decides what there is, and so what kernels leave out; the other one draws the numbers.
 class Draws {
@@ -77,4 +77,4 @@ class Draws {
     Random numbers_;
 };
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

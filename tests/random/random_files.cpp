@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 using nlohmann::json;
 
@@ -110,4 +110,4 @@ std::string FileDraws::addObj() {
     return "patch.obj";
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// A patch of a bumpy grid or a ball: positions, normals that need not be those of its faces, and coordinates.
 struct Patch {
@@ -47,4 +47,4 @@ class FileDraws {
 /// Adds a glTF file, with what scene files cannot say: second coordinates, tangents, colours, blending and culling.
 std::string drawGlb(Draws &draws, FileDraws &files, bool mayEmit);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -2,7 +2,7 @@
 
 #include "host/scene/limits.h"
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using nlohmann::json;
@@ -178,4 +178,4 @@ std::string drawGlb(Draws &draws, FileDraws &files, bool mayEmit) {
     return GlbDraws(draws, files, mayEmit).add();
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

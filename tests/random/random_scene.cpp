@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using nlohmann::json;
@@ -366,4 +366,4 @@ class SceneDrawer {
 
 RandomScene drawScene(std::uint64_t seed) { return SceneDrawer(seed).draw(); }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

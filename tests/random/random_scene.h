@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 struct RandomScene {
     nlohmann::json document; ///< see scene_document.h
@@ -21,4 +21,4 @@ inline constexpr std::uint64_t scenesOfKind = 8;
 /// The scene of a seed: the same everywhere, as its numbers are sums, products and roots. It is valid.
 [[nodiscard]] RandomScene drawScene(std::uint64_t seed);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -14,7 +14,7 @@
 #include <ctime>
 #include <sstream>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 std::string environment(const char *name, const char *fallback) {
@@ -118,4 +118,4 @@ TEST(RandomScenes, AreThoseOfTheirSeeds) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -17,7 +17,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 std::string describe(const Film &film, std::size_t index) {
@@ -158,4 +158,4 @@ std::optional<Fault> SceneCheck::faultOfFile(const RandomScene &drawn, const Way
     return difference(device.film, device.rays, "device", cpu);
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 enum class FaultKind { Refused, Differs, Negative, NotFinite, Gains };
 
@@ -56,4 +56,4 @@ class SceneCheck {
     std::map<std::pair<std::string_view, bool>, gpu::Renderer> renderers_;
 };
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

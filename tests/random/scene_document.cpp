@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using nlohmann::json;
@@ -98,4 +98,4 @@ std::filesystem::path writeDocument(const json &document, const std::filesystem:
     return folder / "scene.json";
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

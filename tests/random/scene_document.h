@@ -13,10 +13,10 @@
 
 #include <filesystem>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Writes scene.json and its files into the folder, which is made. Returns the path of scene.json. Throws an exception
 /// of nlohmann::json if the document has another form.
 std::filesystem::path writeDocument(const nlohmann::json &document, const std::filesystem::path &folder);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

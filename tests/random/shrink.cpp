@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using nlohmann::json;
@@ -83,4 +83,4 @@ json shrunk(json document, const std::function<bool(const json &)> &isFaulty, do
     return Shrinker(std::move(document), isFaulty, maxSeconds).run();
 }
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 
 /// Removes members and elements, the large ones first, and makes numbers 0 or 1, as long as `isFaulty` holds: until no
 /// single change is left, or the time is over. (Zeller and Hildebrandt, "Simplifying and isolating failure-inducing
@@ -14,4 +14,4 @@ namespace hyalite::testing {
                                     const std::function<bool(const nlohmann::json &)> &isFaulty,
                                     double maxSeconds);
 
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

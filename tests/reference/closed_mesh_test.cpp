@@ -6,12 +6,12 @@
 
 #include <cmath>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::packed;
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
+using hyalite::core::testing::packed;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
 using Vec = glm::dvec3;
 
 struct Solid {
@@ -220,4 +220,4 @@ TEST(ClosedMesh, KeepsTheRaysThatAreInside) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -11,11 +11,11 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::estimate;
-using hyalite::testing::expectRadiance;
+using hyalite::core::testing::estimate;
+using hyalite::core::testing::expectRadiance;
 
 Material glassOf(float index, int priority = 0, float roughness = 0.0f) {
     Material material;
@@ -94,7 +94,7 @@ TEST(Contacts, OfCurvedSurfacesAreInvisible) {
                 scene.spheres.push_back({glm::dvec3(0.0), static_cast<double>(radius), material, isInward});
                 continue;
             }
-            TriangleMesh mesh = hyalite::testing::icosphere(2);
+            TriangleMesh mesh = hyalite::core::testing::icosphere(2);
             mesh.normals.clear();
             for (MeshTriangle &triangle : mesh.triangles)
                 triangle.normals = glm::uvec3(MeshTriangle::noNormal);
@@ -176,7 +176,7 @@ TEST(Contacts, MoveTheGlassOfLowerPriority) {
 
 TEST(Solids, AreClosedByIndexOrByPosition) {
     const std::vector<Material> materials = {glassOf(1.5f)};
-    TriangleMesh two = hyalite::testing::tetrahedron();
+    TriangleMesh two = hyalite::core::testing::tetrahedron();
     const auto corners = static_cast<std::uint32_t>(two.positions.size());
     const std::size_t count = two.triangles.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -186,11 +186,11 @@ TEST(Solids, AreClosedByIndexOrByPosition) {
     }
     for (std::uint32_t i = 0; i < corners; ++i) // the first corner of one is at the second of the other
         two.positions.push_back(two.positions[i] + (two.positions[1] - two.positions[0]));
-    EXPECT_EQ(solidsOf(hyalite::testing::icosphere(1), materials).count, 1u);
+    EXPECT_EQ(solidsOf(hyalite::core::testing::icosphere(1), materials).count, 1u);
     EXPECT_EQ(solidsOf(box(0, glm::dvec3(0.0), glm::dvec3(1.0)), materials).count, 1u);
     EXPECT_EQ(solidsOf(two, materials).count, 2u);
     EXPECT_EQ(solidsOf(two, {Material{}}).count, 0u);
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

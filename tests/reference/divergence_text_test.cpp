@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 std::string firstValue(std::uint32_t quantity, const glm::dvec3 &origin) {
@@ -21,4 +21,4 @@ TEST(DivergenceText, HasPointsInTheCoordinatesOfTheFile) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

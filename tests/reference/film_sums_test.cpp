@@ -7,7 +7,7 @@
 #include <bit>
 #include <limits>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
 layout::FilmPixel pixelOf(const FilmPixel<float> &sums, std::uint32_t count) {
@@ -58,4 +58,4 @@ TEST(FilmSums, StayInfinite) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -6,14 +6,14 @@
 #include "tests/fixtures/radiance_fixture.h"
 #include "tests/fixtures/test_scene.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::addQuad;
-using hyalite::testing::Estimate;
-using hyalite::testing::estimate;
-using hyalite::testing::expectRadiance;
-using hyalite::testing::packed;
+using hyalite::core::testing::addQuad;
+using hyalite::core::testing::Estimate;
+using hyalite::core::testing::estimate;
+using hyalite::core::testing::expectRadiance;
+using hyalite::core::testing::packed;
 
 constexpr double pi = std::numbers::pi;
 
@@ -298,4 +298,4 @@ TEST(Fresnel, NormalIncidenceBrewsterAndTotalReflection) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

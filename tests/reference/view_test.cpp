@@ -5,11 +5,11 @@
 #include "tests/fixtures/geometry_fixture.h"
 #include "tests/fixtures/test_scene.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::addQuad;
-using hyalite::testing::packed;
+using hyalite::core::testing::addQuad;
+using hyalite::core::testing::packed;
 
 /// One pixel that looks from (0, 0, 5) along -z at a ball of radius 2.
 TestScene ball(Integrator integrator) {
@@ -99,4 +99,4 @@ TEST(AmbientOcclusion, IsThatOfTheSideThatIsSeen) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

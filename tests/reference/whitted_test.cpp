@@ -4,11 +4,11 @@
 #include "tests/fixtures/geometry_fixture.h"
 #include "tests/fixtures/test_scene.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::addQuad;
-using hyalite::testing::packed;
+using hyalite::core::testing::addQuad;
+using hyalite::core::testing::packed;
 
 constexpr double pi = std::numbers::pi;
 
@@ -242,7 +242,7 @@ TEST(Whitted, AWhiteFurnaceOfGlassIsWhite) {
         scene.settings.samplesPerPixel = 1;
         const std::uint32_t clear = addMaterial(scene, glass(1.5f));
         if (isMesh) {
-            scene.meshes.push_back(hyalite::testing::icosphere(2));
+            scene.meshes.push_back(hyalite::core::testing::icosphere(2));
             scene.meshes[0].materialIndex = clear;
         } else {
             scene.spheres.push_back({{0, 0, 0}, 1.0, clear, false});
@@ -353,7 +353,8 @@ TestScene busyScene() {
     const std::uint32_t clear = addMaterial(scene, glass(1.5f, {0.95f, 0.95f, 0.98f}));
     scene.spheres.push_back({{-1, 0, 0}, 1.0, clear, false});
     scene.spheres.push_back({{1.2, 0, -1}, 1.0, silver, false});
-    scene.meshes.push_back(hyalite::testing::placed(hyalite::testing::icosphere(2), 0.7, {0.3, -0.4, 1.5}));
+    scene.meshes.push_back(
+        hyalite::core::testing::placed(hyalite::core::testing::icosphere(2), 0.7, {0.3, -0.4, 1.5}));
     scene.meshes[0].materialIndex = clear;
     addWall(scene, grey, {-5, -1.5f, -5}, {0, 0, 10}, {10, 0, 0});
     scene.lights.push_back({{2, 5, 4}, glm::dvec3(300.0)});
@@ -471,4 +472,4 @@ TEST(Whitted, ProgressEndsAtOne) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

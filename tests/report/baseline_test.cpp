@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::handMadeProfile;
@@ -220,4 +220,4 @@ TEST(Baseline, NamesInItAreFitForATerminal) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -15,7 +15,7 @@
 #include <set>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::handMadeProfile;
@@ -185,4 +185,4 @@ TEST(ProfileHtml, NamesMayHoldAnything) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::handMadeProfile;
@@ -129,4 +129,4 @@ TEST(ProfileJson, HasFiguresOfStagesKernelsAndWork) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

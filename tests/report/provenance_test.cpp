@@ -6,7 +6,7 @@
 
 #include <map>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 Provenance exampleOrigin() {
@@ -50,4 +50,4 @@ TEST(Provenance, PicturesSayWhatReportsSay) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

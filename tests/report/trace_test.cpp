@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using testing::expectTrace;
@@ -69,4 +69,4 @@ TEST(Trace, OfADeviceWithoutTimestampsShowsTheHostsTimes) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

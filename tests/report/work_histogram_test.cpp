@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 TEST(WorkHistogram, HasBinsOfPowersOfTwo) {
@@ -32,4 +32,4 @@ TEST(WorkHistogram, BeginsWhereThereArePixels) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 CameraKey keyAt(int frame, const glm::dvec3 &position, double fov = 60.0) {
@@ -116,4 +116,4 @@ TEST(Turntable, TurnsAroundTheCentreOfWhatLiesBehindTheCamera) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -19,7 +19,7 @@
 #include <numbers>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 /// One triangle that has the bounds of a whole box.
@@ -196,4 +196,4 @@ TEST(Framing, ABareObjFileIsLoadedFramedAndValid) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 Placement movedBy(float x) {
@@ -105,4 +105,4 @@ TEST(Instances, AreRefusedAsMeshesWhereThereAreTooMany) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

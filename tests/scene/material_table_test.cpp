@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -217,4 +217,4 @@ TEST(MaterialTable, KeysOfAKindAreUnique) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

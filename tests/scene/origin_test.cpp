@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 Bounds cubeAt(const glm::dvec3 &centre, double side) { return {centre - 0.5 * side, centre + 0.5 * side}; }
@@ -138,4 +138,4 @@ TEST(MoveNear, HasOneOriginAtAllTimesWhereOneIsKnown) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

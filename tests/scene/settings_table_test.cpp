@@ -10,7 +10,7 @@
 #include <string>
 #include <type_traits>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 std::string numberText(double number) { return fmt::format("{:.10g}", number); }
@@ -152,4 +152,4 @@ TEST(SettingsTable, JsonHasEveryKeyInTheOrderOfTheTable) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

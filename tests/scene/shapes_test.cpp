@@ -8,11 +8,11 @@
 #include <set>
 #include <tuple>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
-using hyalite::testing::expectRadiance;
-using hyalite::testing::floorScene;
+using hyalite::core::testing::expectRadiance;
+using hyalite::core::testing::floorScene;
 
 constexpr double pi = std::numbers::pi;
 
@@ -175,4 +175,4 @@ TEST(ShapesAsLights, BoxLightsAsItsLowerSide) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

@@ -11,7 +11,7 @@
 #include <limits>
 #include <string>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -225,4 +225,4 @@ TEST(Validate, TheEndsOfTheRangesAreAllowed) {
 }
 
 } // namespace
-} // namespace hyalite
+} // namespace hyalite::core

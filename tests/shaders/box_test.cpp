@@ -2,12 +2,12 @@
 
 #include "tests/fixtures/geometry_fixture.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
-using hyalite::testing::text;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
+using hyalite::core::testing::text;
 
 /// A direction of the kinds that slab tests stumble over, of unit length or of one axis.
 glm::vec3 hostileDirection(Random &random) {
@@ -222,4 +222,4 @@ TEST(Box, IsNotMuchWiderThanItIs) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

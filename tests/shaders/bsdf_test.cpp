@@ -8,7 +8,7 @@
 #include <functional>
 #include <iterator>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
 TEST(MicrofacetEnergy, TheTableIsWhatFacetsReflectAtOnce) {
@@ -310,4 +310,4 @@ TEST(PrincipledMaterial, ItsComponentsAreChosenByTheirShares) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

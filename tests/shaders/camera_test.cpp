@@ -2,7 +2,7 @@
 
 #include "tests/fixtures/geometry_fixture.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
 TEST(Camera, EachOffsetMovesTheRayAlongItsOwnAxis) {
@@ -73,4 +73,4 @@ TEST(PanoramaCamera, ShowsAllDirections) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -2,11 +2,11 @@
 
 #include "tests/fixtures/geometry_fixture.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
 
 /// A ray that meets a surface with unit normal `facing` at the given angle.
 struct Incidence {
@@ -190,4 +190,4 @@ TEST(Dielectric, IndexOneDoesNotBend) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

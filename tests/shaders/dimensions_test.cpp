@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::textOf;
+using hyalite::core::testing::textOf;
 
 void expectDistinct(const std::vector<uint> &pairs) {
     EXPECT_EQ(std::set<uint>(pairs.begin(), pairs.end()).size(), pairs.size());
@@ -69,4 +69,4 @@ TEST(Dimensions, AreNumberedNowhereElse) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

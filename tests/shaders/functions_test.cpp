@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
 TEST(FloatOf, IsTheNearestFloat) {
-    hyalite::testing::Random random(811);
+    hyalite::core::testing::Random random(811);
     const auto expectNearest = [](std::uint32_t x) {
         EXPECT_EQ(floatOf<float>(x), static_cast<float>(x)) << x;
         EXPECT_EQ(floatOf<double>(x), static_cast<double>(x)) << x;
@@ -45,4 +45,4 @@ TEST(WithoutTiny, KeepsWhatPicturesShow) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
 layout::MaterialRecord gltf(double alpha, float colour) {
@@ -208,4 +208,4 @@ TEST(GltfMaterial, NothingReflectsMoreThanThereIs) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -8,11 +8,11 @@
 
 #include <ostream>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
 
 /// A map with singular values 1, 1/sqrt(condition) and 1/condition, or such, times `scale`.
 Placement randomPlacement(Random &random, double scale, double condition, const glm::dvec3 &offset) {
@@ -60,7 +60,7 @@ struct Pair {
         Scene scene;
         scene.materials.push_back({});
         std::vector<Placement> placements;
-        const TriangleMesh moved = hyalite::testing::placed(mesh, 1.0, each.meshOffset);
+        const TriangleMesh moved = hyalite::core::testing::placed(mesh, 1.0, each.meshOffset);
         for (int i = 0; i < 8; ++i) {
             Placement placement = randomPlacement(random, each.scale, each.condition,
                                                   each.offset + random.inCube(2.0 * each.scale));
@@ -119,26 +119,27 @@ TEST_P(InstanceHits, AreThoseOfTheFlattenedMesh) {
     Random random(501);
     Tally different(fmt::format("different hits on instances {}", each.name), random.seed());
     std::size_t hitCount = 0;
-    const std::array meshes{hyalite::testing::icosphere(2), hyalite::testing::spikyStar(),
-                            hyalite::testing::gridCube(4),
-                            hyalite::testing::triangleSoup(random, 200, 1.0, 0.7)};
+    const std::array meshes{hyalite::core::testing::icosphere(2), hyalite::core::testing::spikyStar(),
+                            hyalite::core::testing::gridCube(4),
+                            hyalite::core::testing::triangleSoup(random, 200, 1.0, 0.7)};
     for (const TriangleMesh &mesh : meshes)
         for (const TreeKind tree : {TreeKind::Midpoint, TreeKind::Sah}) {
             const Pair pair(mesh, each, random, tree);
             EXPECT_EQ(pair.instances.frame.boundsLower, pair.meshes.frame.boundsLower);
             EXPECT_EQ(pair.instances.frame.boundsUpper, pair.meshes.frame.boundsUpper);
-            for (int i = 0; i < hyalite::testing::repetitions(3'000, 20'000); ++i) {
+            for (int i = 0; i < hyalite::core::testing::repetitions(3'000, 20'000); ++i) {
                 const Ray<float> ray = randomRay(pair, each, random);
                 const Hit<float> a = closestHit(pair.instances, ray);
                 const Hit<float> b = closestHit(pair.meshes, ray);
                 hitCount += b.primitive != layout::noPrimitive ? 1u : 0u;
-                different.check(
-                    a.primitive == b.primitive && hyalite::testing::sameBits(a.distance, b.distance) &&
-                        hyalite::testing::sameBits(a.u, b.u) && hyalite::testing::sameBits(a.v, b.v),
-                    [&] {
-                        return fmt::format("{} at {:a}, not {} at {:a}", a.primitive, a.distance, b.primitive,
-                                           b.distance);
-                    });
+                different.check(a.primitive == b.primitive &&
+                                    hyalite::core::testing::sameBits(a.distance, b.distance) &&
+                                    hyalite::core::testing::sameBits(a.u, b.u) &&
+                                    hyalite::core::testing::sameBits(a.v, b.v),
+                                [&] {
+                                    return fmt::format("{} at {:a}, not {} at {:a}", a.primitive, a.distance,
+                                                       b.primitive, b.distance);
+                                });
             }
         }
     EXPECT_GT(hitCount, different.count() / 4);
@@ -164,12 +165,13 @@ TEST(Flattening, RoundsAsShadersDo) {
         const glm::vec3 point(random.inCube(10.0));
         const glm::vec3 normal(i % 10 == 0 ? glm::dvec3(0.0) : random.direction());
         const auto isSame = [](const glm::vec3 &a, const glm::vec3 &b) {
-            return hyalite::testing::sameBits(a.x, b.x) && hyalite::testing::sameBits(a.y, b.y) &&
-                   hyalite::testing::sameBits(a.z, b.z);
+            return hyalite::core::testing::sameBits(a.x, b.x) && hyalite::core::testing::sameBits(a.y, b.y) &&
+                   hyalite::core::testing::sameBits(a.z, b.z);
         };
-        different.check(isSame(hyalite::placedPoint(placement, point), placedPoint<float>(record, point)));
         different.check(
-            isSame(hyalite::placedNormal(placement, normal), placedNormal<float>(record, normal)));
+            isSame(hyalite::core::placedPoint(placement, point), placedPoint<float>(record, point)));
+        different.check(
+            isSame(hyalite::core::placedNormal(placement, normal), placedNormal<float>(record, normal)));
     }
     different.expectNone();
 }
@@ -186,7 +188,7 @@ TEST_P(ClosedInstances, DoNotLeak) {
         scene.materials.push_back({});
         const std::array placements{randomPlacement(random, each.scale, each.condition, each.offset),
                                     randomPlacement(random, each.scale, each.condition, each.offset)};
-        addInstances(scene, hyalite::testing::icosphere(2), placements);
+        addInstances(scene, hyalite::core::testing::icosphere(2), placements);
         const PackedScene packed = packScene(scene, buildBvh(TreeKind::Sah, scene, 4));
         arrangeInstances(scene, Flattening::All);
         for (int k = 0; k < 2000; ++k) {
@@ -204,4 +206,4 @@ INSTANTIATE_TEST_SUITE_P(Instances, ClosedInstances,
                          ::testing::Values(cases[0], cases[1], cases[5], cases[6]), NameOf());
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

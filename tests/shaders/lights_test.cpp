@@ -7,16 +7,16 @@
 
 #include <functional>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::addQuad;
-using hyalite::testing::Estimate;
-using hyalite::testing::estimate;
-using hyalite::testing::expectRadiance;
-using hyalite::testing::floorScene;
-using hyalite::testing::packed;
-using hyalite::testing::Random;
+using hyalite::core::testing::addQuad;
+using hyalite::core::testing::Estimate;
+using hyalite::core::testing::estimate;
+using hyalite::core::testing::expectRadiance;
+using hyalite::core::testing::floorScene;
+using hyalite::core::testing::packed;
+using hyalite::core::testing::Random;
 
 constexpr double pi = std::numbers::pi;
 using Direction = glm::dvec3;
@@ -321,4 +321,4 @@ TEST(RadianceLimit, HoldsBehindTheFirstSegmentOnly) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -5,12 +5,12 @@
 #include <array>
 #include <bit>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
-using hyalite::testing::text;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
+using hyalite::core::testing::text;
 
 /// Begin and end of the common edge, the first apex and the second.
 using Quad = std::array<glm::vec3, 4>;
@@ -116,4 +116,4 @@ TEST(TrianglePair, IsMetAsItsTrianglesAre) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -5,11 +5,11 @@
 #include <array>
 #include <set>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
 
 TEST(Random, SamplesAreStratifiedInEveryElementaryInterval) {
     // A scrambled (0, 2)-sequence: of the first 2^k samples there is one in each box of 2^-a x 2^-b with a + b = k.
@@ -274,4 +274,4 @@ TEST(Random, MeanAndVarianceWithinAPixelAreThoseOfTheUniformSquare) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -3,10 +3,10 @@
 
 #include "tests/fixtures/geometry_fixture.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
+using hyalite::core::testing::Random;
 
 constexpr double pi = std::numbers::pi;
 
@@ -143,4 +143,4 @@ TEST(Random, PairsOfDimensionsAreIndependent) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

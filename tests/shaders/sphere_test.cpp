@@ -5,12 +5,12 @@
 
 #include <optional>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
-using hyalite::testing::text;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
+using hyalite::core::testing::text;
 using LongVec = glm::vec<3, long double>;
 
 /// The roots for a direction of any length, and what the error bound below is made of.
@@ -237,7 +237,7 @@ TEST(Sphere, TwoTouchingBallsAreMetInOrder) {
     scene.materials.resize(1);
     scene.spheres.push_back({{-10, 0, 0}, 10.0, 0, false});
     scene.spheres.push_back({{10, 0, 0}, 10.0, 0, false});
-    const PackedScene packed = hyalite::testing::packed(scene);
+    const PackedScene packed = hyalite::core::testing::packed(scene);
     const auto meet = [&](const glm::vec3 &origin, const glm::vec3 &direction, std::uint32_t excluded) {
         return closestHit(packed, Ray<float>{origin, direction, excluded});
     };
@@ -272,4 +272,4 @@ TEST(Sphere, TwoTouchingBallsAreMetInOrder) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -5,12 +5,12 @@
 
 #include <optional>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
-using hyalite::testing::text;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
+using hyalite::core::testing::text;
 
 /// A unit cube with its corner at the origin, outward normals.
 TriangleMesh unitCube() {
@@ -80,7 +80,7 @@ TEST(OffsetRayOrigin, ARayLeavingAConvexMeshNeverMeetsItAgain) {
     Tally again("convex spawns that meet the mesh again", random.seed());
     Tally againUnexcluded("the same without exclusion", random.seed());
     std::vector<std::pair<PackedScene, double>> meshes;
-    for (const TriangleMesh &mesh : {hyalite::testing::tetrahedron(), unitCube()}) {
+    for (const TriangleMesh &mesh : {hyalite::core::testing::tetrahedron(), unitCube()}) {
         for (const auto &[scale, offset] : {std::pair(1.0, glm::dvec3(0.0)),
                                             {1.0, {1e3, -1e3, 1e3}},
                                             {64.0, {1e6, 2e6, -1e6}},
@@ -89,8 +89,8 @@ TEST(OffsetRayOrigin, ARayLeavingAConvexMeshNeverMeetsItAgain) {
                                             {1e6, {0, 0, 0}},
                                             {1e6, {1e8, 0, 1e7}},
                                             {1e-6, {-1, 0, 0}}})
-            meshes.emplace_back(hyalite::testing::packed(
-                                    hyalite::testing::sceneOf(hyalite::testing::placed(mesh, scale, offset))),
+            meshes.emplace_back(hyalite::core::testing::packed(hyalite::core::testing::sceneOf(
+                                    hyalite::core::testing::placed(mesh, scale, offset))),
                                 scale);
     }
     while (again.count() < 1'000'000) {
@@ -119,8 +119,8 @@ TEST(OffsetRayOrigin, ARayIntoAConvexMeshMeetsItsOtherSide) {
     Tally wrong("rays into a cube that do not come out where they should", random.seed());
     for (const auto &[scale, offset] :
          {std::pair(1.0, glm::dvec3(0.0)), {1.0, {1e3, -1e3, 1e3}}, {1e6, {0, 0, 0}}, {1e-6, {0, 0, 0}}}) {
-        const PackedScene scene = hyalite::testing::packed(
-            hyalite::testing::sceneOf(hyalite::testing::placed(unitCube(), scale, offset)));
+        const PackedScene scene = hyalite::core::testing::packed(
+            hyalite::core::testing::sceneOf(hyalite::core::testing::placed(unitCube(), scale, offset)));
         for (int i = 0; i < 100'000; ++i) {
             const std::optional<Landing> landing = land(scene, random, scale);
             if (!landing)
@@ -173,13 +173,14 @@ TEST(OffsetRayOrigin, AFloorOfManyTrianglesDoesNotShadowItself) {
                 const float side = static_cast<float>(2.0 * extent / cells);
                 for (int i = 0; i < cells; ++i)
                     for (int k = 0; k < cells; ++k)
-                        hyalite::testing::addQuad(
+                        hyalite::core::testing::addQuad(
                             mesh,
                             {-static_cast<float>(extent) + static_cast<float>(i) * side,
                              static_cast<float>(height),
                              -static_cast<float>(extent) + static_cast<float>(k) * side},
                             {0, 0, side}, {side, 0, 0});
-                const PackedScene scene = hyalite::testing::packed(hyalite::testing::sceneOf(mesh));
+                const PackedScene scene =
+                    hyalite::core::testing::packed(hyalite::core::testing::sceneOf(mesh));
                 for (int i = 0; i < 20'000; ++i) {
                     const bool isAtEdge = random.coin();
                     const layout::TriangleRecord &aimed =
@@ -297,7 +298,7 @@ TEST(TriangleSurface, TheGeometricNormalFollowsTheWinding) {
         triangleSurface<float>(triangleOf({0, 0, 0}, {0, 1, 0}, {1, 0, 0}), none, 0.25f, 0.25f);
     EXPECT_EQ(back.geometricNormal, glm::vec3(0, 0, -1));
     for (const layout::TriangleRecord &t :
-         hyalite::testing::packed(hyalite::testing::sceneOf(unitCube())).triangles) {
+         hyalite::core::testing::packed(hyalite::core::testing::sceneOf(unitCube())).triangles) {
         const Surface<float> surface = triangleSurface<float>(t, none, 0.3f, 0.3f);
         EXPECT_GT(glm::dot(surface.normal, surface.position - glm::vec3(0.5f)), 0.0f);
     }
@@ -364,4 +365,4 @@ TEST(TriangleSurface, HasAUnitNormalAtEverySizeThatASceneMayHave) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace hyalite::testing {
+namespace hyalite::core::testing {
 namespace {
 
 using glm::dvec2;
@@ -453,4 +453,4 @@ TEST(Texture, IsPartOfTheScenesHashAndOfNothingElse) {
 }
 
 } // namespace
-} // namespace hyalite::testing
+} // namespace hyalite::core::testing

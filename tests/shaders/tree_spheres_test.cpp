@@ -8,11 +8,11 @@
 #include <ostream>
 #include <string>
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::Tally;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::Tally;
 
 struct Case {
     const char *name;
@@ -44,8 +44,8 @@ Scene sceneOf(const Case &each, Random &random) {
         if (i % 20 == 0)
             scene.spheres.push_back(sphere);
     }
-    scene.meshes.push_back(
-        hyalite::testing::placed(hyalite::testing::triangleSoup(random, 40, 1.0, 0.3), 1.0, each.offset));
+    scene.meshes.push_back(hyalite::core::testing::placed(
+        hyalite::core::testing::triangleSoup(random, 40, 1.0, 0.3), 1.0, each.offset));
     return scene;
 }
 
@@ -111,7 +111,7 @@ TEST_P(TreeSpheres, AreHitAsByALoop) {
             const Hit<float> wanted = hitByLoop(packed, ray);
             hitCount += wanted.primitive < scene.spheres.size() ? 1 : 0;
             different.check(found.primitive == wanted.primitive &&
-                                hyalite::testing::sameBits(found.distance, wanted.distance),
+                                hyalite::core::testing::sameBits(found.distance, wanted.distance),
                             [&] {
                                 return fmt::format("{} at {:a}, not {} at {:a}", found.primitive,
                                                    found.distance, wanted.primitive, wanted.distance);
@@ -141,7 +141,7 @@ TEST_P(TreeSpheres, AreHitWhereTheyAre) {
                 ray.origin, ray.direction, makeSphereShape<float>(sphere.centre, sphere.radius), startsThere);
             const float boxed =
                 intersectBoxedSphere<float>(boxRay, ray.direction, sphere.centre, sphere.radius, startsThere);
-            moved.check(hyalite::testing::sameBits(boxed, alone > 0 ? alone : 0.0f),
+            moved.check(hyalite::core::testing::sameBits(boxed, alone > 0 ? alone : 0.0f),
                         [&] { return fmt::format("{:a}, not {:a}", boxed, alone); });
         }
     }
@@ -151,4 +151,4 @@ TEST_P(TreeSpheres, AreHitWhereTheyAre) {
 INSTANTIATE_TEST_SUITE_P(Spheres, TreeSpheres, ::testing::ValuesIn(cases), NameOf());
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

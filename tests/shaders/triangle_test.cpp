@@ -3,13 +3,13 @@
 #include "host/reference/closest_hit.h"
 #include "tests/fixtures/geometry_fixture.h"
 
-namespace hyalite::reference {
+namespace hyalite::core::reference {
 namespace {
 
-using hyalite::testing::Random;
-using hyalite::testing::sameBits;
-using hyalite::testing::Tally;
-using hyalite::testing::text;
+using hyalite::core::testing::Random;
+using hyalite::core::testing::sameBits;
+using hyalite::core::testing::Tally;
+using hyalite::core::testing::text;
 using LongVec = glm::vec<3, long double>;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -54,8 +54,9 @@ struct ClosedMesh {
     double outerRadius;
 
     ClosedMesh(const TriangleMesh &unit, double scale, const glm::dvec3 &offset)
-        : scene(hyalite::testing::packed(
-              hyalite::testing::sceneOf(hyalite::testing::placed(unit, scale, offset)), TreeKind::Sah, 2)),
+        : scene(hyalite::core::testing::packed(
+              hyalite::core::testing::sceneOf(hyalite::core::testing::placed(unit, scale, offset)),
+              TreeKind::Sah, 2)),
           centre(offset), coreRadius(std::numeric_limits<double>::infinity()), outerRadius(0.0) {
         for (const layout::TriangleRecord &t : scene.triangles) {
             coreRadius = std::min(coreRadius, glm::distance(centre, closestPoint(centre, t.v0, t.v1, t.v2)));
@@ -167,13 +168,15 @@ void expectWatertight(const char *name, const TriangleMesh &mesh, std::uint64_t 
     }
 }
 
-TEST(Watertight, Tetrahedron) { expectWatertight("a tetrahedron", hyalite::testing::tetrahedron(), 101); }
-TEST(Watertight, Icosphere) { expectWatertight("an icosphere", hyalite::testing::icosphere(2), 102); }
+TEST(Watertight, Tetrahedron) {
+    expectWatertight("a tetrahedron", hyalite::core::testing::tetrahedron(), 101);
+}
+TEST(Watertight, Icosphere) { expectWatertight("an icosphere", hyalite::core::testing::icosphere(2), 102); }
 TEST(Watertight, SpikyStarOfSlivers) {
-    expectWatertight("a star of slivers", hyalite::testing::spikyStar(), 103);
+    expectWatertight("a star of slivers", hyalite::core::testing::spikyStar(), 103);
 }
 
-TEST(Watertight, CubeOfFlatBoxes) { expectWatertight("a cube", hyalite::testing::gridCube(5), 115); }
+TEST(Watertight, CubeOfFlatBoxes) { expectWatertight("a cube", hyalite::core::testing::gridCube(5), 115); }
 
 TEST(Watertight, NeighboursOfASharedEdgeSeeOppositeEdgeFunctions) {
     // Two triangles over one edge, in a plane that faces the ray: whatever the rounding, a ray at a point of the inner
@@ -257,15 +260,15 @@ TriangleMesh latticeTriangles(Random &random, std::size_t count, const glm::vec3
         const int axis = static_cast<int>(random.below(3));
         corners[1][axis] = corners[0][axis];
         corners[2][axis] = corners[0][axis];
-        hyalite::testing::addTriangle(mesh, offset + corners[0] * scale, offset + corners[1] * scale,
-                                      offset + corners[2] * scale);
+        hyalite::core::testing::addTriangle(mesh, offset + corners[0] * scale, offset + corners[1] * scale,
+                                            offset + corners[2] * scale);
     }
     return mesh;
 }
 
 std::vector<std::pair<std::string, TriangleMesh>> hostileMeshes(Random &random) {
-    using hyalite::testing::addTriangle;
-    using hyalite::testing::triangleSoup;
+    using hyalite::core::testing::addTriangle;
+    using hyalite::core::testing::triangleSoup;
     std::vector<std::pair<std::string, TriangleMesh>> meshes;
     meshes.emplace_back("random", triangleSoup(random, 60, 1.0, 0.5));
     meshes.emplace_back("flat boxes", latticeTriangles(random, 60, glm::vec3(0.0f), 1.0f));
@@ -309,15 +312,15 @@ std::vector<std::pair<std::string, TriangleMesh>> hostileMeshes(Random &random) 
     meshes.emplace_back("giant and tiny", mixed);
     meshes.emplace_back("coordinates of 1e15", triangleSoup(random, 60, 1e15, 5e14));
     meshes.emplace_back("coordinates of 1e-12", triangleSoup(random, 60, 1e-12, 5e-13));
-    TriangleMesh ball = hyalite::testing::icosphere(1);
+    TriangleMesh ball = hyalite::core::testing::icosphere(1);
     meshes.emplace_back("a ball", ball);
     TriangleMesh room;
-    hyalite::testing::addQuad(room, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0});
-    hyalite::testing::addQuad(room, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0});
-    hyalite::testing::addQuad(room, {-1, -1, -1}, {0, 2, 0}, {0, 0, 2});
-    hyalite::testing::addQuad(room, {1, -1, -1}, {0, 2, 0}, {0, 0, 2});
-    hyalite::testing::addQuad(room, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0});
-    hyalite::testing::addQuad(room, {-1, 1, -1}, {0, 0, 2}, {2, 0, 0});
+    hyalite::core::testing::addQuad(room, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0});
+    hyalite::core::testing::addQuad(room, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0});
+    hyalite::core::testing::addQuad(room, {-1, -1, -1}, {0, 2, 0}, {0, 0, 2});
+    hyalite::core::testing::addQuad(room, {1, -1, -1}, {0, 2, 0}, {0, 0, 2});
+    hyalite::core::testing::addQuad(room, {-1, -1, -1}, {0, 0, 2}, {2, 0, 0});
+    hyalite::core::testing::addQuad(room, {-1, 1, -1}, {0, 0, 2}, {2, 0, 0});
     meshes.emplace_back("a room", room);
     return meshes;
 }
@@ -405,15 +408,15 @@ TEST(ClosestHit, IsTheSameToTheBitWithEveryTreeAndWithout) {
     Tally differences("tree against brute force", random.seed());
     std::uint64_t hitCount = 0;
     for (const auto &[name, mesh] : hostileMeshes(random)) {
-        const Scene scene = hyalite::testing::sceneOf(mesh);
+        const Scene scene = hyalite::core::testing::sceneOf(mesh);
         std::vector<std::pair<std::string, PackedScene>> trees;
-        trees.emplace_back("none", hyalite::testing::packed(scene, TreeKind::None));
+        trees.emplace_back("none", hyalite::core::testing::packed(scene, TreeKind::None));
         for (const int leafSize : {1, 3, 8})
             trees.emplace_back(fmt::format("midpoint, leaf size {}", leafSize),
-                               hyalite::testing::packed(scene, TreeKind::Midpoint, leafSize));
+                               hyalite::core::testing::packed(scene, TreeKind::Midpoint, leafSize));
         for (const int leafSize : {1, 4, 64})
             trees.emplace_back(fmt::format("sah, leaf size {}", leafSize),
-                               hyalite::testing::packed(scene, TreeKind::Sah, leafSize));
+                               hyalite::core::testing::packed(scene, TreeKind::Sah, leafSize));
         for (int i = 0; i < raysPerScene; ++i) {
             const Ray<float> ray = hostileRay(random, trees[0].second);
             const Hit<float> expected = nearestByDefinition(trees[0].second, ray);
@@ -439,9 +442,9 @@ TEST(ClosestHit, IsTheSameToTheBitInDoubleToo) {
     Random random(106);
     Tally differences("tree against brute force in double", random.seed());
     for (const auto &[name, mesh] : hostileMeshes(random)) {
-        const Scene scene = hyalite::testing::sceneOf(mesh);
-        const PackedScene flat = hyalite::testing::packed(scene, TreeKind::None);
-        const PackedScene tree = hyalite::testing::packed(scene, TreeKind::Sah, 2);
+        const Scene scene = hyalite::core::testing::sceneOf(mesh);
+        const PackedScene flat = hyalite::core::testing::packed(scene, TreeKind::None);
+        const PackedScene tree = hyalite::core::testing::packed(scene, TreeKind::Sah, 2);
         for (int i = 0; i < 10'000; ++i) {
             const Ray<float> narrow = hostileRay(random, flat);
             const Ray<double> ray{narrow.origin, narrow.direction, narrow.excluded};
@@ -458,9 +461,9 @@ TEST(ShadowRay, IsBlockedExactlyWhereTheClosestHitIsNearer) {
     Random random(107);
     Tally differences("shadow rays that disagree with the closest hit", random.seed());
     for (const auto &[name, mesh] : hostileMeshes(random)) {
-        const PackedScene scene = hyalite::testing::packed(hyalite::testing::sceneOf(mesh),
-                                                           random.coin() ? TreeKind::Sah : TreeKind::Midpoint,
-                                                           static_cast<int>(1 + random.below(8)));
+        const PackedScene scene = hyalite::core::testing::packed(
+            hyalite::core::testing::sceneOf(mesh), random.coin() ? TreeKind::Sah : TreeKind::Midpoint,
+            static_cast<int>(1 + random.below(8)));
         for (int i = 0; i < 30'000; ++i) {
             const Ray<float> ray = hostileRay(random, scene);
             const Hit<float> hit = closestHit(scene, ray);
@@ -485,14 +488,14 @@ TEST(ShadowRay, GlassDimsAndOpaqueBlocksWhateverTheOrder) {
         Scene scene;
         scene.materials.resize(2);
         scene.materials[1].kind = MaterialKind::Dielectric;
-        scene.meshes.push_back(hyalite::testing::triangleSoup(random, 6, 1.0, 1.0));
-        scene.meshes.push_back(hyalite::testing::triangleSoup(random, 6, 1.0, 1.0));
+        scene.meshes.push_back(hyalite::core::testing::triangleSoup(random, 6, 1.0, 1.0));
+        scene.meshes.push_back(hyalite::core::testing::triangleSoup(random, 6, 1.0, 1.0));
         scene.meshes[1].materialIndex = 1;
-        const PackedScene both = hyalite::testing::packed(scene, TreeKind::Sah, 1);
+        const PackedScene both = hyalite::core::testing::packed(scene, TreeKind::Sah, 1);
         std::swap(scene.meshes[1].triangles,
                   scene.meshes[0].triangles); // the same corners, the other material
         std::swap(scene.meshes[1].positions, scene.meshes[0].positions);
-        const PackedScene swapped = hyalite::testing::packed(scene, TreeKind::Midpoint, 2);
+        const PackedScene swapped = hyalite::core::testing::packed(scene, TreeKind::Midpoint, 2);
         const auto isMet = [](const PackedScene &packed, const Ray<float> &ray, float length, bool isGlass) {
             const BoxRay<float> boxRay =
                 makeBoxRay(ray.origin, ray.direction, packed.frame.boundsLower, packed.frame.boundsUpper);
@@ -520,9 +523,10 @@ TEST(ShadowRay, GlassDimsAndOpaqueBlocksWhateverTheOrder) {
 TEST(ClosestHit, ATieGoesToTheSmallerId) {
     TriangleMesh mesh;
     for (int i = 0; i < 100; ++i)
-        hyalite::testing::addTriangle(mesh, {-1, -1, -2}, {1, -1, -2}, {0, 1, -2});
+        hyalite::core::testing::addTriangle(mesh, {-1, -1, -2}, {1, -1, -2}, {0, 1, -2});
     for (const TreeKind kind : {TreeKind::None, TreeKind::Midpoint, TreeKind::Sah}) {
-        const PackedScene scene = hyalite::testing::packed(hyalite::testing::sceneOf(mesh), kind, 1);
+        const PackedScene scene =
+            hyalite::core::testing::packed(hyalite::core::testing::sceneOf(mesh), kind, 1);
         Ray<float> ray{{0, 0, 0}, {0, 0, -1}};
         EXPECT_EQ(closestHit(scene, ray).primitive, layout::minFirstTriangleId);
         EXPECT_EQ(closestHit(scene, ray).distance, 2.0f);
@@ -532,18 +536,19 @@ TEST(ClosestHit, ATieGoesToTheSmallerId) {
 }
 
 TEST(ClosestHit, SpheresComeBeforeTrianglesAndInTheirOrder) {
-    Scene scene = hyalite::testing::sceneOf({});
-    hyalite::testing::addTriangle(scene.meshes[0], {-1, -1, -2}, {1, -1, -2}, {0, 1, -2});
+    Scene scene = hyalite::core::testing::sceneOf({});
+    hyalite::core::testing::addTriangle(scene.meshes[0], {-1, -1, -2}, {1, -1, -2}, {0, 1, -2});
     scene.spheres.push_back({{0, 0, -30}, 1.0, 0, false});
     scene.spheres.push_back({{0, 0, -3}, 1.0, 0, false});
     scene.spheres.push_back({{0, 0, -3}, 1.0, 0, false});
-    const Hit<float> hit = closestHit(hyalite::testing::packed(scene), Ray<float>{{0, 0, 0}, {0, 0, -1}});
+    const Hit<float> hit =
+        closestHit(hyalite::core::testing::packed(scene), Ray<float>{{0, 0, 0}, {0, 0, -1}});
     EXPECT_EQ(hit.primitive, 1u);
     EXPECT_EQ(hit.distance, 2.0f);
 }
 
 TEST(ClosestHit, AnEmptySceneIsNeverHit) {
-    const PackedScene scene = hyalite::testing::packed(hyalite::testing::sceneOf({}));
+    const PackedScene scene = hyalite::core::testing::packed(hyalite::core::testing::sceneOf({}));
     Random random(109);
     for (int i = 0; i < 1000; ++i) {
         const Ray<float> ray{glm::vec3(random.inCube(10.0)), glm::vec3(random.direction())};
@@ -569,9 +574,9 @@ struct Shot {
 
     [[nodiscard]] std::string text() const {
         return fmt::format("{} {} {}, origin {}, direction {}: {:a} {:a} {:a}",
-                           hyalite::testing::text(corners[0]), hyalite::testing::text(corners[1]),
-                           hyalite::testing::text(corners[2]), hyalite::testing::text(origin),
-                           hyalite::testing::text(direction), hit.distance, hit.u, hit.v);
+                           hyalite::core::testing::text(corners[0]), hyalite::core::testing::text(corners[1]),
+                           hyalite::core::testing::text(corners[2]), hyalite::core::testing::text(origin),
+                           hyalite::core::testing::text(direction), hit.distance, hit.u, hit.v);
     }
 };
 
@@ -752,13 +757,15 @@ TEST(Triangle, RaysOfNanAndInfinityHitNothing) {
     Random random(113);
     Tally hits("NaN and infinite rays that hit something", random.seed());
     const PackedScene scenes[] = {
-        hyalite::testing::packed(hyalite::testing::sceneOf(hyalite::testing::icosphere(2)), TreeKind::Sah, 2),
-        hyalite::testing::packed(hyalite::testing::sceneOf(hyalite::testing::icosphere(2)), TreeKind::None),
+        hyalite::core::testing::packed(hyalite::core::testing::sceneOf(hyalite::core::testing::icosphere(2)),
+                                       TreeKind::Sah, 2),
+        hyalite::core::testing::packed(hyalite::core::testing::sceneOf(hyalite::core::testing::icosphere(2)),
+                                       TreeKind::None),
         [] {
-            Scene scene = hyalite::testing::sceneOf({});
+            Scene scene = hyalite::core::testing::sceneOf({});
             scene.spheres.push_back({{0, 0, 0}, 1.0, 0, false});
             scene.spheres.push_back({{3, 0, 0}, 1.0, 0, true});
-            return hyalite::testing::packed(scene);
+            return hyalite::core::testing::packed(scene);
         }()};
     const float bad[] = {notANumber, infinity, -infinity};
     for (int i = 0; i < 200'000; ++i) {
@@ -828,4 +835,4 @@ TEST(Triangle, PointErrorBoundsTheRoundingOfThePoint) {
 }
 
 } // namespace
-} // namespace hyalite::reference
+} // namespace hyalite::core::reference

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 SpirvBlocks::SpirvBlocks(std::span<const SpirvInstruction> instructions, const std::vector<SpirvValue> &known)
     : instructions_(instructions), constants_(known), indexOf_(known.size()), isNeeded_(known.size()) {
@@ -196,4 +196,4 @@ void SpirvBlocks::findNeededBlocks() {
     }
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -8,7 +8,7 @@
 
 #include "host/gpu/spirv/constants.h"
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// A label, instructions, and a terminator, which a merge instruction may precede.
 struct SpirvBlock {
@@ -59,4 +59,4 @@ class SpirvBlocks {
     std::vector<bool> isNeeded_;       // likewise
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

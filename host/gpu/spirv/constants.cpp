@@ -1,6 +1,6 @@
 #include "host/gpu/spirv/constants.h"
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 SpirvValue evaluate(spv::Op opcode, const std::array<SpirvValue, 3> &operands) {
     const auto &[a, b, c] = operands;
@@ -106,4 +106,4 @@ std::vector<SpirvValue> knownConstants(std::span<const SpirvInstruction> instruc
     return known;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// The value of a boolean (0 or 1) or of another 32-bit scalar; empty if unknown.
 using SpirvValue = std::optional<std::uint32_t>;
@@ -26,4 +26,4 @@ using SpirvValue = std::optional<std::uint32_t>;
                                                      std::uint32_t bound,
                                                      std::span<const std::uint32_t> constants);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -141,4 +141,4 @@ std::vector<std::uint32_t> decorateNoContraction(std::span<const std::uint32_t> 
     return words;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

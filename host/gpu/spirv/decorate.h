@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// The module `spirv` with each of its float additions, subtractions, multiplications, divisions and negations
 /// decorated NoContraction (SPIR-V specification, section 3.20). All else stays as it is. Throws std::invalid_argument,
@@ -21,4 +21,4 @@ namespace hyalite::gpu {
 /// Whether decorateNoContraction() decorates the results of this kind of instruction; `opcode` is an spv::Op.
 [[nodiscard]] bool isRoundedOperation(std::uint32_t opcode);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -11,7 +11,7 @@
 #define SPV_ENABLE_UTILITY_CODE
 #include <spirv/unified1/spirv.hpp11>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 constexpr std::size_t spirvHeaderWords = 5;
 constexpr std::size_t spirvBoundWord = 3; // in the header: an upper bound of all ids
@@ -59,4 +59,4 @@ inline void append(std::vector<std::uint32_t> &words, spv::Op opcode,
     append(words, opcode, std::span(operands.begin(), operands.size()));
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -221,4 +221,4 @@ std::vector<std::uint32_t> makeSelectionsOneArmed(std::span<const std::uint32_t>
     return words;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

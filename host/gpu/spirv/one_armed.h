@@ -11,11 +11,11 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// The module `spirv` with each conditional selection of two arms rewritten; switches and loops stay. It computes the
 /// same values, and evaluates no condition anew. `spirv` is a valid module whose blocks are in the order of their
 /// constructs, as specialise() writes it.
 [[nodiscard]] std::vector<std::uint32_t> makeSelectionsOneArmed(std::span<const std::uint32_t> spirv);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

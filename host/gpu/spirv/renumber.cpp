@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -197,4 +197,4 @@ std::vector<std::uint32_t> renumber(std::span<const std::uint32_t> spirv) {
     return words;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

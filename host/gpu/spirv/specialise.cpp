@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -168,4 +168,4 @@ std::vector<std::uint32_t> specialise(std::span<const std::uint32_t> spirv,
     return Specialiser(spirv, constants).write();
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// The module `spirv` with the specialization constants 0, 1, ... set to `constants`, as Vulkan sets them (a boolean is
 /// true unless its word is 0). Constants beyond these keep their defaults.
@@ -21,4 +21,4 @@ namespace hyalite::gpu {
 [[nodiscard]] std::vector<std::uint32_t> specialise(std::span<const std::uint32_t> spirv,
                                                     std::span<const std::uint32_t> constants);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

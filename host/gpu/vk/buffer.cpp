@@ -9,7 +9,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -173,4 +173,4 @@ void Buffer::clear() {
     });
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

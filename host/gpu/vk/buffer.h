@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// A buffer with memory of its own. If the host cannot map it, transfers go through a staging buffer.
 class Buffer {
@@ -44,4 +44,4 @@ class Buffer {
     std::byte *mapped_ = nullptr; ///< null if the host cannot map the memory
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

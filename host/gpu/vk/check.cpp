@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 std::string resultName(VkResult result) {
     switch (result) {
@@ -75,4 +75,4 @@ void check(VkResult result, const std::string &action) {
     }
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

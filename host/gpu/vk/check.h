@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// "VK_ERROR_DEVICE_LOST" and so on; a number for results that this build does not know.
 [[nodiscard]] std::string resultName(VkResult result);
@@ -23,4 +23,4 @@ class DeviceFault : public Error {
 /// what was tried: "vkAllocateMemory for nodes, 64 MiB".
 void check(VkResult result, const std::string &action);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

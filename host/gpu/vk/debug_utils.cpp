@@ -2,7 +2,7 @@
 
 #include "host/gpu/vk/check.h"
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 DebugUtils::DebugUtils(const Instance &instance, VkDevice device) : device_(device) {
     if (!instance.hasDebugUtils())
@@ -40,4 +40,4 @@ void DebugUtils::endLabel(VkCommandBuffer commands) const {
         endLabel_(commands);
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Does nothing without VK_EXT_debug_utils.
 class DebugUtils {
@@ -29,4 +29,4 @@ class DebugUtils {
     PFN_vkCmdEndDebugUtilsLabelEXT endLabel_ = nullptr;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 Device::Device(const DeviceInfo &info, Transfers transfers)
     : info_(info), isStagingPreferred_(transfers == Transfers::Staged || info.type == DeviceType::Discrete) {
@@ -141,4 +141,4 @@ void Device::submit(const std::string &action, const std::function<void(VkComman
     instance_.throwOnValidationMessage();
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -10,7 +10,7 @@
 #include <functional>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Whether bulk data goes through staging buffers. Automatic: on discrete GPUs, whose memory the host reads slowly.
 enum class Transfers { Automatic, Staged };
@@ -64,4 +64,4 @@ class Device {
     std::uint64_t allocatedBytes_ = 0;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -15,7 +15,7 @@
 #include <regex>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -133,4 +133,4 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo> &devices, const std::strin
     throw fail(fmt::format("no device matches '{}'", wanted));
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 enum class DeviceType { Discrete, Integrated, Virtual, Cpu, Other };
 
@@ -74,4 +74,4 @@ struct LoadedDevices {
 /// lavapipe do not matter. Throws Error{NoDevice}, listing the devices, if none matches or the device is unusable.
 [[nodiscard]] DeviceInfo chooseDevice(const std::vector<DeviceInfo> &devices, const std::string &wanted);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -18,7 +18,7 @@
 
 #include <dlfcn.h>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -98,4 +98,4 @@ void explainDriverFiles(const std::function<void()> &callLoader) {
     }
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Throws Error{LimitExceeded} if a limit (ulimit -v) leaves too little address space for any driver.
 void requireAddressSpace();
@@ -12,4 +12,4 @@ void requireAddressSpace();
 /// and what is wrong with each of its files; it is DeviceFault{NoDevice} if there is any such fault.
 void explainDriverFiles(const std::function<void()> &callLoader);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::vector<std::uint32_t> addFloatControls(std::span<const std::uint32_t> spirv
     return words;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// The float controls that a device offers (VK_KHR_shader_float_controls), for 32 bits.
 struct FloatControls {
@@ -19,4 +19,4 @@ struct FloatControls {
 [[nodiscard]] std::vector<std::uint32_t> addFloatControls(std::span<const std::uint32_t> spirv,
                                                           const FloatControls &controls);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

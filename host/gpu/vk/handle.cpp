@@ -4,7 +4,7 @@
 #include <mutex>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -23,4 +23,4 @@ bool isAbandoned(VkDevice device) noexcept {
     return std::find(abandoned.begin(), abandoned.end(), device) != abandoned.end();
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 struct NoParent {};
 
@@ -64,4 +64,4 @@ using CommandPoolHandle = Handle<VkCommandPool, vkDestroyCommandPool>;
 using FenceHandle = Handle<VkFence, vkDestroyFence>;
 using QueryPoolHandle = Handle<VkQueryPool, vkDestroyQueryPool>;
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -183,4 +183,4 @@ void Instance::throwOnValidationMessage() const {
         throw Error(ErrorKind::DeviceLost, "the validation layer objects: " + *firstMessage_);
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Gets every message of the validation layer, from any thread. A program sets it before it opens an instance.
 inline void (*onValidationMessage)(const char *message) = nullptr;
@@ -42,4 +42,4 @@ class Instance {
     std::unique_ptr<std::string> firstMessage_; ///< filled by the layer's callback
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

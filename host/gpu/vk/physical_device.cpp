@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -159,4 +159,4 @@ DeviceInfo describePhysicalDevice(VkPhysicalDevice device) {
     return info;
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// An extension that devices offer which lack a part of Vulkan, and that must then be enabled. Vulkan's headers have
 /// its name among those of provisional extensions only.
@@ -22,4 +22,4 @@ inline constexpr const char *portabilitySubset = "VK_KHR_portability_subset";
 /// The first queue family that can compute, or VK_QUEUE_FAMILY_IGNORED.
 [[nodiscard]] std::uint32_t findComputeQueueFamily(VkPhysicalDevice device);
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 VkDescriptorType descriptorTypeOf(BufferUse use) {
     switch (use) {
@@ -92,4 +92,4 @@ void Pipeline::makePipeline(Device &device, std::span<const std::uint32_t> spirv
     device.debugUtils().name(VK_OBJECT_TYPE_PIPELINE, pipeline, name_);
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// The descriptor type of a buffer of this use.
 [[nodiscard]] VkDescriptorType descriptorTypeOf(BufferUse use);
@@ -41,4 +41,4 @@ class Pipeline {
     bool hasRun_ = false;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

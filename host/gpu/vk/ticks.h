@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstdint>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// Mask of the valid bits of a timestamp. `validBits` is in [1, 64].
 [[nodiscard]] inline std::uint64_t validTicks(std::uint64_t ticks, std::uint32_t validBits) {
@@ -31,4 +31,4 @@ namespace hyalite::gpu {
     return forward <= backward ? static_cast<std::int64_t>(forward) : -static_cast<std::int64_t>(backward);
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

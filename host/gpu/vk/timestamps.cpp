@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 namespace {
 
@@ -129,4 +129,4 @@ void Timestamps::calibrate() {
     calibration_ = Calibration{values[0], static_cast<std::int64_t>(values[1])};
 }
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

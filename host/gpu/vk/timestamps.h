@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace hyalite::gpu {
+namespace hyalite::core::gpu {
 
 /// One pair of timestamps, written by the device around a kernel and read after each submission.
 class Timestamps {
@@ -47,4 +47,4 @@ class Timestamps {
     std::optional<Calibration> calibration_;
 };
 
-} // namespace hyalite::gpu
+} // namespace hyalite::core::gpu

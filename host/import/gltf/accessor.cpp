@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 struct Type {
@@ -232,4 +232,4 @@ void Accessor::requireCount(std::size_t count) const {
         JsonObject(node_).at("count").refuse(fmt::format("{}, as its fellows have", count));
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 enum class ComponentType {
     Byte = 5120,
@@ -92,4 +92,4 @@ class Accessor {
     std::vector<float> own_{};
 };
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

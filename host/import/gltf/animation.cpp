@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 enum class Interpolation { Linear, Step, CubicSpline };
@@ -195,4 +195,4 @@ std::vector<bool> animatedNodes(const Document &document) {
     return moved;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// Moves the poses to where all animations of the file have them at that time: before its first key a channel has the
 /// first value, behind the last one the last. Where two animations move the same member of a node, the first one
@@ -16,4 +16,4 @@ void animate(Buffers &buffers, double seconds, std::vector<Pose> &poses);
 /// The nodes that an animation of the file moves, or whose meshes one deforms.
 [[nodiscard]] std::vector<bool> animatedNodes(const Document &document);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

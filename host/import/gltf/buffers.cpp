@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 constexpr Interval strideRange{4, 252};
@@ -103,4 +103,4 @@ BufferView Buffers::view(std::size_t index) {
     return view;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

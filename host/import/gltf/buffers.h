@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// A part of a buffer.
 struct BufferView {
@@ -56,4 +56,4 @@ class Buffers {
     std::vector<std::filesystem::path> files_;
 };
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

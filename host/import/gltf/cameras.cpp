@@ -12,7 +12,7 @@
 #include <numbers>
 #include <string_view>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 /// A camera, or a pose of one, at the origin of its node, along -z.
@@ -112,4 +112,4 @@ CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const std::vec
     return path;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

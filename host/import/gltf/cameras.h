@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 struct PlacedCamera {
     Camera camera;
@@ -38,4 +38,4 @@ struct PlacedCamera {
 [[nodiscard]] CameraPath readCameraPath(Buffers &buffers, const NodeTree &tree, const std::vector<Pose> &rest,
                                         const PlacedCamera &camera, const SequenceTimes &sequence);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

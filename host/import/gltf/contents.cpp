@@ -22,7 +22,7 @@
 #include <map>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 /// Meshes that are the same except for their place: by index and weights of morph targets.
@@ -311,4 +311,4 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
     return contents;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 struct ContentOptions {
     std::string scene{};  ///< name or index; empty: the file's default one
@@ -37,4 +37,4 @@ struct Contents {
 [[nodiscard]] Contents readContents(const std::filesystem::path &path, const FileAccess &access,
                                     TextureLibrary &textures, const ContentOptions &options);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 /// Adds the deltas of an attribute of a target.
@@ -116,4 +116,4 @@ void deform(Buffers &buffers, const JsonNode &node, const Deformation &deformati
         skin(deformation.joints, deformation.origin, primitive);
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// Morph weights and joints that move the vertices of a mesh.
 struct Deformation {
@@ -20,4 +20,4 @@ struct Deformation {
 /// Error{BadInput} for accessors that do not fit, and joints that the skin has not.
 void deform(Buffers &buffers, const JsonNode &node, const Deformation &deformation, Primitive &primitive);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

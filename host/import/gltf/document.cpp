@@ -10,7 +10,7 @@
 #include <cstring>
 #include <iterator>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 constexpr std::uint64_t maxJsonBytes = std::uint64_t{512} << 20;
@@ -230,4 +230,4 @@ std::optional<JsonObject> extensionOf(const JsonObject &object, std::string_view
 
 std::string nameOf(const JsonObject &object) { return object.text("name", ""); }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// Of counts, offsets and lengths in bytes: whole numbers that a double holds exactly.
 inline constexpr Interval byteCount{0.0, 9007199254740991.0};
@@ -120,4 +120,4 @@ class Elements {
 /// The member "name", for messages and choices; empty without it.
 [[nodiscard]] std::string nameOf(const JsonObject &object);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

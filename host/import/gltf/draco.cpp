@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 std::unique_ptr<draco::Mesh> decodeMesh(std::span<const std::byte> bytes, const JsonNode &view) {
@@ -104,4 +104,4 @@ DracoMesh decodeDraco(Buffers &buffers, const JsonObject &primitive, const JsonO
     return decoded;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 struct DracoMesh {
     Attributes attributes;
@@ -18,4 +18,4 @@ struct DracoMesh {
 [[nodiscard]] DracoMesh decodeDraco(Buffers &buffers, const JsonObject &primitive,
                                     const JsonObject &extension);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

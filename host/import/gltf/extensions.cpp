@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 constexpr auto known = std::to_array<std::string_view>(
@@ -42,4 +42,4 @@ void checkExtensions(const Document &document, std::vector<std::string> &warning
         fmt::format("{}: /extensionsUsed: passed over: {}", document.fileName(), quotedList(names)));
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// Their names.
 [[nodiscard]] std::span<const std::string_view> knownExtensions();
@@ -16,4 +16,4 @@ namespace hyalite::gltf {
 /// Throws Error{BadInput} for another one in "extensionsRequired", and adds one warning for those in "extensionsUsed".
 void checkExtensions(const Document &document, std::vector<std::string> &warnings);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -13,7 +13,7 @@
 #include <iterator>
 #include <utility>
 
-namespace hyalite {
+namespace hyalite::core {
 namespace {
 
 constexpr double framedFovDegrees = 40.0;
@@ -115,4 +115,4 @@ MeshFile readGltfMeshes(const std::filesystem::path &file, const MeshOptions &op
     return std::move(contents.file);
 }
 
-} // namespace hyalite
+} // namespace hyalite::core

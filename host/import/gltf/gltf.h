@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// Reads a scene of the file with its camera and lights, for the integrator `path`. Without a camera one is placed that
 /// sees all of it; without lights there is the neutral environment. Memory stays in proportion to the files
@@ -17,4 +17,4 @@ namespace hyalite {
 /// The meshes of the file's default scene and their materials. Cameras and lights are left out with a warning.
 [[nodiscard]] MeshFile readGltfMeshes(const std::filesystem::path &file, const MeshOptions &options);
 
-} // namespace hyalite
+} // namespace hyalite::core

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 std::vector<glm::dmat4x3> readInstancing(Buffers &buffers, const JsonObject &extension) {
     const JsonNode node = extension.at("attributes");
@@ -42,4 +42,4 @@ std::vector<glm::dmat4x3> readInstancing(Buffers &buffers, const JsonObject &ext
     return maps;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -7,9 +7,9 @@
 
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// The maps from the mesh to the node's space. Throws Error{BadInput} for attributes of different counts.
 [[nodiscard]] std::vector<glm::dmat4x3> readInstancing(Buffers &buffers, const JsonObject &extension);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 constexpr auto kinds = std::to_array<std::pair<std::string_view, LightKind>>(
@@ -80,4 +80,4 @@ std::optional<Light> readLight(const Document &document, const JsonObject &node,
     return light;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -8,11 +8,11 @@
 
 #include <optional>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// The light of a node, where its map to the world brings it; nothing for a node without one. Candela and lux count as
 /// watts per steradian and per square metre. A range is passed over with a warning.
 [[nodiscard]] std::optional<Light> readLight(const Document &document, const JsonObject &node,
                                              const glm::dmat4x3 &toWorld);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

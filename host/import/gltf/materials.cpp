@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 constexpr auto alphaModes = std::to_array<std::pair<std::string_view, AlphaMode>>(
@@ -299,4 +299,4 @@ std::vector<Material> readMaterials(const Document &document, TextureReader &tex
     return materials;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

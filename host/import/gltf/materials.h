@@ -6,10 +6,10 @@
 
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// The materials of the file in its order, and the default one for primitives that name none. Factors out of range are
 /// clamped, with a warning.
 [[nodiscard]] std::vector<Material> readMaterials(const Document &document, TextureReader &textures);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

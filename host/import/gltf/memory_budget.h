@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 class MemoryBudget {
   public:
@@ -34,4 +34,4 @@ class MemoryBudget {
     std::uint64_t taken_ = 0;
 };
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

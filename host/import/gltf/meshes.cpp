@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 bool isDegenerate(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c) {
@@ -226,4 +226,4 @@ void MeshReader::addTangents(const Primitive &primitive, const MaterialNeeds &ne
         mesh.tangents.corners.push_back(corners + first);
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// Vertex attributes that a material needs of its meshes.
 struct MaterialNeeds {
@@ -51,4 +51,4 @@ class MeshReader {
     MeshFindings findings_;
 };
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

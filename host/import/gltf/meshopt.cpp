@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 enum class CompressedKind { Attributes, Triangles, Indices };
@@ -101,4 +101,4 @@ std::vector<std::byte> decompressMeshopt(const JsonObject &extension, std::span<
     return bytes;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// The contents of a view whose extension object is `extension`. `allow` is told the size before memory is taken.
 /// Throws Error{BadInput} for data that is damaged, or too short for as many elements.
@@ -16,4 +16,4 @@ namespace hyalite::gltf {
                                                        std::span<const std::byte> packed,
                                                        const std::function<void(std::size_t)> &allow);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

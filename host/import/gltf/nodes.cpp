@@ -11,7 +11,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 constexpr double maxRounding = 1e-3; ///< of numbers that should be 0, 1 or of length 1
@@ -210,4 +210,4 @@ std::size_t chosenElement(const Document &document, std::string_view array, std:
                             quotedList(views)));
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// A translation of a rotation of a scale.
 struct Trs {
@@ -83,4 +83,4 @@ class NodeTree {
 [[nodiscard]] std::size_t chosenElement(const Document &document, std::string_view array,
                                         std::string_view what, const std::string &choice);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite {
+namespace hyalite::core {
 
 /// The first rows of each list, and how many there are. Names are as the file has them.
 struct GltfOutline {
@@ -27,4 +27,4 @@ struct GltfOutline {
     std::size_t nodeCount = 0;
 };
 
-} // namespace hyalite
+} // namespace hyalite::core

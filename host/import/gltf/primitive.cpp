@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 enum class Mode { Points = 0, Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan };
@@ -202,4 +202,4 @@ std::optional<Primitive> readPrimitive(Buffers &buffers, const JsonNode &node, P
     return primitive;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// Attributes by name, such as POSITION. All have as many elements.
 using Attributes = std::map<std::string, Accessor, std::less<>>;
@@ -52,4 +52,4 @@ struct PassedOver {
 /// Opens the attributes of an object, such as a morph target.
 [[nodiscard]] Attributes readAttributes(Buffers &buffers, const JsonNode &node);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

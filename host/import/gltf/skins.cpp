@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 glm::dmat4x3 matrixAt(const Accessor &matrices, std::size_t index) {
@@ -46,4 +46,4 @@ std::vector<glm::dmat4x3> jointMaps(Buffers &buffers, std::size_t skin,
     return maps;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

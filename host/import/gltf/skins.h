@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// Of each joint of a skin, the map from the space of the mesh, bound to the skeleton, to the world. `toWorld` are the
 /// maps of all nodes.
 [[nodiscard]] std::vector<glm::dmat4x3> jointMaps(Buffers &buffers, std::size_t skin,
                                                   const std::vector<glm::dmat4x3> &toWorld);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

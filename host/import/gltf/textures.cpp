@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 Wrap readWrap(const JsonObject &sampler, std::string_view key) {
@@ -134,4 +134,4 @@ std::uint32_t TextureReader::load(const JsonNode &node, const JsonObject &object
     return library_.load(path);
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// The use of a texture with this transform in the convention of scenes, v = 0 at the bottom: `scale`, `shear` and
 /// `offset`. glTF's own transform is about v = 0 at the top (KHR_texture_transform).
@@ -48,4 +48,4 @@ class TextureReader {
     std::map<std::size_t, std::optional<std::uint32_t>> images_; ///< those that were asked for
 };
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

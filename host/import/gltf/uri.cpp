@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 namespace {
 
 constexpr std::uint8_t notBase64 = 255;
@@ -77,4 +77,4 @@ std::string fileNameOf(const JsonNode &uri) {
     return name;
 }
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hyalite::gltf {
+namespace hyalite::core::gltf {
 
 /// The bytes of a data URI; nothing for a URI of another kind. Throws Error{BadInput} for data that is not base64.
 [[nodiscard]] std::optional<std::vector<std::byte>> dataOf(const JsonNode &uri);
@@ -16,4 +16,4 @@ namespace hyalite::gltf {
 /// The name of a file that a relative URI stands for. Throws Error{BadInput} for a URI with a scheme, such as http:.
 [[nodiscard]] std::string fileNameOf(const JsonNode &uri);
 
-} // namespace hyalite::gltf
+} // namespace hyalite::core::gltf
