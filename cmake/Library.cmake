@@ -4,10 +4,12 @@ endif()
 
 # hyalite_library(TARGET)
 #
-# What all libraries of host/ share: includes by their path from the source folder, such as "host/scene/scene.h", and
-# warnings.
+# What all libraries of host/ share: includes by their path from the source folder, such as "host/scene/scene.h",
+# warnings, and code for a shared library, which shows only what says so.
 function(hyalite_library target)
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+    set_target_properties(${target} PROPERTIES
+        POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     hyalite_warnings(${target})
     if(HYALITE_SANITIZE)
         target_sources(${target} INTERFACE $<TARGET_OBJECTS:hyalite_leaks>)
