@@ -20,13 +20,7 @@ namespace hyalite::core {
 
 namespace {
 
-/// Both renders, and how they differ.
-struct Compared {
-    Image imageA;
-    Image imageB;
-    RayCounts raysA;
-    RayCounts raysB;
-    ImageComparison comparison;
+struct Compared : ComparedRenders {
     Pixels outliers;
 
     [[nodiscard]] double outlierShare() const {
@@ -44,13 +38,14 @@ bool isAgainstOracle(const CompareOptions &options) { return options.comparison.
 
 bool isDefault(const Tolerance &tolerance) { return tolerance.absolute == 0.0 && tolerance.ulps == 0; }
 
-void printMetrics(const ImageComparison &comparison, const Image &a, const Image &b) {
+void printMetrics(const ComparedRenders &renders) {
+    const ImageComparison &comparison = renders.comparison;
     const PixelMetrics &pixels = comparison.pixels;
     printResult("pixels       {} of {} differ\n", pixels.differingPixelCount, pixels.pixelCount);
     if (!pixels.identical()) {
-        const glm::ivec2 worst = worstPixel(a, b, pixels);
-        const glm::vec3 &x = a.at(worst.x, worst.y);
-        const glm::vec3 &y = b.at(worst.x, worst.y);
+        const glm::ivec2 worst = worstPixel(renders);
+        const glm::vec3 &x = renders.imageA.at(worst.x, worst.y);
+        const glm::vec3 &y = renders.imageB.at(worst.x, worst.y);
         printResult(
             "largest      {} ULP; {:.6g} at ({}, {}): ({:.9g} {:.9g} {:.9g}) and ({:.9g} {:.9g} {:.9g})\n",
             pixels.maxUlpDistance, pixels.maxAbsoluteDifference, worst.x, worst.y, x.x, x.y, x.z, y.x, y.y,
@@ -90,7 +85,7 @@ class CompareFiles {
         nlohmann::ordered_json json = origin;
         json.update(comparisonToJson(compared.comparison, compared.imageB, compared.imageA));
         json["outliers"] = compared.outliers.size();
-        json["areRayCountsEqual"] = compared.raysA == compared.raysB;
+        json["areRayCountsEqual"] = compared.a.rays == compared.b.rays;
         json.update(verdict.reasons);
         json["passed"] = verdict.isPassed;
         report_->write(jsonText(json));
@@ -105,14 +100,7 @@ class CompareFiles {
 
 Compared compareRenders(const CompareOptions &options, const Tolerance &tolerance, const ComparisonRun &run,
                         const PreparedScene &scene, Observer &observer) {
-    const auto renderAll = [&](Backend &backend) {
-        return unlessFailed(render(backend, scene.packed, scene.loaded.settings, scene.crop, observer,
-                                   {.name = backend.name()}));
-    };
-    const BackendResult a = renderAll(*run.first);
-    const BackendResult b = renderAll(*run.second);
-    Compared compared{a.film.toImage(), b.film.toImage(), a.rays, b.rays, {}, {}};
-    compared.comparison = compareImages(compared.imageB, compared.imageA, Encoding::Linear);
+    Compared compared{renderBoth(run, scene, observer), {}};
     compared.outliers = isAgainstOracle(options) && isDefault(tolerance)
                             ? findVisibleOutliers(compared.imageA, compared.imageB)
                             : findOutliers(compared.imageA, compared.imageB, tolerance);
@@ -138,16 +126,15 @@ Verdict judgeBits(const ComparisonRun &run, const PreparedScene &scene, const Co
     verdict.isPassed = isWithinShare;
     const bool areEqual = compared.comparison.pixels.identical();
     if (!areEqual) {
-        const glm::uvec2 pixel =
-            imagePixel(scene.crop, worstPixel(compared.imageA, compared.imageB, compared.comparison.pixels));
+        const glm::uvec2 pixel = imagePixel(scene.crop, worstPixel(compared));
         const std::optional<Divergence> divergence =
             findFirstDivergence(*run.first, *run.second, scene, pixel);
         printDivergence(pixel, divergence);
         verdict.reasons["divergence"] = divergenceToJson(pixel, divergence);
     }
-    if (compared.raysA != compared.raysB)
-        printResult("rays         {} and {}: the counts differ\n", compared.raysA.total(),
-                    compared.raysB.total());
+    if (compared.a.rays != compared.b.rays)
+        printResult("rays         {} and {}: the counts differ\n", compared.a.rays.total(),
+                    compared.b.rays.total());
     printResult("{}\n", areEqual        ? "equal, bit for bit"
                         : isWithinShare ? "equal within the tolerance"
                                         : "NOT equal");
@@ -179,7 +166,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     if (!options.isQuiet)
         printRenderers(scene, run);
     const Compared compared = compareRenders(options, tolerance, run, scene, observer);
-    printMetrics(compared.comparison, compared.imageA, compared.imageB);
+    printMetrics(compared);
     printOutliers(options, tolerance, compared);
     const bool isWithinShare = compared.outlierShare() <= options.maxOutliers;
     const Verdict verdict = isAgainstOracle(options) ? judgeOutliers(scene, compared, isWithinShare)

@@ -1,13 +1,11 @@
 #include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
 #include "host/base/message.h"
-#include "host/base/version.h"
 #include "host/cli/commands.h"
 #include "host/cli/terminal_observer.h"
-#include "host/gpu/arithmetic.h"
 #include "host/gpu/render_config.h"
-#include "host/gpu/vk/device.h"
 #include "host/gpu/vk/device_list.h"
+#include "host/lab/device_report.h"
 #include "host/lab/tune.h"
 #include "host/process/apart.h"
 #include "host/scene/names.h"
@@ -17,7 +15,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -28,19 +25,6 @@ namespace {
 
 constexpr double bytesPerMebibyte = 1024.0 * 1024.0;
 
-/// The kernel that `auto` chooses for each workload.
-std::vector<std::pair<std::string_view, std::string_view>> chosenKernels(const gpu::DeviceInfo &device,
-                                                                         const Tuning &tuning) {
-    std::vector<std::pair<std::string_view, std::string_view>> chosen;
-    for (const auto &[name, workload] : gpu::workloadNames) {
-        const gpu::KernelChoice &measured = tuning.kernels[static_cast<std::size_t>(workload)];
-        chosen.emplace_back(name, measured.traversal != gpu::Traversal::Automatic
-                                      ? gpu::kernelName(measured)
-                                      : gpu::kernelName(gpu::completed({}, device, workload)));
-    }
-    return chosen;
-}
-
 void printKernels(const gpu::DeviceInfo &device, Observer &observer) {
     const Tuning tuning = readTuning(device, observer);
     std::string text;
@@ -49,17 +33,6 @@ void printKernels(const gpu::DeviceInfo &device, Observer &observer) {
     printResult("   kernel      {}: {}\n", text,
                 tuning.isMeasured() ? "as measured on " + tuning.date
                                     : "by its type; `hyalite devices --tune` measures");
-}
-
-/// Opens the device if it promises nothing.
-std::string equalBitsOf(const gpu::DeviceInfo &device, Observer &observer) {
-    if (device.areBitsPromised())
-        return "promised";
-    if (!device.isUsable())
-        return "none: " + gpu::explainUnpromisedBits(device);
-    gpu::Device opened(device);
-    return gpu::describe(
-        guaranteeOf(gpu::guaranteeOf(device, gpu::checkDevice(opened)), readTuning(device, observer)));
 }
 
 void printTable(const std::vector<gpu::DeviceInfo> &devices, Observer &observer) {
@@ -85,44 +58,9 @@ void printTable(const std::vector<gpu::DeviceInfo> &devices, Observer &observer)
 
 void printJson(const std::vector<gpu::DeviceInfo> &devices, Observer &observer) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const gpu::DeviceInfo &device : devices) {
-        nlohmann::ordered_json entry;
-        entry["index"] = device.index;
-        entry["name"] = device.name;
-        entry["type"] = gpu::deviceTypeName(device.type);
-        entry["driver"] = device.driver;
-        entry["apiVersion"] = device.apiVersion;
-        entry["vendorId"] = device.vendorId;
-        entry["deviceId"] = device.deviceId;
-        entry["deviceMemoryBytes"] = device.deviceMemoryBytes;
-        entry["maxStorageBufferBytes"] = device.maxStorageBufferBytes;
-        entry["maxStorageBuffersPerStage"] = device.maxStorageBuffersPerStage;
-        entry["maxWorkgroupInvocations"] = device.maxWorkgroupInvocations;
-        entry["maxWorkgroupCount"] = device.maxWorkgroupCount;
-        entry["subgroupSize"] = device.subgroupSize;
-        entry["hasTimestamps"] = device.hasTimestamps;
-        entry["canRoundToNearestEven"] = device.canRoundToNearestEven;
-        entry["canPreserveSignedZeroInfNan"] = device.canPreserveSignedZeroInfNan;
-        entry["hasExactDivisionListed"] = device.hasExactDivisionListed;
-        const Tuning tuning = readTuning(device, observer);
-        for (const auto &[workload, kernel] : chosenKernels(device, tuning))
-            entry["kernels"][std::string(workload)] = kernel;
-        entry["areKernelsMeasured"] = tuning.isMeasured();
-        entry["areBitsPromised"] = device.areBitsPromised();
-        entry["equalBits"] = equalBitsOf(device, observer);
-        entry["isUsable"] = device.isUsable();
-        if (!device.isUsable())
-            entry["rejection"] = device.rejection;
-        list.push_back(entry);
-    }
-    nlohmann::ordered_json reference; // no index: it is chosen by name
-    reference["name"] = "cpu";
-    reference["type"] = "reference renderer";
-    reference["driver"] = "hyalite " HYALITE_VERSION;
-    reference["areBitsPromised"] = true;
-    reference["equalBits"] = "promised";
-    reference["isUsable"] = true;
-    list.push_back(reference);
+    for (const gpu::DeviceInfo &device : devices)
+        list.push_back(deviceToJson(device, observer));
+    list.push_back(referenceToJson());
     fmt::print("{}", cleanText(jsonText(list)));
 }
 

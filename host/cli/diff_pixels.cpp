@@ -39,15 +39,6 @@ struct Inputs {
     Mask mask;
 };
 
-/// The values of the image as a PNG would have them.
-Image displayed(const Image &linear) {
-    Image image(linear.width(), linear.height());
-    const std::vector<std::uint8_t> levels = toneMap(linear, 0.0);
-    for (std::size_t i = 0; i < image.pixels().size(); ++i)
-        image.pixels()[i] = glm::vec3(levels[3 * i], levels[3 * i + 1], levels[3 * i + 2]) / 255.0f;
-    return image;
-}
-
 Inputs readInputs(const DiffOptions &options) {
     LoadedImage reference = readImage(options.reference);
     LoadedImage test = readImage(options.test);

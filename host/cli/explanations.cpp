@@ -1,6 +1,7 @@
 #include "host/cli/explanations.h"
 
 #include "host/base/message.h"
+#include "host/lab/comparison_run.h"
 #include "host/reference/explain.h"
 
 #include <fmt/format.h>
@@ -24,10 +25,6 @@ void printExplanation(const glm::uvec2 &pixel, const reference::Explanation &why
 
 } // namespace
 
-glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel) {
-    return {static_cast<std::uint32_t>(crop.x0 + pixel.x), static_cast<std::uint32_t>(crop.y0 + pixel.y)};
-}
-
 void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &divergence) {
     if (!divergence) {
         printResult(
@@ -39,20 +36,6 @@ void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &d
     printResult("divergence   pixel ({}, {}), sample {}, bounce {}: {}\n", pixel.x, pixel.y,
                 divergence->sampleIndex, divergence->rayDepth - 1, divergence->quantity);
     printResult("  first      {}\n  second     {}\n", divergence->valueA, divergence->valueB);
-}
-
-nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
-                                        const std::optional<Divergence> &divergence) {
-    nlohmann::ordered_json json;
-    json["pixel"] = {pixel.x, pixel.y};
-    if (!divergence)
-        return json;
-    json["sample"] = divergence->sampleIndex;
-    json["bounce"] = divergence->rayDepth - 1;
-    json["quantity"] = divergence->quantity;
-    json["first"] = divergence->valueA;
-    json["second"] = divergence->valueB;
-    return json;
 }
 
 std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers) {

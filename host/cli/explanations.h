@@ -6,19 +6,13 @@
 #include "host/reference/divergence.h"
 
 #include <glm/vec2.hpp>
-#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <optional>
 
 namespace hyalite::core {
 
-/// From a pixel of the crop to that of the whole image.
-[[nodiscard]] glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel);
-
 void printDivergence(const glm::uvec2 &pixel, const std::optional<Divergence> &divergence);
-[[nodiscard]] nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
-                                                      const std::optional<Divergence> &divergence);
 
 /// Explains outliers with the double twin. Returns the number of those that no decision near its boundary explains.
 [[nodiscard]] std::size_t explainOutliers(const PreparedScene &scene, const Pixels &outliers);

@@ -62,11 +62,4 @@ Pixels findVisibleOutliers(const Image &a, const Image &b) {
     return outliers;
 }
 
-glm::ivec2 worstPixel(const Image &a, const Image &b, const PixelMetrics &metrics) {
-    if (metrics.maxAbsoluteDifference > 0.0)
-        return {metrics.worstX, metrics.worstY};
-    const Pixels differing = findOutliers(a, b, {});
-    return differing.empty() ? glm::ivec2(0) : differing.front();
-}
-
 } // namespace hyalite::core

@@ -32,7 +32,4 @@ using Pixels = std::vector<glm::ivec2>;
 /// Pixels that differ by more than two of 255 levels in a PNG: visible differences.
 [[nodiscard]] Pixels findVisibleOutliers(const Image &a, const Image &b);
 
-/// The pixel at which a difference is explained: the one with the largest, or the first with any.
-[[nodiscard]] glm::ivec2 worstPixel(const Image &a, const Image &b, const PixelMetrics &metrics);
-
 } // namespace hyalite::core

@@ -4,9 +4,9 @@
 #include "host/cli/commands.h"
 #include "host/cli/options.h"
 #include "host/cli/terminal_observer.h"
-#include "host/cli/verify_files.h"
 #include "host/engine/tuning.h"
 #include "host/gpu/vk/device_list.h"
+#include "host/lab/verify_report.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

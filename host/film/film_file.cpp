@@ -35,8 +35,8 @@ Drawing draw(const Film &film, const Image &image, const RenderSettings &setting
 
 } // namespace
 
-Drawing drawFilm(const Film &film, const RenderSettings &settings) {
-    return draw(film, film.toImage(), settings, ToneCurve::Gamma);
+Drawing drawFilm(const Film &film, const RenderSettings &settings, ToneCurve tone) {
+    return draw(film, film.toImage(), settings, tone);
 }
 
 void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,

@@ -17,7 +17,8 @@ namespace hyalite::core {
 [[nodiscard]] Drawing drawCost(const Film &cost);
 
 /// The picture in a PNG: the tone-mapped means, or drawCost() for the cost.
-[[nodiscard]] Drawing drawFilm(const Film &film, const RenderSettings &settings);
+[[nodiscard]] Drawing drawFilm(const Film &film, const RenderSettings &settings,
+                               ToneCurve tone = ToneCurve::Gamma);
 
 /// writeImage() of the film's `picture`, or of drawCost() for a PNG of the cost, with the attribute "pixels", which is
 /// pixelHash() of the file's colours. Throws likewise.

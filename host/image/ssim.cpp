@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace hyalite::core {
@@ -76,21 +77,19 @@ void filterRow(const Image &a, const Image &b, const Mask &mask, int channel, in
     }
 }
 
-} // namespace
-
-std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask) {
+/// Calls visit(index of the pixel, SSIM index) for each window inside the image whose centre is compared, channel by
+/// channel.
+template <class Visit>
+void forEachWindow(const Image &a, const Image &b, const Mask &mask, const Visit &visit) {
     assert(a.width() == b.width() && a.height() == b.height());
     assert(mask.empty() || mask.size() == a.pixels().size());
     if (a.width() < ssimWindowSide || a.height() < ssimWindowSide)
-        return std::nullopt;
+        return;
     const Weights weights = gaussianWeights();
     const auto windowsPerRow = static_cast<std::size_t>(a.width() - 2 * radius);
     std::vector<Moments> products(static_cast<std::size_t>(a.width()));
     // Only the rows under the window are kept: row y is at y % 11.
     std::vector<std::vector<Moments>> rows(ssimWindowSide, std::vector<Moments>(windowsPerRow));
-
-    double sum = 0.0;
-    std::uint64_t windowCount = 0;
     for (int channel = 0; channel < 3; ++channel) {
         for (int lastY = 0; lastY < a.height(); ++lastY) {
             filterRow(a, b, mask, channel, lastY, weights, products,
@@ -110,14 +109,35 @@ std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask)
                     moments.add(weights[static_cast<std::size_t>(i)],
                                 rows[static_cast<std::size_t>(y % ssimWindowSide)][window]);
                 }
-                sum += indexOf(moments);
-                ++windowCount;
+                visit(centreIndex, indexOf(moments));
             }
         }
     }
+}
+
+} // namespace
+
+std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask) {
+    double sum = 0.0;
+    std::uint64_t windowCount = 0;
+    forEachWindow(a, b, mask, [&](std::size_t, double index) {
+        sum += index;
+        ++windowCount;
+    });
     if (windowCount == 0 || !std::isfinite(sum))
         return std::nullopt;
     return sum / static_cast<double>(windowCount);
+}
+
+std::vector<float> ssimMap(const Image &a, const Image &b) {
+    constexpr double channelCount = 3.0;
+    std::vector<double> sums(a.pixels().size(), 0.0);
+    std::vector<float> map(sums.size(), std::numeric_limits<float>::quiet_NaN());
+    forEachWindow(a, b, {}, [&](std::size_t pixel, double index) {
+        sums[pixel] += index;
+        map[pixel] = static_cast<float>(sums[pixel] / channelCount); // of the last channel, all three
+    });
+    return map;
 }
 
 } // namespace hyalite::core

@@ -5,6 +5,7 @@
 #include "host/image/mask.h"
 
 #include <optional>
+#include <vector>
 
 namespace hyalite::core {
 
@@ -22,5 +23,9 @@ inline constexpr int ssimWindowSide = 11;
 /// With a mask, only windows centred on a compared pixel count, and b equals a outside the mask. Empty if no window
 /// counts, as in an image with a side below 11, or if an image holds NaN or infinity.
 [[nodiscard]] std::optional<double> meanSsim(const Image &a, const Image &b, const Mask &mask = {});
+
+/// The index of the window around each pixel, averaged over the channels; NaN where the window leaves the image, and
+/// where it holds NaN or infinity. Row by row from the top left. Images have the same size.
+[[nodiscard]] std::vector<float> ssimMap(const Image &a, const Image &b);
 
 } // namespace hyalite::core

@@ -118,4 +118,12 @@ std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops, Tone
     return bytes;
 }
 
+Image displayed(const Image &linear) {
+    Image image(linear.width(), linear.height());
+    const std::vector<std::uint8_t> levels = toneMap(linear, 0.0);
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+        image.pixels()[i] = glm::vec3(levels[3 * i], levels[3 * i + 1], levels[3 * i + 2]) / 255.0f;
+    return image;
+}
+
 } // namespace hyalite::core

@@ -39,4 +39,7 @@ inline constexpr std::array<std::pair<std::string_view, ToneCurve>, 4> toneCurve
 [[nodiscard]] std::vector<std::uint8_t> toneMap(const Image &image, double exposureStops,
                                                 ToneCurve curve = ToneCurve::Gamma);
 
+/// The numbers of the image in [0, 1], as a PNG of it would have them.
+[[nodiscard]] Image displayed(const Image &linear);
+
 } // namespace hyalite::core

@@ -1,6 +1,9 @@
 #include "host/lab/comparison_run.h"
 
+#include <algorithm>
+#include <cstring>
 #include <utility>
+#include <vector>
 
 namespace hyalite::core {
 
@@ -11,6 +14,52 @@ ComparisonRun openComparison(const ComparisonRequest &request, const PreparedSce
     std::unique_ptr<Backend> first = openBackend(request.device, observer, processors, config);
     return {std::move(first), openBackend(request.against, observer, processors,
                                           isReference(request.against) ? gpu::RenderConfig{} : config)};
+}
+
+ComparedRenders renderBoth(const ComparisonRun &run, const PreparedScene &scene, Observer &observer) {
+    const auto renderAll = [&](Backend &backend) {
+        return unlessFailed(render(backend, scene.packed, scene.loaded.settings, scene.crop, observer,
+                                   {.name = backend.name()}));
+    };
+    BackendResult a = renderAll(*run.first);
+    BackendResult b = renderAll(*run.second);
+    ComparedRenders renders{std::move(a), std::move(b), {}, {}, {}};
+    renders.imageA = renders.a.film.toImage();
+    renders.imageB = renders.b.film.toImage();
+    renders.comparison = compareImages(renders.imageB, renders.imageA, Encoding::Linear);
+    return renders;
+}
+
+glm::ivec2 worstPixel(const ComparedRenders &renders) {
+    const PixelMetrics &metrics = renders.comparison.pixels;
+    if (metrics.maxAbsoluteDifference > 0.0)
+        return {metrics.worstX, metrics.worstY};
+    const std::vector<glm::vec3> &a = renders.imageA.pixels();
+    const std::vector<glm::vec3> &b = renders.imageB.pixels();
+    const auto hasEqualBits = [](const glm::vec3 &x, const glm::vec3 &y) {
+        return std::memcmp(&x, &y, sizeof x) == 0;
+    };
+    const auto index = static_cast<int>(std::ranges::mismatch(a, b, hasEqualBits).in1 - a.begin());
+    const int width = renders.imageA.width();
+    return metrics.identical() ? glm::ivec2(0) : glm::ivec2(index % width, index / width);
+}
+
+glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel) {
+    return {static_cast<std::uint32_t>(crop.x0 + pixel.x), static_cast<std::uint32_t>(crop.y0 + pixel.y)};
+}
+
+nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
+                                        const std::optional<Divergence> &divergence) {
+    nlohmann::ordered_json json;
+    json["pixel"] = {pixel.x, pixel.y};
+    if (!divergence)
+        return json;
+    json["sample"] = divergence->sampleIndex;
+    json["bounce"] = divergence->rayDepth - 1;
+    json["quantity"] = divergence->quantity;
+    json["first"] = divergence->valueA;
+    json["second"] = divergence->valueB;
+    return json;
 }
 
 std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene,

@@ -2,7 +2,11 @@
 #pragma once
 
 #include "host/engine/open_backends.h"
+#include "host/image/comparison.h"
 #include "host/reference/divergence.h"
+
+#include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
@@ -14,7 +18,7 @@ struct ComparisonRequest {
     std::string device = "auto";
     std::string against = "cpu";
     int threadCount = 0;         ///< 0: all
-    DeviceOptions deviceOptions; ///< of both, unless the second is the reference renderer
+    DeviceOptions deviceOptions{}; ///< of both, unless the second is the reference renderer
 };
 
 struct ComparisonRun {
@@ -24,6 +28,27 @@ struct ComparisonRun {
 
 [[nodiscard]] ComparisonRun openComparison(const ComparisonRequest &request, const PreparedScene &scene,
                                            Observer &observer);
+
+/// Both images, and how they differ. The second one is the reference.
+struct ComparedRenders {
+    BackendResult a;
+    BackendResult b;
+    Image imageA; ///< of their films
+    Image imageB;
+    ImageComparison comparison;
+};
+
+[[nodiscard]] ComparedRenders renderBoth(const ComparisonRun &run, const PreparedScene &scene,
+                                         Observer &observer);
+
+/// The pixel of the images at which a difference is explained: the one with the largest, or the first with any.
+[[nodiscard]] glm::ivec2 worstPixel(const ComparedRenders &renders);
+
+/// From a pixel of the crop to that of the whole image.
+[[nodiscard]] glm::uvec2 imagePixel(const Crop &crop, const glm::ivec2 &pixel);
+
+[[nodiscard]] nlohmann::ordered_json divergenceToJson(const glm::uvec2 &pixel,
+                                                      const std::optional<Divergence> &divergence);
 
 /// Retraces a pixel of the whole image on both sides, sample by sample, until a step differs.
 [[nodiscard]] std::optional<Divergence>

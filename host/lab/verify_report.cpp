@@ -1,8 +1,8 @@
-#include "host/cli/verify_files.h"
+#include "host/lab/verify_report.h"
 
 #include "host/base/hash.h"
 #include "host/base/markup.h"
-#include "host/cli/explanations.h"
+#include "host/lab/comparison_run.h"
 #include "host/report/provenance.h"
 #include "host/scene/names.h"
 
