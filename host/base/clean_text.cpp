@@ -1,5 +1,6 @@
 #include "host/base/clean_text.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -59,6 +60,10 @@ std::string excerpt(std::string_view text, std::size_t maxBytes) {
     for (const char c : cleanText(text.substr(0, end)))
         line += c == '\n' ? std::string(replacement) : std::string(1, c);
     return end < text.size() ? line + "..." : line;
+}
+
+std::string refusalText(std::string_view found, std::string_view allowed) {
+    return fmt::format("found \"{}\"; allowed: {}", excerpt(found), allowed);
 }
 
 } // namespace hyalite::core

@@ -15,4 +15,7 @@ namespace hyalite::core {
 /// An excerpt of a file for a message: clean, on one line, and cut after `maxBytes` with "...".
 [[nodiscard]] std::string excerpt(std::string_view text, std::size_t maxBytes = 100);
 
+/// `found "TEXT"; allowed: ALLOWED`: how a value that somebody gave is refused.
+[[nodiscard]] std::string refusalText(std::string_view found, std::string_view allowed);
+
 } // namespace hyalite::core

@@ -46,8 +46,7 @@ bool isSameFile(const std::string &a, const std::string &b) {
 } // namespace
 
 void refuseValue(const std::string &option, std::string_view found, std::string_view allowed) {
-    throw Error(ErrorKind::Usage,
-                fmt::format("{}: found \"{}\"; allowed: {}", option, excerpt(found), allowed));
+    throw Error(ErrorKind::Usage, fmt::format("{}: {}", option, refusalText(found, allowed)));
 }
 
 double readNumber(const std::string &option, std::string_view text, const Interval &allowed) {
@@ -64,10 +63,8 @@ std::int64_t readWholeNumber(const std::string &option, std::string_view text, c
     return *number;
 }
 
-namespace {
-
-CLI::Option *addWord(CLI::App &command, const std::string &name, std::string &word,
-                     const std::string &allowed, const std::string &typeName, const std::string &help) {
+CLI::Option *addWord(CLI::App &command, const std::string &name, std::string &word, std::string_view allowed,
+                     const std::string &typeName, const std::string &help) {
     const auto read = [name, &word, allowed](const CLI::results_t &words) {
         if (words.front().empty())
             refuseValue(name, "", allowed);
@@ -76,8 +73,6 @@ CLI::Option *addWord(CLI::App &command, const std::string &name, std::string &wo
     };
     return command.add_option(name, CLI::callback_t(read), help)->type_name(typeName);
 }
-
-} // namespace
 
 CLI::Option *addOutput(CLI::App &command, const std::string &name, std::string &path,
                        const std::string &typeName, const std::string &help) {
@@ -91,11 +86,6 @@ CLI::Option *addOutput(CLI::App &command, const std::string &name, std::string &
 CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
                      const std::string &typeName, const std::string &help) {
     return addWord(command, name, path, "the name of a file", typeName, help);
-}
-
-CLI::Option *addText(CLI::App &command, const std::string &name, std::string &text,
-                     const std::string &typeName, const std::string &help) {
-    return addWord(command, name, text, "a name", typeName, help);
 }
 
 CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<std::filesystem::path> &paths,

@@ -125,8 +125,8 @@ CLI::Option *addOutput(CLI::App &command, const std::string &name, std::string &
 CLI::Option *addFile(CLI::App &command, const std::string &name, std::string &path,
                      const std::string &typeName, const std::string &help);
 
-/// An option with a text, which must not be empty.
-CLI::Option *addText(CLI::App &command, const std::string &name, std::string &text,
+/// An option with a text that must not be empty. `allowed`, which must outlive the command, says in words what it is.
+CLI::Option *addWord(CLI::App &command, const std::string &name, std::string &word, std::string_view allowed,
                      const std::string &typeName, const std::string &help);
 
 /// An option that may be repeated, each time with an existing folder or file.

@@ -70,8 +70,13 @@ void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
         change.apply(settings);
 }
 
-/// Throws for an option that neither the integrator nor a view looks at.
-void requireEffect(const SceneOptions &options, Integrator integrator) {
+/// Throws for an option that has no effect with these settings.
+void requireEffect(const SceneOptions &options, const RenderSettings &settings) {
+    const Integrator integrator = settings.integrator;
+    if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
+        throw OverrideError("filter", fmt::format("found {} with all samples at the pixel's centre; allowed: "
+                                                  "with the sampler sobol, or the filter box",
+                                                  nameOf(settings.filter)));
     for (const SettingChange &change : options.settings) {
         const auto isUsedBy = [&](Integrator user) {
             return std::ranges::find(change.option->integrators, user) != change.option->integrators.end();
@@ -140,6 +145,20 @@ void overrideSize(const SceneOptions &options, const std::optional<double> &aspe
     camera.height = options.height.value_or(height);
 }
 
+/// The size of the image and the field of view.
+void overrideLens(const SceneOptions &options, LoadedScene &loaded) {
+    Camera &camera = loaded.scene.camera;
+    overrideSize(options, loaded.aspectRatio, camera);
+    if (options.fovDegrees && camera.kind != CameraKind::Perspective)
+        throw OverrideError("fov", fmt::format("found a camera of the type {}, which has no field of "
+                                               "view; allowed: with a perspective one",
+                                               nameIn(cameraNames, camera.kind)));
+    if (loaded.verticalFovDegrees)
+        camera.horizontalFovDegrees =
+            horizontalFovDegrees(*loaded.verticalFovDegrees, camera.width, camera.height);
+    camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
+}
+
 void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     RenderSettings &settings = loaded.settings;
@@ -152,27 +171,15 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
         scene.lights.clear();
         loaded.isAutoLit = false;
     }
-    requireEffect(options, settings.integrator);
-    if (settings.filter != FilterKind::Box && settings.sampler == SamplerKind::Centre)
-        throw OverrideError("filter", fmt::format("found {} with all samples at the pixel's centre; allowed: "
-                                                  "with the sampler sobol, or the filter box",
-                                                  nameOf(settings.filter)));
+    requireEffect(options, settings);
     overrideEnvironment(options, loaded);
 
-    Camera &camera = scene.camera;
-    overrideSize(options, loaded.aspectRatio, camera);
-    if (options.fovDegrees && camera.kind != CameraKind::Perspective)
-        throw OverrideError("fov", fmt::format("found a camera of the type {}, which has no field of "
-                                               "view; allowed: with a perspective one",
-                                               nameIn(cameraNames, camera.kind)));
-    if (loaded.verticalFovDegrees)
-        camera.horizontalFovDegrees =
-            horizontalFovDegrees(*loaded.verticalFovDegrees, camera.width, camera.height);
-    camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
+    overrideLens(options, loaded);
     if (!loaded.autoFramed) {
-        moveCamera(options, loaded, camera);
+        moveCamera(options, loaded, scene.camera);
         return;
     }
+    Camera &camera = scene.camera;
     const Bounds bounds = triangleBounds(scene, loaded.file.string());
     camera = frameCamera(bounds, camera.width, camera.height, camera.horizontalFovDegrees, chooseUp(options));
     moveCamera(options, loaded, camera);
@@ -190,14 +197,15 @@ std::string cameraOverride(const SceneOptions &options) {
     return options.cameraPosition.empty() ? "" : "camera-position";
 }
 
-/// Validates the scene with its overrides. It was valid as loaded, and each override is in range, so any failure is a
-/// conflict between them.
-void validateWithOverrides(const SceneOptions &options, const LoadedScene &loaded) {
+/// Validates by `validate`, of which the name of the source is told, and the settings. The scene was valid as loaded,
+/// and each override is in range, so any failure is a conflict between them.
+template <class Validate>
+void validateWithOverrides(const SceneOptions &options, const LoadedScene &loaded, const Validate &validate) {
     const std::string name = cameraOverride(options);
     try {
         const std::string source =
             fmt::format("{} with {}", loaded.file.string(), name.empty() ? "these settings" : "this camera");
-        validateScene(loaded.scene, source);
+        validate(source);
         validateSettings(loaded.settings, loaded.scene, source);
     } catch (const Error &error) {
         if (name.empty())
@@ -292,8 +300,11 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
         };
         LoadOptions load = options.load;
         load.events = {passOutline, [&](double share) { progress.update(share); }};
-        prepared.loaded = loadScene(options.scene, load);
+        prepared.loaded =
+            options.document ? loadScene(*options.document, load) : loadScene(options.scene, load);
     }
+    prepared.givenCamera = prepared.loaded.scene.camera;
+    prepared.givenSettings = prepared.loaded.settings;
     applyOverrides(options, prepared.loaded);
     for (const std::string &warning : prepared.loaded.warnings)
         observer.warning(warning);
@@ -302,7 +313,8 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
             observer.warning(warning);
     Scene &scene = prepared.loaded.scene;
     const RenderSettings &settings = prepared.loaded.settings;
-    validateWithOverrides(options, prepared.loaded);
+    validateWithOverrides(options, prepared.loaded,
+                          [&](const std::string &name) { validateScene(scene, name); });
     prepared.crop = chooseCrop(options.crop, scene.camera);
     prepared.sources = lightSourcesOf(scene);
     adviseOnLightsBehindGlass(scene, settings.integrator, observer);
@@ -324,6 +336,46 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
     prepared.loadSeconds = secondsBetween(start, loaded);
     prepared.buildSeconds = secondsBetween(loaded, Clock::now());
     return prepared;
+}
+
+bool isOtherView(const PreparedScene &prepared, const SceneOptions &options, const SceneOptions &others) {
+    const auto isSame = [&](auto... members) { return ((options.*members == others.*members) && ...); };
+    RenderSettings now = prepared.givenSettings;
+    RenderSettings then = prepared.givenSettings;
+    overrideSettings(options, now);
+    overrideSettings(others, then);
+    const bool hasSameTree = now.integrator == then.integrator && now.tree == then.tree &&
+                             now.leafSize == then.leafSize && now.lightChoice == then.lightChoice;
+    const bool hasSameLoad = options.load.allowedPaths == others.load.allowedPaths &&
+                             options.load.camera == others.load.camera &&
+                             options.load.gltfScene == others.load.gltfScene &&
+                             options.load.timeSeconds == others.load.timeSeconds;
+    // What is framed by itself is lit by where its camera is.
+    const bool hasSameFrame = !prepared.loaded.autoFramed ||
+                              isSame(&SceneOptions::width, &SceneOptions::height, &SceneOptions::fovDegrees,
+                                     &SceneOptions::cameraPosition, &SceneOptions::lookAt, &SceneOptions::up);
+    return hasSameTree && hasSameLoad && hasSameFrame &&
+           isSame(&SceneOptions::scene, &SceneOptions::document, &SceneOptions::background,
+                  &SceneOptions::environment, &SceneOptions::environmentScale,
+                  &SceneOptions::environmentRotateDegrees, &SceneOptions::isFlattened);
+}
+
+void changeView(PreparedScene &prepared, const SceneOptions &options) {
+    LoadedScene &loaded = prepared.loaded;
+    const Integrator integrator = loaded.settings.integrator; // that light of the options decides, too
+    loaded.settings = prepared.givenSettings;
+    loaded.settings.integrator = integrator;
+    overrideSettings(options, loaded.settings);
+    requireEffect(options, loaded.settings);
+    if (!loaded.autoFramed) {
+        loaded.scene.camera = prepared.givenCamera;
+        overrideLens(options, loaded);
+        moveCamera(options, loaded, loaded.scene.camera);
+    }
+    validateWithOverrides(options, loaded,
+                          [&](const std::string &name) { validateCamera(loaded.scene.camera, name); });
+    prepared.crop = chooseCrop(options.crop, loaded.scene.camera);
+    packCamera(loaded.scene, prepared.packed);
 }
 
 Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine) {

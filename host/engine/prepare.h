@@ -6,12 +6,14 @@
 #include "host/engine/observer.h"
 #include "host/film/film.h"
 #include "host/import/loaded_scene.h"
+#include "host/import/scene_document.h"
 #include "host/packing/packed_scene.h"
 #include "host/report/provenance.h"
 #include "host/scene/light_sources.h"
 #include "host/scene/settings_table.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,6 +24,7 @@ namespace hyalite::core {
 /// Overrides: the command line beats the scene file, which beats defaults. Only given values are set.
 struct SceneOptions {
     std::string scene;
+    std::shared_ptr<const SceneDocument> document{}; ///< a scene in memory, instead of `scene`
     std::optional<int> width;
     std::optional<int> height;
     SettingChanges settings;
@@ -60,6 +63,8 @@ struct PreparedScene {
     std::uint64_t arraysHash = 0; ///< of `packed`
     Crop crop;
     LightSources sources;
+    Camera givenCamera;           ///< as the scene has it, without overrides
+    RenderSettings givenSettings; ///< likewise
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
 
@@ -73,6 +78,15 @@ struct PreparedScene {
 /// files are read.
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, Observer &observer,
                                          const std::function<void(const SceneOutline &)> &onOutline = {});
+
+/// Whether two scenes that are prepared with these options differ only in what changeView() changes. `prepared` is the
+/// first one.
+[[nodiscard]] bool isOtherView(const PreparedScene &prepared, const SceneOptions &options,
+                               const SceneOptions &others);
+
+/// Gives the scene the camera, the picture's size, the crop and the settings that it has with `options`, of which
+/// isOtherView() said so. Throws as prepareScene() does, and leaves the scene as one that can be changed again.
+void changeView(PreparedScene &prepared, const SceneOptions &options);
 
 /// Provenance for reports.
 [[nodiscard]] Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine);

@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <set>
 
+#include <dlfcn.h>
+
 namespace hyalite::core {
 namespace {
 
@@ -27,6 +29,15 @@ std::string listOfScenes() {
     return fmt::format("; the shipped scenes are {}", fmt::join(names, ", "));
 }
 
+/// The file that this code was loaded from: the program, or a shared library.
+std::filesystem::path libraryFile() {
+    Dl_info info{};
+    std::error_code error;
+    if (dladdr(reinterpret_cast<const void *>(&availableScenes), &info) == 0 || info.dli_fname == nullptr)
+        return {};
+    return std::filesystem::canonical(info.dli_fname, error);
+}
+
 } // namespace
 
 std::vector<std::filesystem::path> assetFolders() {
@@ -37,6 +48,18 @@ std::vector<std::filesystem::path> assetFolders() {
     const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe", error);
     if (!error)
         folders.push_back(program.parent_path().parent_path() / "share" / "hyalite");
+    if (!folders.empty() && std::filesystem::is_directory(folders.back(), error))
+        return folders;
+    // Of a library in another program: beside a module, in lib, in lib/MACHINE; or where all was installed.
+    for (const char *way :
+         {"share/hyalite", "../share/hyalite", "../../share/hyalite", HYALITE_DATA_FOLDER}) {
+        const std::filesystem::path folder =
+            std::filesystem::weakly_canonical(libraryFile().parent_path() / way, error);
+        if (std::filesystem::is_directory(folder, error)) {
+            folders.push_back(folder);
+            break;
+        }
+    }
     return folders;
 }
 

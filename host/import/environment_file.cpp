@@ -80,28 +80,33 @@ float largestFinite(const Image &image) {
 
 } // namespace
 
-EnvironmentImage readEnvironmentImage(const std::filesystem::path &file) {
-    EnvironmentImage environment;
-    if (isTextureFile(file)) {
-        Texture texture = readTexture(file);
-        environment.radiance = texture.isFloat() ? imageOf(std::move(texture)) : linearised(texture);
-    } else if (const InputFile input(file); isExr(input.head(exrHeadBytes))) {
-        environment.radiance = readExr(input, "", ExrWindow::Display);
-    } else {
-        environment.radiance = readImage(file).image;
-    }
+EnvironmentImage environmentImageOf(Image radiance, const std::string &name) {
+    EnvironmentImage environment{std::move(radiance), {}};
     const float most = largestFinite(environment.radiance);
     const Faults faults = mend(environment.radiance, most);
     const auto warn = [&](std::size_t count, std::string_view what, float value) {
         if (count > 0)
-            environment.warnings.push_back(fmt::format("{}: {} of {} pixels {}, which count as {}",
-                                                       file.string(), count,
-                                                       environment.radiance.pixels().size(), what, value));
+            environment.warnings.push_back(fmt::format("{}: {} of {} pixels {}, which count as {}", name,
+                                                       count, environment.radiance.pixels().size(), what,
+                                                       value));
     };
     warn(faults.negative, "have negative numbers", 0.0f);
     warn(faults.infinite, "have infinite numbers", most);
     warn(faults.notNumbers, "have numbers that are NaN", 0.0f);
     return environment;
+}
+
+EnvironmentImage readEnvironmentImage(const std::filesystem::path &file) {
+    Image radiance;
+    if (isTextureFile(file)) {
+        Texture texture = readTexture(file);
+        radiance = texture.isFloat() ? imageOf(std::move(texture)) : linearised(texture);
+    } else if (const InputFile input(file); isExr(input.head(exrHeadBytes))) {
+        radiance = readExr(input, "", ExrWindow::Display);
+    } else {
+        radiance = readImage(file).image;
+    }
+    return environmentImageOf(std::move(radiance), file.string());
 }
 
 } // namespace hyalite::core

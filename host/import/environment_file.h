@@ -20,4 +20,7 @@ struct EnvironmentImage {
 /// readImage and readTexture do.
 [[nodiscard]] EnvironmentImage readEnvironmentImage(const std::filesystem::path &file);
 
+/// The same of linear radiance that is in memory; `name` is for warnings.
+[[nodiscard]] EnvironmentImage environmentImageOf(Image radiance, const std::string &name);
+
 } // namespace hyalite::core

@@ -26,8 +26,8 @@ bool isWithin(const std::filesystem::path &path, const std::filesystem::path &fo
 } // namespace
 
 FileAccess::FileAccess(const std::filesystem::path &sceneFile,
-                       std::span<const std::filesystem::path> allowedPaths)
-    : folder_(sceneFile.parent_path()) {
+                       std::span<const std::filesystem::path> allowedPaths, const SceneArrays *arrays)
+    : folder_(sceneFile.parent_path()), arrays_(arrays) {
     const auto add = [&](const std::filesystem::path &path) {
         std::error_code error; // a missing folder has no files
         const std::filesystem::path canonical = std::filesystem::canonical(path, error);
@@ -42,6 +42,7 @@ FileAccess::FileAccess(const std::filesystem::path &sceneFile,
 FileAccess FileAccess::from(const std::filesystem::path &file) const {
     FileAccess access = *this;
     access.folder_ = file.parent_path();
+    access.arrays_ = nullptr;
     return access;
 }
 

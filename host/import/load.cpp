@@ -5,8 +5,10 @@
 #include "host/import/assets.h"
 #include "host/import/file_access.h"
 #include "host/import/formats.h"
+#include "host/import/scene_json.h"
 #include "host/import/texture_library.h"
 #include "host/scene/framing.h"
+#include "host/scene/light_sources.h"
 #include "host/scene/origin.h"
 #include "host/scene/validate.h"
 
@@ -58,14 +60,12 @@ LoadedScene loadBareMesh(const std::filesystem::path &file, const Format &format
     return loaded;
 }
 
-/// Throws Error{Usage} for choices that files of this format do not offer.
-void requireChoices(const Format &format, const LoadOptions &options, const std::filesystem::path &file) {
+/// Throws Error{Usage} for choices that a file or document of another format than glTF does not offer.
+void requireNoChoices(const LoadOptions &options, const std::filesystem::path &file) {
     const auto refuse = [&](std::string_view what) {
         throw Error(ErrorKind::Usage,
                     fmt::format("{}: {}; glTF files have (.gltf, .glb)", file.string(), what));
     };
-    if (format.hasChoices)
-        return;
     if (!options.camera.empty())
         refuse("this format has no cameras to choose from");
     if (!options.gltfScene.empty())
@@ -74,25 +74,56 @@ void requireChoices(const Format &format, const LoadOptions &options, const std:
         refuse("this format has no animations");
 }
 
-} // namespace
+bool hasTriangles(const Scene &scene) { return triangleCount(scene) > 0 || !scene.instances.empty(); }
 
-LoadedScene loadScene(const std::string &argument, const LoadOptions &options) {
-    const std::filesystem::path file = resolveScene(argument);
-    requireFile(file);
-    const Format &format = *formatOf(file);
-    requireChoices(format, options, file);
-    LoadedScene loaded =
-        format.readScene != nullptr ? format.readScene(file, options) : loadBareMesh(file, format, options);
-    loaded.inputFiles.push_back(file.string());
+/// Gives the scene the camera of a bare mesh, and its lights if nothing shines.
+void frame(LoadedScene &loaded) {
+    Scene &scene = loaded.scene;
+    moveNear(scene, loaded.cameraPath);
+    const Bounds bounds = triangleBounds(scene, loaded.file.string());
+    scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
+    loaded.autoFramed = true;
+    const LightSources sources = lightSourcesOf(scene);
+    loaded.isAutoLit = !sources.hasLights && !sources.hasEmitters && !sources.hasEnvironment;
+    if (loaded.isAutoLit) {
+        scene.lights = frameLights(bounds, {0.0, 1.0, 0.0}, scene.camera.position);
+        scene.background = frameBackground;
+    }
+}
+
+/// Gives the scene its origin, and validates it.
+LoadedScene finished(LoadedScene loaded) {
     for (const MeshReport &report : loaded.meshReports)
         for (const std::filesystem::path &path : report.files)
             loaded.inputFiles.push_back(path.string());
     for (const Texture &texture : loaded.scene.textures)
         loaded.inputFiles.push_back(texture.name);
     moveNear(loaded.scene, loaded.cameraPath, loaded.restOrigin);
-    validateScene(loaded.scene, file.string());
-    validateSettings(loaded.settings, loaded.scene, file.string());
+    validateScene(loaded.scene, loaded.file.string());
+    validateSettings(loaded.settings, loaded.scene, loaded.file.string());
     return loaded;
+}
+
+} // namespace
+
+LoadedScene loadScene(const std::string &argument, const LoadOptions &options) {
+    const std::filesystem::path file = resolveScene(argument);
+    requireFile(file);
+    const Format &format = *formatOf(file);
+    if (!format.hasChoices)
+        requireNoChoices(options, file);
+    LoadedScene loaded =
+        format.readScene != nullptr ? format.readScene(file, options) : loadBareMesh(file, format, options);
+    loaded.inputFiles.push_back(file.string());
+    return finished(std::move(loaded));
+}
+
+LoadedScene loadScene(const SceneDocument &document, const LoadOptions &options) {
+    requireNoChoices(options, document.file);
+    LoadedScene loaded = loadSceneDocument(document, options);
+    if (document.isFramed && hasTriangles(loaded.scene))
+        frame(loaded);
+    return finished(std::move(loaded));
 }
 
 } // namespace hyalite::core

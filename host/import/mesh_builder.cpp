@@ -82,7 +82,8 @@ bool isDegenerate(const glm::dvec3 &a, const glm::dvec3 &b, const glm::dvec3 &c)
 } // namespace
 
 std::string placeText(const std::string &file, PlaceUnit unit, std::size_t place) {
-    return file + (unit == PlaceUnit::Line ? ":" : ": byte ") + std::to_string(place) + ": ";
+    const char *word = unit == PlaceUnit::Line ? ":" : unit == PlaceUnit::Byte ? ": byte " : ": row ";
+    return file + word + std::to_string(place) + ": ";
 }
 
 void failAtPlace(const std::string &file, PlaceUnit unit, std::size_t place, std::string_view message) {

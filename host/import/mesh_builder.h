@@ -21,12 +21,12 @@ namespace hyalite::core {
 void leaveOutUselessTextures(ObjMesh &loaded);
 
 /// How messages name a place in the file.
-enum class PlaceUnit { Line, Byte };
+enum class PlaceUnit { Line, Byte, Row };
 
-/// "FILE:LINE: " or "FILE: byte OFFSET: ".
+/// "FILE:LINE: ", "FILE: byte OFFSET: ", or "NAME: row INDEX: " of arrays.
 [[nodiscard]] std::string placeText(const std::string &file, PlaceUnit unit, std::size_t place);
 
-/// Throws Error{BadInput} "FILE:LINE: message" or "FILE: byte OFFSET: message".
+/// Throws Error{BadInput} with the message behind the place's text.
 [[noreturn]] void failAtPlace(const std::string &file, PlaceUnit unit, std::size_t place,
                               std::string_view message);
 

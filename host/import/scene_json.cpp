@@ -130,9 +130,14 @@ Light readLight(const JsonNode &node) {
 Environment readEnvironment(const JsonObject &object, const FileAccess &access, LoadedScene &loaded) {
     Environment environment;
     const JsonNode file = object.at("file");
-    const std::filesystem::path path = access.resolve(file);
-    loaded.inputFiles.push_back(path.string());
-    EnvironmentImage image = readEnvironmentImage(path);
+    EnvironmentImage image;
+    if (const Image *given = access.find(&SceneArrays::environments, file.text())) {
+        image = environmentImageOf(*given, file.text());
+    } else {
+        const std::filesystem::path path = access.resolve(file);
+        loaded.inputFiles.push_back(path.string());
+        image = readEnvironmentImage(path);
+    }
     environment.radiance = std::move(image.radiance);
     std::ranges::move(image.warnings, std::back_inserter(loaded.warnings));
     const std::size_t count = environment.radiance.pixels().size();
@@ -173,10 +178,12 @@ void readTextures(const JsonObject &object, const MaterialRow &row, const Textur
         if (isNormal)
             material.normalStrength =
                 static_cast<float>(image.number("strength", limits::normalStrength, material.normalStrength));
-        use.textureIndex = source.library.load(source.access.resolve(file));
+        const Texture *given = source.access.find(&SceneArrays::textures, file.text());
+        use.textureIndex = given != nullptr ? source.library.load(file.text(), *given)
+                                            : source.library.load(source.access.resolve(file));
         const Texture &texture = source.library.at(use.textureIndex);
         if (texture.isFloat() && slot != layout::slotEmission)
-            file.fail("found an image of floats; allowed: a PNG or a JPEG");
+            file.fail("found an image of floats; allowed: one of bytes, such as a PNG or a JPEG");
         if (isNormal && source.library.lookOf(use.textureIndex).isGrey)
             file.fail("found a grey image, as height maps are; allowed: a normal map, which is bluish");
         material.textures[slot] = use;
@@ -306,7 +313,7 @@ bool takeSettings(const JsonObject &top, JsonFaults &faults, LoadedScene &loaded
 }
 
 LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::path &file,
-                         const LoadOptions &options) {
+                         const SceneArrays *arrays, const LoadOptions &options) {
     const std::string fileName = file.string();
     const JsonObject top{JsonNode{&document, &fileName}};
     JsonFaults faults;
@@ -329,7 +336,7 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
         scene.background =
             glm::vec3(top.colour("background", limits::radiance, glm::dvec3(scene.background)));
     });
-    const FileAccess access(file, options.allowedPaths);
+    const FileAccess access(file, options.allowedPaths, arrays);
     TextureLibrary textures;
     faults.collect([&] {
         if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
@@ -366,10 +373,14 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
 LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &options) {
     const nlohmann::json document = readJsonFile(file);
     try {
-        return loadDocument(document, file, options);
+        return loadDocument(document, file, nullptr, options);
     } catch (const JsonError &error) {
         throw withLines(error, file);
     }
+}
+
+LoadedScene loadSceneDocument(const SceneDocument &document, const LoadOptions &options) {
+    return loadDocument(document.json, document.file, &document.arrays, options);
 }
 
 namespace scene_keys {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/import/loaded_scene.h"
+#include "host/import/scene_document.h"
 #include "host/scene/scene.h"
 #include "host/scene/settings_table.h"
 
@@ -21,6 +22,9 @@ namespace hyalite::core {
 /// naming the file, the key as a JSON path such as /spheres/3/radius (a syntax error: line and column), what
 /// was found and what is allowed.
 [[nodiscard]] LoadedScene loadSceneFile(const std::filesystem::path &file, const LoadOptions &options = {});
+
+/// The same for a document in memory, whose faults have no lines.
+[[nodiscard]] LoadedScene loadSceneDocument(const SceneDocument &document, const LoadOptions &options = {});
 
 /// The keys of each object of a scene file.
 namespace scene_keys {

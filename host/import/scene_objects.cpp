@@ -2,6 +2,7 @@
 
 #include "host/import/foreign_format.h"
 #include "host/import/formats.h"
+#include "host/import/mesh_arrays.h"
 #include "host/import/obj.h"
 #include "host/import/transform_json.h"
 #include "host/scene/framing.h"
@@ -71,6 +72,21 @@ struct MeshSource {
     const OnReading &onReading;
 };
 
+/// The arrays, or else the file, that `node` names.
+MeshFile readMeshFile(const JsonNode &node, const MeshOptions &options) {
+    if (const MeshArrays *arrays = options.access.find(&SceneArrays::meshes, node.text()))
+        return readMeshArrays(node.text(), *arrays, options.transform);
+    const std::filesystem::path path = options.access.resolve(node);
+    const Format *const format = formatOf(path);
+    if (format == nullptr)
+        refuseForeignFormat(path);
+    else if (format->readMeshes == nullptr)
+        node.refuse("a file of meshes");
+    // A file of another extension is OBJ by tradition.
+    const auto read = format != nullptr ? format->readMeshes : readObjMeshes;
+    return read(path, options);
+}
+
 /// `materials` are those of the scene file. A mesh that names none of them has its own.
 MeshFile readMeshes(const JsonObject &object, const std::vector<Material> &materials,
                     const MeshSource &source) {
@@ -83,19 +99,10 @@ MeshFile readMeshes(const JsonObject &object, const std::vector<Material> &mater
     const bool isNamed = object.find("material").has_value();
     const std::uint32_t materialIndex = isNamed ? readMaterialIndex(object.at("material"), materials) : 0;
 
-    const JsonNode fileNode = object.at("file");
-    const std::filesystem::path path = source.access.resolve(fileNode);
-    const Format *const format = formatOf(path);
-    if (format == nullptr)
-        refuseForeignFormat(path);
-    else if (format->readMeshes == nullptr)
-        fileNode.refuse("a file of meshes");
-    // A file of another extension is OBJ by tradition.
-    const auto read = format != nullptr ? format->readMeshes : readObjMeshes;
-    MeshFile file = read(path, {.transform = transform,
-                                .onReading = source.onReading,
-                                .textures = isNamed ? nullptr : &source.textures,
-                                .access = source.access});
+    MeshFile file = readMeshFile(object.at("file"), {.transform = transform,
+                                                     .onReading = source.onReading,
+                                                     .textures = isNamed ? nullptr : &source.textures,
+                                                     .access = source.access});
     for (PlacedMesh &placed : file.meshes) {
         if (isNamed)
             placed.mesh.materialIndex = materialIndex;

@@ -23,7 +23,7 @@ std::uint32_t TextureLibrary::load(const std::filesystem::path &file) {
     if (const auto failure = failures_.find(key); failure != failures_.end())
         throw Error(ErrorKind::BadInput, failure->second);
     try {
-        return add(key, InputFile(file));
+        return add(key, readTexture(InputFile(file)));
     } catch (const Error &damage) {
         if (damage.kind == ErrorKind::BadInput)
             failures_.emplace(key, damage.what());
@@ -33,18 +33,21 @@ std::uint32_t TextureLibrary::load(const std::filesystem::path &file) {
 
 std::uint32_t TextureLibrary::load(const std::string &name, std::span<const std::byte> image) {
     const auto known = indices_.find(name);
-    return known != indices_.end() ? known->second : add(name, InputFile(name, image));
+    return known != indices_.end() ? known->second : add(name, readTexture(InputFile(name, image)));
 }
 
-std::uint32_t TextureLibrary::add(const std::string &key, const InputFile &file) {
-    Texture texture = readTexture(file);
+std::uint32_t TextureLibrary::load(const std::string &name, const Texture &texture) {
+    const auto known = indices_.find(name);
+    return known != indices_.end() ? known->second : add(name, Texture(texture));
+}
+
+std::uint32_t TextureLibrary::add(const std::string &key, Texture &&texture) {
     const std::size_t sizeBytes = sizeBytes_ + bytesOnDevice(texture);
     if (sizeBytes > limits::textureBytes) // before the next one takes memory
         throw Error(
             ErrorKind::LimitExceeded,
             fmt::format("{}: {} x {} pixels make it {} bytes of textures; allowed: {}; make images smaller",
-                        file.path().string(), texture.width, texture.height, sizeBytes,
-                        limits::textureBytes));
+                        texture.name, texture.width, texture.height, sizeBytes, limits::textureBytes));
     sizeBytes_ = sizeBytes;
     const auto index = static_cast<std::uint32_t>(textures_.size());
     textures_.push_back(std::move(texture));

@@ -34,6 +34,9 @@ class TextureLibrary {
     /// The same for an image inside a file: `name`, such as "model.glb#/images/3", is its own alone.
     [[nodiscard]] std::uint32_t load(const std::string &name, std::span<const std::byte> image);
 
+    /// The same for a texture in memory.
+    [[nodiscard]] std::uint32_t load(const std::string &name, const Texture &texture);
+
     [[nodiscard]] const Texture &at(std::uint32_t index) const { return textures_[index]; }
 
     /// Properties of its pixels, which are computed once.
@@ -42,7 +45,7 @@ class TextureLibrary {
     [[nodiscard]] std::vector<Texture> give() { return std::move(textures_); }
 
   private:
-    std::uint32_t add(const std::string &key, const InputFile &file);
+    std::uint32_t add(const std::string &key, Texture &&texture);
 
     std::vector<Texture> textures_;
     std::map<std::string, std::uint32_t> indices_; ///< by canonical path, or name

@@ -19,10 +19,8 @@
 namespace hyalite::core {
 namespace {
 
-constexpr double frameFovDegrees = 40.0;
 constexpr double margin = 0.08; ///< fraction of half the image that stays free at each edge
 constexpr float neutralAlbedo = 0.8f;
-constexpr float backgroundGrey = 0.05f;
 /// In half diagonals: far enough to light near and far side about equally.
 constexpr double lightDistance = 10.0;
 constexpr double keyRadiance = 0.7;
@@ -177,7 +175,7 @@ Scene frameMesh(TriangleMesh mesh) {
     const Bounds bounds = triangleBounds(mesh);
     scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
     scene.lights = lightsFrom(bounds, {}, cameraAzimuthDegrees);
-    scene.background = glm::vec3(backgroundGrey);
+    scene.background = frameBackground;
     scene.materials = {neutralMaterial(!mesh.colours.corners.empty())};
     mesh.materialIndex = 0;
     scene.meshes.push_back(std::move(mesh));

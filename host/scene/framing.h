@@ -48,6 +48,10 @@ inline constexpr Bounds noBounds{glm::dvec3(std::numeric_limits<double>::infinit
 [[nodiscard]] std::vector<Light> frameLights(const Bounds &bounds, const glm::dvec3 &up,
                                              const glm::dvec3 &eye);
 
+/// What a framed mesh is seen with: the horizontal field of view, and the radiance behind it.
+inline constexpr double frameFovDegrees = 40.0;
+inline constexpr glm::vec3 frameBackground{0.05f};
+
 /// The material of triangles without one: of albedo 0.8, or 1 where the mesh has colours, which then are seen
 /// as they are.
 [[nodiscard]] Material neutralMaterial(bool hasColours);

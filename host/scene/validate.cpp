@@ -375,6 +375,10 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     checkInstances(scene, sourceName);
 }
 
+void validateCamera(const Camera &camera, const std::string &sourceName) {
+    checkCamera(camera, {sourceName, "camera"});
+}
+
 void validateCameraPath(const CameraPath &path, const Camera &camera, const std::string &sourceName) {
     for (std::size_t frame = 0; frame < path.size(); ++frame)
         checkCamera(posed(camera, path[frame]), {sourceName, "camera of frame", frame});

@@ -16,6 +16,9 @@ void validateScene(const Scene &scene, const std::string &sourceName);
 /// Checks the settings against settings_table.h, and that they can render `scene`. Throws likewise.
 void validateSettings(const RenderSettings &settings, const Scene &scene, const std::string &sourceName);
 
+/// Checks a camera of the scene alone. Throws likewise.
+void validateCamera(const Camera &camera, const std::string &sourceName);
+
 /// Throws Error{BadInput} for the first pose in which the camera is not valid, and names its frame.
 void validateCameraPath(const CameraPath &path, const Camera &camera, const std::string &sourceName);
 

@@ -1,0 +1,258 @@
+#include "host/engine/scene_options.h"
+
+#include "host/base/clean_text.h"
+#include "host/base/json_reader.h"
+#include "host/scene/limits.h"
+#include "host/scene/settings_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <utility>
+
+namespace hyalite::core {
+
+namespace {
+
+/// The allowed range of a crop depends on the image.
+constexpr Interval anyInteger{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
+
+constexpr auto table = std::to_array<SceneOption>({
+    {"width", imageGroup, "N",
+     NumberOption<int>{[](SceneOptions &o) -> auto & { return o.width;
+} // namespace
+, limits::imageSize
+} // namespace hyalite::core
+, "pixels"
+}
+, {"height", imageGroup, "N", NumberOption<int>{[](SceneOptions & o) -> auto &{return o.height;
+}
+, limits::imageSize
+}
+, "pixels"
+}
+, {"crop", imageGroup, "X0,X1,Y0,Y1", NumbersOption<int>{[](SceneOptions & o) -> auto &{return o.crop;
+}
+, anyInteger, 4
+}
+, "render only pixels X0 <= x < X1, Y0 <= y < Y1; the output has that size"
+}
+, {"camera-position", viewGroup, "X,Y,Z",
+   NumbersOption<double>{[](SceneOptions & o) -> auto &{return o.cameraPosition;
+}
+, limits::coordinate, 3
+}
+, "world space"
+}
+, {"look-at", viewGroup, "X,Y,Z", NumbersOption<double>{[](SceneOptions & o) -> auto &{return o.lookAt;
+}
+, limits::coordinate, 3
+}
+, "the point to look at, world space"
+}
+, {"up", viewGroup, "X,Y,Z", NumbersOption<double>{[](SceneOptions & o) -> auto &{return o.up;
+}
+, limits::coordinate, 3, true
+}
+, "the direction that is up in the image: three numbers, or x, y, z, -x, -y or -z; a bare mesh is "
+  "framed and lit as standing so"
+}
+, {"fov", viewGroup, "NUMBER", NumberOption<double>{[](SceneOptions & o) -> auto &{return o.fovDegrees;
+}
+, limits::horizontalFovDegrees
+}
+, "horizontal field of view in degrees"
+}
+, {"background", viewGroup, "R,G,B", NumbersOption<double>{[](SceneOptions & o) -> auto &{return o.background;
+}
+, limits::radiance, 3
+}
+, "radiance of rays that leave the scene, linear RGB, instead of the scene's environment"
+}
+, {"environment", viewGroup, "FILE", TextOption{[](SceneOptions & o) -> auto &{return o.environment;
+}
+, "the name of a file"
+}
+, "light from all around, instead of the scene's: .hdr, .exr, .pfm, .png or .jpg, by longitude and "
+  "latitude; or neutral, the studio that lights glTF files without lights"
+}
+, {"environment-scale", viewGroup, "NUMBER",
+   NumberOption<double>{[](SceneOptions & o) -> auto &{return o.environmentScale;
+}
+, limits::environmentScale
+}
+, "factor on the environment"
+}
+, {"environment-rotate", viewGroup, "NUMBER",
+   NumberOption<double>{[](SceneOptions & o) -> auto &{return o.environmentRotateDegrees;
+}
+, limits::rotateDegrees
+}
+, "degrees by which it is turned about +y"
+}
+, {"camera", viewGroup, "NAME", TextOption{[](SceneOptions & o) -> auto &{return o.load.camera;
+}
+, "a name"
+}
+, "glTF: the camera of this name or index"
+}
+, {"gltf-scene", viewGroup, "NAME", TextOption{[](SceneOptions & o) -> auto &{return o.load.gltfScene;
+}
+, "a name"
+}
+, "glTF: the scene of this name or index"
+}
+, {"time", viewGroup, "NUMBER", NumberOption<double>{[](SceneOptions & o) -> auto &{return o.load.timeSeconds;
+}
+, limits::timeSeconds
+}
+, "glTF: seconds into its animations; without it, the pose of rest"
+}
+, {"flatten", tracingGroup, "", FlagOption{[](SceneOptions & o) -> auto &{return o.isFlattened;
+}
+}
+, "make every instance a mesh of its own: the same picture, with more memory"
+}
+,
+});
+
+struct Axis {
+    std::string_view word;
+    std::array<double, 3> direction;
+};
+constexpr std::array<Axis, 6> axes{{{"x", {1, 0, 0}},
+                                    {"y", {0, 1, 0}},
+                                    {"z", {0, 0, 1}},
+                                    {"-x", {-1, 0, 0}},
+                                    {"-y", {0, -1, 0}},
+                                    {"-z", {0, 0, -1}}}};
+
+/// As the user would write it.
+std::string textOf(const OptionValue &value) {
+    if (const bool *flag = std::get_if<bool>(&value))
+        return *flag ? "true" : "false";
+    if (const double *number = std::get_if<double>(&value))
+        return fmt::format("{}", *number);
+    if (const auto *numbers = std::get_if<std::vector<double>>(&value))
+        return fmt::format("{}", fmt::join(*numbers, ","));
+    return std::get<std::string>(value);
+}
+
+[[noreturn]] void refuse(std::string_view name, const OptionValue &found, std::string_view allowed) {
+    throw OverrideError(std::string(name), refusalText(textOf(found), allowed));
+}
+
+/// The number, if the value is one that is allowed.
+template <class Number>
+Number numberOf(std::string_view name, const OptionValue &whole, double value, const Interval &allowed) {
+    if (!allowed.contains(value) || (std::integral<Number> && value != std::floor(value)))
+        refuse(name, whole, (std::integral<Number> ? "a whole number " : "a number ") + allowed.text());
+    return static_cast<Number>(value);
+}
+
+template <class Number>
+Number numberOf(std::string_view name, const OptionValue &value, const Interval &allowed) {
+    const double *number = std::get_if<double>(&value);
+    return numberOf<Number>(name, value, number != nullptr ? *number : std::nan(""), allowed);
+}
+
+/// Sets one option, by the kind of its row.
+struct Setter {
+    SceneOptions &options;
+    std::string_view name;
+    const OptionValue &value;
+
+    template <class Number> void operator()(const NumberOption<Number> &row) const {
+        row.member(options) = numberOf<Number>(name, value, row.allowed);
+    }
+    template <class Number> void operator()(const NumbersOption<Number> &row) const {
+        std::vector<double> given;
+        if (const auto *numbers = std::get_if<std::vector<double>>(&value))
+            given = *numbers;
+        else if (const auto *word = std::get_if<std::string>(&value); word != nullptr && row.isAxis)
+            given = axisOf(*word);
+        if (given.size() != row.count)
+            refuse(name, value,
+                   fmt::format("{} numbers{}", row.count, row.isAxis ? ", or x, y, z, -x, -y or -z" : ""));
+        std::vector<Number> &member = row.member(options);
+        member.clear();
+        for (const double number : given)
+            member.push_back(numberOf<Number>(name, value, number, row.allowed));
+    }
+    void operator()(const TextOption &row) const {
+        const auto *text = std::get_if<std::string>(&value);
+        if (text == nullptr || text->empty())
+            refuse(name, value, row.allowed);
+        row.member(options) = *text;
+    }
+    void operator()(const FlagOption &row) const {
+        const bool *flag = std::get_if<bool>(&value);
+        if (flag == nullptr)
+            refuse(name, value, "true or false");
+        row.member(options) = *flag;
+    }
+};
+
+/// The change that a setting's value is.
+struct SettingReader {
+    const Setting &setting;
+    const OptionValue &value;
+
+    template <class Number> SettingChange operator()(const NumberSetting<Number> &row) const {
+        const auto given = numberOf<Number>(setting.option, value, row.allowed);
+        return {[member = row.member, given](RenderSettings &settings) { settings.*member = given; },
+                &setting};
+    }
+    template <class Value> SettingChange operator()(const ChoiceSetting<Value> &row) const {
+        const auto *word = std::get_if<std::string>(&value);
+        std::vector<std::string_view> words;
+        for (const auto &[known, meaning] : row.names)
+            words.push_back(known);
+        const auto chosen = word != nullptr ? std::ranges::find(words, *word) : words.end();
+        if (chosen == words.end())
+            refuse(setting.option, value, quotedList(words) + suggestion(textOf(value), words));
+        return {
+            [member = row.member, given = row.names[static_cast<std::size_t>(chosen - words.begin())].second](
+                RenderSettings &settings) { settings.*member = given; },
+            &setting};
+    }
+};
+
+} // namespace
+
+std::span<const SceneOption> sceneOptions() { return table; }
+
+std::vector<double> axisOf(std::string_view word) {
+    const auto axis = std::ranges::find(axes, word, &Axis::word);
+    return axis != axes.end() ? std::vector<double>(axis->direction.begin(), axis->direction.end())
+                              : std::vector<double>();
+}
+
+void setSceneOption(SceneOptions &options, std::string_view name, const OptionValue &value) {
+    if (const auto row = std::ranges::find(table, name, &SceneOption::name); row != table.end()) {
+        std::visit(Setter{options, name, value}, row->value);
+        return;
+    }
+    const auto setting = std::ranges::find(settingsTable, name, &Setting::option);
+    if (setting == settingsTable.end()) {
+        const std::vector<std::string_view> names = sceneOptionNames();
+        throw OverrideError(std::string(name), fmt::format("is no setting{}", suggestion(name, names)));
+    }
+    options.settings.push_back(std::visit(SettingReader{*setting, value}, setting->value));
+}
+
+std::vector<std::string_view> sceneOptionNames() {
+    std::vector<std::string_view> names;
+    for (const SceneOption &option : table)
+        names.push_back(option.name);
+    for (const Setting &setting : settingsTable)
+        names.push_back(setting.option);
+    return names;
+}
+
+} // namespace hyalite::core

@@ -1,0 +1,66 @@
+// Scene options, one row each: what a command line, or a program that calls the engine, may set about a scene beside
+// its settings (settings_table.h). To add one: its member in SceneOptions (prepare.h), its row here, and its use.
+#pragma once
+
+#include "host/base/interval.h"
+#include "host/engine/prepare.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace hyalite::core {
+
+/// A number, or several, in a range; of integers if `Number` is one.
+template <class Number> struct NumberOption {
+    std::optional<Number> &(*member)(SceneOptions &);
+    Interval allowed;
+};
+template <class Number> struct NumbersOption {
+    std::vector<Number> &(*member)(SceneOptions &);
+    Interval allowed;
+    std::size_t count;
+    bool isAxis = false; ///< words such as "-z" stand for the three numbers of an axis, too
+};
+/// A text that is not empty.
+struct TextOption {
+    std::string &(*member)(SceneOptions &);
+    std::string_view allowed; ///< in words
+};
+struct FlagOption {
+    bool &(*member)(SceneOptions &);
+};
+
+struct SceneOption {
+    std::string_view name; ///< on the command line, without dashes
+    std::string_view group;
+    std::string_view type; ///< of its value, in help texts
+    std::variant<NumberOption<int>, NumberOption<double>, NumbersOption<int>, NumbersOption<double>,
+                 TextOption, FlagOption>
+        value;
+    std::string_view help;
+};
+
+inline constexpr std::string_view viewGroup = "Camera and light";
+
+/// In the order of help texts.
+[[nodiscard]] std::span<const SceneOption> sceneOptions();
+
+/// The three numbers of a word such as "-z"; empty for other words.
+[[nodiscard]] std::vector<double> axisOf(std::string_view word);
+
+/// The value of an option or a setting, as programs have it.
+using OptionValue = std::variant<bool, double, std::string, std::vector<double>>;
+
+/// Sets the option or setting of this name, as the command line has it. Throws OverrideError for unknown names, and for
+/// values that are not allowed.
+void setSceneOption(SceneOptions &options, std::string_view name, const OptionValue &value);
+
+/// All names that it knows, in the order of help texts.
+[[nodiscard]] std::vector<std::string_view> sceneOptionNames();
+
+} // namespace hyalite::core
