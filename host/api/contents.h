@@ -1,0 +1,138 @@
+// Contents of the public types, and the way from the house's errors and observers to theirs. Not installed.
+#pragma once
+
+#include "host/base/clean_text.h"
+#include "host/base/json_reader.h"
+#include "host/engine/open_backends.h"
+#include "host/engine/prepare.h"
+#include "host/film/view_film.h"
+#include "host/image/image_file.h"
+#include "host/import/scene_document.h"
+#include "host/report/provenance.h"
+#include "hyalite/error.h"
+#include "hyalite/image.h"
+#include "hyalite/renderer.h"
+#include "hyalite/scene.h"
+#include "hyalite/settings.h"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyalite {
+
+/// Throws the exception that is being handled as an Error of the library.
+[[noreturn]] void throwAsError();
+
+/// Throws Error{Usage} in a process that was forked after the library had begun to work: neither drivers nor OpenMP
+/// have their threads there.
+void requireOwnProcess();
+/// Whether it would.
+[[nodiscard]] bool isForked() noexcept;
+
+/// The result of `work`, whose exceptions become Errors. It may start threads.
+template <class Work> auto guarded(const Work &work) {
+    requireOwnProcess();
+    try {
+        return work();
+    } catch (...) {
+        throwAsError();
+    }
+}
+
+/// The value of the word among `names`, pairs of words and values. Throws Error{Usage} that tells `what` is chosen.
+template <class Names> auto chosenFrom(const Names &names, const std::string &word, const char *what) {
+    std::vector<std::string_view> words;
+    for (const auto &[known, value] : names) {
+        words.push_back(known);
+        if (known == word)
+            return value;
+    }
+    throw core::OverrideError(
+        what, core::refusalText(word, core::quotedList(words) + core::suggestion(word, words)));
+}
+
+/// The program's side of a Watch. It keeps what a callback throws, and lets the work end.
+class WatchObserver : public core::Observer {
+  public:
+    explicit WatchObserver(const Watch &watch) : watch_(watch) {}
+
+    void begin(const std::string &task, bool mayCompile) override;
+    void progress(double share) override;
+    void end() override;
+    void warning(const std::string &text) override { tell(MessageKind::Warning, text); }
+    void note(const std::string &text) override { tell(MessageKind::Note, text); }
+    void advice(const std::string &text) override { tell(MessageKind::Advice, text); }
+    [[nodiscard]] std::optional<core::Stop> wantsStop() override;
+    void beforeDriver(const core::gpu::ProcessorUse &use) override;
+
+    /// Throws what a callback has thrown.
+    void rethrow() const;
+    [[nodiscard]] bool isStopped() const { return isStopped_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void tell(MessageKind kind, const std::string &text);
+    template <class Call> void call(const Call &callback);
+
+    const Watch &watch_;
+    std::string task_;
+    std::atomic<bool> isStopped_ = false;
+    std::atomic<Clock::rep> nextAsked_ = 0;
+    mutable std::mutex mutex_;
+    std::exception_ptr failure_; ///< the first one
+};
+
+/// The result of `work`, which the observer watches; but what a callback has thrown goes first.
+template <class Work> auto watched(WatchObserver &observer, const Work &work) {
+    try {
+        auto result = guarded(work);
+        observer.rethrow();
+        return result;
+    } catch (const Error &) {
+        observer.rethrow();
+        throw;
+    }
+}
+
+struct Image::Content {
+    core::Image image;
+    core::Encoding encoding = core::Encoding::Linear;
+    // Of a render; else without pixels.
+    core::Film film{core::Crop{}};
+    std::vector<core::ViewFilm> views{};
+    int wholeWidth = 0;
+    int wholeHeight = 0;
+    core::RenderSettings settings{};
+    core::RayCounts rays{};
+    double seconds = 0.0;
+    bool isFinished = true;
+    nlohmann::ordered_json provenance = nlohmann::ordered_json::object();
+    std::vector<Layer> layers{};
+    std::vector<std::vector<float>> layerValues{};
+    // Made when they are asked for.
+    mutable std::once_flag areFiguresMade{};
+    mutable std::vector<float> variance{};
+    mutable std::vector<std::uint32_t> samples{};
+};
+
+/// The image of a render. `views` are the films of its layers.
+[[nodiscard]] Image imageOf(const core::PreparedScene &scene, const core::Backend &backend,
+                            core::BackendResult &&result, std::vector<core::ViewFilm> &&views);
+
+struct Scene::Content {
+    std::string source; ///< a file or a shipped scene; empty: the document
+    std::shared_ptr<core::SceneDocument> document;
+};
+
+/// What is rendered, of the scene, the settings and the layers by their names.
+[[nodiscard]] core::SceneOptions sceneOptionsOf(const Scene &scene, const Settings &settings,
+                                                const std::vector<std::string> &layers = {});
+
+} // namespace hyalite

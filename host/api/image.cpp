@@ -1,0 +1,197 @@
+#include "hyalite/image.h"
+
+#include "host/api/contents.h"
+#include "host/base/json_text.h"
+#include "host/base/standard_stream.h"
+#include "host/film/film_file.h"
+#include "host/image/png.h"
+#include "host/jobs/film_picture.h"
+#include "host/report/render_report.h"
+#include "host/scene/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace hyalite {
+
+namespace {
+
+core::ToneCurve toneOf(const std::string &name) { return chosenFrom(core::toneCurveNames, name, "tone"); }
+
+/// Values of a layer, and its name as the row of the view has it.
+void addLayer(const core::ViewFilm &view, const core::Layer &layer, Image::Content &content) {
+    const core::IntegratorRow &row = core::rowOf(view.view);
+    const auto width = static_cast<std::size_t>(view.film.crop.width()) * row.layerChannels.size();
+    const int height = view.film.crop.height();
+    std::vector<float> &values = content.layerValues.emplace_back(width * static_cast<std::size_t>(height));
+    for (int y = 0; y < height; ++y)
+        layer.fillRow(y, std::span(values).subspan(static_cast<std::size_t>(y) * width, width));
+    content.layers.push_back({std::string(row.name), std::string(row.layerChannels), values});
+}
+
+void makeFigures(const Image::Content &content) {
+    std::call_once(content.areFiguresMade, [&] {
+        content.variance.reserve(3 * content.film.pixels.size());
+        content.samples.reserve(content.film.pixels.size());
+        for (const core::layout::FilmPixel &pixel : content.film.pixels) {
+            const glm::dvec3 variance = core::varianceOfMean(pixel);
+            for (glm::length_t channel = 0; channel < 3; ++channel)
+                content.variance.push_back(static_cast<float>(variance[channel]));
+            content.samples.push_back(pixel.sampleCount);
+        }
+    });
+}
+
+bool isRendered(const Image::Content &content) { return !content.film.pixels.empty(); }
+
+/// The picture in a PNG.
+core::Drawing drawingOf(const Image::Content &content, core::ToneCurve tone) {
+    if (isRendered(content))
+        return core::drawFilm(content.film, content.settings, tone);
+    core::Drawing drawing;
+    drawing.width = content.image.width();
+    drawing.height = content.image.height();
+    if (content.encoding == core::Encoding::Linear) {
+        drawing.rgb = core::toneMap(content.image, 0.0, tone);
+        return drawing;
+    }
+    for (const glm::vec3 &pixel : content.image.pixels())
+        for (glm::length_t channel = 0; channel < 3; ++channel)
+            drawing.rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0f * pixel[channel])));
+    return drawing;
+}
+
+std::vector<std::byte> pngOf(const Image::Content &content, core::ToneCurve tone) {
+    const core::Drawing drawing = drawingOf(content, tone);
+    return core::encodePng(drawing.width, drawing.height, drawing.rgb,
+                           core::attributesOf(content.provenance));
+}
+
+} // namespace
+
+Image imageOf(const core::PreparedScene &scene, const core::Backend &backend, core::BackendResult &&result,
+              std::vector<core::ViewFilm> &&views) {
+    auto content = std::make_shared<Image::Content>();
+    content->settings = scene.loaded.settings;
+    content->image = result.film.toImage();
+    content->film = std::move(result.film);
+    content->views = std::move(views);
+    content->wholeWidth = scene.loaded.scene.camera.width;
+    content->wholeHeight = scene.loaded.scene.camera.height;
+    content->rays = result.rays;
+    content->seconds = result.timing.renderSeconds;
+    const std::array<core::Crop, 1> whole{scene.crop};
+    const int spp = content->settings.samplesPerPixel;
+    content->isFinished = core::finishedWork(content->film, whole, spp).isComplete;
+    for (const core::ViewFilm &view : content->views)
+        content->isFinished =
+            content->isFinished &&
+            core::finishedWork(view.film, whole, core::samplesOfView(view.view, spp)).isComplete;
+    content->provenance =
+        core::provenanceToJson(core::provenanceOf(scene, "(by a program)"),
+                               backend.identity(scene.packed, content->settings.integrator));
+    const std::vector<core::Layer> layers = core::viewLayers(content->views);
+    content->layerValues.reserve(layers.size());
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        addLayer(content->views[i], layers[i], *content);
+    return Image(std::move(content));
+}
+
+Image::Image(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
+
+Image::Image(int width, int height, std::span<const float> pixels) {
+    constexpr std::size_t channels = 3;
+    const auto side = [](int size) { return static_cast<std::size_t>(std::max(size, 0)); };
+    if (width < 1 || height < 1 || pixels.size() != side(width) * side(height) * channels)
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("image: found {} numbers for {} x {} pixels; allowed: 3 of each pixel, and at least "
+                        "one pixel",
+                        pixels.size(), width, height));
+    auto content = std::make_shared<Content>();
+    content->image = core::Image(width, height);
+    std::memcpy(content->image.pixels().data(), pixels.data(), pixels.size_bytes());
+    content_ = std::move(content);
+}
+
+Image Image::load(const std::string &path) {
+    return guarded([&] {
+        core::LoadedImage loaded = core::readImage(path);
+        auto content = std::make_shared<Content>();
+        content->image = std::move(loaded.image);
+        content->encoding = loaded.encoding;
+        return Image(std::move(content));
+    });
+}
+
+int Image::width() const noexcept { return content_->image.width(); }
+int Image::height() const noexcept { return content_->image.height(); }
+bool Image::isDisplayEncoded() const noexcept { return content_->encoding == core::Encoding::Display; }
+
+std::span<const float> Image::pixels() const noexcept {
+    const std::vector<glm::vec3> &pixels = content_->image.pixels();
+    return {&pixels.data()->x, 3 * pixels.size()};
+}
+
+std::span<const float> Image::variance() const {
+    makeFigures(*content_);
+    return content_->variance;
+}
+
+std::span<const std::uint32_t> Image::samples() const {
+    makeFigures(*content_);
+    return content_->samples;
+}
+
+const std::vector<Layer> &Image::layers() const noexcept { return content_->layers; }
+bool Image::isFinished() const noexcept { return content_->isFinished; }
+double Image::seconds() const noexcept { return content_->seconds; }
+
+RayCounts Image::rays() const noexcept {
+    const core::RayCounts &rays = content_->rays;
+    return {rays.primary, rays.shadow, rays.reflection, rays.refraction, rays.bounce};
+}
+
+std::string Image::provenance() const { return core::jsonText(content_->provenance); }
+
+void Image::save(const std::string &path, const std::string &tone) const {
+    guarded([&] {
+        if (core::isStandardStream(path))
+            throw Error(ErrorKind::Usage, "save: found \"" + path + "\"; allowed: the name of a file");
+        const core::ToneCurve curve = toneOf(tone);
+        const core::ImageFormat format = core::imageFormatOf(path);
+        core::AtomicFile file(path);
+        if (isRendered(*content_)) {
+            core::FilmPicture picture{.film = content_->film, .views = content_->views};
+            picture.wholeWidth = content_->wholeWidth;
+            picture.wholeHeight = content_->wholeHeight;
+            picture.attributes = core::attributesOf(content_->provenance);
+            picture.settings = content_->settings;
+            picture.tone = curve;
+            core::writeFilmPicture(file, format, picture);
+        } else if (format == core::ImageFormat::Png) {
+            file.write(pngOf(*content_, curve));
+        } else if (content_->encoding == core::Encoding::Display) {
+            throw Error(ErrorKind::Usage,
+                        fmt::format("save {}: found the numbers of a PNG; allowed: a .png file", path));
+        } else {
+            core::writeImage(file, format, content_->image, 0.0, curve);
+        }
+        file.commit();
+        return 0;
+    });
+}
+
+std::string Image::png(const std::string &tone) const {
+    return guarded([&] {
+        const std::vector<std::byte> bytes = pngOf(*content_, toneOf(tone));
+        return std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size());
+    });
+}
+
+} // namespace hyalite

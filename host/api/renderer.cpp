@@ -1,0 +1,97 @@
+#include "hyalite/renderer.h"
+
+#include "host/api/contents.h"
+#include "host/engine/time_limit.h"
+#include "host/gpu/render_config.h"
+#include "host/jobs/layers.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace hyalite {
+
+struct Renderer::Content {
+    std::unique_ptr<core::Backend> backend;
+    std::mutex mutex; ///< of a render
+    // The last scene, and what it was prepared with.
+    std::optional<core::PreparedScene> scene;
+    core::SceneOptions sceneOptions;
+
+    /// Prepares the scene, or moves the one that is there.
+    void prepare(core::SceneOptions &&options, core::Observer &observer) {
+        if (scene && core::isOtherView(*scene, sceneOptions, options)) {
+            core::changeView(*scene, options);
+        } else {
+            scene.reset(); // the memory first
+            scene = core::prepareScene(options, core::Source::Dropped, observer);
+        }
+        sceneOptions = std::move(options);
+    }
+};
+
+namespace {
+
+core::DeviceOptions deviceOptionsOf(const RendererOptions &options) {
+    core::DeviceOptions device;
+    if (!options.kernel.empty())
+        device.kernel = chosenFrom(core::gpu::kernelNames, options.kernel, "kernel");
+    if (options.dispatchMillis > 0.0)
+        device.maxDispatchMillis = options.dispatchMillis;
+    return device;
+}
+
+/// A task may have been stopped before it had anything to show.
+void requireSample(const core::BackendResult &result) {
+    if (std::ranges::all_of(result.film.pixels, [](const auto &pixel) { return pixel.sampleCount == 0; }))
+        throw Error(ErrorKind::Stopped, "stopped before the first sample was finished");
+}
+
+} // namespace
+
+Renderer::Renderer(const std::string &device, const RendererOptions &options)
+    : content_(guarded([&] {
+          const Watch nothing;
+          WatchObserver observer(nothing);
+          auto content = std::make_unique<Content>();
+          content->backend = core::openRenderers({device}, observer, {.threadCount = options.threads},
+                                                 core::renderConfigFor(deviceOptionsOf(options)))
+                                 .backend;
+          return content;
+      })) {}
+
+Renderer::~Renderer() {
+    if (isForked()) // waiting for threads that are not there would never end
+        static_cast<void>(content_.release());
+}
+
+Renderer::Renderer(Renderer &&) noexcept = default;
+Renderer &Renderer::operator=(Renderer &&) noexcept = default;
+
+std::string Renderer::name() const { return content_->backend->name(); }
+std::string Renderer::description() const { return content_->backend->description(); }
+std::string Renderer::equalBits() const { return core::gpu::describe(content_->backend->bits()); }
+
+Image Renderer::render(const Scene &scene, const Settings &settings, const RenderOptions &options) {
+    WatchObserver observer(options.watch);
+    return watched(observer, [&] {
+        const std::lock_guard lock(content_->mutex);
+        core::SceneOptions wanted = sceneOptionsOf(scene, settings, options.layers);
+        const std::vector<core::Integrator> layers = wanted.views;
+        content_->prepare(std::move(wanted), observer);
+        observer.rethrow();
+        const core::PreparedScene &prepared = *content_->scene;
+        core::requireFilmMemory(prepared.crop, 1 + static_cast<unsigned>(layers.size()));
+        const core::TimeLimit limit(options.timeLimitSeconds);
+        std::vector<core::ViewFilm> views =
+            core::renderViews(*content_->backend, prepared, layers, {}, {}, observer, limit);
+        core::BackendResult result = core::unlessFailed(
+            core::render(*content_->backend, prepared.packed, prepared.loaded.settings,
+                         core::Film(prepared.crop), observer, {.name = "render", .limit = limit}));
+        observer.rethrow();
+        requireSample(result);
+        return imageOf(prepared, *content_->backend, std::move(result), std::move(views));
+    });
+}
+
+} // namespace hyalite

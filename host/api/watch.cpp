@@ -1,0 +1,75 @@
+#include "host/api/contents.h"
+#include "host/process/process.h"
+
+namespace hyalite {
+
+namespace {
+
+/// How often a program is asked whether it wants a stop: often enough for people, and nothing for a render.
+constexpr std::chrono::milliseconds askInterval{50};
+
+std::atomic<bool> isProcessPrepared = false;
+
+} // namespace
+
+void prepareProcess() {
+    core::prepareProcess();
+    isProcessPrepared = true;
+}
+
+template <class Call> void WatchObserver::call(const Call &callback) {
+    if (isStopped_)
+        return;
+    try {
+        callback();
+    } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!failure_)
+            failure_ = std::current_exception();
+        isStopped_ = true;
+    }
+}
+
+void WatchObserver::begin(const std::string &task, bool /*mayCompile*/) {
+    task_ = task;
+    progress(0.0);
+}
+
+void WatchObserver::progress(double share) {
+    if (watch_.progress)
+        call([&] { watch_.progress(task_, share); });
+}
+
+void WatchObserver::end() {
+    if (!isStopped_)
+        progress(1.0);
+}
+
+void WatchObserver::tell(MessageKind kind, const std::string &text) {
+    if (watch_.message)
+        call([&] { watch_.message(kind, text); });
+}
+
+std::optional<core::Stop> WatchObserver::wantsStop() {
+    const Clock::rep now = Clock::now().time_since_epoch().count();
+    Clock::rep due = nextAsked_;
+    if (watch_.shouldStop && now >= due &&
+        nextAsked_.compare_exchange_strong(due, now + Clock::duration(askInterval).count()))
+        call([&] { isStopped_ = isStopped_ || watch_.shouldStop(); });
+    if (!isStopped_)
+        return std::nullopt;
+    return core::Stop{"the program", core::ErrorKind::Interrupted};
+}
+
+void WatchObserver::beforeDriver(const core::gpu::ProcessorUse &use) {
+    if (isProcessPrepared)
+        core::prepareDriver(use);
+}
+
+void WatchObserver::rethrow() const {
+    const std::lock_guard lock(mutex_);
+    if (failure_)
+        std::rethrow_exception(failure_);
+}
+
+} // namespace hyalite
