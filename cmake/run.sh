@@ -25,7 +25,9 @@ target=all
 needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
         libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
         zlib1g-dev libpng-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
-needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils nodejs)
+needed_for_python=(python3-dev pybind11-dev python3-numpy)
+needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils nodejs pkg-config "${needed_for_python[@]}"
+                  python3-pytest python3-matplotlib python3-nbclient python3-ipykernel)
 declare -A needed_for_farm=([parallel]="parallel" [mpi]="libopenmpi-dev openmpi-bin procps" [slurm]="munge procps slurm-client slurmctld slurmd"
                            [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")
 needed_for_bench=(libbenchmark-dev libembree-dev)
@@ -88,6 +90,7 @@ build_all() {
     trap "kill $progress 2>/dev/null" EXIT
     if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$tests" \
                  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+                 -DPython_EXECUTABLE=/usr/bin/python3 \
                  ${HYALITE_WARNINGS_AS_ERRORS:+-DHYALITE_WARNINGS_AS_ERRORS="$HYALITE_WARNINGS_AS_ERRORS"} "$@" &&
            cmake --build "$build" --target "$target" --parallel "$(nproc)"; } >"$log" 2>&1; then
         kill $progress 2>/dev/null && wait $progress || :
@@ -108,7 +111,7 @@ check_by_clang_tidy() {
         grep -F -e "$build/host/" -e "$build/CMakeFiles/" -e "$root/host/" -e "$root/cmake/" | sort -u |
         xargs -r -d '\n' ls -S | # the longest first
         xargs -P "$(nproc)" -I UNIT clang-tidy-14 --quiet --config-file="$root/.clang-tidy" UNIT -- -std=c++20 -fopenmp \
-            -DHYALITE_VERSION='"0"' -I"$root" -I"$build" -I"$build/kernels" -isystem /usr/include/Imath 2>&1 |
+            -DHYALITE_VERSION='"0"' -I"$root" -I"$build" -I"$build/include" -I"$build/kernels" $(/usr/bin/python3-config --includes 2>/dev/null) -isystem /usr/include/Imath 2>&1 |
         sed '/warnings\{0,1\} generated\.$/d'
 }
 

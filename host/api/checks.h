@@ -11,7 +11,7 @@
 
 namespace hyalite {
 
-/// A device as `hyalite devices --json` tells of it.
+/// A device as the JSON of `hyalite devices` tells of it.
 struct Device {
     std::string name;
     std::string type;   ///< "discrete GPU", "software", "reference renderer", ...
@@ -70,7 +70,7 @@ struct Profile {
     double medianMillis = 0.0;         ///< of a measured frame
     std::vector<double> frameMillis{}; ///< of each
     double megaraysPerSecond = 0.0;    ///< of the median frame
-    std::string json{};                ///< as `hyalite profile --report` writes it
+    std::string json{};                ///< the report of `hyalite profile`
 };
 
 /// Measures renders of the scene. Throws as Renderer does, and Error{DeviceLost} if the device differs from the CPU
@@ -80,7 +80,7 @@ struct Profile {
 
 struct Verification {
     bool isPassed = false; ///< each film that a kernel of it can render has the shipped bits
-    std::string json{};    ///< as `hyalite verify --report` writes it
+    std::string json{};    ///< the report of `hyalite verify`
 };
 
 /// Renders the shipped films by "cpu" or a device, with these kernels (none: all), and compares them with the shipped

@@ -64,7 +64,6 @@ class WatchObserver : public core::Observer {
 
     void begin(const std::string &task, bool mayCompile) override;
     void progress(double share) override;
-    void end() override;
     void warning(const std::string &text) override { tell(MessageKind::Warning, text); }
     void note(const std::string &text) override { tell(MessageKind::Note, text); }
     void advice(const std::string &text) override { tell(MessageKind::Advice, text); }

@@ -15,16 +15,18 @@ struct Renderer::Content {
     std::unique_ptr<core::Backend> backend;
     std::mutex mutex; ///< of a render
     // The last scene, and what it was prepared with.
-    std::optional<core::PreparedScene> scene;
+    std::optional<core::PreparedScene> prepared;
+    std::shared_ptr<const Scene::Content> scene;
     core::SceneOptions sceneOptions;
 
-    /// Prepares the scene, or moves the one that is there.
-    void prepare(core::SceneOptions &&options, core::Observer &observer) {
-        if (scene && core::isOtherView(*scene, sceneOptions, options)) {
-            core::changeView(*scene, options);
+    /// Prepares the scene, or moves the one that is there. Another object is another scene: its file may have changed.
+    void prepare(const Scene &wanted, core::SceneOptions &&options, core::Observer &observer) {
+        if (prepared && scene == wanted.content() && core::isOtherView(*prepared, sceneOptions, options)) {
+            core::changeView(*prepared, options);
         } else {
-            scene.reset(); // the memory first
-            scene = core::prepareScene(options, core::Source::Dropped, observer);
+            prepared.reset(); // the memory first
+            prepared = core::prepareScene(options, core::Source::Dropped, observer);
+            scene = wanted.content();
         }
         sceneOptions = std::move(options);
     }
@@ -78,9 +80,9 @@ Image Renderer::render(const Scene &scene, const Settings &settings, const Rende
         const std::lock_guard lock(content_->mutex);
         core::SceneOptions wanted = sceneOptionsOf(scene, settings, options.layers);
         const std::vector<core::Integrator> layers = wanted.views;
-        content_->prepare(std::move(wanted), observer);
+        content_->prepare(scene, std::move(wanted), observer);
         observer.rethrow();
-        const core::PreparedScene &prepared = *content_->scene;
+        const core::PreparedScene &prepared = *content_->prepared;
         core::requireFilmMemory(prepared.crop, 1 + static_cast<unsigned>(layers.size()));
         const core::TimeLimit limit(options.timeLimitSeconds);
         std::vector<core::ViewFilm> views =

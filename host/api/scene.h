@@ -31,7 +31,7 @@ class HYALITE_API Scene {
     /// otherwise (set()).
     Scene();
     /// A scene or mesh file, or the name of a shipped scene, as for `hyalite render`. It is read when it is rendered,
-    /// by each renderer once. Throws Error{BadInput} if there is none.
+    /// by each renderer once for each such object and its copies. Throws Error{BadInput} if there is none.
     [[nodiscard]] static Scene load(const std::string &source);
     /// The JSON text of a scene file. Names of files in it are relative to `folder`. Throws Error{BadInput} if the text
     /// is no JSON object; what it says is checked when it is rendered, or by check().

@@ -40,11 +40,6 @@ void WatchObserver::progress(double share) {
         call([&] { watch_.progress(task_, share); });
 }
 
-void WatchObserver::end() {
-    if (!isStopped_)
-        progress(1.0);
-}
-
 void WatchObserver::tell(MessageKind kind, const std::string &text) {
     if (watch_.message)
         call([&] { watch_.message(kind, text); });

@@ -11,9 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <set>
 
 #include <dlfcn.h>
+#include <errno.h>
 
 namespace hyalite::core {
 namespace {
@@ -29,14 +31,20 @@ std::string listOfScenes() {
     return fmt::format("; the shipped scenes are {}", fmt::join(names, ", "));
 }
 
-/// The file that this code was loaded from: the program, or a shared library.
-std::filesystem::path libraryFile() {
+/// The folder that this code was loaded from: that of the program, or of a shared library.
+std::filesystem::path codeFolder() {
     Dl_info info{};
+    const bool isLibrary = dladdr(reinterpret_cast<const void *>(&availableScenes), &info) != 0 &&
+                           std::strcmp(info.dli_fname, program_invocation_name) != 0;
     std::error_code error;
-    if (dladdr(reinterpret_cast<const void *>(&availableScenes), &info) == 0 || info.dli_fname == nullptr)
-        return {};
-    return std::filesystem::canonical(info.dli_fname, error);
+    return std::filesystem::canonical(isLibrary ? info.dli_fname : "/proc/self/exe", error).parent_path();
 }
+
+/// Of a program in bin and a library in lib; of a library in lib/MACHINE; of a module in lib/python3/dist-packages/hyalite
+/// or in a wheel; and where all of it was installed.
+constexpr std::array<const char *, 5> waysToShared{"../share/hyalite", "../../share/hyalite",
+                                                   "../../../../share/hyalite", "share/hyalite",
+                                                   HYALITE_DATA_FOLDER};
 
 } // namespace
 
@@ -45,21 +53,13 @@ std::vector<std::filesystem::path> assetFolders() {
     if (const char *folder = std::getenv("HYALITE_ASSETS"); folder != nullptr && *folder != '\0')
         folders.emplace_back(folder);
     std::error_code error;
-    const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe", error);
-    if (!error)
-        folders.push_back(program.parent_path().parent_path() / "share" / "hyalite");
-    if (!folders.empty() && std::filesystem::is_directory(folders.back(), error))
-        return folders;
-    // Of a library in another program: beside a module, in lib, in lib/MACHINE; or where all was installed.
-    for (const char *way :
-         {"share/hyalite", "../share/hyalite", "../../share/hyalite", HYALITE_DATA_FOLDER}) {
-        const std::filesystem::path folder =
-            std::filesystem::weakly_canonical(libraryFile().parent_path() / way, error);
-        if (std::filesystem::is_directory(folder, error)) {
-            folders.push_back(folder);
-            break;
-        }
-    }
+    const auto folderBy = [&, code = codeFolder()](const char *way) {
+        return std::filesystem::weakly_canonical(code / way, error);
+    };
+    const auto *const way = std::ranges::find_if(waysToShared, [&](const char *candidate) {
+        return std::filesystem::is_directory(folderBy(candidate), error);
+    });
+    folders.push_back(folderBy(way != waysToShared.end() ? *way : waysToShared.front()));
     return folders;
 }
 

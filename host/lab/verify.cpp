@@ -3,6 +3,8 @@
 #include "host/base/error.h"
 #include "host/lab/comparison_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <future>
@@ -195,6 +197,9 @@ DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shippe
         verdict.bits = first.bits();
         std::vector<FilmVerdict> verdicts(tasks.size());
         runAll(workers, tasks.size(), [&](Renderers &renderers, std::size_t i) {
+            if (const std::optional<Stop> stop = observer.wantsStop())
+                throw Error(stop->kind,
+                            fmt::format("stopped by {} before all films were verified", stop->by));
             const auto &[kernel, film] = tasks[i];
             verdicts[i] = judge(*renderers[kernel], kernels[kernel], prepare(shipped, *film), *film);
             const std::lock_guard lock(mutex);

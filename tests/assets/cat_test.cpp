@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyalite::core::cat {
+namespace hyalite::cat {
 namespace {
 
 constexpr std::size_t coarseCount = 4000;
@@ -267,4 +267,4 @@ TEST(Cat, ObjTextHasFixedDecimalsAndNoNegativeZero) {
 }
 
 } // namespace
-} // namespace hyalite::core::cat
+} // namespace hyalite::cat

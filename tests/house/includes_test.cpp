@@ -52,6 +52,23 @@ TEST(Includes, RunDownwards) {
     EXPECT_GT(includeCount, 500u);
 }
 
+// Public headers are included as they are where they are installed.
+TEST(Includes, OfTheLibraryAreThoseOfUsers) {
+    for (const std::string &folder : floors())
+        for (const std::filesystem::path &file : codeIn("host/" + folder)) {
+            const bool isAbove = folder == "api" || folder == "python";
+            if (!isAbove) {
+                EXPECT_TRUE(matchesOf(textOf(file), R"re(#include [<"](hyalite/))re").empty()) << file;
+            }
+        }
+    for (const auto &entry : std::filesystem::directory_iterator(source / "host/api"))
+        if (const std::string name = entry.path().filename().string();
+            name.ends_with(".h") && name != "contents.h") {
+            EXPECT_TRUE(matchesOf(textOf(entry.path()), R"re(#include [<"]((?!hyalite/)[^">]*/))re").empty())
+                << entry.path();
+        }
+}
+
 TEST(Includes, NoFolderIsLeftOut) {
     const std::vector<std::string> order = floors();
     for (const auto &entry : std::filesystem::directory_iterator(source / "host"))

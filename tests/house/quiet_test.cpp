@@ -1,5 +1,5 @@
 // What programs do is not done by what they call: printing, options, signals, environment, allocator, processes.
-#include "host/scene/settings_table.h"
+#include "host/engine/scene_options.h"
 #include "tests/house/source_text.h"
 
 #include <fmt/ranges.h>
@@ -53,8 +53,8 @@ std::string optionNames() {
         for (std::sregex_iterator match(text.begin(), text.end(), literal), end; match != end; ++match)
             names.insert((*match)[1]);
     }
-    for (const Setting &setting : settingsTable)
-        names.insert(std::string(setting.option));
+    for (const std::string_view name : sceneOptionNames())
+        names.insert(std::string(name));
     return fmt::format("{}", fmt::join(names, "|"));
 }
 

@@ -1,4 +1,5 @@
 // The guide's table of versions says what files say.
+#include "host/api/version.h"
 #include "host/film/checkpoint.h"
 #include "host/report/profile_json.h"
 #include "tests/house/source_text.h"
@@ -21,6 +22,8 @@ TEST(Versions, InTheGuideAreThoseOfFiles) {
             << what << ' ' << version;
     };
     expectRow("the program, its options and exit codes", HYALITE_VERSION);
+    expectRow("the interface of the library",
+              fmt::format("{}.{}", HYALITE_API_MAJOR, HYALITE_API_MINOR));
     expectRow("checkpoints and parts", std::to_string(checkpointVersion));
     expectRow("reports of `profile`, which are baselines", std::to_string(profileVersion));
     const nlohmann::json films = nlohmann::json::parse(textOf(root / "assets/verify/films.json"));

@@ -287,6 +287,7 @@ def _shared_renderer(device: str) -> Renderer:
 
 def render(scene: SceneLike, *, device: str = "auto", **options: Any) -> Image:
     """The image of a scene, by a device that is opened by the first call and stays open: see `Renderer.render`.
+    A file is read by each call; a `Scene` is read once.
 
     hyalite.render("cornell", spp=64, layers=["albedo", "depth"])"""
     return _shared_renderer(str(device)).render(scene, **options)
