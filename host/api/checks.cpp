@@ -2,6 +2,7 @@
 
 #include "host/api/contents.h"
 #include "host/base/json_text.h"
+#include "host/gpu/render_config.h"
 #include "host/gpu/vk/device_list.h"
 #include "host/image/comparison_json.h"
 #include "host/image/ssim.h"
@@ -69,7 +70,7 @@ nlohmann::ordered_json divergenceOf(const core::ComparisonRun &run, const core::
 } // namespace
 
 std::vector<Device> devices() {
-    return guarded([] {
+    return withThreads([] {
         std::vector<Device> all;
         for (const core::gpu::DeviceInfo &device : core::gpu::listDevices())
             all.push_back(deviceOf(core::deviceToJson(device, core::nobody())));
@@ -134,6 +135,7 @@ Profile profile(const Scene &scene, const Settings &settings, const ProfileOptio
         request.timeLimitSeconds = options.timeLimitSeconds;
         request.isCounting = options.countsWork;
         request.isUnverified = options.isUnverified;
+        requireTimeLimit(request.timeLimitSeconds);
         if (request.warmupCount < 0 || request.repeatCount < 1)
             throw Error(ErrorKind::Usage,
                         fmt::format("profile: found {} warm-ups and {} repeats; allowed: at least 0 and 1",
@@ -162,6 +164,8 @@ Profile profile(const Scene &scene, const Settings &settings, const ProfileOptio
 Verification verify(const std::string &device, const std::vector<std::string> &kernels, const Watch &watch) {
     WatchObserver observer(watch);
     return watched(observer, [&] {
+        for (const std::string &kernel : kernels)
+            static_cast<void>(chosenFrom(core::gpu::namedKernels, kernel, "kernels"));
         const core::ShippedFilms shipped = core::readShippedFilms();
         observer.begin("verify", false);
         const std::array verdicts{

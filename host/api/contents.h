@@ -35,14 +35,19 @@ void requireOwnProcess();
 /// Whether it would.
 [[nodiscard]] bool isForked() noexcept;
 
-/// The result of `work`, whose exceptions become Errors. It may start threads.
+/// The result of `work`, whose exceptions become Errors.
 template <class Work> auto guarded(const Work &work) {
-    requireOwnProcess();
     try {
         return work();
     } catch (...) {
         throwAsError();
     }
+}
+
+/// The same for what starts threads, or needs those of a driver.
+template <class Work> auto withThreads(const Work &work) {
+    requireOwnProcess();
+    return guarded(work);
 }
 
 /// The value of the word among `names`, pairs of words and values. Throws Error{Usage} that tells `what` is chosen.
@@ -57,10 +62,14 @@ template <class Names> auto chosenFrom(const Names &names, const std::string &wo
         what, core::refusalText(word, core::quotedList(words) + core::suggestion(word, words)));
 }
 
+/// Throws Error{Usage} for a limit that no render could keep.
+void requireTimeLimit(const std::optional<double> &seconds);
+
 /// The program's side of a Watch. It keeps what a callback throws, and lets the work end.
 class WatchObserver : public core::Observer {
   public:
-    explicit WatchObserver(const Watch &watch) : watch_(watch) {}
+    /// `owner` is what its callbacks must not use, as it waits for them.
+    explicit WatchObserver(const Watch &watch, const void *owner = nullptr) : watch_(watch), owner_(owner) {}
 
     void begin(const std::string &task, bool mayCompile) override;
     void progress(double share) override;
@@ -70,6 +79,8 @@ class WatchObserver : public core::Observer {
     [[nodiscard]] std::optional<core::Stop> wantsStop() override;
     void beforeDriver(const core::gpu::ProcessorUse &use) override;
 
+    /// Whether this thread runs a callback of an observer of that owner.
+    [[nodiscard]] static bool isCalledBy(const void *owner);
     /// Throws what a callback has thrown.
     void rethrow() const;
     [[nodiscard]] bool isStopped() const { return isStopped_; }
@@ -81,6 +92,7 @@ class WatchObserver : public core::Observer {
     template <class Call> void call(const Call &callback);
 
     const Watch &watch_;
+    const void *owner_;
     std::string task_;
     std::atomic<bool> isStopped_ = false;
     std::atomic<Clock::rep> nextAsked_ = 0;
@@ -91,7 +103,7 @@ class WatchObserver : public core::Observer {
 /// The result of `work`, which the observer watches; but what a callback has thrown goes first.
 template <class Work> auto watched(WatchObserver &observer, const Work &work) {
     try {
-        auto result = guarded(work);
+        auto result = withThreads(work);
         observer.rethrow();
         return result;
     } catch (const Error &) {

@@ -47,6 +47,13 @@ void makeFigures(const Image::Content &content) {
     });
 }
 
+/// Streams belong to the program; a NUL would cut the name.
+void requireName(const std::string &path) {
+    if (core::isStandardStream(path) || path.find('\0') != std::string::npos)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("image: {}", core::refusalText(path, "the name of a file")));
+}
+
 bool isRendered(const Image::Content &content) { return !content.film.pixels.empty(); }
 
 /// The picture in a PNG.
@@ -68,8 +75,9 @@ core::Drawing drawingOf(const Image::Content &content, core::ToneCurve tone) {
 
 std::vector<std::byte> pngOf(const Image::Content &content, core::ToneCurve tone) {
     const core::Drawing drawing = drawingOf(content, tone);
-    return core::encodePng(drawing.width, drawing.height, drawing.rgb,
-                           core::attributesOf(content.provenance));
+    std::vector<core::Attribute> attributes = core::attributesOf(content.provenance);
+    attributes.emplace_back(core::pixelsAttribute, core::pixelHash(drawing.rgb));
+    return core::encodePng(drawing.width, drawing.height, drawing.rgb, attributes);
 }
 
 } // namespace
@@ -120,7 +128,8 @@ Image::Image(int width, int height, std::span<const float> pixels) {
 }
 
 Image Image::load(const std::string &path) {
-    return guarded([&] {
+    return withThreads([&] { // those of OpenEXR
+        requireName(path);
         core::LoadedImage loaded = core::readImage(path);
         auto content = std::make_shared<Content>();
         content->image = std::move(loaded.image);
@@ -160,9 +169,8 @@ RayCounts Image::rays() const noexcept {
 std::string Image::provenance() const { return core::jsonText(content_->provenance); }
 
 void Image::save(const std::string &path, const std::string &tone) const {
-    guarded([&] {
-        if (core::isStandardStream(path))
-            throw Error(ErrorKind::Usage, "save: found \"" + path + "\"; allowed: the name of a file");
+    withThreads([&] {
+        requireName(path);
         const core::ToneCurve curve = toneOf(tone);
         const core::ImageFormat format = core::imageFormatOf(path);
         core::AtomicFile file(path);

@@ -4,16 +4,19 @@
 #include "host/engine/time_limit.h"
 #include "host/gpu/render_config.h"
 #include "host/jobs/layers.h"
+#include "host/scene/limits.h"
 
 #include <algorithm>
-#include <array>
+#include <chrono>
+#include <mutex>
+#include <string>
 #include <utility>
 
 namespace hyalite {
 
 struct Renderer::Content {
     std::unique_ptr<core::Backend> backend;
-    std::mutex mutex; ///< of a render
+    std::timed_mutex mutex; ///< of a render
     // The last scene, and what it was prepared with.
     std::optional<core::PreparedScene> prepared;
     std::shared_ptr<const Scene::Content> scene;
@@ -23,6 +26,7 @@ struct Renderer::Content {
     void prepare(const Scene &wanted, core::SceneOptions &&options, core::Observer &observer) {
         if (prepared && scene == wanted.content() && core::isOtherView(*prepared, sceneOptions, options)) {
             core::changeView(*prepared, options);
+            core::tellWarnings(prepared->loaded, observer);
         } else {
             prepared.reset(); // the memory first
             prepared = core::prepareScene(options, core::Source::Dropped, observer);
@@ -43,6 +47,20 @@ core::DeviceOptions deviceOptionsOf(const RendererOptions &options) {
     return device;
 }
 
+/// The renderer's turn. While other threads have it, this one may be stopped.
+std::unique_lock<std::timed_mutex> turnOf(Renderer::Content &content, WatchObserver &observer) {
+    if (WatchObserver::isCalledBy(&content))
+        throw Error(
+            ErrorKind::Usage,
+            "render: found a callback of this renderer; allowed: another renderer, or after the callback");
+    constexpr std::chrono::milliseconds patience{50};
+    std::unique_lock lock(content.mutex, std::defer_lock);
+    while (!lock.try_lock_for(patience))
+        if (observer.wantsStop())
+            throw Error(ErrorKind::Stopped, "stopped before the render had its turn");
+    return lock;
+}
+
 /// A task may have been stopped before it had anything to show.
 void requireSample(const core::BackendResult &result) {
     if (std::ranges::all_of(result.film.pixels, [](const auto &pixel) { return pixel.sampleCount == 0; }))
@@ -52,7 +70,13 @@ void requireSample(const core::BackendResult &result) {
 } // namespace
 
 Renderer::Renderer(const std::string &device, const RendererOptions &options)
-    : content_(guarded([&] {
+    : content_(withThreads([&] {
+          if (options.threads != 0 &&
+              !core::limits::threadCount.contains(static_cast<double>(options.threads)))
+              throw core::OverrideError(
+                  "threads",
+                  core::refusalText(std::to_string(options.threads),
+                                    "a whole number " + core::limits::threadCount.text() + ", or 0 for all"));
           const Watch nothing;
           WatchObserver observer(nothing);
           auto content = std::make_unique<Content>();
@@ -68,22 +92,28 @@ Renderer::~Renderer() {
 }
 
 Renderer::Renderer(Renderer &&) noexcept = default;
-Renderer &Renderer::operator=(Renderer &&) noexcept = default;
+
+Renderer &Renderer::operator=(Renderer &&other) noexcept {
+    const Renderer old(std::move(*this)); // its destructor knows what to do
+    content_ = std::move(other.content_);
+    return *this;
+}
 
 std::string Renderer::name() const { return content_->backend->name(); }
 std::string Renderer::description() const { return content_->backend->description(); }
 std::string Renderer::equalBits() const { return core::gpu::describe(content_->backend->bits()); }
 
 Image Renderer::render(const Scene &scene, const Settings &settings, const RenderOptions &options) {
-    WatchObserver observer(options.watch);
-    return watched(observer, [&] {
-        const std::lock_guard lock(content_->mutex);
+    WatchObserver observer(options.watch, content_.get());
+    return watched(observer, [&, scene = scene] { // as it is now, not when the turn comes
+        const std::unique_lock turn = turnOf(*content_, observer);
         core::SceneOptions wanted = sceneOptionsOf(scene, settings, options.layers);
         const std::vector<core::Integrator> layers = wanted.views;
         content_->prepare(scene, std::move(wanted), observer);
         observer.rethrow();
         const core::PreparedScene &prepared = *content_->prepared;
         core::requireFilmMemory(prepared.crop, 1 + static_cast<unsigned>(layers.size()));
+        requireTimeLimit(options.timeLimitSeconds);
         const core::TimeLimit limit(options.timeLimitSeconds);
         std::vector<core::ViewFilm> views =
             core::renderViews(*content_->backend, prepared, layers, {}, {}, observer, limit);

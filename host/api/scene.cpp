@@ -4,6 +4,7 @@
 #include "host/base/json_document.h"
 #include "host/base/json_text.h"
 #include "host/import/assets.h"
+#include "host/import/formats.h"
 #include "host/import/load.h"
 #include "host/scene/limits.h"
 
@@ -17,6 +18,8 @@
 namespace hyalite {
 
 namespace {
+
+constexpr std::size_t maxCorners = 65536; ///< of a polygon, as in files
 
 using core::SceneDocument;
 using Json = nlohmann::json;
@@ -83,8 +86,10 @@ std::shared_ptr<Scene::Content> documentContent(SceneDocument document) {
     return content;
 }
 
-/// The document, which this scene alone has from now on, under a new identity.
+/// The document, which this scene alone has from now on, under a new identity: no renderer and no copy has it.
 SceneDocument &changed(std::shared_ptr<const Scene::Content> &given) {
+    if (given->document && given.use_count() == 1 && given->document.use_count() == 1)
+        return *given->document;
     SceneDocument document;
     if (given->document) {
         document = *given->document;
@@ -103,6 +108,16 @@ SceneDocument &changed(std::shared_ptr<const Scene::Content> &given) {
     return *content->document;
 }
 
+/// A member of the document, which is `empty` without it. Throws Error{BadInput} if it is of another type.
+Json &memberOf(SceneDocument &document, const char *key, Json empty) {
+    Json &member = document.json.emplace(key, empty).first.value();
+    if (member.type() != empty.type())
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("scene: /{}: found {}; allowed: {}", key, core::excerpt(member.dump()),
+                                empty.is_array() ? "an array" : "an object"));
+    return member;
+}
+
 } // namespace
 
 Scene::Scene() : content_(documentContent({.json = Json::object(), .file = "scene", .isFramed = true})) {}
@@ -114,7 +129,9 @@ Scene Scene::load(const std::string &source) {
             throw Error(ErrorKind::BadInput, fmt::format("{}: there is no such file", file.string()));
         Scene scene;
         auto content = std::make_shared<Content>();
-        content->source = source;
+        // A file stays the one that it is now, wherever the program goes.
+        content->source =
+            core::formatOf(source) != nullptr ? std::filesystem::absolute(source).string() : source;
         scene.content_ = std::move(content);
         return scene;
     });
@@ -123,7 +140,7 @@ Scene Scene::load(const std::string &source) {
 Scene Scene::fromJson(const std::string &text, const std::string &folder) {
     return guarded([&] {
         SceneDocument document{.json = parsed(text, "scene"),
-                               .file = std::filesystem::path(folder) / "scene"};
+                               .file = std::filesystem::absolute(folder) / "scene"};
         if (!document.json.is_object())
             throw Error(ErrorKind::BadInput, "scene: the JSON text is no object");
         Scene scene;
@@ -146,7 +163,7 @@ Scene &Scene::set(const std::string &key, const std::string &json) {
 Scene &Scene::addMaterial(const std::string &name, const std::string &json) {
     guarded([&] {
         Json value = parsed(json, name);
-        changed(content_).json["materials"][name] = std::move(value);
+        memberOf(changed(content_), "materials", Json::object())[name] = std::move(value);
         return 0;
     });
     return *this;
@@ -155,8 +172,9 @@ Scene &Scene::addMaterial(const std::string &name, const std::string &json) {
 std::string Scene::addMesh(const MeshArrays &arrays, const std::string &material,
                            std::span<const double> instances, const std::string &name) {
     return guarded([&] {
-        if (arrays.cornersPerFace < 3)
-            refuse("faces", fmt::format("{} corners", arrays.cornersPerFace), "at least 3");
+        if (arrays.cornersPerFace < 3 || arrays.cornersPerFace > maxCorners)
+            refuse("faces", fmt::format("{} corners", arrays.cornersPerFace),
+                   fmt::format("from 3 to {}", maxCorners));
         if (arrays.faces.size() % arrays.cornersPerFace != 0)
             refuse("faces", fmt::format("{} indices", arrays.faces.size()),
                    fmt::format("{} of each face", arrays.cornersPerFace));
@@ -182,7 +200,7 @@ std::string Scene::addMesh(const MeshArrays &arrays, const std::string &material
         SceneDocument &document = changed(content_);
         std::string given = freeName(document.arrays.meshes, name, "mesh");
         object["file"] = given;
-        document.json["meshes"].push_back(std::move(object));
+        memberOf(document, "meshes", Json::array()).push_back(std::move(object));
         document.arrays.meshes.emplace(given, std::move(mesh));
         return given;
     });

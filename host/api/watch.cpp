@@ -1,6 +1,10 @@
 #include "host/api/contents.h"
 #include "host/process/process.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace hyalite {
 
 namespace {
@@ -10,6 +14,9 @@ constexpr std::chrono::milliseconds askInterval{50};
 
 std::atomic<bool> isProcessPrepared = false;
 
+/// The owners of the callbacks that this thread runs, the innermost last.
+thread_local std::vector<const void *> callers;
+
 } // namespace
 
 void prepareProcess() {
@@ -17,9 +24,17 @@ void prepareProcess() {
     isProcessPrepared = true;
 }
 
+void requireTimeLimit(const std::optional<double> &seconds) {
+    constexpr core::Interval allowed{0.0, 1e9, false};
+    if (seconds && !allowed.contains(*seconds))
+        throw core::OverrideError("time-limit", core::refusalText(fmt::format("{}", *seconds),
+                                                                  "a number of seconds, " + allowed.text()));
+}
+
 template <class Call> void WatchObserver::call(const Call &callback) {
     if (isStopped_)
         return;
+    callers.push_back(owner_);
     try {
         callback();
     } catch (...) {
@@ -28,6 +43,11 @@ template <class Call> void WatchObserver::call(const Call &callback) {
             failure_ = std::current_exception();
         isStopped_ = true;
     }
+    callers.pop_back();
+}
+
+bool WatchObserver::isCalledBy(const void *owner) {
+    return std::ranges::find(callers, owner) != callers.end();
 }
 
 void WatchObserver::begin(const std::string &task, bool /*mayCompile*/) {

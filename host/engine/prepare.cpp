@@ -286,6 +286,14 @@ double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::stea
 
 } // namespace
 
+void tellWarnings(const LoadedScene &loaded, Observer &observer) {
+    for (const std::string &warning : loaded.warnings)
+        observer.warning(warning);
+    for (const MeshReport &report : loaded.meshReports)
+        for (const std::string &warning : report.warnings)
+            observer.warning(warning);
+}
+
 PreparedScene prepareScene(const SceneOptions &options, Source source, Observer &observer,
                            const std::function<void(const SceneOutline &)> &onOutline) {
     using Clock = std::chrono::steady_clock;
@@ -299,18 +307,20 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
                 onOutline(outline);
         };
         LoadOptions load = options.load;
-        load.events = {passOutline, [&](double share) { progress.update(share); }};
+        load.events = {passOutline, [&](double share) {
+                           progress.update(share);
+                           if (const std::optional<Stop> stop = observer.wantsStop())
+                               throw Error(stop->kind,
+                                           fmt::format("stopped by {} while the scene was loaded", stop->by));
+                       }};
         prepared.loaded =
             options.document ? loadScene(*options.document, load) : loadScene(options.scene, load);
+        progress.update(1.0);
     }
     prepared.givenCamera = prepared.loaded.scene.camera;
     prepared.givenSettings = prepared.loaded.settings;
     applyOverrides(options, prepared.loaded);
-    for (const std::string &warning : prepared.loaded.warnings)
-        observer.warning(warning);
-    for (const MeshReport &report : prepared.loaded.meshReports)
-        for (const std::string &warning : report.warnings)
-            observer.warning(warning);
+    tellWarnings(prepared.loaded, observer);
     Scene &scene = prepared.loaded.scene;
     const RenderSettings &settings = prepared.loaded.settings;
     validateWithOverrides(options, prepared.loaded,

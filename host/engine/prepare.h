@@ -79,6 +79,9 @@ struct PreparedScene {
 [[nodiscard]] PreparedScene prepareScene(const SceneOptions &options, Source source, Observer &observer,
                                          const std::function<void(const SceneOutline &)> &onOutline = {});
 
+/// Tells what was lost when the scene was loaded.
+void tellWarnings(const LoadedScene &loaded, Observer &observer);
+
 /// Whether two scenes that are prepared with these options differ only in what changeView() changes. `prepared` is the
 /// first one.
 [[nodiscard]] bool isOtherView(const PreparedScene &prepared, const SceneOptions &options,

@@ -41,7 +41,6 @@ Drawing drawFilm(const Film &film, const RenderSettings &settings, ToneCurve ton
 
 void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
                const RenderSettings &settings, ToneCurve tone) {
-    constexpr const char *pixelsAttribute = "pixels";
     if (format == ImageFormat::Png) {
         const Drawing drawing = draw(film, picture.colour, settings, tone);
         picture.attributes.emplace_back(pixelsAttribute, pixelHash(drawing.rgb));

@@ -10,6 +10,9 @@
 
 namespace hyalite::core {
 
+/// The attribute of a picture that is pixelHash() of the file's colours.
+inline constexpr const char *pixelsAttribute = "pixels";
+
 /// Average number of boxes and triangles that a sample of each pixel tests, from a film of the cost.
 [[nodiscard]] std::vector<float> testsPerSample(const Film &cost);
 

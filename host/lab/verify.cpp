@@ -117,16 +117,23 @@ FilmDifference explain(Backend &backend, const PreparedScene &scene, const Film 
     return difference;
 }
 
-FilmVerdict judge(Backend &backend, const Kernel &kernel, const PreparedScene &scene,
-                  const ShippedFilm &film) {
+/// Throws Error of the stop's kind once the observer wants one.
+void throwIfStopped(Observer &observer) {
+    if (const std::optional<Stop> stop = observer.wantsStop())
+        throw Error(stop->kind, fmt::format("stopped by {} before all films were verified", stop->by));
+}
+
+FilmVerdict judge(Backend &backend, const Kernel &kernel, const PreparedScene &scene, const ShippedFilm &film,
+                  Observer &observer) {
     FilmVerdict verdict;
     verdict.film = film;
     verdict.kernel = kernel.name;
     Stopwatch watch;
     try {
         Timeline timeline;
-        const BackendResult result = backend.render(scene.packed, scene.loaded.settings, scene.crop,
-                                                    {.timeline = kernel.name.empty() ? nullptr : &timeline});
+        RenderHooks hooks{.timeline = kernel.name.empty() ? nullptr : &timeline};
+        hooks.shouldStop = [&] { return observer.wantsStop().has_value(); };
+        const BackendResult result = backend.render(scene.packed, scene.loaded.settings, scene.crop, hooks);
         verdict.seconds = watch.lap().seconds();
         verdict.hash = filmHash(result.film);
         if (result.failure)
@@ -138,6 +145,7 @@ FilmVerdict judge(Backend &backend, const Kernel &kernel, const PreparedScene &s
     } catch (const Error &error) {
         (error.kind == ErrorKind::LimitExceeded ? verdict.lack : verdict.failure) = error.what();
     }
+    throwIfStopped(observer); // its film may lack samples
     return verdict;
 }
 
@@ -197,11 +205,10 @@ DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shippe
         verdict.bits = first.bits();
         std::vector<FilmVerdict> verdicts(tasks.size());
         runAll(workers, tasks.size(), [&](Renderers &renderers, std::size_t i) {
-            if (const std::optional<Stop> stop = observer.wantsStop())
-                throw Error(stop->kind,
-                            fmt::format("stopped by {} before all films were verified", stop->by));
+            throwIfStopped(observer);
             const auto &[kernel, film] = tasks[i];
-            verdicts[i] = judge(*renderers[kernel], kernels[kernel], prepare(shipped, *film), *film);
+            verdicts[i] =
+                judge(*renderers[kernel], kernels[kernel], prepare(shipped, *film), *film, observer);
             const std::lock_guard lock(mutex);
             ++finishedCount;
             if (onFilm)

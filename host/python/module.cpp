@@ -8,12 +8,15 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
-#include <functional>
-#include <initializer_list>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 namespace py = pybind11;
@@ -25,6 +28,13 @@ namespace {
     throw hyalite::Error(hyalite::ErrorKind::Usage, what + ": found " + found + "; allowed: " + allowed);
 }
 
+/// As Python shows it, in a length that a message can have.
+std::string textOf(const py::handle &object) {
+    constexpr std::size_t most = 100;
+    std::string text = py::str(py::repr(object).attr("encode")("utf-8", "replace").attr("decode")("utf-8"));
+    return text.size() > most ? text.substr(0, most) + "..." : text;
+}
+
 std::string shapeOf(const py::array &array) {
     return "an array of shape " + std::string(py::str(array.attr("shape"))) + " and type " +
            std::string(py::str(array.dtype()));
@@ -34,21 +44,25 @@ std::string shapeOf(const py::array &array) {
 template <class Number>
 py::array_t<Number, py::array::c_style> arrayOf(const py::object &object, const char *what,
                                                 const char *allowed, std::string_view kinds) {
-    const py::array array = py::array::ensure(object);
-    if (!array) {
+    if (py::hasattr(object, "mask") &&
+        py::module_::import("numpy").attr("any")(object.attr("mask")).cast<bool>())
+        refuse(what, "a masked array", allowed);
+    const py::array array = object.is_none() ? py::array() : py::array::ensure(object);
+    if (object.is_none() || !array) {
         PyErr_Clear();
-        refuse(what, std::string(py::str(py::type::of(object))), allowed);
+        refuse(what, textOf(py::type::of(object)), allowed);
     }
     if (kinds.find(array.dtype().kind()) == std::string_view::npos)
         refuse(what, shapeOf(array), allowed);
     return py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(array);
 }
 
-/// A table with so many columns; empty for None.
+/// A table with so many columns; None is an empty one if it `isOptional`.
 template <class Number>
 py::array_t<Number, py::array::c_style> tableOf(const py::object &object, const char *what,
-                                                py::ssize_t columns, const char *allowed) {
-    if (object.is_none())
+                                                py::ssize_t columns, const char *allowed,
+                                                bool isOptional = true) {
+    if (object.is_none() && isOptional)
         return py::array_t<Number, py::array::c_style>(std::vector<py::ssize_t>{0, columns});
     auto table = arrayOf<Number>(object, what, allowed, "fiu");
     if (table.ndim() != 2 || table.shape(1) != columns)
@@ -68,19 +82,21 @@ py::array viewOf(std::span<const Number> values, std::vector<py::ssize_t> shape,
     return view;
 }
 
-hyalite::Value valueOf(const std::string &name, const py::handle &value) {
+hyalite::Value valueOf(const std::string &name, py::object value) {
+    if (py::hasattr(value, "ndim") && value.attr("ndim").cast<int>() == 0)
+        value = value.attr("item")(); // of numpy
+    if (py::hasattr(value, "__fspath__"))
+        value = value.attr("__fspath__")();
     if (py::isinstance<py::bool_>(value))
         return value.cast<bool>();
-    if (py::isinstance<py::str>(value))
-        return value.cast<std::string>();
-    if (PyNumber_Check(value.ptr()) != 0 && PySequence_Check(value.ptr()) == 0)
-        return value.cast<double>();
-    if (py::hasattr(value, "__fspath__"))
-        return value.attr("__fspath__")().cast<std::string>();
     try {
+        if (py::isinstance<py::str>(value))
+            return value.cast<std::string>();
+        if (PyNumber_Check(value.ptr()) != 0 && PySequence_Check(value.ptr()) == 0)
+            return value.cast<double>();
         return value.cast<std::vector<double>>();
     } catch (const py::cast_error &) {
-        refuse(name, std::string(py::repr(value)), "a number, a text, or several numbers");
+        refuse(name, textOf(value), "a number, a text, or several numbers");
     }
 }
 
@@ -88,8 +104,36 @@ hyalite::Settings settingsOf(const py::dict &values) {
     hyalite::Settings settings;
     for (const auto &[key, value] : values)
         if (!value.is_none())
-            settings.set(key.cast<std::string>(), valueOf(key.cast<std::string>(), value));
+            settings.set(key.cast<std::string>(),
+                         valueOf(key.cast<std::string>(), py::reinterpret_borrow<py::object>(value)));
     return settings;
+}
+
+/// Work of the library without the GIL: its threads call Python, so that the interpreter must not end before it.
+std::atomic<int> workCount = 0;
+std::atomic<bool> isEnding = false;
+
+/// The library's work, without the GIL.
+template <class Work> auto released(const Work &work) {
+    struct Counted {
+        Counted() { ++workCount; }
+        ~Counted() { --workCount; }
+        Counted(const Counted &) = delete;
+        Counted &operator=(const Counted &) = delete;
+    };
+    if (isEnding)
+        throw hyalite::Error(hyalite::ErrorKind::Stopped, "the interpreter ends");
+    const Counted counted;
+    const py::gil_scoped_release release;
+    return work();
+}
+
+/// Stops the work of other threads, and waits for it.
+void endWork() {
+    isEnding = true;
+    const py::gil_scoped_release release;
+    while (workCount > 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 /// Python's callbacks, and its signals: Ctrl-C is an exception of the callback that asks for it.
@@ -109,18 +153,14 @@ hyalite::Watch watchOf(const py::object &progress, const py::object &message) {
             message(word, py::str(py::bytes(text).attr("decode")("utf-8", "replace")));
         };
     watch.shouldStop = [] {
+        if (isEnding)
+            return true;
         const py::gil_scoped_acquire gil;
         if (PyErr_CheckSignals() != 0)
             throw py::error_already_set();
         return false;
     };
     return watch;
-}
-
-/// The library's work, without the GIL.
-template <class Work> auto released(const Work &work) {
-    const py::gil_scoped_release release;
-    return work();
 }
 
 py::object parsed(const std::string &json) { return py::module_::import("json").attr("loads")(json); }
@@ -214,15 +254,20 @@ std::string addMesh(hyalite::Scene &scene, const py::object &vertices, const py:
                     const std::string &material, const py::object &instances, const std::string &name) {
     constexpr const char *allowedFaces =
         "(m, 3) of whole numbers, indices of vertices; or (m, k) of polygons";
-    const auto positions = tableOf<double>(vertices, "vertices", 3, "(n, 3) of numbers");
+    const auto positions = tableOf<double>(vertices, "vertices", 3, "(n, 3) of numbers", false);
+    if (positions.shape(0) == 0)
+        refuse("vertices", "none", "(n, 3) of numbers");
     const auto indices = arrayOf<std::int64_t>(faces, "faces", allowedFaces, "iu");
     if (indices.ndim() != 2 || indices.shape(1) < 3)
         refuse("faces", shapeOf(indices), allowedFaces);
     std::vector<std::uint32_t> corners;
     corners.reserve(static_cast<std::size_t>(indices.size()));
+    const bool isUnsigned = py::array::ensure(faces).dtype().kind() == 'u';
     for (const std::int64_t index : spanOf<std::int64_t>(indices)) {
         if (index < 0 || index >= positions.shape(0))
-            refuse("faces", "the index " + std::to_string(index),
+            refuse("faces",
+                   "the index " + (isUnsigned ? std::to_string(static_cast<std::uint64_t>(index))
+                                              : std::to_string(index)),
                    "from 0 to " + std::to_string(positions.shape(0) - 1));
         corners.push_back(static_cast<std::uint32_t>(index));
     }
@@ -239,7 +284,7 @@ std::string addMesh(hyalite::Scene &scene, const py::object &vertices, const py:
     arrays.normals = spanOf(normalTable);
     arrays.uvs = spanOf(uvTable);
     arrays.colours = spanOf(colourTable);
-    return released([&] { return scene.addMesh(arrays, material, spanOf(matrices), name); });
+    return scene.addMesh(arrays, material, spanOf(matrices), name);
 }
 
 void addTexture(hyalite::Scene &scene, const std::string &name, const py::object &levels) {
@@ -247,7 +292,7 @@ void addTexture(hyalite::Scene &scene, const std::string &name, const py::object
     const py::array given = py::array::ensure(levels);
     if (!given || !given.dtype().is(py::dtype::of<std::uint8_t>()) || given.ndim() < 2 || given.ndim() > 3) {
         PyErr_Clear();
-        refuse("texture", given ? shapeOf(given) : std::string(py::str(py::type::of(levels))), allowed);
+        refuse("texture", given ? shapeOf(given) : textOf(py::type::of(levels)), allowed);
     }
     const auto array = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>::ensure(given);
     scene.addTexture(name, static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
@@ -278,7 +323,7 @@ void defineScene(py::module_ &module) {
         .def("add_texture", &addTexture)
         .def("set_environment", &setEnvironment)
         .def("json", &hyalite::Scene::json)
-        .def("check", [](const hyalite::Scene &scene) { released([&] { scene.check(); }); });
+        .def("check", [](const hyalite::Scene &scene) { released([scene] { scene.check(); }); });
 }
 
 hyalite::Image render(hyalite::Renderer &renderer, const hyalite::Scene &scene, const py::dict &settings,
@@ -286,7 +331,7 @@ hyalite::Image render(hyalite::Renderer &renderer, const hyalite::Scene &scene, 
                       const py::object &progress, const py::object &message) {
     const hyalite::Settings values = settingsOf(settings);
     const hyalite::RenderOptions options{layers, timeLimit, watchOf(progress, message)};
-    return released([&] { return renderer.render(scene, values, options); });
+    return released([&, scene = scene] { return renderer.render(scene, values, options); }); // as it is now
 }
 
 void defineRenderer(py::module_ &module) {
@@ -324,16 +369,16 @@ void defineChecks(py::module_ &module) {
     module.def("diff", [](const hyalite::Image &reference, const hyalite::Image &test) {
         return differenceOf(released([&] { return hyalite::diff(reference, test); }));
     });
-    module.def("compare",
-               [](const hyalite::Scene &scene, const py::dict &settings, const std::string &device,
-                  const std::string &against, const py::object &progress, const py::object &message) {
-                   const hyalite::Settings values = settingsOf(settings);
-                   const hyalite::Watch watch = watchOf(progress, message);
-                   const hyalite::Comparison comparison =
-                       released([&] { return hyalite::compare(scene, values, device, against, watch); });
-                   return py::make_tuple(comparison.isEqual, comparison.first, comparison.second,
-                                         differenceOf(comparison.difference), parsed(comparison.json));
-               });
+    module.def("compare", [](const hyalite::Scene &scene, const py::dict &settings, const std::string &device,
+                             const std::string &against, const py::object &progress,
+                             const py::object &message) {
+        const hyalite::Settings values = settingsOf(settings);
+        const hyalite::Watch watch = watchOf(progress, message);
+        const hyalite::Comparison comparison =
+            released([&, scene = scene] { return hyalite::compare(scene, values, device, against, watch); });
+        return py::make_tuple(comparison.isEqual, comparison.first, comparison.second,
+                              differenceOf(comparison.difference), parsed(comparison.json));
+    });
     module.def("profile", [](const hyalite::Scene &scene, const py::dict &settings, const std::string &device,
                              int warmups, int repeats, bool counts, bool isUnverified,
                              const std::optional<double> &timeLimit, const py::object &progress,
@@ -341,7 +386,7 @@ void defineChecks(py::module_ &module) {
         const hyalite::Settings values = settingsOf(settings);
         const hyalite::ProfileOptions options{
             device, warmups, repeats, counts, isUnverified, timeLimit, watchOf(progress, message)};
-        return parsed(released([&] { return hyalite::profile(scene, values, options); }).json);
+        return parsed(released([&, scene = scene] { return hyalite::profile(scene, values, options); }).json);
     });
     module.def("verify", [](const std::string &device, const std::vector<std::string> &kernels,
                             const py::object &progress, const py::object &message) {
@@ -388,4 +433,5 @@ PYBIND11_MODULE(_hyalite, module) {
     defineChecks(module);
     module.def("setting_names", &hyalite::settingNames);
     module.def("prepare_process", &hyalite::prepareProcess);
+    module.def("end_work", &endWork);
 }

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cassert>
 #include <cstdint>
+#include <mutex>
 #include <type_traits>
 #include <utility>
 
@@ -129,13 +130,11 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
                 });
             (void)isToPause();
         }
-#pragma omp critical(hyaliteReferenceProgress)
-        {
-            finishedSamples_ += addedSamples;
-            if (hooks_.onProgress)
-                hooks_.onProgress(static_cast<double>(finishedSamples_) / static_cast<double>(pixelCount_) /
-                                  sampleCount_);
-        }
+        const std::lock_guard lock(progressMutex_); // of this render alone: a callback may render, too
+        finishedSamples_ += addedSamples;
+        if (hooks_.onProgress)
+            hooks_.onProgress(static_cast<double>(finishedSamples_) / static_cast<double>(pixelCount_) /
+                              sampleCount_);
     }
 
     [[nodiscard]] bool isFinished(std::int64_t run) const {
@@ -165,6 +164,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
     std::int64_t pixelCount_;
     std::int64_t firstRun_ = 0; ///< all before it are finished
     std::uint64_t finishedSamples_ = 0;
+    std::mutex progressMutex_; ///< of these samples, and of calls of onProgress
     std::atomic<bool> isPaused_ = false;
     std::atomic<bool> isStopped_ = false;
 };

@@ -120,7 +120,7 @@ TEST(MeshArrays, AreRefusedWithTheirNameAndRow) {
 TEST(SceneDocuments, HaveTexturesAndEnvironmentsOfArrays) {
     SceneDocument document = documentOf(squareArrays());
     document.json["materials"]["painted"] = {{"type", "diffuse"},
-                                             {"textures", {{"albedo", {{"file", "paint"}}}}}};
+                                             {"textures", {{"baseColour", {{"file", "paint"}}}}}};
     document.json["meshes"][0]["material"] = "painted";
     document.json["environment"] = {{"file", "sky"}, {"scale", 2.0}};
     auto paint = std::make_shared<Texture>();

@@ -21,13 +21,20 @@ render gets an Error: start processes by the method "spawn".
 from __future__ import annotations
 
 import atexit
+import itertools
 import json
+import operator
 import os
 import threading
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _hyalite
 from ._hyalite import Error, UsageError, __version__, api_version
+
+Error.__doc__ = """What went wrong. `kind` is "bad input", "no device", "limit exceeded", "device lost", ..."""
+Error.kind = "internal"
+UsageError.__doc__ = """A setting or an argument that is not allowed; a ValueError, too."""
+UsageError.kind = "usage"
 
 if TYPE_CHECKING:
     import numpy as np
@@ -47,9 +54,46 @@ Message = Callable[[str, str], object]
 SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
 
 
+def _plain(value: Any) -> Any:
+    """What json knows of numpy's arrays and numbers, of paths and of mappings."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Mapping):
+        return dict(value)
+    raise UsageError(f"scene: found {value!r:.100}; allowed: numbers, texts, lists, dictionaries and arrays")
+
+
 def _text(document: Any) -> str:
-    """JSON text of a document that may hold numpy's arrays and numbers."""
-    return json.dumps(document, default=lambda value: value.tolist())
+    """JSON text of a document."""
+    try:
+        return json.dumps(document, default=_plain, allow_nan=False)
+    except ValueError as error:
+        if isinstance(error, UsageError):
+            raise
+        raise UsageError(f"scene: {error}; allowed: finite numbers") from None
+    except TypeError as error:
+        raise UsageError(f"scene: {error}") from None
+
+
+def _called(**callbacks: Any) -> None:
+    for name, callback in callbacks.items():
+        if callback is not None and not callable(callback):
+            raise UsageError(f"{name}: found {callback!r:.100}; allowed: something to call")
+
+
+def _words(name: str, words: Sequence[str]) -> List[str]:
+    if isinstance(words, str) or not all(isinstance(word, str) for word in words):
+        raise UsageError(f"{name}: found {words!r:.100}; allowed: a list of names")
+    return list(words)
+
+
+def _seconds(limit: Optional[float]) -> Optional[float]:
+    try:
+        return None if limit is None else float(limit)
+    except (TypeError, ValueError):
+        raise UsageError(f"time_limit: found {limit!r:.100}; allowed: a number of seconds") from None
 
 
 class Image:
@@ -123,10 +167,16 @@ class Image:
         """What was rendered, how, and by what, as the files have it in their attributes."""
         return self._image.provenance
 
+    def __copy__(self) -> Image:
+        return self  # it does not change
+
+    def __deepcopy__(self, memo: Any) -> Image:
+        return self
+
     def save(self, path: Union[str, os.PathLike[str]], tone: str = "gamma") -> None:
         """Writes a .png, .exr, .hdr or .pfm file, which appears whole or not at all. An EXR has the layers. `tone` is
         a PNG's curve: "gamma", "srgb", "aces" or "agx"."""
-        self._image.save(os.fspath(path), tone)
+        self._image.save(os.fsencode(path), tone)
 
     def png(self, tone: str = "gamma") -> bytes:
         """The bytes of a PNG."""
@@ -141,7 +191,7 @@ class Image:
 
 def load_image(path: Union[str, os.PathLike[str]]) -> Image:
     """Reads the colours of a PNG, OpenEXR, Radiance or PFM file."""
-    return Image(_hyalite.Image.load(os.fspath(path)))
+    return Image(_hyalite.Image.load(os.fsencode(path)))
 
 
 class Scene:
@@ -157,12 +207,31 @@ class Scene:
         elif isinstance(source, Scene):
             self._scene = _hyalite.Scene(source._scene)
         elif isinstance(source, Mapping):
-            self._scene = _hyalite.Scene.from_json(_text(dict(source)), os.fspath(folder))
+            self._scene = _hyalite.Scene.from_json(_text(dict(source)), os.fsencode(folder))
         else:
-            self._scene = _hyalite.Scene.load(os.fspath(source))
+            try:
+                self._scene = _hyalite.Scene.load(os.fsencode(source))
+            except TypeError:
+                raise UsageError(
+                    f"scene: found {source!r:.100}; allowed: a file, the name of a shipped scene, or a dictionary"
+                ) from None
+
+    def __copy__(self) -> Scene:
+        return Scene(self)
+
+    def __deepcopy__(self, memo: Any) -> Scene:
+        return Scene(self)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self.document
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.document)
 
     def __setitem__(self, key: str, value: Any) -> None:
         """Sets a member of the document: scene["camera"] = {"position": [0, 1, 5], "target": [0, 0, 0]}."""
+        if not isinstance(key, str):
+            raise UsageError(f"scene: found {key!r:.100}; allowed: the name of a member")
         self._scene.set(key, _text(value))
 
     def __getitem__(self, key: str) -> Any:
@@ -198,28 +267,43 @@ class Scene:
         material: the name of one of the scene's, or a dictionary; None: matt grey, or white under colours.
         instances: (k, 4, 4) affine matrices to world space, which multiply columns; None: it is there once, as it is.
         """
+        if not isinstance(name, str):
+            raise UsageError(f"name: found {name!r:.100}; allowed: a text")
         if isinstance(material, Mapping):
             taken = self.document.get("materials", {})
-            number = next(i for i in range(1, len(taken) + 2) if f"material {i}" not in taken)
-            material = self.add_material(f"material {number}", material)
+            if not isinstance(taken, dict):
+                self.add_material("material", material)  # says what is wrong with it
+            material_name = next(key for key in map("material {}".format, itertools.count(1)) if key not in taken)
+            text = _text(material)
+            given = self._scene.add_mesh(vertices, faces, normals, uvs, colours, material_name, instances, name)
+            self._scene.add_material(material_name, text)
+            return given
+        if not isinstance(material, (str, type(None))):
+            raise UsageError(f"material: found {material!r:.100}; allowed: a name, a dictionary or None")
         return self._scene.add_mesh(vertices, faces, normals, uvs, colours, material or "", instances, name)
 
     def add_texture(self, name: str, levels: ArrayLike) -> str:
         """Defines a texture of uint8, (height, width) or (height, width, 3 or 4), sRGB where it is a colour, by the name
         that "file" has for it in materials. Returns the name."""
-        self._scene.add_texture(name, levels)
+        self._scene.add_texture(str(name), levels)
         return name
 
     def set_environment(self, radiance: ArrayLike, *, scale: float = 1.0, rotate_degrees: float = 0.0) -> None:
         """Light from all around: (height, width, 3), linear RGB by longitude and latitude. The middle is -z."""
-        self._scene.set_environment(radiance, scale, rotate_degrees)
+        try:
+            numbers = float(scale), float(rotate_degrees)
+        except (TypeError, ValueError):
+            raise UsageError(f"environment: found {scale!r:.50} and {rotate_degrees!r:.50}; allowed: numbers") from None
+        self._scene.set_environment(radiance, *numbers)
 
     def check(self) -> None:
         """Loads all of it. Raises Error for what a render would refuse."""
         self._scene.check()
 
     def __repr__(self) -> str:
-        return f"<hyalite.Scene {', '.join(self.document)}>"
+        document = self.document
+        shown = document["file"] if list(document) == ["file"] else ", ".join(document)
+        return f"<hyalite.Scene {shown}".rstrip() + ">"
 
 
 def _scene_of(scene: SceneLike) -> Any:
@@ -235,14 +319,19 @@ class Renderer:
     def __init__(self, device: str = "auto", *, threads: int = 0, kernel: str = ""):
         """`device`: "auto", "cpu" (the twin of the kernels), "cpu-double", or a device by index or part of its name.
         `threads`: of the CPU twin; 0: all. `kernel`: for experiments; the image is the same with each."""
-        self._renderer = _hyalite.Renderer(str(device), threads, kernel)
+        try:
+            self._renderer = _hyalite.Renderer(str(device), operator.index(threads), str(kernel))
+        except (TypeError, OverflowError):
+            raise UsageError(f"threads: found {threads!r:.100}; allowed: a whole number") from None
 
     @property
     def name(self) -> str:
+        """"cpu", or the name of the device."""
         return self._renderer.name
 
     @property
     def description(self) -> str:
+        """For people: with index, driver and type."""
         return self._renderer.description
 
     @property
@@ -265,8 +354,11 @@ class Renderer:
         layers: views beside the colours, such as "albedo", "normal", "depth", "id".
         time_limit: in seconds; then it ends with what is finished.
         """
+        _called(progress=progress, message=message)
         return Image(
-            self._renderer.render(_scene_of(scene), settings, list(layers), time_limit, progress, message)
+            self._renderer.render(
+                _scene_of(scene), settings, _words("layers", layers), _seconds(time_limit), progress, message
+            )
         )
 
     def __repr__(self) -> str:
@@ -276,6 +368,15 @@ class Renderer:
 _renderers: Dict[str, Renderer] = {}
 _renderers_lock = threading.Lock()
 atexit.register(_renderers.clear)  # while the driver's threads are there
+atexit.register(_hyalite.end_work)  # before that: renders of other threads
+
+
+def _forget_lock() -> None:
+    global _renderers_lock
+    _renderers_lock = threading.Lock()  # a thread that had the old one is not in this process
+
+
+os.register_at_fork(after_in_child=_forget_lock)
 
 
 def _shared_renderer(device: str) -> Renderer:
@@ -314,6 +415,9 @@ class Difference(NamedTuple):
     report: Dict[str, Any]
     """All metrics, as `hyalite diff --report` has them."""
 
+    def __repr__(self) -> str:
+        return f"<hyalite.Difference: {'identical' if self.identical else f'FLIP {self.flip:.4g}, {self.psnr:.4g} dB'}>"
+
 
 class Comparison(NamedTuple):
     """Two renders of one scene."""
@@ -325,6 +429,9 @@ class Comparison(NamedTuple):
     difference: Difference
     report: Dict[str, Any]
     """With both renderers and, if they differ, the first step of a path that does."""
+
+    def __repr__(self) -> str:
+        return f"<hyalite.Comparison: {'equal' if self.equal else 'NOT equal'}, {self.first.width}x{self.first.height}>"
 
 
 def _image_of(image: Union[Image, ArrayLike, os.PathLike[str]]) -> Any:
@@ -350,6 +457,7 @@ def compare(
     **settings: Any,
 ) -> Comparison:
     """Renders a scene by two renderers that are opened for it, and compares the images."""
+    _called(progress=progress, message=message)
     equal, first, second, difference, report = _hyalite.compare(
         _scene_of(scene), settings, str(device), str(against), progress, message
     )
@@ -376,8 +484,10 @@ def profile(
 ) -> Dict[str, Any]:
     """Measures renders of a scene, as `hyalite profile --report` writes it: times are in milliseconds. `counts` renders
     twice more and counts the work of the rays; without `verified` the first frame is not compared with the CPU's."""
+    _called(progress=progress, message=message)
     return _hyalite.profile(
-        _scene_of(scene), settings, str(device), warmups, repeats, counts, not verified, time_limit, progress, message
+        _scene_of(scene), settings, str(device), operator.index(warmups), operator.index(repeats), bool(counts),
+        not verified, _seconds(time_limit), progress, message,
     )
 
 
@@ -390,7 +500,8 @@ def verify(
 ) -> Dict[str, Any]:
     """Renders small shipped scenes with every kernel of a device (or "cpu"), and compares their films with shipped
     hashes: "passed" is whether all have the same bits."""
-    return _hyalite.verify(str(device), list(kernels), progress, message)
+    _called(progress=progress, message=message)
+    return _hyalite.verify(str(device), _words("kernels", kernels), progress, message)
 
 
 def setting_names() -> List[str]:
