@@ -50,6 +50,8 @@ LoadedScene loadBareMesh(const std::filesystem::path &file, const Format &format
         file, {.onReading = options.events.onReading, .textures = &textures, .access = access});
     LoadedScene loaded;
     loaded.scene = frameMesh(std::move(meshes.meshes.front().mesh));
+    loaded.scene.nodes.push_back({.name = file.filename().string(), .kind = NodeKind::Mesh});
+    loaded.scene.meshes.front().node = 0;
     // The neutral material comes first, for triangles without a material.
     std::ranges::move(meshes.materials, std::back_inserter(loaded.scene.materials));
     loaded.scene.textures = textures.give();
@@ -81,7 +83,7 @@ void frame(LoadedScene &loaded) {
     Scene &scene = loaded.scene;
     moveNear(scene, loaded.cameraPath);
     const Bounds bounds = triangleBounds(scene, loaded.file.string());
-    scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
+    scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, defaultFovDegrees);
     loaded.autoFramed = true;
     const LightSources sources = lightSourcesOf(scene);
     loaded.isAutoLit = !sources.hasLights && !sources.hasEmitters && !sources.hasEnvironment;

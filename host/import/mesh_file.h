@@ -67,12 +67,15 @@ struct MeshOptions {
 struct PlacedMesh {
     TriangleMesh mesh;                  ///< relative to its origin (origin.h)
     std::vector<glm::dmat4x3> places{}; ///< each with a volume; none: once, as it is
+    std::vector<std::uint32_t>
+        nodes{}; ///< of each place, or of the only one, in MeshFile::nodes; none: no node
 };
 
 struct MeshFile {
     /// Of meshes, materialIndex and triangleMaterials are indices into `materials`, from 1; 0: no material.
     std::vector<PlacedMesh> meshes{};
     std::vector<Material> materials{}; ///< empty if no triangle has a material
+    std::vector<SceneNode> nodes{};    ///< parents before their children
     MeshReport report{};
 };
 

@@ -182,11 +182,27 @@ std::vector<glm::dmat4x3> readInstances(const JsonNode &transforms) {
     return maps;
 }
 
-/// Adds the mesh at each of its places, under each of the object's instances.
-void addMesh(const JsonNode &node, const std::vector<glm::dmat4x3> &instances, PlacedMesh &&placed,
-             Scene &scene) {
+/// Adds the object's node to the scene, and those of its file below it. Returns its index.
+std::uint32_t addNodes(SceneNode object, const std::vector<SceneNode> &ofFile, Scene &scene) {
+    const auto first = static_cast<std::uint32_t>(scene.nodes.size());
+    scene.nodes.push_back(std::move(object));
+    for (const SceneNode &node : ofFile) {
+        scene.nodes.push_back(node);
+        scene.nodes.back().parent = node.parent == noNode ? first : first + 1 + node.parent;
+    }
+    return first;
+}
+
+/// Adds the mesh at each of its places, under each of the object's instances. `objectNode` is that of the object; those
+/// of its file follow.
+void addMesh(const JsonNode &node, std::uint32_t objectNode, const std::vector<glm::dmat4x3> &instances,
+             PlacedMesh &&placed, Scene &scene) {
+    const auto nodeOf = [&](std::size_t place) {
+        return placed.nodes.empty() ? objectNode : objectNode + 1 + placed.nodes[place];
+    };
     if (instances.empty() && placed.places.empty()) {
         scene.meshes.push_back(std::move(placed.mesh));
+        scene.meshes.back().node = nodeOf(0);
         return;
     }
     const std::size_t innerCount = std::max<std::size_t>(placed.places.size(), 1);
@@ -200,12 +216,16 @@ void addMesh(const JsonNode &node, const std::vector<glm::dmat4x3> &instances, P
     };
     std::vector<Placement> placements;
     placements.reserve(outerCount * innerCount);
+    std::vector<std::uint32_t> nodes;
+    nodes.reserve(outerCount * innerCount);
     for (std::size_t i = 0; i < outerCount; ++i)
-        for (std::size_t j = 0; j < innerCount; ++j)
+        for (std::size_t j = 0; j < innerCount; ++j) {
             placements.push_back(placementOf(placed.places.empty() ? instances[i]
                                              : instances.empty()   ? placed.places[j]
                                                                  : composed(instances[i], placed.places[j])));
-    addInstances(scene, std::move(placed.mesh), placements);
+            nodes.push_back(nodeOf(j));
+        }
+    addInstances(scene, std::move(placed.mesh), placements, nodes);
 }
 
 } // namespace
@@ -229,7 +249,9 @@ void readObjects(const JsonObject &top, const FileAccess &access, TextureLibrary
     };
     const std::vector<Material> named = scene.materials;
     std::size_t triangleTotal = 0;
-    const auto add = [&](const JsonNode &node, const JsonObject &object, std::vector<PlacedMesh> &&placed) {
+    std::uint32_t shapeCount = 0;
+    const auto add = [&](const JsonNode &node, const JsonObject &object, std::uint32_t objectNode,
+                         std::vector<PlacedMesh> &&placed) {
         const std::optional<JsonNode> transforms = object.find("instances");
         const auto instances = transforms ? readInstances(*transforms) : std::vector<glm::dmat4x3>();
         for (PlacedMesh &mesh : placed) {
@@ -237,7 +259,7 @@ void readObjects(const JsonObject &top, const FileAccess &access, TextureLibrary
             if (triangleTotal > limits::triangleCount) // before the next mesh takes memory
                 node.fail(fmt::format("found {} triangles up to this mesh; allowed: at most {}",
                                       triangleTotal, limits::triangleCount));
-            addMesh(node, instances, std::move(mesh), scene);
+            addMesh(node, objectNode, instances, std::move(mesh), scene);
         }
         return instances.size();
     };
@@ -245,7 +267,9 @@ void readObjects(const JsonObject &top, const FileAccess &access, TextureLibrary
         const JsonObject object(node, scene_keys::shape);
         std::vector<PlacedMesh> shape;
         shape.push_back(readShape(object, named));
-        add(node, object, std::move(shape));
+        const std::uint32_t objectNode = addNodes(
+            {.name = shape.front().mesh.name, .kind = NodeKind::Shape, .index = shapeCount++}, {}, scene);
+        add(node, object, objectNode, std::move(shape));
     });
     forEach("meshes", limits::meshCount, [&](const JsonNode &node) {
         const JsonObject object(node, scene_keys::mesh);
@@ -254,7 +278,12 @@ void readObjects(const JsonObject &top, const FileAccess &access, TextureLibrary
             addMaterialsOf(object, file, named, scene);
         else if (const std::optional<JsonNode> overrides = object.find("materialOverrides"))
             overrides->fail("found beside \"material\"; allowed: one of the two");
-        file.report.instanceCount = add(node, object, std::move(file.meshes));
+        const std::uint32_t objectNode =
+            addNodes({.name = object.at("file").text(),
+                      .kind = NodeKind::Mesh,
+                      .index = static_cast<std::uint32_t>(loaded.meshReports.size())},
+                     file.nodes, scene);
+        file.report.instanceCount = add(node, object, objectNode, std::move(file.meshes));
         loaded.meshReports.push_back(std::move(file.report));
     });
 }

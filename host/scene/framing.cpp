@@ -28,8 +28,6 @@ constexpr double fillRadiance = 0.2;
 
 double halfDiagonal(const Bounds &bounds) { return 0.5 * glm::length(bounds.high - bounds.low); }
 
-constexpr double cameraAzimuthDegrees = 35.0;
-
 /// The axes of an object whose up is not +y: those of the world, turned the short way.
 struct Axes {
     glm::dvec3 right{1.0, 0.0, 0.0};
@@ -84,6 +82,8 @@ template <class Place> void enclose(Bounds &bounds, const TriangleMesh &mesh, co
         }
 }
 
+} // namespace
+
 void requireFramed(const Bounds &bounds, const std::string &name) {
     if (!(bounds.low.x <= bounds.high.x))
         throw Error(ErrorKind::BadInput, fmt::format("{}: has no triangle to look at", name));
@@ -94,8 +94,6 @@ void requireFramed(const Bounds &bounds, const std::string &name) {
                                 "scene file that scales it",
                                 name, extent, limits::framedExtent.text()));
 }
-
-} // namespace
 
 Bounds triangleBounds(const TriangleMesh &mesh) {
     Bounds bounds = noBounds;
@@ -115,12 +113,20 @@ Bounds triangleBounds(const Scene &scene, const std::string &name) {
     return bounds;
 }
 
+glm::dvec3 directionOf(const ViewDirection &view) {
+    return towards({}, view.azimuthDegrees, view.elevationDegrees);
+}
+
 Camera frameCamera(const Bounds &bounds, int width, int height, double horizontalFovDegrees,
-                   const glm::dvec3 &worldUp) {
+                   const glm::dvec3 &worldUp, const ViewDirection &from) {
     assert(width >= 1 && height >= 1 && limits::horizontalFovDegrees.contains(horizontalFovDegrees));
+    const Axes axes = axesOf(worldUp);
     // From the box to the camera.
-    const glm::dvec3 backwards = towards(axesOf(worldUp), cameraAzimuthDegrees, 20.0);
-    const glm::dvec3 right = glm::normalize(glm::cross(worldUp, backwards));
+    const glm::dvec3 backwards = towards(axes, from.azimuthDegrees, from.elevationDegrees);
+    const bool isVertical = std::abs(from.elevationDegrees) > 89.0;
+    const glm::dvec3 imageUp =
+        isVertical ? towards(axes, from.azimuthDegrees, from.elevationDegrees + 90.0) : worldUp;
+    const glm::dvec3 right = glm::normalize(glm::cross(imageUp, backwards));
     const glm::dvec3 up = glm::cross(backwards, right);
     const double tangentX = (1.0 - margin) * std::tan(glm::radians(0.5 * horizontalFovDegrees));
     const double tangentY = tangentX * height / width;
@@ -142,7 +148,7 @@ Camera frameCamera(const Bounds &bounds, int width, int height, double horizonta
     Camera camera;
     camera.position = centre + distance * backwards;
     camera.direction = -backwards;
-    camera.up = worldUp;
+    camera.up = imageUp;
     camera.horizontalFovDegrees = horizontalFovDegrees;
     camera.width = width;
     camera.height = height;
@@ -161,6 +167,22 @@ std::vector<Light> frameLights(const Bounds &bounds, const glm::dvec3 &up, const
     return lightsFrom(bounds, axes, azimuth); // 0 for an eye right above
 }
 
+std::vector<Light> frameLights(const Bounds &bounds, const Camera &camera) {
+    const glm::dvec3 backwards = -glm::normalize(camera.direction);
+    const glm::dvec3 right = glm::normalize(glm::cross(camera.up, backwards));
+    const Axes axes{right, glm::cross(backwards, right), backwards};
+    const Axes ofMesh{{1.0, 0.0, 0.0},
+                      towards({}, 0.0, defaultView.elevationDegrees + 90.0),
+                      towards({}, 0.0, defaultView.elevationDegrees)};
+    std::vector<Light> lights = lightsFrom(bounds, {}, 0.0);
+    for (Light &light : lights) {
+        const glm::dvec3 way = light.position - bounds.centre();
+        light.position = bounds.centre() + glm::dot(way, ofMesh.right) * axes.right +
+                         glm::dot(way, ofMesh.up) * axes.up + glm::dot(way, ofMesh.front) * axes.front;
+    }
+    return lights;
+}
+
 Material neutralMaterial(bool hasColours) {
     Material neutral;
     neutral.name = "neutral";
@@ -173,8 +195,8 @@ Scene frameMesh(TriangleMesh mesh) {
     Scene scene;
     scene.origin = std::exchange(mesh.origin, glm::dvec3(0.0));
     const Bounds bounds = triangleBounds(mesh);
-    scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, frameFovDegrees);
-    scene.lights = lightsFrom(bounds, {}, cameraAzimuthDegrees);
+    scene.camera = frameCamera(bounds, scene.camera.width, scene.camera.height, defaultFovDegrees);
+    scene.lights = lightsFrom(bounds, {}, defaultView.azimuthDegrees);
     scene.background = frameBackground;
     scene.materials = {neutralMaterial(!mesh.colours.corners.empty())};
     mesh.materialIndex = 0;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -151,7 +152,9 @@ TriangleMesh mirrored(TriangleMesh mesh) {
     return mesh;
 }
 
-void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> placements) {
+void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> placements,
+                  std::span<const std::uint32_t> nodes) {
+    assert(nodes.empty() || nodes.size() == placements.size());
     const auto meshesBefore = static_cast<std::uint32_t>(scene.meshes.size());
     const std::size_t mirroringCount =
         static_cast<std::size_t>(std::ranges::count_if(placements, isMirroring));
@@ -163,9 +166,9 @@ void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> pl
         scene.prototypes.push_back(mesh);
     scene.prototypes.push_back(mirroringCount > 0 ? mirrored(std::move(mesh)) : std::move(mesh));
     scene.instances.reserve(scene.instances.size() + placements.size());
-    for (const Placement &placement : placements)
-        scene.instances.push_back(
-            {first + (hasBoth && isMirroring(placement) ? 1u : 0u), placement, meshesBefore});
+    for (std::size_t i = 0; i < placements.size(); ++i)
+        scene.instances.push_back({first + (hasBoth && isMirroring(placements[i]) ? 1u : 0u), placements[i],
+                                   meshesBefore, nodes.empty() ? noNode : nodes[i]});
 }
 
 glm::dvec3 placedExtent(const Placement &placement, const glm::dvec3 &size) {
@@ -208,10 +211,12 @@ void flattenInstances(Scene &scene, const std::function<bool(std::size_t)> &beco
              ++instanceIndex) {
             Instance instance = scene.instances[instanceIndex];
             instance.meshesBefore = static_cast<std::uint32_t>(meshes.size());
-            if (becomesMesh(instanceIndex))
+            if (becomesMesh(instanceIndex)) {
                 meshes.push_back(flattened(scene.prototypes[instance.prototype], instance.toWorld));
-            else
+                meshes.back().node = instance.node;
+            } else {
                 instances.push_back(instance);
+            }
         }
     };
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {

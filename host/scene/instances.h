@@ -40,8 +40,9 @@ struct InputOrder {
 [[nodiscard]] TriangleMesh mirrored(TriangleMesh mesh);
 
 /// Makes the mesh a prototype, and a mirrored one if some maps mirror, with an instance at each placement. They come
-/// after all meshes and instances that the scene has.
-void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> placements);
+/// after all meshes and instances that the scene has. `nodes` are those of the placements, or none.
+void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> placements,
+                  std::span<const std::uint32_t> nodes = {});
 
 /// Bound on each coordinate of a point of a mesh whose coordinates are at most `size`, while it is placed.
 [[nodiscard]] glm::dvec3 placedExtent(const Placement &placement, const glm::dvec3 &size);

@@ -89,6 +89,25 @@ template <class Value> struct CornerValues {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 };
 
+/// No index in Scene::nodes.
+inline constexpr std::uint32_t noNode = std::numeric_limits<std::uint32_t>::max();
+
+/// How users name it.
+enum class NodeKind {
+    Gltf,  ///< a node of a glTF file
+    Mesh,  ///< a mesh file: the scene itself, or an entry of "meshes"
+    Shape, ///< an entry of "shapes"
+};
+
+/// A name in the input, for a mesh and its places, or for the nodes below it.
+struct SceneNode {
+    std::string name{}; ///< Gltf: may be empty; Mesh: the file, as the scene names it; Shape: its type
+    std::string mesh{}; ///< Gltf: the name of its mesh, which may be empty
+    NodeKind kind = NodeKind::Gltf;
+    std::uint32_t index = 0;       ///< in /nodes, /meshes or /shapes of its file
+    std::uint32_t parent = noNode; ///< in Scene::nodes, before it
+};
+
 struct TriangleMesh {
     std::string name; ///< for messages: the file it came from
     std::vector<glm::vec3> positions;
@@ -109,6 +128,7 @@ struct TriangleMesh {
     /// cross(normal, xyz) * w. Without them, tangents follow from the texture coordinates of each triangle.
     CornerValues<glm::vec4> tangents{};
     glm::dvec3 origin{0.0}; ///< what positions are relative to, while a scene is loaded (origin.h); then zero
+    std::uint32_t node = noNode; ///< in Scene::nodes
 
     [[nodiscard]] std::uint32_t materialOf(std::size_t triangle) const {
         return triangleMaterials.empty() ? materialIndex : triangleMaterials[triangle];
@@ -130,6 +150,7 @@ struct Instance {
     std::uint32_t prototype = 0;    ///< index in Scene::prototypes; of mirrored() ones where the map mirrors
     Placement toWorld;              ///< its determinant is not 0
     std::uint32_t meshesBefore = 0; ///< how many of Scene::meshes come before it in the input
+    std::uint32_t node = noNode;    ///< in Scene::nodes
 };
 
 struct Scene {
@@ -146,6 +167,7 @@ struct Scene {
     std::vector<TriangleMesh> meshes;     ///< in world space
     std::vector<TriangleMesh> prototypes; ///< meshes in a space of their own, seen only as instances
     std::vector<Instance> instances;      ///< in the order of the input
+    std::vector<SceneNode> nodes{};       ///< parents before their children
 };
 
 /// Triangles of all meshes together, without instances.

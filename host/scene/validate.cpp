@@ -236,6 +236,22 @@ void checkMesh(const TriangleMesh &mesh, std::size_t materialCount, const Checke
     }
 }
 
+void checkNodes(const Scene &scene, const std::string &sourceName) {
+    const Checked whole(sourceName, "scene");
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].parent != noNode)
+            Checked(sourceName, "node", i, scene.nodes[i].name)
+                .indexBelow(i, scene.nodes[i].parent, "parent");
+    const auto check = [&](std::uint32_t node) {
+        if (node != noNode)
+            whole.indexBelow(scene.nodes.size(), node, "node");
+    };
+    for (const TriangleMesh &mesh : scene.meshes)
+        check(mesh.node);
+    for (const Instance &instance : scene.instances)
+        check(instance.node);
+}
+
 /// `sizes` are the largest coordinates of each prototype.
 void checkInstance(const Instance &instance, const std::vector<glm::dvec3> &sizes, const Checked &checked) {
     checked.indexBelow(sizes.size(), instance.prototype, "prototype");
@@ -373,6 +389,7 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     }
     checkExtent(scene.meshes, whole);
     checkInstances(scene, sourceName);
+    checkNodes(scene, sourceName);
 }
 
 void validateCamera(const Camera &camera, const std::string &sourceName) {

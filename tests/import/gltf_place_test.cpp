@@ -59,6 +59,31 @@ TEST_F(GltfPlace, IsSeenAtEachOfItsPlacesUnderEachInstance) {
     EXPECT_EQ(loaded.scene.prototypes.size(), 1u);
 }
 
+TEST_F(GltfPlace, HasItsNodesBelowThatOfItsFile) {
+    GltfMaker maker = seenAt({1, 2});
+    maker.json["nodes"][1]["name"] = "second";
+    maker.json["nodes"].push_back({{"name", "mirrored"}, {"mesh", 0}, {"scale", {-1, 1, 1}}});
+    maker.json["nodes"].push_back({{"name", "group"}, {"children", {2}}});
+    maker.json["scenes"][0]["nodes"] = {0, 1, 3};
+    const Scene scene =
+        place(maker, R"(, "instances": [[{"translate": [0, 0, 7]}], [{"translate": [0, 0, 8]}]])").scene;
+    ASSERT_EQ(scene.nodes.size(), 5u);
+    EXPECT_EQ(scene.nodes[0].kind, NodeKind::Mesh);
+    EXPECT_EQ(scene.nodes[0].parent, noNode);
+    EXPECT_EQ(scene.nodes[2].name, "second");
+    EXPECT_EQ(scene.nodes[2].index, 1u);
+    EXPECT_EQ(scene.nodes[2].parent, 0u);
+    EXPECT_EQ(scene.nodes[4].name, "mirrored");
+    EXPECT_EQ(scene.nodes[4].index, 2u);
+    EXPECT_EQ(scene.nodes[scene.nodes[4].parent].name, "group");
+    std::vector<std::string> names;
+    for (const Instance &instance : scene.instances)
+        names.push_back(scene.nodes.at(instance.node).name);
+    EXPECT_EQ(names, (std::vector<std::string>{"", "second", "mirrored", "", "second", "mirrored"}));
+    const Scene once = place(seenAt({0}), "").scene;
+    EXPECT_EQ(once.meshes.at(0).node, 1u);
+}
+
 TEST_F(GltfPlace, TakesMaterialsOfTheSceneInPlaceOfItsOwn) {
     const LoadedScene overridden = place(seenAt({0}), R"(, "materialOverrides": {"red": "clay"})");
     EXPECT_EQ(overridden.scene.materials.at(overridden.scene.meshes.at(0).materialOf(0)).name, "clay");

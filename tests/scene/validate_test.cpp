@@ -62,7 +62,16 @@ TEST_P(Validate, NamesTheObject) {
 
 INSTANTIATE_TEST_SUITE_P(Table, Validate,
                          ::testing::
-                             Values(Breakage{"scene: meshes: found 1048577",
+                             Values(Breakage{"scene: node: found index 1",
+                                             [](TestScene &s) {
+                                                 s.nodes.resize(1);
+                                                 s.meshes[0].node = 1;
+                                             }},
+                                    Breakage{"node 1 (wheel): parent: found index 1",
+                                             [](TestScene &s) {
+                                                 s.nodes = {{.name = "car"}, {.name = "wheel", .parent = 1}};
+                                             }},
+                                    Breakage{"scene: meshes: found 1048577",
                                              [](TestScene &s) { s.meshes.resize(1048577); }},
                                     Breakage{"scene: materials: found 65537",
                                              [](TestScene &s) { s.materials.resize(65537); }},

@@ -30,6 +30,7 @@ struct MeshUse {
     std::size_t mesh;
     Deformation deformation;
     std::vector<glm::dmat4x3> places; ///< none for a skin, whose mesh is in world space
+    std::vector<std::uint32_t> nodes; ///< of each place, or of the skin
 };
 
 bool isFlat(const glm::dmat4x3 &map) { return determinant(toPlacement(map)) == 0.0; }
@@ -129,7 +130,8 @@ class MeshUses {
              StatedBounds &bounds)
         : buffers_(buffers), poses_(poses), toWorld_(toWorld), bounds_(bounds) {}
 
-    void add(std::size_t index) {
+    /// `position` is that of the node in MeshFile::nodes.
+    void add(std::size_t index, std::uint32_t position) {
         const Document &document = buffers_.document();
         const JsonNode node = document.at("nodes", index);
         const JsonObject object(node);
@@ -137,7 +139,8 @@ class MeshUses {
         if (!mesh)
             return;
         if (const auto skin = document.reference(object, "skin", "skins")) {
-            addSkinned(*mesh, poses_[index].weights, jointMaps(buffers_, *skin, toWorld_));
+            addSkinned(
+                {*mesh, {poses_[index].weights, jointMaps(buffers_, *skin, toWorld_)}, {}, {position}});
             return;
         }
         std::vector<glm::dmat4x3> places = placesOf(buffers_, object, toWorld_[index]);
@@ -154,22 +157,22 @@ class MeshUses {
             return;
         const auto [known, isNew] = known_.try_emplace({*mesh, poses_[index].weights}, uses_.size());
         if (isNew)
-            uses_.push_back({*mesh, {poses_[index].weights, {}}, {}});
-        std::vector<glm::dmat4x3> &all = uses_[known->second].places;
-        all.insert(all.end(), places.begin(), places.end());
+            uses_.push_back({*mesh, {poses_[index].weights, {}}, {}, {}});
+        MeshUse &use = uses_[known->second];
+        use.places.insert(use.places.end(), places.begin(), places.end());
+        use.nodes.resize(use.places.size(), position);
     }
 
     [[nodiscard]] const std::vector<MeshUse> &uses() const { return uses_; }
 
   private:
-    void addSkinned(std::size_t mesh, const std::vector<double> &weights,
-                    std::vector<glm::dmat4x3> &&joints) {
+    void addSkinned(MeshUse use) {
         OriginFinder finder;
-        (void)bounds_.add(mesh, joints, finder);
-        const glm::dvec3 origin = finder.origin();
-        for (glm::dmat4x3 &joint : joints)
-            joint[3] -= origin;
-        uses_.push_back({mesh, {weights, std::move(joints), origin}, {}});
+        (void)bounds_.add(use.mesh, use.deformation.joints, finder);
+        use.deformation.origin = finder.origin();
+        for (glm::dmat4x3 &joint : use.deformation.joints)
+            joint[3] -= use.deformation.origin;
+        uses_.push_back(std::move(use));
     }
 
     Buffers &buffers_;
@@ -208,7 +211,7 @@ void readMeshes(Buffers &buffers, const std::vector<MeshUse> &uses, const OnRead
         report.vertexCount += mesh.positions.size();
         report.normalCount += mesh.normals.size();
         report.instanceCount += uses[i].places.size() > 1 ? uses[i].places.size() : 0;
-        file.meshes.push_back({std::move(mesh), uses[i].places});
+        file.meshes.push_back({std::move(mesh), uses[i].places, uses[i].nodes});
     }
     file.report.faceCount = file.report.triangleCount + reader.findings().degenerateTriangles;
     addWarnings(reader.findings(), buffers.document().fileName(), file.report);
@@ -242,6 +245,60 @@ std::string contentsOf(const Document &document, const JsonObject &node) {
     return contents;
 }
 
+/// The nodes with a mesh at or below them, parents before their children.
+struct NamedNodes {
+    std::vector<SceneNode> nodes{};
+    std::vector<std::uint32_t> positions; ///< of each node of the file, in `nodes`; or noNode
+};
+
+NamedNodes namedNodesOf(const Document &document, const NodeTree &tree,
+                        const std::vector<std::size_t> &nodes) {
+    std::vector<bool> isNamed(document.count("nodes"), false);
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+        const std::size_t node = nodes[i];
+        isNamed[node] = isNamed[node] || JsonObject(document.at("nodes", node)).find("mesh").has_value();
+        if (const std::optional<std::size_t> parent = tree.parentOf(node); parent && isNamed[node])
+            isNamed[*parent] = true;
+    }
+    NamedNodes named{.positions = std::vector<std::uint32_t>(isNamed.size(), noNode)};
+    for (const std::size_t index : nodes) {
+        if (!isNamed[index])
+            continue;
+        const JsonObject object(document.at("nodes", index));
+        named.positions[index] = static_cast<std::uint32_t>(named.nodes.size());
+        SceneNode &node = named.nodes.emplace_back();
+        node.name = nameOf(object);
+        node.index = static_cast<std::uint32_t>(index);
+        if (const std::optional<std::size_t> mesh = document.reference(object, "mesh", "meshes"))
+            node.mesh = nameOf(JsonObject(document.at("meshes", *mesh)));
+        if (const std::optional<std::size_t> parent = tree.parentOf(index))
+            node.parent = named.positions[*parent];
+    }
+    return named;
+}
+
+/// A row of an animation by what the file states. Faults are those of who asks for a time.
+GltfOutline::AnimationRow animationRow(const Document &document, std::size_t index) {
+    static const nlohmann::json nothing;
+    const auto member = [](const nlohmann::json &object, const char *key) -> const nlohmann::json & {
+        const auto found = object.find(key);
+        return found == object.end() ? nothing : *found;
+    };
+    const nlohmann::json &animation = *document.at("animations", index).value;
+    GltfOutline::AnimationRow row;
+    if (const nlohmann::json &name = member(animation, "name"); name.is_string())
+        row.name = name.get<std::string>();
+    for (const nlohmann::json &sampler : member(animation, "samplers")) {
+        const nlohmann::json &input = member(sampler, "input");
+        if (!input.is_number_unsigned() || input.get<std::size_t>() >= document.count("accessors"))
+            continue;
+        const nlohmann::json &last = member(*document.at("accessors", input.get<std::size_t>()).value, "max");
+        if (last.is_array() && last.size() == 1 && last[0].is_number())
+            row.seconds = std::max(row.seconds, last[0].get<double>());
+    }
+    return row;
+}
+
 /// `nodes` are those of the scene that is loaded.
 GltfOutline outlineOf(const Document &document, const NodeTree &tree, const std::vector<std::size_t> &nodes) {
     GltfOutline outline;
@@ -250,6 +307,9 @@ GltfOutline outlineOf(const Document &document, const NodeTree &tree, const std:
         const JsonObject camera(document.at("cameras", i));
         outline.cameras.push_back({nameOf(camera), camera.text("type")});
     }
+    outline.animationCount = document.count("animations");
+    for (std::size_t i = 0; i < std::min(outline.animationCount, GltfOutline::maxRows); ++i)
+        outline.animations.push_back(animationRow(document, i));
     outline.nodeCount = nodes.size();
     for (const std::size_t index : std::span(nodes).first(std::min(nodes.size(), GltfOutline::maxRows))) {
         const JsonObject node(document.at("nodes", index));
@@ -287,8 +347,10 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
     contents.file.materials = readMaterials(document, textureReader);
     StatedBounds bounds(document);
     MeshUses uses(buffers, poses, toWorld, bounds);
+    NamedNodes named = namedNodesOf(document, tree, nodes);
+    contents.file.nodes = std::move(named.nodes);
     for (const std::size_t node : nodes) {
-        uses.add(node);
+        uses.add(node, named.positions[node]);
         if (const auto light = readLight(document, JsonObject(document.at("nodes", node)), toWorld[node]))
             contents.lights.push_back(*light);
     }

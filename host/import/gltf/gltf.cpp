@@ -16,19 +16,18 @@
 namespace hyalite::core {
 namespace {
 
-constexpr double framedFovDegrees = 40.0;
-
 /// One place becomes a mesh in world space, more become instances.
 void addMeshes(std::vector<PlacedMesh> &&meshes, Scene &scene) {
     for (PlacedMesh &placed : meshes) {
         if (placed.places.size() > 1) {
             std::vector<Placement> placements;
             std::ranges::transform(placed.places, std::back_inserter(placements), toPlacement);
-            addInstances(scene, std::move(placed.mesh), placements);
+            addInstances(scene, std::move(placed.mesh), placements, placed.nodes);
         } else {
             scene.meshes.push_back(placed.places.empty()
                                        ? std::move(placed.mesh)
                                        : transformed(std::move(placed.mesh), placed.places[0]));
+            scene.meshes.back().node = placed.nodes.front();
         }
     }
 }
@@ -45,7 +44,7 @@ void setCamera(const std::optional<gltf::PlacedCamera> &camera, LoadedScene &loa
     } else {
         loaded.autoFramed = true;
         scene.camera = frameCamera(triangleBounds(scene, loaded.file.string()), scene.camera.width,
-                                   scene.camera.height, framedFovDegrees);
+                                   scene.camera.height, defaultFovDegrees);
     }
 }
 
@@ -71,6 +70,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     std::ranges::move(contents.file.materials, std::back_inserter(scene.materials));
     scene.textures = textures.give();
     scene.lights = std::move(contents.lights);
+    scene.nodes = std::move(contents.file.nodes);
     addMeshes(std::move(contents.file.meshes), scene);
     setCamera(contents.camera, loaded);
     loaded.worldUp = {0.0, 1.0, 0.0};

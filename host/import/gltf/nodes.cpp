@@ -161,6 +161,10 @@ std::vector<bool> NodeTree::below(std::vector<bool> marked) const {
     return marked;
 }
 
+std::optional<std::size_t> NodeTree::parentOf(std::size_t node) const {
+    return parents_[node] == noParent ? std::nullopt : std::optional<std::size_t>(parents_[node]);
+}
+
 std::size_t NodeTree::depthOf(std::size_t node) const {
     std::size_t depth = 0;
     for (Index parent = parents_[node]; parent != noParent; parent = parents_[parent])

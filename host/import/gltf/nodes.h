@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,8 +41,8 @@ struct Pose {
 /// The hierarchy of nodes.
 class NodeTree {
   public:
-    /// Memory of a node with its JSON, its pose and its map to the world.
-    static constexpr std::size_t bytesEach = 320;
+    /// Memory of a node with its JSON, its pose, its map to the world and its name in the scene.
+    static constexpr std::size_t bytesEach = 416;
 
     /// Throws Error{BadInput} for a node with two parents, and for one that is its own ancestor.
     explicit NodeTree(const Document &document);
@@ -51,6 +52,9 @@ class NodeTree {
 
     /// The marked nodes and all below them.
     [[nodiscard]] std::vector<bool> below(std::vector<bool> marked) const;
+
+    /// None for a root.
+    [[nodiscard]] std::optional<std::size_t> parentOf(std::size_t node) const;
 
     /// How many ancestors a node has.
     [[nodiscard]] std::size_t depthOf(std::size_t node) const;

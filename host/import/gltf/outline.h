@@ -1,4 +1,4 @@
-// Outline of a glTF file: its cameras and nodes by name, as people choose from them.
+// Outline of a glTF file: its cameras, nodes and animations by name, as people choose from them.
 #pragma once
 
 #include <cstddef>
@@ -21,10 +21,16 @@ struct GltfOutline {
         std::string name;
         std::string contents; ///< "mesh 2, camera 0"; empty for none
     };
+    struct AnimationRow {
+        std::string name{};
+        double seconds = 0.0; ///< of its last key, as the file states it
+    };
     std::vector<CameraRow> cameras; ///< by index
     std::size_t cameraCount = 0;
     std::vector<NodeRow> nodes; ///< of the scene, parents before their children
     std::size_t nodeCount = 0;
+    std::vector<AnimationRow> animations; ///< by index
+    std::size_t animationCount = 0;
 };
 
 } // namespace hyalite::core
