@@ -1,14 +1,18 @@
-// The contents of a scene, as `hyalite inspect` prints them: bounds, camera, lights, materials.
+// The pages of `hyalite inspect`: a scene's summary and what was measured beside it, as text on standard output.
 #pragma once
 
-#include "host/engine/prepare.h"
+#include "host/lab/coverage.h"
+#include "host/lab/scene_summary.h"
+#include "host/lab/tree_check.h"
 
 namespace hyalite::core {
 
-/// On standard output. Of lists at most 32 rows.
-void printScene(const PreparedScene &prepared);
+/// Of lists at most 32 rows.
+void printSummary(const SceneSummary &summary);
 
-/// The cameras and nodes that a glTF file has.
-void printOutline(const GltfOutline &outline);
+/// Likewise.
+void printCoverage(const Coverage &coverage);
+
+void printTreeCheck(const TreeCheck &check);
 
 } // namespace hyalite::core

@@ -1,5 +1,6 @@
 // The inspect command: what a scene or mesh is made of, and whether its tree finds what brute force finds.
 #include "tests/cli/command_line.h"
+#include "tests/fixtures/gltf_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -171,6 +172,96 @@ TEST_F(InspectCommand, RaysFindTheSameByTreeAndByBruteForce) {
         EXPECT_TRUE(std::regex_search(text, std::regex("0 of [0-9]+ differ"))) << text;
         EXPECT_TRUE(contains(text, "us a ray")) << text;
     }
+}
+
+TEST_F(InspectCommand, JsonSaysWhatTheTextSays) {
+    store("parts.json",
+          R"({ "camera": { "position": [0, 0, 9], "target": [0, 0, 0], "width": 64, "height": 48 },
+  "materials": { "paper": { "type": "diffuse" }, "lamp": { "type": "diffuse", "emission": 3 } },
+  "lights": [ { "type": "spot", "position": [1, 2, 3], "power": 7 }, { "type": "directional", "irradiance": [1, 2, 3] } ],
+  "spheres": [ { "centre": [0, 0, 0], "radius": 2, "material": "paper" } ],
+  "meshes": [ { "file": "sheet.obj", "material": "paper" } ],
+  "shapes": [ { "type": "quad", "material": "lamp", "transform": [ { "translate": [0, 5, 0] } ] } ] })");
+    const nlohmann::json json = nlohmann::json::parse(inspect("parts.json --json --rays 20"));
+    EXPECT_EQ(json.at("inspectVersion"), 1);
+    EXPECT_TRUE(contains(json.at("program"), "hyalite "));
+    EXPECT_TRUE(contains(json.at("commandLine"), "inspect parts.json --json"));
+    EXPECT_EQ(json.at("inputFiles"), (std::vector<std::string>{"parts.json", "sheet.obj"}));
+    EXPECT_EQ(json.at("contents").at("triangles"), 290);
+    EXPECT_EQ(json.at("contents").at("spheres"), 1);
+    EXPECT_EQ(json.at("bounds"), nlohmann::json::parse(R"({"low": [-2, -2, -2], "high": [2, 6, 2]})"));
+    EXPECT_EQ(json.at("camera").at("type"), "perspective");
+    EXPECT_EQ(json.at("camera").at("position"), (std::vector<double>{0, 0, 9}));
+    EXPECT_EQ(json.at("camera").at("width"), 64);
+    EXPECT_EQ(json.at("lights").at(0).at("power"), (std::vector<double>{7, 7, 7}));
+    EXPECT_EQ(json.at("lights").at(1).at("irradiance"), (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(json.at("materials").at(0).at("name"), "lamp");
+    EXPECT_EQ(json.at("materials").at(0).at("emission"), (std::vector<double>{3, 3, 3}));
+    EXPECT_EQ(json.at("materials").at(0).at("triangles"), 2);
+    EXPECT_EQ(json.at("shapes"), nlohmann::json::parse(R"({"quad": 1})"));
+    EXPECT_EQ(json.at("nodes").size(), 2u);
+    EXPECT_EQ(json.at("nodes").at(0).at("kind"), "shape");
+    EXPECT_EQ(json.at("nodes").at(1).at("name"), "sheet.obj");
+    EXPECT_EQ(json.at("nodes").at(0).at("bounds").at("low").at(1), 4);
+    EXPECT_EQ(json.at("meshes").at(0).at("triangles"), 288);
+    EXPECT_EQ(json.at("settings").at("integrator"), "path");
+    EXPECT_EQ(json.at("tree").at("type"), "midpoint");
+    EXPECT_TRUE(json.at("tree").at("fault").is_null());
+    EXPECT_EQ(json.at("rays").at("differences"), 0);
+    EXPECT_GT(json.at("bytes").at("scene"), 0);
+    EXPECT_FALSE(json.contains("coverage"));
+    expectFailure("inspect nonesuch.json --json", 3, {"nonesuch.json"});
+}
+
+TEST_F(InspectCommand, JsonHasTheListsOfAGltfFile) {
+    GltfMaker maker = oneTriangle();
+    maker.json["meshes"][0]["name"] = "lid";
+    const std::size_t times = maker.addScalars({0, 2.5});
+    maker.json["accessors"][times]["max"] = {2.5};
+    maker.json["animations"] = {{{"name", "spin\u001b"},
+                                 {"samplers", {{{"input", times}, {"output", 0}}}},
+                                 {"channels", nlohmann::json::array()}}};
+    maker.json["cameras"] = {
+        {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    maker.json["nodes"] = {{{"name", "pot"}, {"children", {1, 2}}},
+                           {{"mesh", 0}, {"translation", {0, 0, 3}}},
+                           {{"camera", 0}, {"translation", {0, 0, 5}}}};
+    store("pot.glb", maker.glb());
+    const nlohmann::json json = nlohmann::json::parse(inspect("pot.glb --json --coverage"));
+    EXPECT_EQ(json.at("gltf").at("cameras").at(0).at("name"), "eye");
+    EXPECT_EQ(json.at("gltf").at("animations").at(0).at("seconds"), 2.5);
+    EXPECT_EQ(json.at("gltf").at("nodeCount"), 3);
+    const nlohmann::json &nodes = json.at("nodes");
+    ASSERT_EQ(nodes.size(), 2u) << "those with a mesh at or below them";
+    EXPECT_EQ(nodes.at(0).at("name"), "pot");
+    EXPECT_EQ(nodes.at(0).at("bounds"), nodes.at(1).at("bounds"));
+    EXPECT_EQ(nodes.at(1).at("mesh"), "lid");
+    EXPECT_EQ(nodes.at(1).at("parent"), 0);
+    EXPECT_EQ(nodes.at(1).at("bounds").at("low"), (std::vector<double>{0, 0, 3}));
+    const nlohmann::json &seen = json.at("coverage").at("objects").at(0);
+    EXPECT_EQ(seen.at("kind"), "node");
+    EXPECT_EQ(seen.at("index"), 1);
+    EXPECT_EQ(seen.at("mesh"), "lid");
+    EXPECT_GT(seen.at("share"), 0.01);
+}
+
+TEST_F(InspectCommand, CoverageSaysWhatFillsThePicture) {
+    const std::string text = inspect("sheet.json --coverage");
+    for (const char *part : {"% of ", "pixels see the background\n", "% mesh sheet.obj, at x ",
+                             "% sphere 0 of \"", "  material "})
+        EXPECT_TRUE(contains(text, part)) << part << '\n' << text;
+    const nlohmann::json coverage =
+        nlohmann::json::parse(inspect("sheet.json --coverage --json")).at("coverage");
+    double sum = coverage.at("background");
+    for (const nlohmann::json &object : coverage.at("objects"))
+        sum += object.at("share").get<double>();
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    double worn = coverage.at("background");
+    for (const nlohmann::json &material : coverage.at("materials"))
+        worn += material.at("share").get<double>();
+    EXPECT_NEAR(worn, 1.0, 1e-12);
+    EXPECT_TRUE(contains(inspect("sheet.json --coverage --camera-position 0,0,90 --look-at 0,0,900"),
+                         "coverage     100.00 % of"));
 }
 
 TEST_F(InspectCommand, WhatThereIsOneOfIsInTheSingular) {

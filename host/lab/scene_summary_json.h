@@ -1,0 +1,24 @@
+// A scene's summary as JSON. The keys are listed in host/cli/README.md.
+#pragma once
+
+#include "host/lab/coverage.h"
+#include "host/lab/scene_summary.h"
+#include "host/lab/tree_check.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+
+namespace hyalite::core {
+
+/// Of the document. A new key leaves it; one that changes or goes raises it.
+inline constexpr int inspectVersion = 1;
+
+/// With what was measured beside it.
+[[nodiscard]] nlohmann::ordered_json sceneToJson(const SceneSummary &summary,
+                                                 const std::optional<Coverage> &coverage,
+                                                 const std::optional<TreeCheck> &check,
+                                                 const std::string &commandLine);
+
+} // namespace hyalite::core
