@@ -92,6 +92,16 @@ struct Adder {
     CLI::Option *operator()(const TextOption &row) const {
         return addWord(command, name(), row.member(options), row.allowed, std::string(option.type), help());
     }
+    CLI::Option *operator()(const PercentOption &row) const {
+        const auto read = [name = name(), &share = row.member(options)](const CLI::results_t &words) {
+            const std::string &word = words.front();
+            if (!word.ends_with('%'))
+                refuseValue(name, word, "a percentage, as 25%");
+            share = readNumber(name, word.substr(0, word.size() - 1), PercentOption::allowed) / 100.0;
+            return true;
+        };
+        return command.add_option(name(), CLI::callback_t(read), help());
+    }
     CLI::Option *operator()(const FlagOption &row) const {
         return command.add_flag(name(), row.member(options), help());
     }

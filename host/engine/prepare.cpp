@@ -230,6 +230,23 @@ Crop chooseCrop(const std::vector<int> &wanted, const Camera &camera) {
     return crop;
 }
 
+/// Makes the picture smaller. Pixels that the crop covers in part are in it.
+void shrink(double share, Camera &camera, Crop &crop) {
+    const auto toSide = [share](int side) {
+        return std::max(1, static_cast<int>(std::lround(share * side)));
+    };
+    const auto shrinkRange = [](int from, int to, int &begin, int &end) {
+        begin = std::min(begin * to / from, to - 1);
+        end = std::clamp((end * to + from - 1) / from, begin + 1, to);
+    };
+    const int width = toSide(camera.width);
+    const int height = toSide(camera.height);
+    shrinkRange(camera.width, width, crop.x0, crop.x1);
+    shrinkRange(camera.height, height, crop.y0, crop.y1);
+    camera.width = width;
+    camera.height = height;
+}
+
 /// Expected triangle tests of a line above which the tree is useless. Good meshes are far below: a sphere of eight
 /// million triangles has 14.
 constexpr double manyTrianglesTested = 1000.0;
@@ -326,6 +343,8 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
     validateWithOverrides(options, prepared.loaded,
                           [&](const std::string &name) { validateScene(scene, name); });
     prepared.crop = chooseCrop(options.crop, scene.camera);
+    if (options.sizeShare)
+        shrink(*options.sizeShare, scene.camera, prepared.crop);
     prepared.sources = lightSourcesOf(scene);
     adviseOnLightsBehindGlass(scene, settings.integrator, observer);
     if (const std::optional<std::string> dark = diagnoseLight(scene, settings.integrator))

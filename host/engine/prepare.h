@@ -27,6 +27,7 @@ struct SceneOptions {
     std::shared_ptr<const SceneDocument> document{}; ///< a scene in memory, instead of `scene`
     std::optional<int> width;
     std::optional<int> height;
+    std::optional<double> sizeShare{}; ///< in (0, 1]: of both sides, after these, and of the crop
     SettingChanges settings;
     std::vector<Integrator> views{}; ///< rendered as layers, too: settings that they use have an effect
     std::optional<double> fovDegrees;

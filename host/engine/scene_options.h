@@ -31,6 +31,11 @@ struct TextOption {
     std::string &(*member)(SceneOptions &);
     std::string_view allowed; ///< in words
 };
+/// A text such as "25%", which becomes a share in (0, 1].
+struct PercentOption {
+    std::optional<double> &(*member)(SceneOptions &);
+    static constexpr Interval allowed{0.0, 100.0, false};
+};
 struct FlagOption {
     bool &(*member)(SceneOptions &);
 };
@@ -40,7 +45,7 @@ struct SceneOption {
     std::string_view group;
     std::string_view type; ///< of its value, in help texts
     std::variant<NumberOption<int>, NumberOption<double>, NumbersOption<int>, NumbersOption<double>,
-                 TextOption, FlagOption>
+                 TextOption, PercentOption, FlagOption>
         value;
     std::string_view help;
 };

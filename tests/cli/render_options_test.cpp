@@ -40,6 +40,33 @@ TEST_F(RenderOptions, OneSideKeepsTheShapeOfThePicture) {
     EXPECT_EQ(sizeOf(" --width 1"), "1x1");
 }
 
+TEST_F(RenderOptions, ScaleIsAShareOfBothSides) {
+    const std::string line = "spheres --spp 1 --device cpu ";
+    EXPECT_TRUE(renderPfm(line + "--scale 12.5%") == renderPfm(line + "--width 64 --height 64"));
+    EXPECT_TRUE(renderPfm(line + "--width 64 --height 48 --scale 50%") ==
+                renderPfm(line + "--width 32 --height 24"));
+    EXPECT_TRUE(renderPfm(line + "--width 40 --height 30 --scale 100%") ==
+                renderPfm(line + "--width 40 --height 30"));
+    EXPECT_TRUE(renderPfm(line + "--scale 1e-3%") == renderPfm(line + "--width 1 --height 1"))
+        << "at least one pixel";
+    for (const char *word : {"25", "0.25", "0%", "101%", "-5%", "%", "x%", "nan%"})
+        expectFailure("render spheres -o a.pfm --scale " + std::string(word), 2, {"--scale: found"});
+}
+
+TEST_F(RenderOptions, ScaleShowsThePartThatACropWouldShow) {
+    const std::string line = "spheres --spp 1 --device cpu ";
+    const std::string smaller = line + "--width 32 --height 24 ";
+    EXPECT_TRUE(renderPfm(line + "--width 64 --height 48 --scale 50% --crop 8,24,10,30") ==
+                renderPfm(smaller + "--crop 4,12,5,15"));
+    EXPECT_TRUE(renderPfm(line + "--width 64 --height 48 --scale 50% --crop 9,23,11,29") ==
+                renderPfm(smaller + "--crop 4,12,5,15"))
+        << "pixels that are shown in part are there";
+    EXPECT_TRUE(renderPfm(line + "--width 64 --height 48 --scale 50% --crop 63,64,47,48") ==
+                renderPfm(smaller + "--crop 31,32,23,24"));
+    expectFailure("render spheres -o a.pfm --width 64 --height 48 --scale 50% --crop 0,65,0,48", 2,
+                  {"--crop", "64x48"});
+}
+
 TEST_F(RenderOptions, SppIsTheNumberOfPrimaryRaysInAPixel) {
     for (const char *spp : {"1", "5", "64"}) {
         const nlohmann::json report =
