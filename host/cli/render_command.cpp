@@ -278,6 +278,82 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
     return ExitCode::Ok;
 }
 
+/// Throws Error{Usage} for options that views do without.
+void requireViewOptions(const RenderRequest &request, const SequenceOptions &sequence) {
+    const auto refuse = [](std::string_view option) {
+        throw Error(ErrorKind::Usage, fmt::format("{}: found --views; allowed: for one picture", option));
+    };
+    if (sequence.areGiven())
+        refuse(sequence.turntable ? "--turntable" : "--frames");
+    if (request.part)
+        refuse("--part");
+    if (!request.checkpoint.empty() || request.isResuming)
+        refuse(request.isResuming ? "--resume" : "--checkpoint");
+    if (request.partialSeconds)
+        refuse("--partial");
+    const std::unique_ptr<Ranks> ranks = joinRanks();
+    if (ranks != nullptr)
+        throw Error(ErrorKind::Usage, "--views: found several ranks; allowed: one");
+}
+
+/// All views in one file.
+ExitCode renderViewSheet(const ViewSeries &series, const RenderRequest &request,
+                         const std::string &commandLine, RenderSession &session, TerminalObserver &observer) {
+    AtomicFile file(request.output);
+    requireDistinctFiles(outputsOf(request), session.scene().loaded.inputFiles);
+    session.open();
+    observer.catchSignals();
+    if (!observer.isQuiet())
+        printDevice(session);
+    const FinishedSheet sheet = renderSheet(series, request, file, commandLine, session);
+    if (sheet.viewCount < series.views().size())
+        printMessage("stopped by the time limit: {} of {} views are finished\n", sheet.viewCount,
+                     series.views().size());
+    if (!observer.isQuiet())
+        printResult("{}: {}, {}x{} each, {}x{} in all, {} spp, {} in {:.3f} s\n", request.output,
+                    countText(series.views().size(), "view"), session.scene().crop.width(),
+                    session.scene().crop.height(), sheet.width, sheet.height,
+                    session.scene().loaded.settings.samplesPerPixel, roundedText(sheet.rayCount, "rays"),
+                    sheet.renderSeconds);
+    observer.releaseSignals();
+    return ExitCode::Ok;
+}
+
+ExitCode runViews(const RenderRequest &request, const ViewOptions &options, const std::string &commandLine,
+                  TerminalObserver &observer) {
+    ViewSeries series(request, options);
+    requireOptionsThatGoTogether(series.requestOf(series.views().front()));
+    RenderSession session(observer);
+    series.prepare(session);
+    if (series.isSheet())
+        return renderViewSheet(series, request, commandLine, session, observer);
+    const TimeLimit limit(request.timeLimitSeconds);
+    for (const View &view : series.views()) {
+        RenderRequest ofView = series.requestOf(view);
+        if (limit.isReached()) {
+            printMessage("stopped by the time limit before view {}\n", view.name);
+            break;
+        }
+        ofView.timeLimitSeconds = limit.secondsLeft();
+        series.moveTo(view, session);
+        if (const ExitCode code = renderOne(ofView, commandLine, session, observer); code != ExitCode::Ok)
+            return code;
+    }
+    return ExitCode::Ok;
+}
+
+ExitCode runAny(const RenderRequest &request, const SequenceOptions &sequence, const ViewOptions &views,
+                const std::string &commandLine, TerminalObserver &observer) {
+    if (views.areGiven()) {
+        requireViewOptions(request, sequence);
+        return runViews(request, views, commandLine, observer);
+    }
+    if (!views.object.empty())
+        throw Error(ErrorKind::Usage, "--frame needs --views; for a frame of a sequence, use --frames");
+    return sequence.areGiven() ? runSequence(request, sequence, commandLine, observer)
+                               : runRender(request, commandLine, observer);
+}
+
 } // namespace
 
 void addRenderCommand(CLI::App &app, CommandContext &context) {
@@ -287,14 +363,14 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     const auto isQuiet = std::make_shared<bool>(false);
     addRenderOptions(*command, *request, *isQuiet);
     addSequenceOptions(*command, *sequence);
-    command->callback([request, sequence, isQuiet, &context] {
+    const auto views = std::make_shared<ViewOptions>();
+    addViewOptions(*command, *views);
+    command->callback([request, sequence, views, isQuiet, &context] {
         request->words = context.words;
         if (sequence->framesPerSecond && !sequence->areGiven())
             throw Error(ErrorKind::Usage, "--fps needs --frames FIRST..LAST");
         TerminalObserver observer(*isQuiet);
-        context.exitCode = sequence->areGiven()
-                               ? runSequence(*request, *sequence, context.commandLine, observer)
-                               : runRender(*request, context.commandLine, observer);
+        context.exitCode = runAny(*request, *sequence, *views, context.commandLine, observer);
     });
 }
 

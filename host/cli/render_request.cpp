@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string_view>
 
@@ -130,6 +132,54 @@ RenderRequest readRenderRequest(const std::vector<std::string> &words) {
     }
     request.words = words;
     return request;
+}
+
+namespace {
+
+/// "front,top", or "contact:8"; words that commas separate.
+void readViews(const std::vector<std::string> &words, std::vector<View> &views) {
+    constexpr std::string_view around = "contact:";
+    std::vector<std::string_view> allowed;
+    std::ranges::transform(viewNames, std::back_inserter(allowed), [](const auto &row) { return row.first; });
+    for (const std::string &word : words) {
+        if (word.starts_with(around)) {
+            const auto count = readAs<int>("--views", word.substr(around.size()), limits::viewCount);
+            std::ranges::move(viewsAround(count), std::back_inserter(views));
+            continue;
+        }
+        const auto *const known =
+            std::ranges::find(viewNames, word, [](const auto &row) { return row.first; });
+        if (known == viewNames.end())
+            refuseValue("--views", word,
+                        quotedList(allowed) + ", and \"contact:N\", N views around" +
+                            suggestion(word, allowed));
+        views.push_back({word, known->second});
+    }
+}
+
+} // namespace
+
+void addViewOptions(CLI::App &command, ViewOptions &options) {
+    const char *group = "Views";
+    command
+        .add_option(
+            "--views", CLI::callback_t([&options](const CLI::results_t &words) {
+                readViews(words, options.views);
+                return true;
+            }),
+            "pictures from these sides, by cameras that frame the scene: front, back, left, right, top, "
+            "bottom, iso, and contact:N, N views around it. Several in a .png are a sheet, with a name "
+            "above each; {view} in the name of --output makes a file of each, named so")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("VIEW,...")
+        ->group(group);
+    addText(
+        command, "--frame", options.object, "NAME",
+        "what the cameras of --views frame: a node or mesh of this name, as `hyalite inspect` lists them, or "
+        "a mesh file; all without it")
+        ->group(group);
 }
 
 void addSequenceOptions(CLI::App &command, SequenceOptions &options) {

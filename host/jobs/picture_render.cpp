@@ -150,7 +150,7 @@ class PictureRender {
         layers_ = renderViews(session_.backend(), session_.scene(), request_.scene.views,
                               request_.part ? squares_ : std::span<const Crop>(), begun_.layers,
                               session_.observer(), limit);
-        const RenderTask task{.name = request_.frame ? fmt::format("frame {}", *request_.frame) : "render",
+        const RenderTask task{.name = taskName(),
                               .limit = limit,
                               .snapshots = &snapshots,
                               .shareOfOthers = shareOutside(scene.crop, squares_)};
@@ -169,6 +169,12 @@ class PictureRender {
     }
 
   private:
+    [[nodiscard]] std::string taskName() const {
+        if (request_.frame)
+            return fmt::format("frame {}", *request_.frame);
+        return request_.view.empty() ? "render" : "view " + request_.view;
+    }
+
     void take(BackendResult &result, FinishedPicture &finished) {
         const std::optional<Stop> stop = session_.observer().wantsStop();
         const int samplesPerPixel = session_.scene().loaded.settings.samplesPerPixel;
@@ -218,6 +224,8 @@ class PictureRender {
         picture.wholeWidth = loaded.scene.camera.width;
         picture.wholeHeight = loaded.scene.camera.height;
         picture.attributes = attributesOf(provenanceToJson(report_.origin, report_.device));
+        if (!request_.view.empty())
+            picture.attributes.emplace_back("view", request_.view);
         if (request_.frame) {
             picture.attributes.emplace_back("frame", fmt::format("{}", *request_.frame));
             picture.attributes.emplace_back("identity", begun_.frameIdentity);

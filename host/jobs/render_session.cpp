@@ -6,13 +6,13 @@
 
 namespace hyalite::core {
 
-void RenderSession::prepare(const RenderRequest &request) {
+void RenderSession::prepare(const RenderRequest &request, Source source) {
     const auto beginOpening = [&](const SceneOutline &outline) {
         opening_ =
             beginOpeningRenderers(request.devices, observer_, processorsFor(request.threadCount, outline),
                                   renderConfigFor(request.deviceOptions));
     };
-    scene_ = prepareScene(request.scene, Source::Dropped, observer_, beginOpening);
+    scene_ = prepareScene(request.scene, source, observer_, beginOpening);
 }
 
 void RenderSession::replaceScene(const SceneOptions &options) {

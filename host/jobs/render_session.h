@@ -34,6 +34,7 @@ struct RenderRequest {
     /// A frame of a sequence: its picture is written only when it is finished, and says which one it is. A render that
     /// is resuming leaves a picture alone that it would make once more.
     std::optional<int> frame;
+    std::string view{};                   ///< one of several: its picture says which
     std::vector<std::string> words;       ///< of the command line, for who has to make a part again
     std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
 };
@@ -45,7 +46,7 @@ class RenderSession {
 
     /// Loads and builds the scene, and opens the renderers at the same time, as soon as the outline is known. Throws as
     /// prepareScene() does.
-    void prepare(const RenderRequest &request);
+    void prepare(const RenderRequest &request, Source source = Source::Dropped);
     /// Another scene for the same renderers. The observer gets nothing: the first scene's messages cover it.
     void replaceScene(const SceneOptions &options);
     [[nodiscard]] Observer &observer() const { return observer_; }

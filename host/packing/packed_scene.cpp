@@ -223,6 +223,18 @@ void setEye(const Scene &scene, const std::vector<std::uint32_t> &packedMaterial
                             : static_cast<std::uint32_t>(std::countr_zero(media.around)) / layout::mediumBits;
 }
 
+std::uint64_t nextSerial() {
+    static std::atomic<std::uint64_t> count = 0;
+    return ++count;
+}
+
+void addLights(const Scene &scene, PackedScene &packed) {
+    for (const Light &light : scene.lights) {
+        packed.lights.push_back(packLight(light));
+        packed.lighting |= 1u << emitterKindOf(packed.lights.back());
+    }
+}
+
 /// Marks the features that kernels need for a material on a surface. `hasTransparency`: of the surface's colours.
 void useMaterial(const Scene &scene, std::uint32_t index, bool hasTransparency, PackedScene &packed) {
     const Material &material = scene.materials[index];
@@ -371,9 +383,8 @@ layout::FrameRecord frameOf(const PackedScene &scene, const RenderSettings &sett
 
 PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &options) {
     assert(bvh.order.size() <= triangleCount(scene) + bvh.spheres.size() + scene.instances.size());
-    static std::atomic<std::uint64_t> count = 0;
     PackedScene packed;
-    packed.serial = ++count;
+    packed.serial = nextSerial();
     packed.frame = packFrame(scene);
     packed.hasTriangles = !bvh.order.empty();
     if (!bvh.spheres.empty())
@@ -390,10 +401,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
         useMaterials(scene, mesh, packed);
     for (const TriangleMesh &prototype : scene.prototypes)
         useMaterials(scene, prototype, packed);
-    for (const Light &light : scene.lights) {
-        packed.lights.push_back(packLight(light));
-        packed.lighting |= 1u << emitterKindOf(packed.lights.back());
-    }
+    addLights(scene, packed);
     const std::uint32_t turning = layout::texturesNormal | layout::texturesClearcoatNormal;
     if ((packed.texturing & turning) == 0 && (packed.scattering & layout::scattersAtAnisotropic) == 0)
         packed.texturing &= ~layout::texturesTangents;
@@ -418,6 +426,19 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
 void packCamera(const Scene &scene, PackedScene &packed) {
     setCamera(scene.camera, packed.frame);
     setEye(scene, packedMaterials(materialOrder(scene.materials)), packed);
+}
+
+void packLights(const Scene &scene, LightChoice choice, PackedScene &packed) {
+    packed.serial = nextSerial();
+    packed.lights.clear();
+    packed.emitters.clear();
+    packed.lightNodes.clear();
+    packed.infiniteEmitterCount = 0;
+    packed.lighting &= layout::lightsByEnvironment;
+    const bool isLitAround = packed.lighting != 0;
+    addLights(scene, packed);
+    packed.frame.lightCount = static_cast<std::uint32_t>(packed.lights.size());
+    packEmitters(scene, isLitAround, choice, packed);
 }
 
 } // namespace hyalite::core

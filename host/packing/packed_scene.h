@@ -122,4 +122,8 @@ struct PackOptions {
 /// Moves the camera of a packed scene: `scene` is what it was packed from, except for its camera.
 void packCamera(const Scene &scene, PackedScene &packed);
 
+/// Replaces the lights of a packed scene, which becomes another one, with a serial number of its own: `scene` is what
+/// it was packed from, except for its camera and its lights. Its meshes and textures are not read.
+void packLights(const Scene &scene, LightChoice choice, PackedScene &packed);
+
 } // namespace hyalite::core

@@ -45,6 +45,7 @@ inline constexpr Interval framedExtent{1e-12, 1e12};  ///< box diagonal of a mes
 inline constexpr Interval timeSeconds{0.0, 1e9};
 
 inline constexpr Interval threadCount{1, 1024};
+inline constexpr Interval viewCount{1, 64};      ///< around a scene
 inline constexpr Interval partCount{1, 65536};   ///< of a picture
 inline constexpr Interval inspectedRays{1, 1e6}; ///< each is tested against all triangles
 

@@ -256,6 +256,35 @@ TEST(PackedScene, SpheresLightsAndMaterialsAreCopied) {
     EXPECT_FALSE(isTwoSided(result.materials[1]));
 }
 
+TEST(PackedScene, LightsAreReplacedAsIfAllWerePackedAnew) {
+    for (const LightChoice choice : {LightChoice::Power, LightChoice::Tree}) {
+        Scene scene;
+        scene.materials.resize(2);
+        scene.materials[1].emission = glm::vec3(2.0f);
+        scene.spheres.push_back({{0, 0, 0}, 1.0, 1, false});
+        scene.meshes.emplace_back();
+        hyalite::core::testing::addTriangle(scene.meshes[0], {0, 0, 0}, {4, 0, 0}, {0, 2, 0});
+        scene.meshes[0].materialIndex = 1;
+        scene.lights = {{{1, 1, 1}, glm::dvec3(8.0)}, {{2, 1, 1}, glm::dvec3(3.0)}};
+        const Bvh bvh = buildBvh(TreeKind::Sah, buildTriangles(scene), 1);
+        PackedScene result = packScene(scene, bvh, {.lightChoice = choice});
+        const std::uint64_t serial = result.serial;
+        scene.lights = {{{-9, 1, 1}, glm::dvec3(1.0)},
+                        {{5, 5, 5}, glm::dvec3(2.0), LightKind::Directional},
+                        {{0, 8, 1}, glm::dvec3(4.0), LightKind::Spot}};
+        packLights(scene, choice, result);
+        const PackedScene expected = packScene(scene, bvh, {.lightChoice = choice});
+        EXPECT_NE(result.serial, serial) << "a device must not take it for the scene before";
+        EXPECT_NE(result.serial, expected.serial);
+        for (std::size_t i = 0; i < expected.arrays().size(); ++i)
+            EXPECT_TRUE(std::ranges::equal(result.arrays()[i].bytes, expected.arrays()[i].bytes))
+                << expected.arrays()[i].name;
+        EXPECT_EQ(result.contentHash(), expected.contentHash());
+        EXPECT_EQ(result.lighting, expected.lighting);
+        EXPECT_EQ(result.infiniteEmitterCount, expected.infiniteEmitterCount);
+    }
+}
+
 TEST(PackedScene, DielectricsComeFirstByPriority) {
     Scene scene;
     scene.materials.resize(5);

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -96,6 +97,67 @@ TEST(Framing, AnyAspectAndFieldOfViewShowsTheWholeMesh) {
                 EXPECT_EQ(camera.width, size.x);
                 EXPECT_EQ(camera.height, size.y);
             }
+}
+
+TEST(Framing, AnyDirectionShowsTheWholeMesh) {
+    for (const Shape &shape : shapes())
+        for (const double azimuth : {0.0, 45.0, 90.0, 180.0, 270.0})
+            for (const double elevation : {-90.0, -30.0, 0.0, 35.0, 89.5, 90.0})
+                for (const glm::dvec3 &up :
+                     {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)}) {
+                    const Bounds bounds = triangleBounds(spanning(shape.low, shape.high));
+                    const Camera camera = frameCamera(bounds, 300, 200, 40.0, up, {azimuth, elevation});
+                    const glm::dvec2 extent = largestExtent(bounds, camera);
+                    EXPECT_LE(std::max(extent.x, extent.y), 0.92 + 1e-6) << azimuth << " " << elevation;
+                    EXPECT_GT(glm::length(glm::cross(camera.up, glm::normalize(camera.direction))), 0.1);
+                }
+}
+
+/// Unit vectors of a camera, rounded: to the right, up, and to the viewer.
+std::array<glm::ivec3, 3> axesOf(const Camera &camera) {
+    const glm::dvec3 backwards = -glm::normalize(camera.direction);
+    const glm::dvec3 right = glm::normalize(glm::cross(camera.up, backwards));
+    return {glm::round(right), glm::round(glm::cross(backwards, right)), glm::round(backwards)};
+}
+
+TEST(Framing, SidesAreThoseOfDrawings) {
+    const Bounds cube{{-1, -1, -1}, {1, 1, 1}};
+    const auto seen = [&](const ViewDirection &from, const glm::dvec3 &up) {
+        return axesOf(frameCamera(cube, 100, 100, 40.0, up, from));
+    };
+    using Axes = std::array<glm::ivec3, 3>;
+    const glm::dvec3 y(0, 1, 0);
+    EXPECT_EQ(seen({0, 0}, y), (Axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}})) << "front";
+    EXPECT_EQ(seen({90, 0}, y), (Axes{{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}})) << "right";
+    EXPECT_EQ(seen({180, 0}, y), (Axes{{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}})) << "back";
+    EXPECT_EQ(seen({0, 90}, y), (Axes{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}})) << "top";
+    EXPECT_EQ(seen({0, -90}, y), (Axes{{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}})) << "bottom";
+    const glm::dvec3 z(0, 0, 1);
+    EXPECT_EQ(seen({0, 0}, z), (Axes{{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}))
+        << "front, as programs with +z up have it";
+    EXPECT_EQ(seen({0, 90}, z), (Axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}})) << "top";
+}
+
+TEST(Framing, LightsOfACameraAreThoseOfAMeshSeenFromThere) {
+    const Scene scene = frameMesh(spanning({-1, -1, -1}, {1, 1, 1}));
+    const Bounds bounds = triangleBounds(scene.meshes[0]);
+    const auto inCamera = [&](const Camera &camera, const Light &light) {
+        const glm::dvec3 backwards = -glm::normalize(camera.direction);
+        const glm::dvec3 right = glm::normalize(glm::cross(camera.up, backwards));
+        return glm::dvec3(glm::dot(light.position, right),
+                          glm::dot(light.position, glm::cross(backwards, right)),
+                          glm::dot(light.position, backwards));
+    };
+    for (const ViewDirection &from : {defaultView, ViewDirection{0, -90}, {180, 0}, {-90, 45}, {0, 90}}) {
+        const Camera camera = frameCamera(bounds, 512, 512, 40.0, {0, 1, 0}, from);
+        const std::vector<Light> lights = frameLights(bounds, camera);
+        ASSERT_EQ(lights.size(), scene.lights.size());
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            EXPECT_EQ(lights[i].power, scene.lights[i].power);
+            EXPECT_NEAR(glm::length(inCamera(camera, lights[i]) - inCamera(scene.camera, scene.lights[i])),
+                        0.0, 1e-6);
+        }
+    }
 }
 
 TEST(Framing, TheCameraLooksFromFrontRightAndAbove) {
