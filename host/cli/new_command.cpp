@@ -5,11 +5,13 @@
 #include "host/cli/first_scene.h"
 #include "host/cli/options.h"
 #include "host/import/assets.h"
+#include "host/jobs/model_scene.h"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -49,26 +51,46 @@ void writeNewFile(const std::string &path, std::string_view text) {
     failToWrite(path, error);
 }
 
-void runNew(const std::string &path) {
+struct NewOptions {
+    std::string path;
+    std::string model;
+    std::optional<glm::dvec3> turnDegrees;
+};
+
+void runNew(const NewOptions &options) {
+    const std::string &path = options.path;
     if (!hasExtension(path, ".json"))
         throw Error(ErrorKind::Usage,
                     fmt::format("{}: the name of a scene ends in .json; name it {}.json", path, path));
-    writeNewFile(path, firstScene);
+    if (options.turnDegrees && options.model.empty())
+        throw Error(ErrorKind::Usage, "--up needs --from MODEL, whose up it is");
+    std::string text(firstScene);
+    if (!options.model.empty())
+        text = sceneAround(options.model, path, options.turnDegrees.value_or(glm::dvec3(0.0)));
+    writeNewFile(path, text);
+    const std::string contents = options.model.empty() ? "a floor, three objects, a lamp and a sky"
+                                                       : "the model, a floor, a lamp and a sky";
     const char *const words[] = {path.c_str()};
-    printResult("{}: a floor, three objects, a lamp and a sky, to change as you like. Next:\n"
-                "  hyalite render {} -o first.png --tone agx\n",
-                path, shellLine(words));
+    printResult("{}: {}, to change as you like. Next:\n"
+                "  hyalite render {} -o {} --tone agx\n",
+                path, contents, shellLine(words), options.model.empty() ? "first.png" : "model.png");
 }
 
 } // namespace
 
 void addNewCommand(CLI::App &app, CommandContext & /*context*/) {
     CLI::App *command = app.add_subcommand("new", "write a small scene with explanations, to start from");
-    const auto path = std::make_shared<std::string>();
-    command->add_option("file", *path, "the scene to write, which must not exist yet")
+    const auto options = std::make_shared<NewOptions>();
+    command->add_option("file", options->path, "the scene to write, which must not exist yet")
         ->required()
         ->type_name("FILE.json");
-    command->callback([path] { runNew(*path); });
+    addFile(*command, "--from", options->model, "MODEL",
+            "a scene of this model, a .gltf, .glb, .obj, .ply or .stl file in the scene's folder or below "
+            "it: on a "
+            "floor, under a lamp, before a camera that sees it");
+    addChoice(*command, "--up", options->turnDegrees, upTurns,
+              "the axis of the model that is up; y without it. Files for printers and CAD mostly have z");
+    command->callback([options] { runNew(*options); });
 }
 
 } // namespace hyalite::core
