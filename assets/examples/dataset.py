@@ -15,11 +15,12 @@ import numpy as np
 import hyalite
 
 
-def positions(count, centre, radius, height):
-    """Points on a circle around +y."""
+def positions(count, low, high):
+    """Points on a circle around what lies in the box, a little above its middle."""
+    distance = 1.2 * np.linalg.norm(high - low)
     for i in range(count):
         angle = 2.0 * math.pi * i / count
-        yield centre + np.array([radius * math.sin(angle), height, radius * math.cos(angle)])
+        yield (low + high) / 2 + distance * np.array([math.sin(angle), 0.35, math.cos(angle)])
 
 
 def main():
@@ -29,23 +30,22 @@ def main():
     parser.add_argument("--views", type=int, default=100)
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--spp", type=int, default=16)
-    parser.add_argument("--centre", type=float, nargs=3, default=[0.0, 0.0, 0.0])
-    parser.add_argument("--radius", type=float, default=5.0)
-    parser.add_argument("--height", type=float, default=2.0)
     options = parser.parse_args()
 
     options.folder.mkdir(parents=True, exist_ok=True)
     scene = hyalite.Scene(options.scene)
     renderer = hyalite.Renderer()  # opened once; the scene is read and built once, too
+    bounds = hyalite.inspect(scene)["bounds"]
+    low, high = np.array(bounds["low"]), np.array(bounds["high"])
+    centre = (low + high) / 2
     cameras = []
-    centre = np.array(options.centre)
-    for i, position in enumerate(positions(options.views, centre, options.radius, options.height)):
+    for i, position in enumerate(positions(options.views, low, high)):
         image = renderer.render(
             scene, spp=options.spp, width=options.size, height=options.size, camera_position=position,
             look_at=centre, seed=i, layers=["depth", "normal", "id"],
         )
         np.savez_compressed(options.folder / f"view.{i:04}.npz", rgb=image.pixels, **image.layers)
-        cameras.append({"position": position.tolist(), "look_at": options.centre})
+        cameras.append({"position": position.tolist(), "look_at": centre.tolist()})
     (options.folder / "cameras.json").write_text(json.dumps(cameras, indent=1))
     print(f"{len(cameras)} views by {renderer.description}")
 

@@ -9,6 +9,7 @@
 #include "host/lab/comparison_run.h"
 #include "host/lab/device_report.h"
 #include "host/lab/measurement.h"
+#include "host/lab/scene_summary_json.h"
 #include "host/lab/verify_report.h"
 #include "host/report/profile_json.h"
 
@@ -158,6 +159,18 @@ Profile profile(const Scene &scene, const Settings &settings, const ProfileOptio
         profile.megaraysPerSecond = static_cast<double>(rays) / (profile.medianMillis * 1e3);
         profile.json = core::jsonText(core::profileToJson(measured.profile));
         return profile;
+    });
+}
+
+std::string inspect(const Scene &scene, const Settings &settings, bool withCoverage, const Watch &watch) {
+    WatchObserver observer(watch);
+    return watched(observer, [&] {
+        const core::PreparedScene prepared =
+            core::prepareScene(sceneOptionsOf(scene, settings), core::Source::Kept, observer);
+        std::optional<core::Coverage> coverage;
+        if (withCoverage)
+            coverage = core::measureCoverage(prepared);
+        return core::jsonText(core::sceneToJson(core::summariseScene(prepared), coverage, {}, byProgram));
     });
 }
 

@@ -78,6 +78,11 @@ struct Profile {
 [[nodiscard]] HYALITE_API Profile profile(const Scene &scene, const Settings &settings = {},
                                           const ProfileOptions &options = {});
 
+/// What a scene is made of, as JSON: bounds, cameras, nodes, materials, lights and more, by the keys of the document of
+/// `hyalite inspect`; and, if it is asked for, which objects cover which share of the picture. Throws as Renderer does.
+[[nodiscard]] HYALITE_API std::string inspect(const Scene &scene, const Settings &settings = {},
+                                              bool withCoverage = false, const Watch &watch = {});
+
 struct Verification {
     bool isPassed = false; ///< each film that a kernel of it can render has the shipped bits
     std::string json{};    ///< the report of `hyalite verify`

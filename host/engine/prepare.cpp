@@ -380,9 +380,11 @@ bool isOtherView(const PreparedScene &prepared, const SceneOptions &options, con
                              options.load.gltfScene == others.load.gltfScene &&
                              options.load.timeSeconds == others.load.timeSeconds;
     // What is framed by itself is lit by where its camera is.
-    const bool hasSameFrame = !prepared.loaded.autoFramed ||
-                              isSame(&SceneOptions::width, &SceneOptions::height, &SceneOptions::fovDegrees,
-                                     &SceneOptions::cameraPosition, &SceneOptions::lookAt, &SceneOptions::up);
+    const bool hasSameFrame =
+        !prepared.loaded.autoFramed ||
+        (!options.sizeShare && !others.sizeShare &&
+         isSame(&SceneOptions::width, &SceneOptions::height, &SceneOptions::fovDegrees,
+                &SceneOptions::cameraPosition, &SceneOptions::lookAt, &SceneOptions::up));
     return hasSameTree && hasSameLoad && hasSameFrame &&
            isSame(&SceneOptions::scene, &SceneOptions::document, &SceneOptions::background,
                   &SceneOptions::environment, &SceneOptions::environmentScale,
@@ -404,6 +406,8 @@ void changeView(PreparedScene &prepared, const SceneOptions &options) {
     validateWithOverrides(options, loaded,
                           [&](const std::string &name) { validateCamera(loaded.scene.camera, name); });
     prepared.crop = chooseCrop(options.crop, loaded.scene.camera);
+    if (options.sizeShare)
+        shrink(*options.sizeShare, loaded.scene.camera, prepared.crop);
     packCamera(loaded.scene, prepared.packed);
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -22,103 +23,49 @@ namespace {
 /// The allowed range of a crop depends on the image.
 constexpr Interval anyInteger{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 
+/// The member of the options, or of how they load, that a row sets.
+template <auto member> auto &of(SceneOptions &options) { return options.*member; }
+template <auto member> auto &ofLoad(SceneOptions &options) { return options.load.*member; }
+
+using Whole = NumberOption<int>;
+using Number = NumberOption<double>;
+using Point = NumbersOption<double>;
+
 constexpr auto table = std::to_array<SceneOption>({
-    {"width", imageGroup, "N",
-     NumberOption<int>{[](SceneOptions &o) -> auto & { return o.width;
-} // namespace
-, limits::imageSize
-} // namespace hyalite::core
-, "pixels"
-}
-, {"height", imageGroup, "N", NumberOption<int>{[](SceneOptions & o) -> auto &{return o.height;
-}
-, limits::imageSize
-}
-, "pixels"
-}
-, {"crop", imageGroup, "X0,X1,Y0,Y1", NumbersOption<int>{[](SceneOptions & o) -> auto &{return o.crop;
-}
-, anyInteger, 4
-}
-, "render only pixels X0 <= x < X1, Y0 <= y < Y1; the output has that size"
-}
-, {"camera-position", viewGroup, "X,Y,Z",
-   NumbersOption<double>{[](SceneOptions & o) -> auto &{return o.cameraPosition;
-}
-, limits::coordinate, 3
-}
-, "world space"
-}
-, {"look-at", viewGroup, "X,Y,Z", NumbersOption<double>{[](SceneOptions & o) -> auto &{return o.lookAt;
-}
-, limits::coordinate, 3
-}
-, "the point to look at, world space"
-}
-, {"up", viewGroup, "X,Y,Z", NumbersOption<double>{[](SceneOptions & o) -> auto &{return o.up;
-}
-, limits::coordinate, 3, true
-}
-, "the direction that is up in the image: three numbers, or x, y, z, -x, -y or -z; a bare mesh is "
-  "framed and lit as standing so"
-}
-, {"fov", viewGroup, "NUMBER", NumberOption<double>{[](SceneOptions & o) -> auto &{return o.fovDegrees;
-}
-, limits::horizontalFovDegrees
-}
-, "horizontal field of view in degrees"
-}
-, {"background", viewGroup, "R,G,B", NumbersOption<double>{[](SceneOptions & o) -> auto &{return o.background;
-}
-, limits::radiance, 3
-}
-, "radiance of rays that leave the scene, linear RGB, instead of the scene's environment"
-}
-, {"environment", viewGroup, "FILE", TextOption{[](SceneOptions & o) -> auto &{return o.environment;
-}
-, "the name of a file"
-}
-, "light from all around, instead of the scene's: .hdr, .exr, .pfm, .png or .jpg, by longitude and "
-  "latitude; or neutral, the studio that lights glTF files without lights"
-}
-, {"environment-scale", viewGroup, "NUMBER",
-   NumberOption<double>{[](SceneOptions & o) -> auto &{return o.environmentScale;
-}
-, limits::environmentScale
-}
-, "factor on the environment"
-}
-, {"environment-rotate", viewGroup, "NUMBER",
-   NumberOption<double>{[](SceneOptions & o) -> auto &{return o.environmentRotateDegrees;
-}
-, limits::rotateDegrees
-}
-, "degrees by which it is turned about +y"
-}
-, {"camera", viewGroup, "NAME", TextOption{[](SceneOptions & o) -> auto &{return o.load.camera;
-}
-, "a name"
-}
-, "glTF: the camera of this name or index"
-}
-, {"gltf-scene", viewGroup, "NAME", TextOption{[](SceneOptions & o) -> auto &{return o.load.gltfScene;
-}
-, "a name"
-}
-, "glTF: the scene of this name or index"
-}
-, {"time", viewGroup, "NUMBER", NumberOption<double>{[](SceneOptions & o) -> auto &{return o.load.timeSeconds;
-}
-, limits::timeSeconds
-}
-, "glTF: seconds into its animations; without it, the pose of rest"
-}
-, {"flatten", tracingGroup, "", FlagOption{[](SceneOptions & o) -> auto &{return o.isFlattened;
-}
-}
-, "make every instance a mesh of its own: the same picture, with more memory"
-}
-,
+    {"width", imageGroup, "N", Whole{of<&SceneOptions::width>, limits::imageSize}, "pixels"},
+    {"height", imageGroup, "N", Whole{of<&SceneOptions::height>, limits::imageSize}, "pixels"},
+    {"scale", imageGroup, "PERCENT%", PercentOption{of<&SceneOptions::sizeShare>},
+     "a preview: makes width and height, of the scene or of these options, smaller, each at least one pixel. "
+     "A crop still counts the pixels of the whole size"},
+    {"crop", imageGroup, "X0,X1,Y0,Y1", NumbersOption<int>{of<&SceneOptions::crop>, anyInteger, 4},
+     "render only pixels X0 <= x < X1, Y0 <= y < Y1; the output has that size"},
+    {"camera-position", viewGroup, "X,Y,Z", Point{of<&SceneOptions::cameraPosition>, limits::coordinate, 3},
+     "world space"},
+    {"look-at", viewGroup, "X,Y,Z", Point{of<&SceneOptions::lookAt>, limits::coordinate, 3},
+     "the point to look at, world space"},
+    {"up", viewGroup, "X,Y,Z", Point{of<&SceneOptions::up>, limits::coordinate, 3, true},
+     "the direction that is up in the image: three numbers, or x, y, z, -x, -y or -z; a bare mesh is "
+     "framed and lit as standing so"},
+    {"fov", viewGroup, "NUMBER", Number{of<&SceneOptions::fovDegrees>, limits::horizontalFovDegrees},
+     "horizontal field of view in degrees"},
+    {"background", viewGroup, "R,G,B", Point{of<&SceneOptions::background>, limits::radiance, 3},
+     "radiance of rays that leave the scene, linear RGB, instead of the scene's environment"},
+    {"environment", viewGroup, "FILE", TextOption{of<&SceneOptions::environment>, "the name of a file"},
+     "light from all around, instead of the scene's: .hdr, .exr, .pfm, .png or .jpg, by longitude and "
+     "latitude; or neutral, the studio that lights glTF files without lights"},
+    {"environment-scale", viewGroup, "NUMBER",
+     Number{of<&SceneOptions::environmentScale>, limits::environmentScale}, "factor on the environment"},
+    {"environment-rotate", viewGroup, "NUMBER",
+     Number{of<&SceneOptions::environmentRotateDegrees>, limits::rotateDegrees},
+     "degrees by which it is turned about +y"},
+    {"camera", viewGroup, "NAME", TextOption{ofLoad<&LoadOptions::camera>, "a name"},
+     "glTF: the camera of this name or index"},
+    {"gltf-scene", viewGroup, "NAME", TextOption{ofLoad<&LoadOptions::gltfScene>, "a name"},
+     "glTF: the scene of this name or index"},
+    {"time", viewGroup, "NUMBER", Number{ofLoad<&LoadOptions::timeSeconds>, limits::timeSeconds},
+     "glTF: seconds into its animations; without it, the pose of rest"},
+    {"flatten", tracingGroup, "", FlagOption{of<&SceneOptions::isFlattened>},
+     "make every instance a mesh of its own: the same picture, with more memory"},
 });
 
 struct Axis {
@@ -189,6 +136,17 @@ struct Setter {
         if (text == nullptr || text->empty())
             refuse(name, value, row.allowed);
         row.member(options) = *text;
+    }
+    void operator()(const PercentOption &row) const {
+        const auto *text = std::get_if<std::string>(&value);
+        double percent = 0.0;
+        const bool isPercentage =
+            text != nullptr && text->ends_with('%') &&
+            std::from_chars(text->data(), text->data() + text->size() - 1, percent).ptr ==
+                text->data() + text->size() - 1;
+        if (!isPercentage || !PercentOption::allowed.contains(percent))
+            refuse(name, value, "a percentage, as 25%");
+        row.member(options) = percent / 100.0;
     }
     void operator()(const FlagOption &row) const {
         const bool *flag = std::get_if<bool>(&value);

@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace py = pybind11;
@@ -388,6 +389,13 @@ void defineChecks(py::module_ &module) {
             device, warmups, repeats, counts, isUnverified, timeLimit, watchOf(progress, message)};
         return parsed(released([&, scene = scene] { return hyalite::profile(scene, values, options); }).json);
     });
+    module.def("inspect", [](const hyalite::Scene &scene, const py::dict &settings, bool withCoverage,
+                             const py::object &progress, const py::object &message) {
+        const hyalite::Settings values = settingsOf(settings);
+        const hyalite::Watch watch = watchOf(progress, message);
+        return parsed(
+            released([&, scene = scene] { return hyalite::inspect(scene, values, withCoverage, watch); }));
+    });
     module.def("verify", [](const std::string &device, const std::vector<std::string> &kernels,
                             const py::object &progress, const py::object &message) {
         const hyalite::Watch watch = watchOf(progress, message);
@@ -408,7 +416,7 @@ void defineErrors(py::module_ &module) {
     define("UsageError", py::make_tuple(error, py::reinterpret_borrow<py::object>(PyExc_ValueError)));
     py::register_local_exception_translator([](std::exception_ptr thrown) {
         try {
-            std::rethrow_exception(thrown);
+            std::rethrow_exception(std::move(thrown));
         } catch (const hyalite::Error &raised) {
             const bool isUsage = raised.kind() == hyalite::ErrorKind::Usage;
             const py::object type =

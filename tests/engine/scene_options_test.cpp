@@ -64,6 +64,7 @@ TEST(SceneOptions, AreRefusedInTheWordsOfTheCommandLine) {
               "up: found \"w\"; allowed: 3 numbers, or x, y, z, -x, -y or -z");
     EXPECT_EQ(refusalOf("filter", std::string("bix")),
               "filter: found \"bix\"; allowed: \"box\", \"blackman-harris\"; did you mean \"box\"?");
+    EXPECT_EQ(refusalOf("scale", std::string("0%")), "scale: found \"0%\"; allowed: a percentage, as 25%");
     EXPECT_EQ(refusalOf("flatten", 1.0), "flatten: found \"1\"; allowed: true or false");
     EXPECT_EQ(refusalOf("environment", std::string()),
               "environment: found \"\"; allowed: the name of a file");
@@ -90,6 +91,7 @@ TEST(OtherViews, AreAsIfPreparedAnew) {
         {{"width", 40.0}, {"height", 20.0}, {"crop", std::vector{3.0, 9.0, 0.0, 20.0}}},
         {{"camera-position", std::vector{1.0, 2.0, 30.0}}},
         {{"camera-position", std::vector{1.0, 2.0, 30.0}}, {"look-at", std::vector{0.0, 1.0, 0.0}}},
+        {{"scale", std::string("50%")}, {"crop", std::vector{3.0, 9.0, 0.0, 20.0}}},
         {{"fov", 30.0}, {"up", std::string("x")}},
         {{"max-depth", 2.0}, {"sampler", std::string("centre")}, {"exposure", 1.0}}};
     for (const std::string scene : {"spheres", "spheres-nested", "cornell"}) {

@@ -94,3 +94,12 @@ def test_the_twin_is_verified():
 def test_no_kernel_is_verified_by_a_wrong_name(device):
     with pytest.raises(hyalite.UsageError, match="nope.*stack"):
         hyalite.verify(device, kernels=["nope"])
+
+
+def test_inspects_a_scene_and_what_its_camera_sees():
+    report = hyalite.inspect("cornell", coverage=True, width=32, height=32)
+    assert report["contents"]["triangles"] > 0 and report["camera"]["width"] == 32
+    shares = [item["share"] for item in report["coverage"]["objects"]]
+    assert sum(shares) + report["coverage"]["background"] == pytest.approx(1)
+    with pytest.raises(hyalite.UsageError, match="spp"):
+        hyalite.inspect("cornell", spp=0)

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Comparison", "Difference", "Error", "Image", "Renderer", "Scene", "UsageError", "api_version", "compare",
-    "devices", "diff", "load_image", "prepare_process", "profile", "render", "setting_names", "verify",
+    "devices", "diff", "inspect", "load_image", "prepare_process", "profile", "render", "setting_names", "verify",
 ]
 
 Progress = Callable[[str, float], object]
@@ -489,6 +489,20 @@ def profile(
         _scene_of(scene), settings, str(device), operator.index(warmups), operator.index(repeats), bool(counts),
         not verified, _seconds(time_limit), progress, message,
     )
+
+
+def inspect(
+    scene: SceneLike,
+    *,
+    coverage: bool = False,
+    progress: Optional[Progress] = None,
+    message: Optional[Message] = None,
+    **settings: Any,
+) -> Dict[str, Any]:
+    """What a scene is made of: "bounds", "camera", "nodes", "materials", "lights" and more, as `hyalite inspect --json`
+    prints it. With `coverage` also which objects and materials cover which share of the picture."""
+    _called(progress=progress, message=message)
+    return _hyalite.inspect(_scene_of(scene), settings, bool(coverage), progress, message)
 
 
 def verify(
