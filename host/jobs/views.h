@@ -80,8 +80,8 @@ struct FinishedSheet {
     std::uint64_t rayCount = 0;
 };
 
-/// Renders all views, and writes their sheet; the session is open. At the end of the request's time limit, the sheet has
-/// what is finished. Throws Error for a stop: then nothing is written.
+/// Renders all views, and writes their sheet; the session is open. At the end of the request's time limit, the sheet
+/// has what is finished. Throws Error for a stop: then nothing is written.
 [[nodiscard]] FinishedSheet renderSheet(const ViewSeries &series, const RenderRequest &request,
                                         AtomicFile &file, const std::string &commandLine,
                                         RenderSession &session);

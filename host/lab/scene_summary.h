@@ -1,4 +1,5 @@
-// Summary of a prepared scene: what `hyalite inspect` tells, as numbers and names. Points are in the file's coordinates.
+// Summary of a prepared scene: what `hyalite inspect` tells, as numbers and names. Points are in the coordinates of the
+// file.
 #pragma once
 
 #include "host/bvh/tree_statistics.h"
