@@ -119,8 +119,12 @@ Comparison compare(const Scene &scene, const Settings &settings, const std::stri
             json["divergence"] = divergenceOf(run, prepared, renders);
         json["passed"] = isEqual;
         Difference difference = differenceOf(renders.comparison, renders.imageB, renders.imageA);
-        return Comparison{isEqual, imageOf(prepared, *run.first, std::move(renders.a), {}),
-                          imageOf(prepared, *run.second, std::move(renders.b), {}), std::move(difference),
+        const auto imageBy = [&](const core::Backend &backend, core::BackendResult &&result) {
+            return imageOf(prepared, backend.identity(prepared.packed, prepared.loaded.settings.integrator),
+                           std::move(result), {});
+        };
+        return Comparison{isEqual, imageBy(*run.first, std::move(renders.a)),
+                          imageBy(*run.second, std::move(renders.b)), std::move(difference),
                           core::jsonText(json)};
     });
 }

@@ -38,8 +38,8 @@ struct Difference {
     std::string json{};            ///< all metrics
 };
 
-/// Compares images of one size; the first is the reference. Beside one that is display-encoded, a linear one is taken as
-/// a PNG of it would be. Throws Error{Usage} for two sizes.
+/// Compares images of one size; the first is the reference. Beside one that is display-encoded, a linear one is taken
+/// as a PNG of it would be. Throws Error{Usage} for two sizes.
 [[nodiscard]] HYALITE_API Difference diff(const Image &reference, const Image &test);
 
 /// Two renders of one scene.

@@ -134,7 +134,7 @@ struct Image::Content {
 };
 
 /// The image of a render. `views` are the films of its layers.
-[[nodiscard]] Image imageOf(const core::PreparedScene &scene, const core::Backend &backend,
+[[nodiscard]] Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &renderer,
                             core::BackendResult &&result, std::vector<core::ViewFilm> &&views);
 
 struct Scene::Content {

@@ -82,8 +82,8 @@ std::vector<std::byte> pngOf(const Image::Content &content, core::ToneCurve tone
 
 } // namespace
 
-Image imageOf(const core::PreparedScene &scene, const core::Backend &backend, core::BackendResult &&result,
-              std::vector<core::ViewFilm> &&views) {
+Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &renderer,
+              core::BackendResult &&result, std::vector<core::ViewFilm> &&views) {
     auto content = std::make_shared<Image::Content>();
     content->settings = scene.loaded.settings;
     content->image = result.film.toImage();
@@ -100,9 +100,7 @@ Image imageOf(const core::PreparedScene &scene, const core::Backend &backend, co
         content->isFinished =
             content->isFinished &&
             core::finishedWork(view.film, whole, core::samplesOfView(view.view, spp)).isComplete;
-    content->provenance =
-        core::provenanceToJson(core::provenanceOf(scene, "(by a program)"),
-                               backend.identity(scene.packed, content->settings.integrator));
+    content->provenance = core::provenanceToJson(core::provenanceOf(scene, "(by a program)"), renderer);
     const std::vector<core::Layer> layers = core::viewLayers(content->views);
     content->layerValues.reserve(layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i)

@@ -63,8 +63,8 @@ class HYALITE_API Image {
     [[nodiscard]] std::string provenance() const;
 
     /// Writes a .png, .exr, .hdr or .pfm file, which appears whole or not at all, as `hyalite render` does: an EXR has
-    /// the layers, and the exposure is a PNG's. `tone` is "gamma", "srgb", "aces" or "agx". Throws Error{OutputNotWritten}, and
-    /// Error{Usage} for other names.
+    /// the layers, and the exposure is a PNG's. `tone` is "gamma", "srgb", "aces" or "agx". Throws
+    /// Error{OutputNotWritten}, and Error{Usage} for other names.
     void save(const std::string &path, const std::string &tone = "gamma") const;
     /// The bytes of such a PNG.
     [[nodiscard]] std::string png(const std::string &tone = "gamma") const;

@@ -21,6 +21,7 @@ struct Renderer::Content {
     std::optional<core::PreparedScene> prepared;
     std::shared_ptr<const Scene::Content> scene;
     core::SceneOptions sceneOptions;
+    core::RendererIdentity identity; ///< with the kernel for it
 
     /// Prepares the scene, or moves the one that is there. Another object is another scene: its file may have changed.
     void prepare(const Scene &wanted, core::SceneOptions &&options, core::Observer &observer) {
@@ -31,6 +32,7 @@ struct Renderer::Content {
             prepared.reset(); // the memory first
             prepared = core::prepareScene(options, core::Source::Dropped, observer);
             scene = wanted.content();
+            identity = backend->identity(prepared->packed, prepared->loaded.settings.integrator);
         }
         sceneOptions = std::move(options);
     }
@@ -122,7 +124,7 @@ Image Renderer::render(const Scene &scene, const Settings &settings, const Rende
                          core::Film(prepared.crop), observer, {.name = "render", .limit = limit}));
         observer.rethrow();
         requireSample(result);
-        return imageOf(prepared, *content_->backend, std::move(result), std::move(views));
+        return imageOf(prepared, content_->identity, std::move(result), std::move(views));
     });
 }
 

@@ -75,8 +75,8 @@ class HYALITE_API Renderer {
 };
 
 /// Prepares the process as the command line does its own: the settings of the allocator and, from then on when a
-/// renderer is opened, lavapipe's environment variables, which make its renders up to half as long again faster. Call it
-/// first in main, before there are other threads.
+/// renderer is opened, lavapipe's environment variables, which make its renders faster. Call it first in main, before
+/// there are other threads.
 HYALITE_API void prepareProcess();
 
 } // namespace hyalite

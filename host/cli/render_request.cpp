@@ -175,8 +175,8 @@ void addViewOptions(CLI::App &command, ViewOptions &options) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->type_name("VIEW,...")
         ->group(group);
-    addText(
-        command, "--frame", options.object, "NAME",
+    addWord(
+        command, "--frame", options.object, "a name", "NAME",
         "what the cameras of --views frame: a node or mesh of this name, as `hyalite inspect` lists them, or "
         "a mesh file; all without it")
         ->group(group);

@@ -206,6 +206,7 @@ void setSceneOption(SceneOptions &options, std::string_view name, const OptionVa
 
 std::vector<std::string_view> sceneOptionNames() {
     std::vector<std::string_view> names;
+    names.reserve(table.size() + settingsTable.size());
     for (const SceneOption &option : table)
         names.push_back(option.name);
     for (const Setting &setting : settingsTable)

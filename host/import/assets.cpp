@@ -40,8 +40,8 @@ std::filesystem::path codeFolder() {
     return std::filesystem::canonical(isLibrary ? info.dli_fname : "/proc/self/exe", error).parent_path();
 }
 
-/// Of a program in bin and a library in lib; of a library in lib/MACHINE; of a module in lib/python3/dist-packages/hyalite
-/// or in a wheel; and where all of it was installed.
+/// Of a program in bin and a library in lib; of a library in lib/MACHINE; of a module in
+/// lib/python3/dist-packages/hyalite or in a wheel; and where all of it was installed.
 constexpr std::array<const char *, 5> waysToShared{"../share/hyalite", "../../share/hyalite",
                                                    "../../../../share/hyalite", "share/hyalite",
                                                    HYALITE_DATA_FOLDER};

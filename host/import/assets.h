@@ -8,8 +8,8 @@
 
 namespace hyalite::core {
 
-/// Asset folders in search order: $HYALITE_ASSETS if set, then share/hyalite of the installation that this code is from,
-/// as a program, a shared library or a module. They need not exist.
+/// Asset folders in search order: $HYALITE_ASSETS if set, then share/hyalite of the installation that this code is
+/// from, as a program, a shared library or a module. They need not exist.
 [[nodiscard]] std::vector<std::filesystem::path> assetFolders();
 
 /// The sorted names of the shipped scenes: scenes/NAME.json or scenes/NAME.glb in any asset folder.

@@ -37,7 +37,8 @@ struct SceneArrays {
     std::map<std::string, std::shared_ptr<const Image>> environments; ///< linear radiance, any float
 };
 
-struct SceneDocument { // NOLINT(bugprone-exception-escape): the JSON library moves, and throws nothing
+// NOLINTNEXTLINE(bugprone-exception-escape): the JSON library throws nothing when it moves
+struct SceneDocument {
     nlohmann::json json;        ///< as a scene file has it
     std::filesystem::path file; ///< the name in messages; names of files are relative to its folder
     SceneArrays arrays{};

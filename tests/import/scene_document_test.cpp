@@ -118,7 +118,9 @@ TEST(MeshArrays, AreRefusedWithTheirNameAndRow) {
 }
 
 TEST(SceneDocuments, HaveTexturesAndEnvironmentsOfArrays) {
-    SceneDocument document = documentOf(squareArrays());
+    MeshArrays arrays = squareArrays();
+    arrays.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    SceneDocument document = documentOf(arrays);
     document.json["materials"]["painted"] = {{"type", "diffuse"},
                                              {"textures", {{"baseColour", {{"file", "paint"}}}}}};
     document.json["meshes"][0]["material"] = "painted";
