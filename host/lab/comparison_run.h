@@ -17,7 +17,7 @@ namespace hyalite::core {
 struct ComparisonRequest {
     std::string device = "auto";
     std::string against = "cpu";
-    int threadCount = 0;         ///< 0: all
+    int threadCount = 0;           ///< 0: all
     DeviceOptions deviceOptions{}; ///< of both, unless the second is the reference renderer
 };
 

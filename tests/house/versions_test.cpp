@@ -23,8 +23,7 @@ TEST(Versions, InTheGuideAreThoseOfFiles) {
             << what << ' ' << version;
     };
     expectRow("the program, its options and exit codes", HYALITE_VERSION);
-    expectRow("the interface of the library",
-              fmt::format("{}.{}", HYALITE_API_MAJOR, HYALITE_API_MINOR));
+    expectRow("the interface of the library", fmt::format("{}.{}", HYALITE_API_MAJOR, HYALITE_API_MINOR));
     expectRow("checkpoints and parts", std::to_string(checkpointVersion));
     expectRow("reports of `profile`, which are baselines", std::to_string(profileVersion));
     expectRow("documents of `inspect --json`", std::to_string(inspectVersion));
