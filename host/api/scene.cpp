@@ -9,7 +9,7 @@
 #include "host/scene/limits.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat4x3.hpp>
 
 #include <cstring>
 #include <filesystem>

@@ -407,8 +407,7 @@ void defineChecks(py::module_ &module) {
 void defineErrors(py::module_ &module) {
     const auto define = [&](const char *name, const py::object &bases) {
         const std::string path = std::string("hyalite.") + name;
-        const auto type =
-            py::reinterpret_steal<py::object>(PyErr_NewException(path.c_str(), bases.ptr(), nullptr));
+        auto type = py::reinterpret_steal<py::object>(PyErr_NewException(path.c_str(), bases.ptr(), nullptr));
         module.attr(name) = type;
         return type;
     };
