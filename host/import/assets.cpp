@@ -10,12 +10,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <set>
 
 #include <dlfcn.h>
-#include <errno.h>
 
 namespace hyalite::core {
 namespace {

@@ -1,7 +1,9 @@
 #include "host/lab/comparison_run.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -37,7 +39,8 @@ glm::ivec2 worstPixel(const ComparedRenders &renders) {
     const std::vector<glm::vec3> &a = renders.imageA.pixels();
     const std::vector<glm::vec3> &b = renders.imageB.pixels();
     const auto hasEqualBits = [](const glm::vec3 &x, const glm::vec3 &y) {
-        return std::memcmp(&x, &y, sizeof x) == 0;
+        using Bits = std::array<std::uint32_t, 3>;
+        return std::bit_cast<Bits>(x) == std::bit_cast<Bits>(y);
     };
     const auto index = static_cast<int>(std::ranges::mismatch(a, b, hasEqualBits).in1 - a.begin());
     const int width = renders.imageA.width();
