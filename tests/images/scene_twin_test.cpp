@@ -146,6 +146,7 @@ TestScene pathScene(int width, int height, int samplesPerPixel) {
     for (glm::vec3 &position : mesh.positions)
         position += glm::vec3(-18.0f, 0.0f, 18.0f);
     mesh.materialIndex = addMaterial(paper);
+    mesh.node = noNode; // of the cat's scene
     scene.meshes.push_back(mesh);
     return scene;
 }
