@@ -83,8 +83,8 @@ endfunction()
 
 # hyalite_kernel_list(TARGET FUNCTION)
 #
-# Defines `std::span<const hyalite::core::EmbeddedKernel> hyalite::core::FUNCTION()`, all kernels that were embedded into the target so
-# far.
+# Defines `std::span<const hyalite::core::EmbeddedKernel> hyalite::core::FUNCTION()`, all kernels that were embedded into
+# the target so far.
 function(hyalite_kernel_list target function)
     set(kernel_includes)
     set(kernel_entries)

@@ -111,7 +111,8 @@ check_by_clang_tidy() {
         grep -F -e "$build/host/" -e "$build/CMakeFiles/" -e "$root/host/" -e "$root/cmake/" | sort -u |
         xargs -r -d '\n' ls -S | # the longest first
         xargs -P "$(nproc)" -I UNIT clang-tidy-14 --quiet --config-file="$root/.clang-tidy" UNIT -- -std=c++20 -fopenmp \
-            -DHYALITE_VERSION='"0"' -DHYALITE_DATA_FOLDER='"/"' -I"$root" -I"$build" -I"$build/include" -I"$build/kernels" $(/usr/bin/python3-config --includes 2>/dev/null) -isystem /usr/include/Imath 2>&1 |
+            -DHYALITE_VERSION='"0"' -DHYALITE_DATA_FOLDER='"/"' -I"$root" -I"$build" -I"$build/include" \
+            -I"$build/kernels" $(/usr/bin/python3-config --includes 2>/dev/null) -isystem /usr/include/Imath 2>&1 |
         sed '/warnings\{0,1\} generated\.$/d'
 }
 

@@ -182,7 +182,7 @@ Verification verify(const std::string &device, const std::vector<std::string> &k
     WatchObserver observer(watch);
     return watched(observer, [&] {
         for (const std::string &kernel : kernels)
-            static_cast<void>(chosenFrom(core::gpu::namedKernels, kernel, "kernels"));
+            static_cast<void>(core::chosenFrom(core::gpu::namedKernels, kernel, "kernels"));
         const core::ShippedFilms shipped = core::readShippedFilms();
         observer.begin("verify", false);
         const std::array verdicts{

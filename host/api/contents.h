@@ -2,9 +2,9 @@
 #pragma once
 
 #include "host/base/clean_text.h"
-#include "host/base/json_reader.h"
 #include "host/engine/open_backends.h"
 #include "host/engine/prepare.h"
+#include "host/engine/scene_options.h"
 #include "host/film/view_film.h"
 #include "host/image/image_file.h"
 #include "host/import/scene_document.h"
@@ -48,18 +48,6 @@ template <class Work> auto guarded(const Work &work) {
 template <class Work> auto withThreads(const Work &work) {
     requireOwnProcess();
     return guarded(work);
-}
-
-/// The value of the word among `names`, pairs of words and values. Throws Error{Usage} that tells `what` is chosen.
-template <class Names> auto chosenFrom(const Names &names, const std::string &word, const char *what) {
-    std::vector<std::string_view> words;
-    for (const auto &[known, value] : names) {
-        words.push_back(known);
-        if (known == word)
-            return value;
-    }
-    throw core::OverrideError(
-        what, core::refusalText(word, core::quotedList(words) + core::suggestion(word, words)));
 }
 
 /// Throws Error{Usage} for a limit that no render could keep.

@@ -21,7 +21,9 @@ namespace hyalite {
 
 namespace {
 
-core::ToneCurve toneOf(const std::string &name) { return chosenFrom(core::toneCurveNames, name, "tone"); }
+core::ToneCurve toneOf(const std::string &name) {
+    return core::chosenFrom(core::toneCurveNames, name, "tone");
+}
 
 /// Values of a layer, and its name as the row of the view has it.
 void addLayer(const core::ViewFilm &view, const core::Layer &layer, Image::Content &content) {

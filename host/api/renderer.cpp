@@ -43,7 +43,7 @@ namespace {
 core::DeviceOptions deviceOptionsOf(const RendererOptions &options) {
     core::DeviceOptions device;
     if (!options.kernel.empty())
-        device.kernel = chosenFrom(core::gpu::kernelNames, options.kernel, "kernel");
+        device.kernel = core::chosenFrom(core::gpu::kernelNames, options.kernel, "kernel");
     if (options.dispatchMillis > 0.0)
         device.maxDispatchMillis = options.dispatchMillis;
     return device;

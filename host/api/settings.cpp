@@ -44,7 +44,7 @@ core::SceneOptions sceneOptionsOf(const Scene &scene, const Settings &settings,
     for (const auto &[name, value] : settings.values())
         core::setSceneOption(options, wordOf(name), value.get());
     for (const std::string &layer : layers)
-        options.views.push_back(chosenFrom(viewNames(), layer, "layers"));
+        options.views.push_back(core::chosenFrom(viewNames(), layer, "layers"));
     return options;
 }
 

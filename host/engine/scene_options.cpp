@@ -1,7 +1,5 @@
 #include "host/engine/scene_options.h"
 
-#include "host/base/clean_text.h"
-#include "host/base/json_reader.h"
 #include "host/scene/limits.h"
 #include "host/scene/settings_table.h"
 
@@ -167,17 +165,9 @@ struct SettingReader {
                 &setting};
     }
     template <class Value> SettingChange operator()(const ChoiceSetting<Value> &row) const {
-        const auto *word = std::get_if<std::string>(&value);
-        std::vector<std::string_view> words;
-        for (const auto &[known, meaning] : row.names)
-            words.push_back(known);
-        const auto chosen = word != nullptr ? std::ranges::find(words, *word) : words.end();
-        if (chosen == words.end())
-            refuse(setting.option, value, quotedList(words) + suggestion(textOf(value), words));
-        return {
-            [member = row.member, given = row.names[static_cast<std::size_t>(chosen - words.begin())].second](
-                RenderSettings &settings) { settings.*member = given; },
-            &setting};
+        const Value given = chosenFrom(row.names, textOf(value), setting.option);
+        return {[member = row.member, given](RenderSettings &settings) { settings.*member = given; },
+                &setting};
     }
 };
 

@@ -2,7 +2,9 @@
 // its settings (settings_table.h). To add one: its member in SceneOptions (prepare.h), its row here, and its use.
 #pragma once
 
+#include "host/base/clean_text.h"
 #include "host/base/interval.h"
+#include "host/base/json_reader.h"
 #include "host/engine/prepare.h"
 
 #include <cstddef>
@@ -57,6 +59,19 @@ inline constexpr std::string_view viewGroup = "Camera and light";
 
 /// The three numbers of a word such as "-z"; empty for other words.
 [[nodiscard]] std::vector<double> axisOf(std::string_view word);
+
+/// The value of the word among `choices`, pairs of words and values. Throws OverrideError for other words; `name` is that
+/// of what is chosen.
+template <class Choices>
+[[nodiscard]] auto chosenFrom(const Choices &choices, const std::string &word, std::string_view name) {
+    std::vector<std::string_view> words;
+    for (const auto &[known, value] : choices) {
+        words.push_back(known);
+        if (known == word)
+            return value;
+    }
+    throw OverrideError(std::string(name), refusalText(word, quotedList(words) + suggestion(word, words)));
+}
 
 /// The value of an option or a setting, as programs have it.
 using OptionValue = std::variant<bool, double, std::string, std::vector<double>>;
