@@ -140,7 +140,7 @@ Scene Scene::load(const std::string &source) {
 Scene Scene::fromJson(const std::string &text, const std::string &folder) {
     return guarded([&] {
         SceneDocument document{.json = parsed(text, "scene"),
-                               .file = std::filesystem::absolute(folder) / "scene"};
+                               .file = (std::filesystem::absolute(folder) / "scene").lexically_normal()};
         if (!document.json.is_object())
             throw Error(ErrorKind::BadInput, "scene: the JSON text is no object");
         Scene scene;

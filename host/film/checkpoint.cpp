@@ -84,7 +84,9 @@ class Reader {
         contents.identity.resize(header.identityBytes);
         contents.origin.resize(header.originBytes);
         contents.pixels.resize(pixelCount);
-        contents.layers.assign(header.layerCount, std::vector<layout::FilmPixel>(pixelCount));
+        contents.layers.resize(header.layerCount);
+        for (std::vector<layout::FilmPixel> &layer : contents.layers)
+            layer.resize(pixelCount);
         offset_ = head.size();
         std::uint64_t hash = hashBytes(head);
         const auto readHashed = [&](std::span<std::byte> piece) {

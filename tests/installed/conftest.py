@@ -37,7 +37,8 @@ class Installation:
         return {
             **os.environ,
             "CMAKE_PREFIX_PATH": str(self.prefix),
-            "PKG_CONFIG_PATH": str(self.library / "pkgconfig"),
+            # Nothing but its own file: who uses the library need not have what it was built with.
+            "PKG_CONFIG_LIBDIR": str(self.library / "pkgconfig"),
             "LD_LIBRARY_PATH": str(self.library),
             "PYTHONPATH": str(self.modules),
             **more,
