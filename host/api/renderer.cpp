@@ -110,10 +110,10 @@ Image Renderer::render(const Scene &scene, const Settings &settings, const Rende
     return watched(observer, [&, scene = scene] { // as it is now, not when the turn comes
         const std::unique_lock turn = turnOf(*content_, observer);
         core::SceneOptions wanted = sceneOptionsOf(scene, settings, options.layers);
-        const std::vector<core::Integrator> layers = wanted.views;
         content_->prepare(scene, std::move(wanted), observer);
         observer.rethrow();
         const core::PreparedScene &prepared = *content_->prepared;
+        const std::vector<core::Integrator> &layers = prepared.views;
         core::requireFilmMemory(prepared.crop, 1 + static_cast<unsigned>(layers.size()));
         requireTimeLimit(options.timeLimitSeconds);
         const core::TimeLimit limit(options.timeLimitSeconds);

@@ -167,6 +167,7 @@ void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger, co
     picture.attributes = attributesOf(provenanceOf(merger, commandLine));
     picture.settings.integrator = origin.integrator;
     picture.settings.exposureStops = origin.exposureStops;
+    picture.settings.hasAlpha = origin.hasAlpha;
     picture.tone = options.tone.value_or(ToneCurve::Gamma);
     writeFilmPicture(file, format, picture);
     file.commit();
@@ -198,7 +199,10 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
         printResult("{} is not written\n", options.output);
         return ExitCode::AnswerIsNo;
     }
-    if (!merger.layers().empty() && format != ImageFormat::Exr)
+    const bool hasLayers = std::ranges::any_of(merger.layers(), [](const ViewFilm &layer) {
+        return layer.view != Integrator::Shadow;
+    }); // which is in alpha
+    if (hasLayers && format != ImageFormat::Exr)
         printMessage("note: {} has no layers: those of the parts are for .exr files\n", options.output);
     writePicture(file, format, merger, options, commandLine);
     if (!options.isQuiet)

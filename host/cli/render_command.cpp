@@ -195,7 +195,7 @@ ExitCode renderOne(const RenderRequest &request, const std::string &commandLine,
     if (!session.isPrepared())
         session.prepare(request);
     requireDistinctFiles(outputsOf(request), session.scene().loaded.inputFiles);
-    requireRoom(files, session.scene().crop);
+    requireRoom(files, session.scene());
     session.open();
     observer.catchSignals();
     if (session.isFirstPicture() && !observer.isQuiet())

@@ -4,6 +4,7 @@
 #include "host/engine/scene_options.h"
 #include "host/scene/settings_table.h"
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -21,6 +22,17 @@ CLI::Option *addSetting(CLI::App &command, const std::string &name, const Settin
             {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
     };
     return addNumberFor<Number>(command, name, take, number.allowed, helpText(setting));
+}
+
+/// --NAME, or --NAME=false for what the scene has.
+CLI::Option *addSetting(CLI::App &command, const std::string &name, const Setting &setting,
+                        const FlagSetting &flag, SettingChanges &changes) {
+    const auto take = [&changes, &setting, member = flag.member](bool given) {
+        changes.push_back(
+            {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
+    };
+    return command.add_flag_function(
+        name, [take](std::int64_t count) { take(count > 0); }, helpText(setting));
 }
 
 template <class Value>

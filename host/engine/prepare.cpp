@@ -297,6 +297,17 @@ void dropSource(Scene &scene) {
     scene.textures = {};
 }
 
+/// The shadows of catchers are part of alpha.
+std::vector<Integrator> viewsOf(const SceneOptions &options, const LoadedScene &loaded) {
+    std::vector<Integrator> views = options.views;
+    const bool hasCatcher = std::ranges::find(loaded.scene.materials, MaterialKind::ShadowCatcher,
+                                              &Material::kind) != loaded.scene.materials.end();
+    if (hasCatcher && alphaKindOf(loaded.settings) != layout::alphaOfNothing &&
+        std::ranges::find(views, Integrator::Shadow) == views.end())
+        views.push_back(Integrator::Shadow);
+    return views;
+}
+
 double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();
 }
@@ -356,6 +367,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
     partContacts(scene);
     prepared.bvh = buildBvh(settings.tree, scene, settings.leafSize);
     warnOfOverlaps(prepared.bvh, observer);
+    prepared.views = viewsOf(options, prepared.loaded);
     prepared.packed = packScene(scene, prepared.bvh, {.lightChoice = settings.lightChoice});
     prepared.arraysHash = prepared.packed.arraysHash();
     if (source == Source::Dropped) {
@@ -408,6 +420,7 @@ void changeView(PreparedScene &prepared, const SceneOptions &options) {
     prepared.crop = chooseCrop(options.crop, loaded.scene.camera);
     if (options.sizeShare)
         shrink(*options.sizeShare, loaded.scene.camera, prepared.crop);
+    prepared.views = viewsOf(options, loaded);
     packCamera(loaded.scene, prepared.packed);
 }
 

@@ -64,8 +64,9 @@ struct PreparedScene {
     std::uint64_t arraysHash = 0; ///< of `packed`
     Crop crop;
     LightSources sources;
-    Camera givenCamera;           ///< as the scene has it, without overrides
-    RenderSettings givenSettings; ///< likewise
+    Camera givenCamera;              ///< as the scene has it, without overrides
+    RenderSettings givenSettings;    ///< likewise
+    std::vector<Integrator> views{}; ///< to be rendered as layers: what was asked for, and what alpha needs
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
 

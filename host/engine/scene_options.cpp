@@ -164,6 +164,13 @@ struct SettingReader {
         return {[member = row.member, given](RenderSettings &settings) { settings.*member = given; },
                 &setting};
     }
+    SettingChange operator()(const FlagSetting &row) const {
+        const bool *given = std::get_if<bool>(&value);
+        if (given == nullptr)
+            refuse(setting.option, value, "true or false");
+        return {[member = row.member, flag = *given](RenderSettings &settings) { settings.*member = flag; },
+                &setting};
+    }
     template <class Value> SettingChange operator()(const ChoiceSetting<Value> &row) const {
         const Value given = chosenFrom(row.names, textOf(value), setting.option);
         return {[member = row.member, given](RenderSettings &settings) { settings.*member = given; },

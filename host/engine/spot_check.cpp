@@ -22,13 +22,17 @@ constexpr std::array<glm::dvec2, 4> spotPlaces{{{0.5, 0.5}, {0.5, 0.8}, {0.24, 0
 
 struct Sum {
     const char *name;
-    glm::vec3 layout::FilmPixel::*values;
+    glm::vec3 (*of)(const layout::FilmPixel &pixel);
 };
 
-constexpr std::array<Sum, 4> sums{{{"sum", &layout::FilmPixel::sum},
-                                   {"rest of the sum", &layout::FilmPixel::sumRest},
-                                   {"sum of squares", &layout::FilmPixel::sumOfSquares},
-                                   {"rest of the sum of squares", &layout::FilmPixel::squaresRest}}};
+constexpr std::array<Sum, 5> sums{
+    {{"sum", [](const layout::FilmPixel &pixel) { return pixel.sum; }},
+     {"rest of the sum", [](const layout::FilmPixel &pixel) { return pixel.sumRest; }},
+     {"sum of squares", [](const layout::FilmPixel &pixel) { return pixel.sumOfSquares; }},
+     {"rest of the sum of squares", [](const layout::FilmPixel &pixel) { return pixel.squaresRest; }},
+     {"transparency, with its rest,", [](const layout::FilmPixel &pixel) {
+          return glm::vec3(pixel.transparency, pixel.transparencyRest, 0.0f);
+      }}}};
 
 void requireEqualBits(const std::string &name, const Film &film, const std::string &judge, const Film &right,
                       std::uint32_t samples) {
@@ -37,12 +41,12 @@ void requireEqualBits(const std::string &name, const Film &film, const std::stri
             continue;
         using Bits = std::array<std::uint32_t, 3>;
         const auto sum = std::ranges::find_if(sums, [&](const Sum &each) {
-            return std::bit_cast<Bits>(film.pixels[i].*each.values) !=
-                   std::bit_cast<Bits>(right.pixels[i].*each.values);
+            return std::bit_cast<Bits>(each.of(film.pixels[i])) !=
+                   std::bit_cast<Bits>(each.of(right.pixels[i]));
         });
         const Sum &differing = sum != sums.end() ? *sum : sums.front();
-        const glm::vec3 &a = film.pixels[i].*differing.values;
-        const glm::vec3 &b = right.pixels[i].*differing.values;
+        const glm::vec3 a = differing.of(film.pixels[i]);
+        const glm::vec3 b = differing.of(right.pixels[i]);
         const int index = static_cast<int>(i);
         throw Error(ErrorKind::DeviceLost,
                     fmt::format("{} and {} disagree: at pixel ({}, {}) the {} of {} samples is "

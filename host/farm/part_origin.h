@@ -22,6 +22,7 @@ struct PartOrigin {
     // Read from the provenance.
     Integrator integrator = Integrator::Whitted;
     double exposureStops = 0.0;
+    bool hasAlpha = false;
     std::string device; ///< its name and driver: "llvmpipe, Mesa 22.3.6"
 
     /// "node7 (llvmpipe, Mesa 22.3.6)".

@@ -28,6 +28,15 @@ namespace hyalite::core {
                                  : glm::vec3(0.0f);
 }
 
+/// The share of the pixel that is not transparent, from 0 to 1; 0 without samples. Coverage of glass that is seen through may be
+/// out of that range in a few samples: its mean is not.
+[[nodiscard]] inline float alphaOf(const layout::FilmPixel &pixel) {
+    if (pixel.sampleCount == 0)
+        return 0.0f;
+    const double sum = static_cast<double>(pixel.transparency) + static_cast<double>(pixel.transparencyRest);
+    return static_cast<float>(std::clamp(1.0 - sum / pixel.sampleCount, 0.0, 1.0));
+}
+
 /// The unbiased estimate of the variance of the mean of a pixel's samples, per channel:
 ///
 ///     (sum x^2 - (sum x)^2 / n) / (n - 1) / n

@@ -155,15 +155,16 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
         plan("the trace", BufferUse::Storage, job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0);
     planned.largestTile = {0, 0, fitTile(job.crop.width(), config.tileWidth),
                            fitTile(job.crop.height(), config.tileHeight)};
+    const std::uint64_t recordsPerSample = alphaKindOf(job.settings) == layout::alphaOfNothing ? 1 : 2;
     const auto planSlots = [&] {
         const std::uint64_t slots = planned.largestTile.pixelCount() * planned.samplesInFlight;
-        planned.stacks =
-            planned.regeneratesPaths
-                ? plan("the finished samples", BufferUse::Storage, slots * sizeof(layout::SampleRecord))
-                : plan("the traversal stacks", BufferUse::Storage,
-                       job.scene.hasTriangles && !isSkipList
-                           ? slots * planned.stackSize * sizeof(std::uint32_t)
-                           : 0);
+        planned.stacks = planned.regeneratesPaths
+                             ? plan("the finished samples", BufferUse::Storage,
+                                    slots * recordsPerSample * sizeof(layout::SampleRecord))
+                             : plan("the traversal stacks", BufferUse::Storage,
+                                    job.scene.hasTriangles && !isSkipList
+                                        ? slots * planned.stackSize * sizeof(std::uint32_t)
+                                        : 0);
         planned.waiting = planWaiting(job, isSkipList, !planned.isDirect, slots);
     };
     planSlots();

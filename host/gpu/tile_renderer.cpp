@@ -82,6 +82,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantCamera] = scene.camera;
     constants[layout::constantTexturing] = scene.texturing;
     constants[layout::constantAnyHit] = scene.anyHit;
+    constants[layout::constantAlpha] = alphaKindOf(job.settings);
     constants[layout::constantTrianglePairs] =
         config.traversal == Traversal::SkipList
             ? static_cast<std::uint32_t>(scene.listedPairs(job.settings.integrator))

@@ -252,6 +252,10 @@ Number readValue(const JsonObject &object, std::string_view key, const NumberSet
         return object.number(key, number.allowed, fallback);
 }
 
+bool readValue(const JsonObject &object, std::string_view key, const FlagSetting &, bool fallback) {
+    return object.boolean(key, fallback);
+}
+
 template <class Value>
 Value readValue(const JsonObject &object, std::string_view key, const ChoiceSetting<Value> &choice,
                 Value fallback) {

@@ -107,7 +107,7 @@ std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Fil
     for (const layout::FilmPixel &pixel : film.pixels) {
         const float sum = pixel.sum.x + pixel.sum.y + pixel.sum.z;
         wrongCount += std::isfinite(sum) ? 0u : 1u;
-        isBlack = isBlack && pixel.sum == glm::vec3(0.0f);
+        isBlack = isBlack && pixel.sum == glm::vec3(0.0f) && pixel.transparency == 0.0f;
     }
     const double share = static_cast<double>(wrongCount) / static_cast<double>(film.pixels.size());
     if (share > toleratedShare)
@@ -118,7 +118,7 @@ std::optional<std::string> diagnosePicture(const PreparedScene &scene, const Fil
     const Integrator integrator = scene.loaded.settings.integrator;
     const bool isKnown = // and was said before the render
         diagnoseLight(scene.loaded.scene, integrator).has_value();
-    if (isBlack && showsLight(integrator) && !isKnown)
+    if (isBlack && rowOf(integrator).showsLight && !isKnown)
         return "the picture is black: " + reasonOfBlack(scene);
     const bool mayMeetNothing = rays.total() == rays.primary && !isKnown && hasSurfaces(scene.loaded.scene);
     if (mayMeetNothing && lookAround(scene.packed, scene.crop).hitCount == 0)

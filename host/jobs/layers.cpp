@@ -43,23 +43,36 @@ void flattenDepths(const PreparedScene &scene, const Film *begun, Film &film) {
     }
 }
 
+/// The share of a pixel that a shadow hides: that of the catcher, times the share of its light that is blocked.
+float shadowOf(const layout::FilmPixel &pixel) {
+    const glm::dvec3 sum = sumOf(pixel);
+    return sum.z > 0.0 ? static_cast<float>(sum.x / pixel.sampleCount * (sum.z / sum.y)) : 0.0f;
+}
+
+/// The value of a pixel in the layer.
+glm::vec3 valueOf(Integrator view, const layout::FilmPixel &pixel) {
+    if (view == Integrator::Normal)
+        return normalOf(meanOf(pixel));
+    if (view == Integrator::Shadow)
+        return glm::vec3(shadowOf(pixel));
+    return meanOf(pixel);
+}
+
 Layer layerOf(const ViewFilm &of) {
     const Film &film = of.film;
-    const IntegratorRow &view = rowOf(of.view);
-    const bool isNormal = of.view == Integrator::Normal;
-    const int channelCount = static_cast<int>(view.layerChannels.size());
-    const auto fillRow = [&film, isNormal, channelCount](int y, std::span<float> row) {
-        float *next = row.data();
+    const IntegratorRow &row = rowOf(of.view);
+    const int channelCount = static_cast<int>(row.layerChannels.size());
+    const auto fillRow = [&film, view = of.view, channelCount](int y, std::span<float> values) {
+        float *next = values.data();
         for (const layout::FilmPixel &pixel : rowOf(film, y)) {
-            const glm::vec3 mean = meanOf(pixel);
-            const glm::vec3 value = isNormal ? normalOf(mean) : mean;
+            const glm::vec3 value = valueOf(view, pixel);
             for (int channel = 0; channel < channelCount; ++channel)
                 *next++ = value[channel];
         }
     };
     if (of.view == Integrator::Depth)
-        return {std::string(view.layerChannels), "", fillRow};
-    return {std::string(view.name), std::string(view.layerChannels), fillRow};
+        return {std::string(row.layerChannels), "", fillRow};
+    return {std::string(row.name), std::string(row.layerChannels), fillRow};
 }
 
 } // namespace
@@ -94,6 +107,16 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
         films.push_back({view, std::move(film)});
     }
     return films;
+}
+
+std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views) {
+    std::vector<float> alphas(film.pixels.size());
+    std::ranges::transform(film.pixels, alphas.begin(), alphaOf);
+    const auto shadows = std::ranges::find(views, Integrator::Shadow, &ViewFilm::view);
+    if (shadows != views.end())
+        for (std::size_t i = 0; i < alphas.size(); ++i)
+            alphas[i] = std::min(alphas[i] + shadowOf(shadows->film.pixels[i]), 1.0f);
+    return alphas;
 }
 
 std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films) {

@@ -18,8 +18,12 @@ namespace hyalite::core {
                                                 std::span<const Crop> squares, std::span<const Film> begun,
                                                 Observer &observer, const TimeLimit &limit);
 
+/// The alpha of each pixel of the film, from 0 to 1: with the shadows on catchers, if the view of those is among the
+/// `views`. A shadow is black: it adds no colour.
+[[nodiscard]] std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views);
+
 /// Layers by the names of the views, with the channels of their rows, except for depths: the channel Z, as compositors
-/// know it. Normals are of unit length. Where a ray leaves the scene, values are 0, except for depths and occlusion.
+/// know it. Normals are of unit length; shadows are the share of a pixel that they hide. Where a ray leaves the scene, values are 0, except for depths and occlusion.
 /// `films` must outlive the layers.
 [[nodiscard]] std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films);
 

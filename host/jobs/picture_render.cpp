@@ -57,19 +57,20 @@ std::string identityOfFrame(const RenderRequest &request, const RenderSession &s
     const RenderSettings &settings = session.scene().loaded.settings;
     const std::string whole =
         fmt::format("{}samples per pixel: {}\nexposure: {}\ntone: {}\n",
-                    identityText(identityOf(session.scene(), session.backend(), &request.scene.views)),
+                    identityText(identityOf(session.scene(), session.backend(), &session.scene().views)),
                     settings.samplesPerPixel, settings.exposureStops, static_cast<int>(toneOf(request)));
     return hashText(hashBytes(std::as_bytes(std::span(whole))));
 }
 
-PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report, const Camera &camera) {
+PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report,
+                        const PreparedScene &scene) {
     PartOrigin origin;
     origin.host = hostName();
     origin.folder = std::filesystem::current_path().string();
     origin.words = request.words;
-    origin.wholeWidth = camera.width;
-    origin.wholeHeight = camera.height;
-    origin.layers = request.scene.views;
+    origin.wholeWidth = scene.loaded.scene.camera.width;
+    origin.wholeHeight = scene.loaded.scene.camera.height;
+    origin.layers = scene.views;
     origin.provenance = provenanceToJson(report.origin, report.device)
                             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     return origin;
@@ -94,15 +95,16 @@ std::optional<ResumedCheckpoint> readBegun(const RenderRequest &request, const R
     }
 }
 
-bool isPartFinished(const PictureFiles &files, const PictureBeginning &begun, int samplesPerPixel) {
+bool isPartFinished(const PictureFiles &files, const PreparedScene &scene, const PictureBeginning &begun) {
+    const int samplesPerPixel = scene.loaded.settings.samplesPerPixel;
     if (!files.request.part || !begun.report.resumed || !begun.checkpointDamage.empty())
         return false;
     const std::span<const Crop> squares = begun.squares;
     bool isFinished = finishedWork(*begun.film, squares, samplesPerPixel).isComplete;
     for (std::size_t i = 0; i < begun.layers.size(); ++i)
-        isFinished = isFinished && finishedWork(begun.layers[i], squares,
-                                                samplesOfView(files.request.scene.views[i], samplesPerPixel))
-                                       .isComplete;
+        isFinished =
+            isFinished &&
+            finishedWork(begun.layers[i], squares, samplesOfView(scene.views[i], samplesPerPixel)).isComplete;
     return isFinished;
 }
 
@@ -111,10 +113,10 @@ void resume(const PictureFiles &files, const RenderSession &session, PictureBegi
     const PreparedScene &scene = session.scene();
     const int samplesPerPixel = scene.loaded.settings.samplesPerPixel;
     const RenderIdentity identity =
-        identityOf(scene, session.backend(), request.part ? &request.scene.views : nullptr);
+        identityOf(scene, session.backend(), request.part ? &scene.views : nullptr);
     CheckpointSubject subject{scene.crop, partOf(files), static_cast<std::uint32_t>(samplesPerPixel), {}};
     if (request.part)
-        subject.origin = toText(originOfPart(request, begun.report, scene.loaded.scene.camera));
+        subject.origin = toText(originOfPart(request, begun.report, scene));
     std::optional<ResumedCheckpoint> resumed = readBegun(request, identity, subject, begun.checkpointDamage);
     requireOwnCheckpoint(request.checkpoint);
     // Without a resumed checkpoint, the existing file belongs to another render and may be lost with the second
@@ -133,7 +135,7 @@ void resume(const PictureFiles &files, const RenderSession &session, PictureBegi
         finishedWork(resumed->checkpoint.film, begun.squares, samplesPerPixel).sampleCount, begun.rays};
     begun.film = std::move(resumed->checkpoint.film);
     begun.layers = std::move(resumed->checkpoint.layers);
-    begun.isFinished = isPartFinished(files, begun, samplesPerPixel);
+    begun.isFinished = isPartFinished(files, scene, begun);
 }
 
 /// The render itself, with what its periodic files need.
@@ -147,7 +149,7 @@ class PictureRender {
         const PreparedScene &scene = session_.scene();
         PeriodicFiles snapshots(scene.crop, periodicFiles(), session_.observer());
         const TimeLimit limit(request_.timeLimitSeconds);
-        layers_ = renderViews(session_.backend(), session_.scene(), request_.scene.views,
+        layers_ = renderViews(session_.backend(), session_.scene(), scene.views,
                               request_.part ? squares_ : std::span<const Crop>(), begun_.layers,
                               session_.observer(), limit);
         const RenderTask task{.name = taskName(),
@@ -205,7 +207,7 @@ class PictureRender {
         const PreparedScene &scene = session_.scene();
         const RenderSettings &settings = scene.loaded.settings;
         std::optional<std::string> fault = diagnosePicture(scene, film, report_.rays);
-        if (!fault && formatOf(request_) == ImageFormat::Png && showsLight(settings.integrator))
+        if (!fault && formatOf(request_) == ImageFormat::Png && rowOf(settings.integrator).showsLight)
             fault = diagnoseExposure(film, settings.exposureStops);
         return fault;
     }
@@ -313,11 +315,12 @@ PictureFiles openFiles(RenderRequest request) {
     return files;
 }
 
-void requireRoom(const PictureFiles &files, const Crop &crop) {
+void requireRoom(const PictureFiles &files, const PreparedScene &scene) {
+    const Crop &crop = scene.crop;
     if (formatOf(files.request) == ImageFormat::Png)
         requirePngSize(files.request.output, crop.width(), crop.height());
     const bool isCopied = !files.request.checkpoint.empty() || files.request.partialSeconds;
-    requireFilmMemory(crop, (isCopied ? 2 : 1) + static_cast<unsigned>(files.request.scene.views.size()));
+    requireFilmMemory(crop, (isCopied ? 2 : 1) + static_cast<unsigned>(scene.views.size()));
 }
 
 PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLine, RenderSession &session) {

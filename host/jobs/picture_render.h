@@ -31,7 +31,7 @@ struct PictureFiles {
 [[nodiscard]] PictureFiles openFiles(RenderRequest request);
 
 /// Throws Error{LimitExceeded} if the films of a picture of this crop do not fit into memory, or not into its format.
-void requireRoom(const PictureFiles &files, const Crop &crop);
+void requireRoom(const PictureFiles &files, const PreparedScene &scene);
 
 /// The beginning of a picture: the content of its checkpoint, or nothing.
 struct PictureBeginning {

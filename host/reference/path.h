@@ -10,6 +10,7 @@
 #include "host/film/ray_counts.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/media_at_origin.h"
+#include "host/reference/transparency.h"
 
 #include <bit>
 #include <optional>
@@ -20,7 +21,8 @@ namespace hyalite::core::reference {
 /// Traces camera samples through the scene. Each thread has its own instance, because it keeps counts.
 template <class Real, class Counter = NoCounter> class PathIntegrator {
   public:
-    PathIntegrator(const PackedScene &scene, const RenderSettings &settings) : scene_(scene, settings) {}
+    PathIntegrator(const PackedScene &scene, const RenderSettings &settings)
+        : scene_(scene, settings), transparency_(alphaKindOf(settings)) {}
 
     /// Radiance of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn how
     /// the picture changes around it.
@@ -34,6 +36,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         radiance_ = Vec3<Real>(Real(0));
         throughput_ = Vec3<Real>(Real(1));
         scatterPdf_ = 0;
+        transparency_.begin();
         depth_ = 0;
         mediaInside_ = mediaAtOrigin(scene_, primary.origin, pixel, sampleIndex, counter_,
                                      [&](const Ray<Real> &ray) { traceRay(ray); });
@@ -45,6 +48,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         }
         return radiance_;
     }
+
+    /// Of that sample.
+    [[nodiscard]] Real transparency() const { return transparency_.ofSample(); }
 
     [[nodiscard]] const RayCounts &counts() const { return counts_; }
     /// Of the traversal.
@@ -159,6 +165,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
                                     const Vec3<Real> &normal, std::uint32_t primitive) {
         const Vec3<Real> direction = mirrorDirection(ray.direction, normal);
         scatterPdf_ = 0;
+        transparency_.endSeeingThrough();
         ++counts_.reflection;
         return {offsetRayOrigin(scene_, surface, direction), direction, primitive};
     }
@@ -229,7 +236,10 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         weaken(transmittance(hit.distance));
         if (hit.primitive == layout::noPrimitive) {
-            addEnvironment(ray);
+            if (transparency_.seesThrough())
+                transparency_.become(throughput_);
+            else
+                addEnvironment(ray);
             return std::nullopt;
         }
         std::uint32_t materialIndex;
@@ -239,6 +249,11 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, throughput_);
+        if (transparency_.seesThrough() && catchesShadows(material)) {
+            transparency_.become(throughput_);
+            return std::nullopt;
+        }
+        transparency_.meetSurface();
         if (showsBaseColour(scene_, material)) {
             addRadiance(throughput_, material.albedo);
             return std::nullopt;
@@ -288,8 +303,14 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const Vec3<Real> wiLight = toLocal(bsdf.frame, light.direction);
         const bool isLightBeyond = dotProduct(surface.geometricNormal, light.direction) <= 0;
         const BsdfEval<Real> lit = evalBsdf(scene_, bsdf, wiLight);
-        const bool isLit =
-            largestComponent(light.radiance) > 0 && lit.pdf > 0 && isLightBeyond == (wiLight.z <= 0);
+        // What shines through is seen by the scattered ray, as what it is.
+        const bool isWindow = transparency_.seesThroughGlass() && isClearGlass(scene_, material);
+        const auto isSeenAnyway = [&] {
+            return isWindow && isLightBeyond &&
+                   scene_.fetchEmitter(emitter).kind == layout::emitterEnvironment;
+        };
+        const bool isLit = largestComponent(light.radiance) > 0 && lit.pdf > 0 &&
+                           isLightBeyond == (wiLight.z <= 0) && !isSeenAnyway();
         if (isLit) {
             const Real share = light.pdf > 0 ? powerHeuristic(light.pdf, lit.pdf) : Real(1);
             mediaInside_ = isLightBeyond ? crossing.beyond : crossing.before;
@@ -306,6 +327,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         const bool isPossible = scattered.pdf > 0 && isBeyond == (wi.z <= 0);
         mediaInside_ = isBeyond ? crossing.beyond : crossing.before;
         scatterPdf_ = isPossible ? scattered.pdf : Real(0);
+        if (!(isWindow && isBeyond))
+            transparency_.endSeeingThrough();
         if (isPossible)
             weaken(scattered.value * (Real(1) / scattered.pdf));
         return scatter(surface, direction, primitive);
@@ -347,6 +370,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     std::uint32_t depth_ = 0; ///< segment number of the current ray
     Vec3<Real> radiance_{Real(0)};
     Vec3<Real> throughput_{Real(1)};
+    Transparency<Real> transparency_;
     LitPoint<Real> litPoint_{};     ///< where the current ray was scattered
     Real scatterPdf_ = 0;           ///< of the current ray, per solid angle; 0: direction not sampled
     std::uint32_t mediaInside_ = 0; ///< medium counts: see shaders/bsdf/media.glsl

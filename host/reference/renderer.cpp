@@ -38,6 +38,13 @@ template <class SampleIntegrator> bool isAbandoned(const SampleIntegrator &integ
     return false;
 }
 
+/// Of the integrator's last sample; 0 of those without.
+template <class Real, class SampleIntegrator> Real transparencyOf(const SampleIntegrator &integrator) {
+    if constexpr (requires { integrator.transparency(); })
+        return integrator.transparency();
+    return Real(0);
+}
+
 /// Adds samples to `film` until it has `sampleCount`, the integrator abandons one, or `isLast`, called after each,
 /// returns true. Returns the number of added samples.
 template <class Real, class SampleIntegrator, class IsLast>
@@ -51,12 +58,18 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
         const Vec3<Real> radiance = integrator.sampleRadiance(pixel, finishedCount);
         if (isAbandoned(integrator))
             break;
-        sums = withSample(sums, radiance);
+        sums = withSample(sums, radiance, transparencyOf<Real>(integrator));
         ++finishedCount;
         isStopped = isLast();
     }
-    film = {glm::vec3(sums.sum),          finishedCount, glm::vec3(sums.sumRest),     0.0f,
-            glm::vec3(sums.sumOfSquares), 0.0f,          glm::vec3(sums.squaresRest), 0.0f};
+    film = {.sum = glm::vec3(sums.sum),
+            .sampleCount = finishedCount,
+            .sumRest = glm::vec3(sums.sumRest),
+            .pad0 = 0.0f,
+            .sumOfSquares = glm::vec3(sums.sumOfSquares),
+            .transparency = static_cast<float>(sums.transparency),
+            .squaresRest = glm::vec3(sums.squaresRest),
+            .transparencyRest = static_cast<float>(sums.transparencyRest)};
     return finishedCount - countBefore;
 }
 

@@ -3,6 +3,8 @@
 // Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with
 // everything further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination
 // Model", 1998.
+//
+// The shadow of a shadow catcher: the kernel's file says what it is.
 #pragma once
 
 #include "host/film/ray_counts.h"
@@ -26,12 +28,11 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         const PrimaryRay<Real> primary = primaryRayThrough<Real>(
             scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
         ++counts_.primary;
+        pixel_ = pixel;
         sampleIndex_ = sampleIndex;
         const Ray<Real> ray{primary.origin, primary.direction, layout::noPrimitive, {pixel, sampleIndex, 2}};
-        traceEvent(layout::traceRayOrigin, 0, ray.origin);
-        traceEvent(layout::traceRayDirection, 0, ray.direction);
-        const Hit<Real> hit = closestHit(scene_, ray, counter_);
-        traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
+        depth_ = 1;
+        const Hit<Real> hit = traceToHit(ray);
         if (hit.primitive == layout::noPrimitive)
             return show(Vec3<Real>(Real(view_ == layout::viewOcclusion ? 1 : 0)));
         std::uint32_t materialIndex;
@@ -53,8 +54,11 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
             return show(idColour<Real>(hit.primitive));
         case layout::viewAlbedo:
             return show(isColourless(material) ? Vec3<Real>(Real(1)) : Vec3<Real>(material.albedo));
+        case layout::viewShadow:
+            return catchesShadows(material) ? catchShadow(ray, surface, hit.primitive)
+                                            : show(Vec3<Real>(Real(0)));
         default:
-            return seeSky(ray, surface, hit.primitive, pixel);
+            return seeSky(ray, surface, hit.primitive);
         }
     }
 
@@ -68,7 +72,15 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
   private:
     void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
         if (events_ != nullptr)
-            events_->push_back({quantity, sampleIndex_, 1, integer, glm::vec3(value), 0});
+            events_->push_back({quantity, sampleIndex_, depth_, integer, glm::vec3(value), 0});
+    }
+
+    [[nodiscard]] Hit<Real> traceToHit(const Ray<Real> &ray) {
+        traceEvent(layout::traceRayOrigin, 0, ray.origin);
+        traceEvent(layout::traceRayDirection, 0, ray.direction);
+        const Hit<Real> hit = closestHit(scene_, ray, counter_);
+        traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
+        return hit;
     }
 
     [[nodiscard]] Vec3<Real> show(const Vec3<Real> &value) {
@@ -76,19 +88,25 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         return value;
     }
 
-    [[nodiscard]] Vec3<Real> seeSky(const Ray<Real> &ray, Surface<Real> surface, std::uint32_t primitive,
-                                    const glm::uvec2 &pixel) {
+    /// The surface as it is seen from the ray's side.
+    [[nodiscard]] static Surface<Real> facing(const Ray<Real> &ray, Surface<Real> surface) {
         if (dotProduct(ray.direction, surface.geometricNormal) > 0) {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
-        const glm::uvec2 bits = sampleBits(pairKeys(pixel, scene_.frame.seed, occlusionPair), sampleIndex_);
+        return surface;
+    }
+
+    [[nodiscard]] Vec3<Real> seeSky(const Ray<Real> &ray, const Surface<Real> &seen,
+                                    std::uint32_t primitive) {
+        const Surface<Real> surface = facing(ray, seen);
+        const glm::uvec2 bits = bitsOf(occlusionPair);
         const Vec3<Real> direction = sampleCosine(surface.normal, unitFloats<Real>(bits));
         if (!(dotProduct(surface.geometricNormal, direction) > 0))
             return Vec3<Real>(Real(0));
         ++counts_.shadow;
         const Ray<Real> toSky{
-            offsetRayOrigin(scene_, surface, direction), direction, primitive, {pixel, sampleIndex_, 3}};
+            offsetRayOrigin(scene_, surface, direction), direction, primitive, {pixel_, sampleIndex_, 3}};
         const Real length = static_cast<Real>(scene_.frame.occlusionDistance);
         const bool isBlocked = isAnythingBefore(scene_, toSky, length, layout::noPrimitive, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
@@ -96,12 +114,70 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         return isBlocked ? Vec3<Real>(Real(0)) : show(Vec3<Real>(Real(1)));
     }
 
+    [[nodiscard]] glm::uvec2 bitsOf(std::uint32_t pair) const {
+        return sampleBits(pairKeys(pixel_, scene_.frame.seed, pair), sampleIndex_);
+    }
+
+    /// On a shadow catcher: 1, the light of a sample, and what of it is blocked.
+    [[nodiscard]] Vec3<Real> catchShadow(const Ray<Real> &ray, const Surface<Real> &seen,
+                                         std::uint32_t primitive) {
+        const Surface<Real> surface = facing(ray, seen);
+        const EmitterChoice<Real> choice = chooseEmitter(scene_, {surface.position, surface.normal, false},
+                                                         bitsOf(vertexPair(1, pairChoice)).x);
+        const LightSample<Real> light =
+            sampleEmitter<Real>(scene_, choice, surface.position, bitsOf(vertexPair(1, pairLight)));
+        const Real cosine = dotProduct(surface.normal, light.direction);
+        const bool isLit = cosine > 0 && dotProduct(surface.geometricNormal, light.direction) > 0;
+        const Real unblocked = isLit ? withoutTiny(luminance(light.radiance) * cosine) : Real(0);
+        static_cast<void>(show({Real(1), unblocked, unblocked}));
+        if (!(unblocked > 0))
+            return {Real(1), unblocked, unblocked};
+        ++counts_.shadow;
+        depth_ = 2;
+        return followToLight(surface, light, primitive, unblocked);
+    }
+
+    /// Passes glass and other shadow catchers on the way to the light.
+    [[nodiscard]] Vec3<Real> followToLight(Surface<Real> surface, const LightSample<Real> &light,
+                                           std::uint32_t primitive, Real unblocked) {
+        bool isDimmed = false;
+        for (Real left = light.distance;;) {
+            const Ray<Real> ray{offsetRayOrigin(scene_, surface, light.direction),
+                                light.direction,
+                                primitive,
+                                {pixel_, sampleIndex_, 2 * depth_}};
+            const Hit<Real> hit = traceToHit(ray);
+            if (hit.primitive == layout::noPrimitive || hit.distance >= left ||
+                hit.primitive == light.target) {
+                traceEvent(layout::traceVisibility,
+                           isDimmed ? layout::visibilityDimmed : layout::visibilityClear,
+                           Vec3<Real>(Real(0)));
+                const Real blocked =
+                    isDimmed ? unblocked * (Real(1) - scene_.frame.shadowThroughGlass) : Real(0);
+                return show({Real(1), unblocked, blocked});
+            }
+            std::uint32_t materialIndex;
+            surface = hitSurface(scene_, hit, ray.origin, ray.direction, materialIndex);
+            const MaterialRecord<Real> material = scene_.fetchMaterial(materialIndex);
+            const bool isDimming = isGlass(scene_, material) || isThinGlass(scene_, material);
+            if (!isDimming && !catchesShadows(material)) {
+                traceEvent(layout::traceVisibility, layout::visibilityBlocked, Vec3<Real>(Real(0)));
+                return {Real(1), unblocked, unblocked};
+            }
+            isDimmed = isDimmed || isDimming;
+            primitive = hit.primitive;
+            left -= hit.distance;
+        }
+    }
+
     const SceneView<Real> scene_;
     const std::uint32_t view_;
     RayCounts counts_;
     Counter counter_;
     std::vector<layout::TraceEvent> *events_ = nullptr;
+    glm::uvec2 pixel_{0};
     std::uint32_t sampleIndex_ = 0;
+    std::uint32_t depth_ = 1; ///< segment number of the current ray
 };
 
 } // namespace hyalite::core::reference

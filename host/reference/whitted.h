@@ -6,6 +6,7 @@
 #include "host/film/ray_counts.h"
 #include "host/reference/closest_hit.h"
 #include "host/reference/media_at_origin.h"
+#include "host/reference/transparency.h"
 
 #include <cstdint>
 #include <functional>
@@ -17,7 +18,8 @@ namespace hyalite::core::reference {
 /// Traces camera samples through the scene. Each thread has its own instance, because it keeps waiting rays and counts.
 template <class Real, class Counter = NoCounter> class WhittedIntegrator {
   public:
-    WhittedIntegrator(const PackedScene &scene, const RenderSettings &settings) : scene_(scene, settings) {}
+    WhittedIntegrator(const PackedScene &scene, const RenderSettings &settings)
+        : scene_(scene, settings), transparency_(alphaKindOf(settings)) {}
 
     /// Radiance of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn how
     /// the picture changes around it.
@@ -30,6 +32,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         pixel_ = pixel;
         sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
+        transparency_.begin();
         depth_ = 0;
         const std::uint32_t media = mediaAtOrigin(scene_, primary.origin, pixel, sampleIndex, counter_,
                                                   [&](const Ray<Real> &ray) { traceRay(ray); });
@@ -44,6 +47,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             }
             const Segment segment = pending_.back();
             pending_.pop_back();
+            if (segment.isReflected)
+                transparency_.endSeeingThrough();
             followSegment(segment);
         }
         return radiance_;
@@ -53,6 +58,9 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     /// abandoned: its radiance is none, and its rays are not counted.
     void stopWhen(std::function<bool()> isToStop) { isToStop_ = std::move(isToStop); }
     [[nodiscard]] bool isAbandoned() const { return isAbandoned_; }
+
+    /// Of that sample.
+    [[nodiscard]] Real transparency() const { return transparency_.ofSample(); }
 
     [[nodiscard]] const RayCounts &counts() const { return counts_; }
     /// Of the traversal.
@@ -69,6 +77,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         Vec3<Real> throughput;
         std::uint32_t depth;  ///< 1 for a primary ray
         std::uint32_t medium; ///< material of the glass around the segment, or noMaterial
+        bool isReflected = false;
     };
 
     void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
@@ -90,7 +99,10 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         if (hit.primitive == layout::noPrimitive) {
             if (segment.medium != layout::noMaterial)
                 tint(segment, segment.medium);
-            radiance_ = radiance_ + segment.throughput * radianceAround(segment.ray.direction);
+            if (transparency_.seesThrough())
+                transparency_.become(segment.throughput);
+            else
+                radiance_ = radiance_ + segment.throughput * radianceAround(segment.ray.direction);
             traceEvent(layout::traceRadiance, 0, radiance_);
             return;
         }
@@ -108,6 +120,11 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
         traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
         traceEvent(layout::traceThroughput, 0, segment.throughput);
+        if (transparency_.seesThrough() && catchesShadows(material)) {
+            transparency_.become(segment.throughput);
+            return;
+        }
+        transparency_.meetSurface();
         if (showsBaseColour(scene_, material)) {
             radiance_ = radiance_ + segment.throughput * material.albedo;
             traceEvent(layout::traceRadiance, 0, radiance_);
@@ -198,7 +215,8 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         pending_.push_back({{offsetRayOrigin(scene_, surface, direction), direction, primitive},
                             throughput,
                             segment.depth + 1,
-                            medium});
+                            medium,
+                            true});
     }
 
     void splitAtGlass(const Segment &segment, const Surface<Real> &surface, Real refractiveIndex,
@@ -225,6 +243,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
     const SceneView<Real> scene_;
     std::vector<Segment> pending_;
     Vec3<Real> radiance_{Real(0)};
+    Transparency<Real> transparency_;
     RayCounts counts_;
     Counter counter_;
     std::function<bool()> isToStop_;

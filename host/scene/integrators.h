@@ -11,7 +11,7 @@
 
 namespace hyalite::core {
 
-enum class Integrator { Whitted, Path, AmbientOcclusion, Normal, Depth, Albedo, Id, Uv, Cost };
+enum class Integrator { Whitted, Path, AmbientOcclusion, Normal, Depth, Albedo, Id, Uv, Shadow, Cost };
 
 struct IntegratorRow {
     Integrator integrator;
@@ -22,6 +22,7 @@ struct IntegratorRow {
     std::string_view layerChannels{};        ///< of a view: those of its layer in an EXR
     /// As a layer it has one sample, at the pixel's centre: a mean of depths or normals belongs to no surface.
     bool isOfCentres = false;
+    bool showsLight = false;     ///< a sample is radiance, and the background may be transparent
     bool followsPaths = false;   ///< over several segments: maxDepth bounds them
     bool splitsAtGlass = false;  ///< both branches: rays wait
     bool aimsAtEmitters = false; ///< needs the scene's emitters, and the energy tables of microfacets
@@ -33,12 +34,14 @@ inline constexpr auto integratorTable = std::to_array<IntegratorRow>({
      .name = "whitted",
      .help = "direct light, mirrors and both branches at glass",
      .kernel = "whitted",
+     .showsLight = true,
      .followsPaths = true,
      .splitsAtGlass = true},
     {.integrator = Integrator::Path,
      .name = "path",
      .help = "global illumination by path tracing",
      .kernel = "path",
+     .showsLight = true,
      .followsPaths = true,
      .aimsAtEmitters = true},
     {.integrator = Integrator::AmbientOcclusion,
@@ -81,6 +84,13 @@ inline constexpr auto integratorTable = std::to_array<IntegratorRow>({
      .view = layout::viewCoordinates,
      .layerChannels = "UV",
      .isOfCentres = true},
+    {.integrator = Integrator::Shadow,
+     .name = "shadow",
+     .help = "light that shadow catchers lack: green for what they had alone, blue for what is blocked of it",
+     .kernel = "view",
+     .view = layout::viewShadow,
+     .layerChannels = "Y",
+     .aimsAtEmitters = true},
     {.integrator = Integrator::Cost,
      .name = "cost",
      .help =

@@ -38,12 +38,8 @@ bool hasSurfaces(const Scene &scene) {
     return !scene.spheres.empty() || !scene.meshes.empty() || !scene.instances.empty();
 }
 
-bool showsLight(Integrator integrator) {
-    return integrator == Integrator::Whitted || integrator == Integrator::Path;
-}
-
 std::optional<std::string> diagnoseLight(const Scene &scene, Integrator integrator) {
-    if (!showsLight(integrator) || !hasSurfaces(scene))
+    if (!rowOf(integrator).showsLight || !hasSurfaces(scene))
         return std::nullopt;
     const LightSources sources = lightSourcesOf(scene);
     const bool isWhitted = integrator == Integrator::Whitted;

@@ -22,9 +22,6 @@ struct LightSources {
 /// Whether there is anything to light.
 [[nodiscard]] bool hasSurfaces(const Scene &scene);
 
-/// Whether it shows the light of a scene, and no view of it.
-[[nodiscard]] bool showsLight(Integrator integrator);
-
 /// A warning about light of the scene that the integrator does not see, or that there is none at all. Empty where
 /// all is well, and for integrators that show something else than light.
 [[nodiscard]] std::optional<std::string> diagnoseLight(const Scene &scene, Integrator integrator);

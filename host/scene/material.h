@@ -32,7 +32,9 @@ enum class MaterialKind : std::uint32_t {
     Dielectric = layout::materialDielectric,
     Conductor = layout::materialConductor,
     Principled = layout::materialPrincipled,
-    Gltf = layout::materialGltf
+    Gltf = layout::materialGltf,
+    /// To kernels it is diffuse.
+    ShadowCatcher = layout::materialDiffuse | layout::materialCatchesShadows,
 };
 
 /// Texture lookup beyond the edge of the image.
@@ -179,6 +181,11 @@ inline constexpr auto diffuse = std::to_array<MaterialKey>({
     {"emission", emission,
      "radiance on the side of the normal, on both if `twoSided`; in `whitted` it is seen, but lights "
      "nothing"},
+});
+inline constexpr auto shadowCatcher = std::to_array<MaterialKey>({
+    {"albedo", ColourKey{&Material::albedo, limits::fraction, &Record::albedo},
+     "share of the light that it reflects to other surfaces"},
+    {"twoSided", twoSided, "as for diffuse"},
 });
 inline constexpr auto dielectric = std::to_array<MaterialKey>({
     {"index", refractiveIndex, "refractive index, relative to the medium around"},
@@ -362,6 +369,13 @@ inline constexpr auto materialTable = std::to_array<MaterialRow>({
      .defaultRoughness = 1.0f,
      .scattersDiffusely = true,
      .scattering = scatteringOfGltf},
+    {.kind = MaterialKind::ShadowCatcher,
+     .name = "shadowCatcher",
+     .help = "with `alpha`: transparent but for the light that it lacks, a matt surface to all but the eye; "
+             "without: matt",
+     .keys = material_keys::shadowCatcher,
+     .textures = layout::texturesBaseColour | layout::texturesNormal | layout::texturesOpacity,
+     .scattersDiffusely = true},
 });
 
 [[nodiscard]] constexpr const MaterialRow &rowOf(MaterialKind kind) {

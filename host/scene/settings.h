@@ -33,11 +33,20 @@ struct RenderSettings {
     /// Path: upper bound, per channel, on each contribution at the second hit or later; 0: none.
     double radianceLimit = 0.0;
     LightChoice lightChoice = LightChoice::Auto; ///< Path
-    double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
+    bool hasAlpha = false; ///< Whitted, Path: the background is transparent, and still lights the scene
+    bool isClearGlassTransparent = false; ///< with it: so is the background through clear glass
+    double exposureStops = 0.0;           ///< radiance is multiplied by 2^exposureStops before the tone curve
     /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
     /// Whitted.
     bool isWorkShown = false;
 };
+
+/// layout::alpha...: the background that is transparent.
+[[nodiscard]] inline std::uint32_t alphaKindOf(const RenderSettings &settings) {
+    if (!settings.hasAlpha || !rowOf(settings.integrator).showsLight)
+        return layout::alphaOfNothing;
+    return settings.isClearGlassTransparent ? layout::alphaThroughGlass : layout::alphaOfBackground;
+}
 
 /// Whether a sample is its traversal work, of a traversal with a stack: nodes, boxes and triangles.
 [[nodiscard]] inline bool showsWork(const RenderSettings &settings) {

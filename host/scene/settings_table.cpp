@@ -16,6 +16,10 @@ nlohmann::ordered_json toJson(const NumberSetting<Number> &number, const RenderS
     return settings.*number.member;
 }
 
+nlohmann::ordered_json toJson(const FlagSetting &flag, const RenderSettings &settings) {
+    return settings.*flag.member;
+}
+
 template <class Value>
 nlohmann::ordered_json toJson(const ChoiceSetting<Value> &choice, const RenderSettings &settings) {
     return nameOf(settings.*choice.member);
@@ -24,6 +28,8 @@ nlohmann::ordered_json toJson(const ChoiceSetting<Value> &choice, const RenderSe
 template <class Number> Number valueFrom(const nlohmann::json &json, const NumberSetting<Number> &) {
     return json.get<Number>();
 }
+
+bool valueFrom(const nlohmann::json &json, const FlagSetting &) { return json.get<bool>(); }
 
 template <class Value> Value valueFrom(const nlohmann::json &json, const ChoiceSetting<Value> &choice) {
     const auto name = std::ranges::find(choice.names, json.get<std::string>(), &Name<Value>::first);

@@ -29,6 +29,11 @@ template <class Number> struct NumberSetting {
     Interval allowed;
 };
 
+/// Yes or no.
+struct FlagSetting {
+    bool RenderSettings::*member;
+};
+
 /// One of a few words.
 template <class Value> struct ChoiceSetting {
     Value RenderSettings::*member;
@@ -36,7 +41,7 @@ template <class Value> struct ChoiceSetting {
 };
 
 using SettingValue =
-    std::variant<NumberSetting<int>, NumberSetting<double>, NumberSetting<std::uint32_t>,
+    std::variant<NumberSetting<int>, NumberSetting<double>, NumberSetting<std::uint32_t>, FlagSetting,
                  ChoiceSetting<Integrator>, ChoiceSetting<TreeKind>, ChoiceSetting<SamplerKind>,
                  ChoiceSetting<FilterKind>, ChoiceSetting<LightChoice>>;
 
@@ -64,6 +69,7 @@ inline constexpr std::string_view tracingGroup = "Tracing";
 
 inline constexpr std::array ambientOcclusionOnly{Integrator::AmbientOcclusion};
 inline constexpr std::array pathOnly{Integrator::Path};
+inline constexpr auto ofLight = integratorsThat<&IntegratorRow::showsLight>();
 inline constexpr auto severalBounces = integratorsThat<&IntegratorRow::followsPaths>();
 
 /// In the order of reports and documents.
@@ -106,6 +112,16 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
      "direction; "
      "auto: tree if there are more than 64 lights and emitting primitives, far apart",
      pathOnly},
+    {"alpha", "alpha", FlagSetting{&RenderSettings::hasAlpha}, Changes::Samples, imageGroup,
+     "the background and the environment are transparent, and still light the scene; shadow catchers are "
+     "transparent but "
+     "for their shadows",
+     ofLight},
+    {"alphaThroughGlass", "alpha-through-glass", FlagSetting{&RenderSettings::isClearGlassTransparent},
+     Changes::Samples, imageGroup,
+     "with alpha: the background is transparent through glass, too, of a roughness up to 0.1; otherwise "
+     "glass shows it",
+     ofLight},
     {"exposure", "exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
      Changes::Picture, imageGroup,
      "in stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG"},

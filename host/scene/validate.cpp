@@ -322,6 +322,8 @@ void checkRange(const NumberSetting<Number> &number, const RenderSettings &setti
     checked.within(number.allowed, settings.*number.member, key);
 }
 
+void checkRange(const FlagSetting &, const RenderSettings &, std::string_view, const Checked &) {}
+
 /// Every value has a name.
 template <class Value>
 void checkRange(const ChoiceSetting<Value> &, const RenderSettings &, std::string_view, const Checked &) {}
@@ -337,6 +339,8 @@ void validateSettings(const RenderSettings &settings, const Scene &scene, const 
         checked.refuse("filter",
                        std::string(nameOf(settings.filter)) + " with all samples at the pixel's centre",
                        "with the sampler sobol");
+    if (settings.isClearGlassTransparent && !settings.hasAlpha)
+        checked.refuse("alphaThroughGlass", "true without alpha", "with alpha");
     if (settings.integrator == Integrator::Path)
         Checked(sourceName, "scene")
             .atMost(limits::mediumCount,

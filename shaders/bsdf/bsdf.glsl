@@ -26,6 +26,11 @@ bool isThinGlass(MaterialRecord material) {
            isThin(material);
 }
 
+// Whether the material is seen through like a window's glass: that of a roughness up to 0.1.
+bool isClearGlass(MaterialRecord material) {
+    return (isGlass(material) || isThinGlass(material)) && material.alpha <= 0.01;
+}
+
 // Whether light from behind a surface that scatters counts, too. Textures only take from transmission: asked of the
 // record without them, the answer is a bound.
 bool isLitFromBehind(MaterialRecord material) {

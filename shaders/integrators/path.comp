@@ -30,6 +30,7 @@ vec2 lobeChoice(uint slot) {
 
 void beginSample(uint slot) {
     beginInMedia(slot);
+    beginTransparency(slot);
     path[slot].scatterPdf = 0.0;
 }
 
@@ -122,6 +123,7 @@ void reflectRay(uint slot, Surface surface, vec3 normal) {
     vec3 direction = mirrorDirection(path[slot].rayDirection, normal);
     vec3 origin = offsetRayOrigin(surface, direction);
     path[slot].scatterPdf = 0.0;
+    endSeeingThrough(slot);
     rayCounts[slot].z += 1u;
     continueRay(slot, origin, direction, path[slot].hitPrimitive);
 }
@@ -208,7 +210,10 @@ void shadeHit(uint slot) {
     if (hasDielectric)
         weaken(slot, transmittance(slot, path[slot].rayLength));
     if (path[slot].hitPrimitive == noPrimitive) {
-        addEnvironment(slot);
+        if (seesThrough(slot))
+            becomeTransparent(slot, path[slot].throughput);
+        else
+            addEnvironment(slot);
         return;
     }
     uint materialIndex;
@@ -218,6 +223,12 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
+    if (seesThrough(slot) && catchesShadows(material)) {
+        becomeTransparent(slot, path[slot].throughput);
+        return;
+    }
+    if (alphaKind == alphaOfBackground)
+        endSeeingThrough(slot);
     if (showsBaseColour(material)) {
         addRadiance(slot, path[slot].throughput, material.albedo);
         return;
@@ -297,6 +308,10 @@ void sampleDirectLight(uint slot) {
     bool isLightBeyond = dotProduct(geometricNormal, light.direction) <= 0.0;
     BsdfEval lit = evalBsdf(bsdf, wiLight);
     bool isLit = largestComponent(light.radiance) > 0.0 && lit.pdf > 0.0 && isLightBeyond == (wiLight.z <= 0.0);
+    // What shines through is seen by the scattered ray, as what it is.
+    bool isWindow = alphaKind == alphaThroughGlass && seesThrough(slot) && isClearGlass(material);
+    if (isWindow && isLit && isLightBeyond)
+        isLit = fetchEmitter(emitter).kind != emitterEnvironment;
     float share = light.pdf > 0.0 ? powerHeuristic(light.pdf, lit.pdf) : 1.0;
     path[slot].surfaceWeight = path[slot].throughput * (light.radiance * (lit.value * share));
     if (hasDielectric) {
@@ -311,6 +326,8 @@ void sampleDirectLight(uint slot) {
     bool isPossible = scattered.pdf > 0.0 && isBeyond == (wi.z <= 0.0);
     path[slot].scatterDirection = direction;
     path[slot].scatterPdf = isPossible ? scattered.pdf : 0.0;
+    if (!(isWindow && isBeyond))
+        endSeeingThrough(slot);
     if (hasDielectric)
         path[slot].mediaInside = isBeyond ? crossing.beyond : crossing.before;
     weaken(slot, isPossible ? scattered.value * divide(1.0, scattered.pdf) : vec3(0.0));

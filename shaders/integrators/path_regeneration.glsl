@@ -21,7 +21,7 @@ void beginRegeneration(uint slot) {
 // Whether the sample of a place is still to be done.
 bool isOpen(uint slot, uint place) {
     placeSlotAt(slot, place);
-    if (!isSlotUsed[slot] || samples[place].finished != 0u)
+    if (!isSlotUsed[slot] || samples[place * recordsPerSample].finished != 0u)
         return false;
     uint first = dispatch.sampleBegin + filmWords[filmIndex[slot] * filmPixelWords + filmSampleCountWord];
     path[slot].sampleIndex = first + (sampleLane(slot) - first & samplesInFlight - 1u);
@@ -48,8 +48,10 @@ void takeTurn(uint slot) {
 
 // Keeps a finished sample.
 void endTurn(uint slot) {
-    samples[slotIndex[slot]] =
-        SampleRecord(path[slot].sampleRadiance, packCounts(rayCounts[slot].yzw, bounceCounts[slot]));
+    uint record = slotIndex[slot] * recordsPerSample;
+    samples[record] = SampleRecord(path[slot].sampleRadiance, packCounts(rayCounts[slot].yzw, bounceCounts[slot]));
+    if (hasAlpha)
+        samples[record + 1u].radiance.x = sampleTransparency(slot);
     path[slot].stage = stageNextSample;
 }
 

@@ -3,18 +3,23 @@
 // Ambient occlusion is the share of a white sky that a point sees, weighted by the cosine to its normal, with
 // everything further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination
 // Model", 1998.
+//
+// The shadow of a shadow catcher is the share of its direct light that other surfaces keep from it, by luminance: of a
+// matt surface in its place, the sum of light samples that are blocked over the sum of all. A sample is 1, the light
+// that an empty scene would send, and what of it is blocked. Glass dims it by `shadowThroughGlass`; other shadow
+// catchers do not: their shadows are in the picture that they stand for.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/kernels/begin_kernel.glsl"
 
+layout(constant_id = constantView) const uint view = viewNormal;
+
 const bool lightPassesGlass = false;
 const bool raysHaveTargets = false;
-const bool hasBounces = false;
+const bool hasBounces = view == viewShadow; // a ray to the light
 
 #include "shaders/kernels/stages.glsl"
-
-layout(constant_id = constantView) const uint view = viewNormal;
 
 void beginSample(uint slot) { sendPrimaryRay(slot); }
 
@@ -24,10 +29,70 @@ void show(uint slot, vec3 value) {
     traceEvent(slot, traceRadiance, 0u, value);
 }
 
+// Sends a ray on towards the light, `left` away.
+void goToLight(uint slot, Surface surface, float left) {
+    vec3 direction = path[slot].scatterDirection;
+    path[slot].scatterPdf = left;
+    startRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive, 2u, noMaterial);
+}
+
+// On a shadow catcher: aims at a light.
+void catchShadow(uint slot, Surface surface) {
+    if (dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0) {
+        surface.normal = -surface.normal;
+        surface.geometricNormal = -surface.geometricNormal;
+    }
+    uvec2 pixel = imagePixel[slot];
+    uvec2 choiceBits = sampleBits(pairKeys(pixel, frame.seed, vertexPair(1u, pairChoice)), path[slot].sampleIndex);
+    uvec2 lightBits = sampleBits(pairKeys(pixel, frame.seed, vertexPair(1u, pairLight)), path[slot].sampleIndex);
+    EmitterChoice choice = chooseEmitter(LitPoint(surface.position, surface.normal, false), choiceBits.x);
+    LightSample light = sampleEmitter(choice, surface.position, lightBits);
+    float cosine = dotProduct(surface.normal, light.direction);
+    bool isLit = cosine > 0.0 && dotProduct(surface.geometricNormal, light.direction) > 0.0;
+    float unblocked = isLit ? withoutTiny(luminance(light.radiance) * cosine) : 0.0;
+    show(slot, vec3(1.0, unblocked, unblocked));
+    if (!(unblocked > 0.0))
+        return;
+    rayCounts[slot].y += 1u;
+    path[slot].scatterDirection = light.direction;
+    path[slot].rayTarget = light.target;
+    path[slot].isLightDimmed = 0u;
+    goToLight(slot, surface, light.distance);
+}
+
+// Stage: the nearest surface on the way to the light is known.
+void passToLight(uint slot) {
+    float left = path[slot].scatterPdf;
+    bool isThere = path[slot].hitPrimitive == noPrimitive || path[slot].rayLength >= left ||
+                   path[slot].hitPrimitive == path[slot].rayTarget;
+    float unblocked = path[slot].sampleRadiance.y;
+    if (isThere) {
+        float blocked = path[slot].isLightDimmed != 0u ? unblocked * (1.0 - frame.shadowThroughGlass) : 0.0;
+        traceEvent(slot, traceVisibility, path[slot].isLightDimmed != 0u ? visibilityDimmed : visibilityClear, vec3(0.0));
+        show(slot, vec3(1.0, unblocked, blocked));
+        return;
+    }
+    uint materialIndex;
+    Surface surface = surfaceHit(slot, materialIndex);
+    MaterialRecord material = fetchMaterial(materialIndex);
+    bool isDimming = isGlass(material) || isThinGlass(material);
+    if (!isDimming && !catchesShadows(material)) {
+        traceEvent(slot, traceVisibility, visibilityBlocked, vec3(0.0));
+        return;
+    }
+    if (isDimming)
+        path[slot].isLightDimmed = 1u;
+    goToLight(slot, surface, left - path[slot].rayLength);
+}
+
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
     traceNearestHit(slot);
     path[slot].stage = stageSampleDone;
+    if (view == viewShadow && path[slot].rayDepth > 1u) {
+        passToLight(slot);
+        return;
+    }
     if (path[slot].hitPrimitive == noPrimitive) {
         show(slot, vec3(view == viewOcclusion ? 1.0 : 0.0));
         return;
@@ -51,6 +116,8 @@ void shadeHit(uint slot) {
             hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesBaseColour, surface.position);
         show(slot, isColourless(material) ? vec3(1.0) : material.albedo);
     }
+    if (view == viewShadow && catchesShadows(fetchMaterial(materialIndex)))
+        catchShadow(slot, surface);
     if (view == viewOcclusion) {
         bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
         if (isBehind) {
@@ -80,7 +147,9 @@ void addLight(uint slot) {
 }
 
 void advancePaths() {
-    traceRays();
+    do
+        traceRays();
+    while (view == viewShadow && !regeneratesPaths && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
     if (view == viewOcclusion)
         lightSurfaces();
 }

@@ -16,7 +16,10 @@ const bool hasBounces = false;
 #include "shaders/kernels/stages.glsl"
 #include "shaders/integrators/pending_rays.glsl"
 
-void beginSample(uint slot) { beginInMedia(slot); }
+void beginSample(uint slot) {
+    beginInMedia(slot);
+    beginTransparency(slot);
+}
 
 // Ends a path; the sample may have another one pending.
 void endPath(uint slot) {
@@ -26,6 +29,7 @@ void endPath(uint slot) {
 // Stage: take the pending ray.
 void takePendingRay(uint slot) {
     PendingRay ray = popPendingRay(slot);
+    endSeeingThrough(slot); // it was reflected
     path[slot].throughput = ray.throughput;
     startRay(slot, ray.origin, ray.direction, ray.excluded, ray.depth, ray.medium);
 }
@@ -33,6 +37,7 @@ void takePendingRay(uint slot) {
 void reflectRay(uint slot, Surface surface, uint medium) {
     vec3 direction = mirrorDirection(path[slot].rayDirection, surface.normal);
     vec3 origin = offsetRayOrigin(surface, direction);
+    endSeeingThrough(slot);
     startRay(slot, origin, direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u, medium);
     rayCounts[slot].z += 1u;
 }
@@ -89,7 +94,9 @@ vec3 radianceAround(vec3 direction) {
 }
 
 void leaveScene(uint slot, vec3 tint) {
-    if (!showsCost)
+    if (seesThrough(slot))
+        becomeTransparent(slot, path[slot].throughput * tint);
+    else if (!showsCost)
         path[slot].sampleRadiance = path[slot].sampleRadiance + withoutTiny(path[slot].throughput * tint) *
                                                                     radianceAround(path[slot].rayDirection);
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
@@ -120,6 +127,13 @@ void shadeHit(uint slot) {
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
     traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
+    if (seesThrough(slot) && catchesShadows(material)) {
+        becomeTransparent(slot, path[slot].throughput);
+        endPath(slot);
+        return;
+    }
+    if (alphaKind == alphaOfBackground)
+        endSeeingThrough(slot);
     if (showsBaseColour(material)) {
         if (!showsCost)
             path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * material.albedo;

@@ -12,6 +12,7 @@ const bool hasBounces = true;
 #include "shaders/math/sums.glsl"
 #include "shaders/memory/lanes.glsl"
 #include "shaders/integrators/path_slots.glsl"
+#include "shaders/integrators/alpha.glsl"
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
 layout(set = 0, binding = bindingSamples, std430) buffer SampleBuffer { SampleRecord samples[]; };
@@ -27,13 +28,14 @@ void main() {
     bool isNext = isSlotUsed[0];
     for (uint i = 0u; i < samplesInFlight; ++i) {
         uint place = (isNext ? firstPlace : 0u) + (first + i & samplesInFlight - 1u);
-        SampleRecord found = samples[place];
+        uint record = place * recordsPerSample;
+        SampleRecord found = samples[record];
         isNext = isNext && found.finished != 0u;
         if (isNext) {
-            pixel = withSample(pixel, found.radiance);
+            pixel = withSample(pixel, found.radiance, hasAlpha ? samples[record + 1u].radiance.x : 0.0);
             added += 1u;
             rays += unpackCounts(found.finished);
-            samples[place].finished = 0u;
+            samples[record].finished = 0u;
         }
     }
     pixel.sampleCount += added;

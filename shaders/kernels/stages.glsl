@@ -5,6 +5,7 @@
 #include "shaders/traversal/preloaded.glsl"
 #include "shaders/memory/lanes.glsl"
 #include "shaders/integrators/path_slots.glsl"
+#include "shaders/integrators/alpha.glsl"
 #include "shaders/memory/film.glsl"
 #include "shaders/traversal/any_hit.glsl"
 #include "shaders/traversal/traverse.glsl"

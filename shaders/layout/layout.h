@@ -244,6 +244,7 @@ const uint materialEmitsBehind = 0x40000000u;      // emits on both sides
 const uint materialIsThin = 0x20000000u;           // glTF: what it transmits is not refracted
 const uint materialIsSpecularGlossy = 0x10000000u; // glTF: textures of roughness have glossiness
 const uint materialIsUnlit = 0x08000000u;          // glTF: shows its base colour
+const uint materialCatchesShadows = 0x04000000u;   // see alpha.glsl
 const uint materialKindMask = 0xFFu;
 
 const float alphaBlended = -1.0f; // of alphaCutoff: the surface is there with the probability of its opacity
@@ -262,6 +263,10 @@ HYALITE_INLINE bool isThin(MaterialRecord material) { return (material.kindAndSi
 
 HYALITE_INLINE bool isUnlit(MaterialRecord material) {
     return (material.kindAndSides & materialIsUnlit) != 0u;
+}
+
+HYALITE_INLINE bool catchesShadows(MaterialRecord material) {
+    return (material.kindAndSides & materialCatchesShadows) != 0u;
 }
 
 // Needs of the scene's materials: bits of constantScattering.
@@ -488,6 +493,7 @@ const uint viewAlbedo = 2u; // base colour, or the reflectance of a metal; 1 for
 const uint viewId = 3u;     // a colour for each primitive
 const uint viewOcclusion = 4u;
 const uint viewCoordinates = 5u; // fractional parts of the texture coordinates
+const uint viewShadow = 6u; // of shadow catchers: 1, a light sample, and what of it is blocked
 
 // ---- Frame constants: the same for a whole render
 
@@ -572,19 +578,21 @@ struct DispatchConstants {
 
 // ---- Results
 
-// Of the samples' radiance. Sums are compensated (shaders/math/sums.glsl): what is summed is a sum with its rest.
+// Of the samples' radiance and transparency. Sums are compensated (shaders/math/sums.glsl): what is summed is a sum with
+// its rest.
 struct FilmPixel {
     vec3 sum;
     uint sampleCount;
     vec3 sumRest;
     float pad0;
     vec3 sumOfSquares;
-    float pad1;
+    float transparency; // the sum of the samples'; 0 where the background is not transparent
     vec3 squaresRest;
-    float pad2;
+    float transparencyRest;
 };
 
-// A sample that waits to be added to the film.
+// A sample that waits to be added to the film: two records where its transparency is wanted, the second one with that as
+// `radiance.x`.
 struct SampleRecord {
     vec3 radiance;
     uint finished; // 0: it is not; else the counts of its rays (path_slots.glsl)
@@ -687,7 +695,7 @@ struct PathRecord {
     uint cursorInstance; // whose tree the cursor is in, or noInstance
     uint cursorReturn;   // skip lists: the node after the instance's own
     uint hitInstance;    // of the triangle at the nearest hit so far, or noInstance
-    uint pad0;
+    float transparency;  // of the sample, see alpha.glsl
     // Of the path integrator:
     vec3 scatterDirection; // of the ray that leaves the surface
     float scatterPdf;      // of the current ray's direction, per solid angle; 0: a specular direction
@@ -748,9 +756,14 @@ const uint constantPathRegeneration = 28u; // slots go from sample to sample: pa
 const uint constantBroadcasts = 29u;       // subgroups of broadcastLanes exchange values by broadcasts
 const uint constantHasPairs = 30u;         // skip lists: leaves may be pairs of triangles
 const uint constantHasNormals = 31u;       // of corners of triangles
-const uint constantCount = 32u;
+const uint constantAlpha = 32u;            // which background is transparent: alpha...
+const uint constantCount = 33u;
 
 const uint broadcastLanes = 16u;
+
+const uint alphaOfNothing = 0u;
+const uint alphaOfBackground = 1u;
+const uint alphaThroughGlass = 2u;
 
 const uint treeHasTriangles = 0u;
 const uint treeHasSpheresToo = 1u;

@@ -5,12 +5,12 @@
 // |-----------|----------------------------------|------------------------------------------------------------------|
 // | 0         | pixelPair                        | every sample: its position in the pixel                          |
 // | 1         | occlusionPair                    | view `ao`: the direction to the sky                              |
-// | 1 to 96   | vertexPair(depth, pair...)       | path: three at each vertex                                       |
+// | 1 to 96   | vertexPair(depth, pair...)       | path: three at each vertex; view `shadow`: at a catcher          |
 // | 97 to 128 | lobePair(depth)                  | path: a lobe, at a vertex that scatters                         |
 // | 1024      | lensPair                         | cameras with a lens: the point on the lens                       |
 // | 24295     | alphaTestPair                    | alpha tests: beside the primitive and the ray, a key of its own  |
 //
-// Rows of one integrator do not overlap (tests/shaders/dimensions_test.cpp); a view has no vertices of a path. A new
+// Rows of one integrator do not overlap (tests/shaders/dimensions_test.cpp); a view has one of them. A new
 // use takes pairs that no row has: another number, or a pair taken twice, changes every picture.
 
 const uint pixelPair = 0u;

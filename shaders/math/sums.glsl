@@ -22,8 +22,8 @@ CompensatedSum plus(CompensatedSum sum, float added) {
     return CompensatedSum(value, isKept ? rest : 0.0);
 }
 
-// A pixel of the film with the radiance of one more sample. Its count is the caller's.
-FilmPixel withSample(FilmPixel pixel, vec3 sampleRadiance) {
+// A pixel of the film with one more sample. Its count is the caller's.
+FilmPixel withSample(FilmPixel pixel, vec3 sampleRadiance, float sampleTransparency) {
     vec3 radiance = withoutSubnormals(sampleRadiance);
     vec3 squared = withoutSubnormals(radiance * radiance);
     for (int channel = 0; channel < 3; ++channel) {
@@ -35,5 +35,8 @@ FilmPixel withSample(FilmPixel pixel, vec3 sampleRadiance) {
         pixel.sumOfSquares[channel] = squares.value;
         pixel.squaresRest[channel] = squares.rest;
     }
+    CompensatedSum clear = plus(CompensatedSum(pixel.transparency, pixel.transparencyRest), sampleTransparency);
+    pixel.transparency = clear.value;
+    pixel.transparencyRest = clear.rest;
     return pixel;
 }

@@ -58,4 +58,13 @@ vec3 withoutTiny(vec3 v) { return vec3(withoutTiny(v.x), withoutTiny(v.y), witho
 
 float largestComponent(vec3 v) { return greater(greater(v.x, v.y), v.z); }
 
+// Of linear colours with the primaries of Rec. 709.
+float luminance(vec3 colour) { return dotProduct(colour, vec3(0.2126, 0.7152, 0.0722)); }
+
+// The mean of colour channels that are not negative, without what no picture shows.
+float meanComponent(vec3 v) {
+    float sum = v.x + v.y + v.z;
+    return withoutTiny(sum * 0.33333334);
+}
+
 float smallestComponent(vec3 v) { return lesser(lesser(v.x, v.y), v.z); }

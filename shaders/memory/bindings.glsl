@@ -34,6 +34,7 @@ layout(constant_id = constantLighting) const uint lighting = 0u;
 layout(constant_id = constantCamera) const uint camera = cameraPinhole;
 layout(constant_id = constantTexturing) const uint texturing = 0u;
 layout(constant_id = constantAnyHit) const uint anyHit = 0u;
+layout(constant_id = constantAlpha) const uint alphaKind = alphaOfNothing;
 layout(constant_id = constantTrianglePairs) const uint trianglePairs = 0u;
 layout(constant_id = constantPathRegeneration) const bool regeneratesPaths = false;
 layout(constant_id = constantBroadcasts) const bool exchangesByBroadcast = false;

@@ -1,7 +1,8 @@
 // The film. Samples are added in the order of their indices, whichever slot computed them.
 //
 // The slots of a pixel share its sums: the slot at lane L of a pixel keeps the sums n with n mod samplesInFlight = L.
-// Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples.
+// Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples, 7 the sum of
+// transparency.
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
@@ -9,7 +10,7 @@ const uint filmPixelWords = 16u;
 const uint filmSampleCountWord = 3u;
 const uint filmRestWords = 4u; // from a sum to its rest
 const uint filmSums = 8u;
-const uint nobodysSum = 7u;
+const uint transparencySum = 7u;
 
 CompensatedSum filmSum[RAYS][filmSums]; // at each number's multiple of `samplesInFlight`
 uint filmSampleCount[RAYS];             // the same in all slots of a pixel
@@ -43,21 +44,25 @@ void storeFilm(uint slot) {
         uint number = first + sampleLane(slot);
         uint word = filmWord(slot, number);
         bool isCount = number == filmSampleCountWord;
-        if (isSlotUsed[slot] && number != nobodysSum)
+        bool isKept = isSlotUsed[slot] && (hasAlpha || number != transparencySum);
+        if (isKept)
             filmWords[word] = isCount ? filmSampleCount[slot] : floatBitsToUint(filmSum[slot][first].value);
-        if (isSlotUsed[slot] && number != nobodysSum && !isCount)
+        if (isKept && !isCount)
             filmWords[word + filmRestWords] = floatBitsToUint(filmSum[slot][first].rest);
     }
 }
 
-// Adds the radiances of the samples in flight. Slots without a sample add 0, which changes no bit.
-void addRadiances(uint slot) {
+// Adds the samples in flight. Slots without a sample add 0, which changes no bit.
+void addSamples(uint slot) {
     uint red[maxSamplesInFlight];
     uint green[maxSamplesInFlight];
     uint blue[maxSamplesInFlight];
+    uint clear[maxSamplesInFlight];
     exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.x), red);
     exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.y), green);
     exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.z), blue);
+    if (hasAlpha)
+        exchangeInPixel(floatBitsToUint(sampleTransparency(slot)), clear);
     [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight) {
         uint number = first + sampleLane(slot);
         uint channel = number & 3u;
@@ -65,6 +70,8 @@ void addRadiances(uint slot) {
             uint bits = channel == 0u ? red[lane] : channel == 1u ? green[lane] : blue[lane];
             float radiance = withoutSubnormals(uintBitsToFloat(bits));
             float added = number < 4u ? radiance : withoutSubnormals(radiance * radiance);
+            if (hasAlpha)
+                added = number == transparencySum ? uintBitsToFloat(clear[lane]) : added;
             filmSum[slot][first] = plus(filmSum[slot][first], added);
         }
     }
@@ -75,7 +82,7 @@ void addRoundToFilm(uint slot) {
     if (!isTrueForAllOfPixel(path[slot].stage == stageSampleDone))
         return;
     uint first = path[slot].sampleIndex - sampleLane(slot);
-    addRadiances(slot);
+    addSamples(slot);
     filmSampleCount[slot] += min(samplesInFlight, dispatch.sampleEnd - first);
     if (path[slot].sampleIndex < dispatch.sampleEnd)
         finishedSampleCount += 1u;

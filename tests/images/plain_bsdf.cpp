@@ -111,6 +111,7 @@ Bsdf::Bsdf(const Substance &substance, double indexRatio, bool isBehind) {
         break;
     }
     case MaterialKind::Diffuse:
+    case MaterialKind::ShadowCatcher:
     case MaterialKind::Mirror:
         diffuse_ = 1.0;
         break;

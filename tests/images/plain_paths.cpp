@@ -76,6 +76,7 @@ bool isSmooth(const Substance &substance, bool isPassable, const std::optional<C
     case MaterialKind::Conductor:
         return substance.roughness == 0.0;
     case MaterialKind::Diffuse:
+    case MaterialKind::ShadowCatcher:
     case MaterialKind::Principled:
     case MaterialKind::Gltf:
         break;
@@ -173,7 +174,8 @@ class Path {
     bool scatter(const SurfacePoint &point, const Substance &substance, const Bsdf &bsdf,
                  const std::optional<Crossing> &sides) {
         // A shading normal that faces away is that of nothing visible, except for Lambert's law, which has no viewer.
-        const bool isLambertian = substance.material->kind == MaterialKind::Diffuse;
+        const bool isLambertian = substance.material->kind == MaterialKind::Diffuse ||
+                                  substance.material->kind == MaterialKind::ShadowCatcher;
         const bool isFacing = isLambertian || glm::dot(direction_, point.normal) < 0.0;
         const Frame frame(isFacing ? point.normal : point.geometricNormal);
         const Vec view = frame.toLocal(-direction_);

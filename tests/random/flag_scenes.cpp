@@ -362,6 +362,17 @@ void addSettings(Rows &rows) {
     sampler("samplerCentre", layout::samplerCentre, SamplerKind::Centre, FilterKind::Box);
     sampler("samplerSobol", layout::samplerSobol, SamplerKind::Sobol, FilterKind::Box);
     sampler("samplerFiltered", layout::samplerFiltered, SamplerKind::Sobol, FilterKind::BlackmanHarris);
+    const auto alpha = [&](const char *flag, std::uint32_t value, bool hasAlpha, bool isThroughGlass) {
+        TestScene scene = base();
+        scene.settings.hasAlpha = hasAlpha;
+        scene.settings.isClearGlassTransparent = isThroughGlass;
+        const RenderSettings settings = scene.settings;
+        rows.value(flag, value, std::move(scene),
+                   [settings](const PackedScene &) { return alphaKindOf(settings); });
+    };
+    alpha("alphaOfNothing", layout::alphaOfNothing, false, false);
+    alpha("alphaOfBackground", layout::alphaOfBackground, true, false);
+    alpha("alphaThroughGlass", layout::alphaThroughGlass, true, true);
 }
 
 } // namespace

@@ -88,8 +88,8 @@ const std::set<std::string> ofDispatches = {"constantWorkgroupSize",
 /// Words whose values or bits have rows of their own.
 const std::set<std::string> ofSeveralFlags = {
     "constantSampler", "constantView",      "constantShowsCost",   "constantScattering", "constantLighting",
-    "constantCamera",  "constantTexturing", "constantTreeSpheres", "constantAnyHit",     "scattersAtRough",
-    "anyHitAlpha",     "texturesMaterials", "texturesOfLobes",     "texturesSrgb"};
+    "constantCamera",  "constantTexturing", "constantTreeSpheres", "constantAnyHit",     "constantAlpha",
+    "scattersAtRough", "anyHitAlpha",       "texturesMaterials",   "texturesOfLobes",    "texturesSrgb"};
 
 TEST(Flags, HaveAScene) {
     std::set<std::string> tested;
@@ -98,7 +98,8 @@ TEST(Flags, HaveAScene) {
     std::ifstream file(HYALITE_SOURCE_DIR "/shaders/layout/layout.h");
     const std::string layout(std::istreambuf_iterator<char>(file), {});
     const std::regex flag(
-        "const uint\\s+((scattersAt|lightsBy|passes|textures|treeHas|camera|sampler|constant)[A-Z]\\w*)\\s");
+        "const "
+        "uint\\s+((scattersAt|lightsBy|passes|textures|treeHas|camera|sampler|alpha|constant)[A-Z]\\w*)\\s");
     std::size_t count = 0;
     for (std::sregex_iterator found(layout.begin(), layout.end(), flag), end; found != end;
          ++found, ++count) {

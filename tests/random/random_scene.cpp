@@ -330,6 +330,7 @@ class SceneDrawer {
         return std::is_integral_v<Number> ? json(static_cast<std::int64_t>(std::round(number)))
                                           : json(number);
     }
+    json drawSetting(const FlagSetting &) { return draws_.chance(0.5); }
     template <class Value> json drawSetting(const ChoiceSetting<Value> &setting) {
         return draws_.oneOf(setting.names).first;
     }
@@ -350,6 +351,8 @@ class SceneDrawer {
         settings["maxDepth"] = draws_.whole(1, settings["integrator"] == nameOf(Integrator::Path) ? 32 : 8);
         if (settings.contains("filter") && settings["filter"] != nameIn(filterNames, FilterKind::Box))
             settings["sampler"] = nameOf(SamplerKind::Sobol);
+        if (settings.value("alphaThroughGlass", false))
+            settings["alpha"] = true;
         scene_["settings"] = settings;
     }
 

@@ -20,6 +20,7 @@ std::string inQuotes(std::string_view text) { return nlohmann::json(text).dump()
 template <class Number> std::string defaultText(const NumberSetting<Number> &number) {
     return numberText(static_cast<double>(RenderSettings{}.*number.member));
 }
+std::string defaultText(const FlagSetting &flag) { return RenderSettings{}.*flag.member ? "true" : "false"; }
 template <class Value> std::string defaultText(const ChoiceSetting<Value> &choice) {
     return inQuotes(nameOf(RenderSettings{}.*choice.member));
 }
@@ -40,6 +41,7 @@ template <class Number> std::vector<std::string> schemaOf(const NumberSetting<Nu
             fmt::format("\"{}\": {}", allowed.highIncluded ? "maximum" : "exclusiveMaximum",
                         numberText(allowed.high))};
 }
+std::vector<std::string> schemaOf(const FlagSetting &) { return {"\"type\": \"boolean\""}; }
 template <class Value> std::vector<std::string> schemaOf(const ChoiceSetting<Value> &choice) {
     return {fmt::format("\"enum\": [{}]", fmt::join(wordsOf(choice), ", "))};
 }
@@ -66,6 +68,7 @@ template <class Number> std::string allowedText(const NumberSetting<Number> &num
     return fmt::format("{} {}", std::is_integral_v<Number> ? "whole number" : "number",
                        number.allowed.text());
 }
+std::string allowedText(const FlagSetting &) { return "boolean"; }
 template <class Value> std::string allowedText(const ChoiceSetting<Value> &choice) {
     return fmt::format("{}", fmt::join(wordsOf(choice), ", "));
 }
@@ -109,6 +112,7 @@ TEST(SettingsTable, KeysAndOptionsAreUnique) {
 template <class Number> void expectAllowedDefault(const NumberSetting<Number> &number) {
     EXPECT_TRUE(number.allowed.contains(static_cast<double>(RenderSettings{}.*number.member)));
 }
+void expectAllowedDefault(const FlagSetting &flag) { EXPECT_FALSE(RenderSettings{}.*flag.member); }
 template <class Value> void expectAllowedDefault(const ChoiceSetting<Value> &choice) {
     EXPECT_NE(nameOf(RenderSettings{}.*choice.member), "");
 }

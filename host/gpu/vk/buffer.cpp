@@ -160,6 +160,10 @@ void Buffer::download(std::span<std::byte> bytes) const {
 }
 
 void Buffer::clear() {
+    if (mapped_ != nullptr) {
+        std::memset(mapped_, 0, sizeBytes_);
+        return;
+    }
     device_->submit("clearing " + name_, [&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, get(), 0, VK_WHOLE_SIZE, 0);
         VkMemoryBarrier barrier{};
